@@ -1,0 +1,158 @@
+// How a struct member of a C++ type becomes a port value: the one place that ties types to kinds.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/define/definition.h"
+
+namespace bl {
+
+/// The id of a typification's port chosen by people, as a member type of its own.
+struct PortChoice {
+  std::string path;
+  bool operator==(const PortChoice&) const = default;
+};
+
+/// One JSON value kept as text, as a member type of its own.
+struct JsonText {
+  std::string text = "{}";
+  bool operator==(const JsonText&) const = default;
+};
+
+/// The values of all nodes of an end (or of a table of replies) in ascending node id, where a plain T is one node's.
+template <class T>
+struct All {
+  std::vector<T> values;
+};
+
+template <class T>
+struct Binding;
+
+/// For members whose type is itself an alternative of Value.
+template <class T, ValueKind kKindOfT>
+struct DirectBinding {
+  static constexpr ValueKind kKind = kKindOfT;
+  static Value to_value(const T& member) { return member; }
+  static T from_value(const Value& value) {
+    const T* content = std::get_if<T>(&value);
+    return content ? *content : T{};
+  }
+};
+
+/// For members that values hold behind a Shared.
+template <class T, ValueKind kKindOfT>
+struct SharedBinding {
+  static constexpr ValueKind kKind = kKindOfT;
+  static Value to_value(const T& member) { return Shared<T>(member); }
+  static T from_value(const Value& value) {
+    const Shared<T>* content = std::get_if<Shared<T>>(&value);
+    return content ? **content : T{};
+  }
+};
+
+template <> struct Binding<bool> : DirectBinding<bool, ValueKind::boolean> {};
+template <> struct Binding<std::string> : DirectBinding<std::string, ValueKind::text> {};
+template <> struct Binding<Vector3> : DirectBinding<Vector3, ValueKind::point> {};
+template <> struct Binding<MeshPointer> : DirectBinding<MeshPointer, ValueKind::mesh> {};
+template <> struct Binding<std::vector<Point3>> : SharedBinding<std::vector<Point3>, ValueKind::points> {};
+template <> struct Binding<std::vector<std::string>> : SharedBinding<std::vector<std::string>, ValueKind::texts> {};
+template <> struct Binding<Selection> : SharedBinding<Selection, ValueKind::selection> {};
+template <> struct Binding<Table> : SharedBinding<Table, ValueKind::table> {};
+template <> struct Binding<Shared<Table>> : DirectBinding<Shared<Table>, ValueKind::table> {};
+
+/// Whole numbers and truth values read as numbers, so that links may read any numeric port into a double.
+template <>
+struct Binding<double> {
+  static constexpr ValueKind kKind = ValueKind::number;
+  static Value to_value(double member) { return member; }
+  static double from_value(const Value& value) { return as_number(value); }
+};
+
+template <std::signed_integral T>
+struct Binding<T> {
+  static constexpr ValueKind kKind = ValueKind::integer;
+  static Value to_value(T member) { return static_cast<std::int64_t>(member); }
+  static T from_value(const Value& value) { return static_cast<T>(as_number(value)); }
+};
+
+template <>
+struct Binding<PortChoice> {
+  static constexpr ValueKind kKind = ValueKind::port;
+  static Value to_value(const PortChoice& member) { return member.path; }
+  static PortChoice from_value(const Value& value) { return {Binding<std::string>::from_value(value)}; }
+};
+
+template <>
+struct Binding<JsonText> {
+  static constexpr ValueKind kKind = ValueKind::json;
+  static Value to_value(const JsonText& member) { return member.text; }
+  static JsonText from_value(const Value& value) { return {Binding<std::string>::from_value(value)}; }
+};
+
+/// Enumerations are kept as the text of the choice; the builder supplies the texts.
+template <class T>
+concept ChoiceMember = std::is_enum_v<T>;
+
+template <class T>
+concept NumericMember = std::same_as<T, double> || (std::signed_integral<T> && !std::same_as<T, bool>);
+
+template <class T> struct is_optional_type : std::false_type {};
+template <class T> struct is_optional_type<std::optional<T>> : std::true_type {};
+
+/// A member that an evaluation may leave without a value: then it proposes or replies nothing.
+template <class T>
+std::optional<Value> offered(const T& member) {
+  if constexpr (is_optional_type<T>::value) {
+    if (!member) return std::nullopt;
+    return Binding<typename T::value_type>::to_value(*member);
+  } else {
+    return Binding<T>::to_value(member);
+  }
+}
+
+template <class T> struct offered_type { using type = T; };
+template <class T> struct offered_type<std::optional<T>> { using type = T; };
+
+/// A read of one node's value into `member`, or of a whole end's into an All.
+template <class Owner, class M>
+void bind_read(ReadDefinition& read, M Owner::* member) {
+  read.kind = Binding<M>::kKind;
+  read.assign = [member](void* owner, std::span<const Value* const> values) {
+    static_cast<Owner*>(owner)->*member = Binding<M>::from_value(*values.front());
+  };
+}
+template <class Owner, class M>
+void bind_read(ReadDefinition& read, All<M> Owner::* member) {
+  read.kind = Binding<M>::kKind;
+  read.is_whole = true;
+  read.assign = [member](void* owner, std::span<const Value* const> values) {
+    auto& all = (static_cast<Owner*>(owner)->*member).values;
+    all.clear();
+    for (const Value* value : values) all.push_back(Binding<M>::from_value(*value));
+  };
+}
+
+/// A write of one node's value from `member`, or of a whole end's from an All (missing entries propose nothing).
+template <class Owner, class M>
+void bind_write(WriteDefinition& write, M Owner::* member) {
+  write.kind = Binding<typename offered_type<M>::type>::kKind;
+  write.extract = [member](const void* owner, std::span<std::optional<Value>> values) {
+    values.front() = offered(static_cast<const Owner*>(owner)->*member);
+  };
+}
+template <class Owner, class M>
+void bind_write(WriteDefinition& write, All<M> Owner::* member) {
+  write.kind = Binding<typename offered_type<M>::type>::kKind;
+  write.is_whole = true;
+  write.extract = [member](const void* owner, std::span<std::optional<Value>> values) {
+    const auto& all = (static_cast<const Owner*>(owner)->*member).values;
+    for (std::size_t i = 0; i < values.size() && i < all.size(); ++i) values[i] = offered(all[i]);
+  };
+}
+
+}  // namespace bl

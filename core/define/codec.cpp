@@ -1,0 +1,327 @@
+// The JSON codec of values: one function for each kind, picked by the declaration.
+#include "core/define/codec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+
+namespace bl {
+
+namespace {
+
+std::string shown(const Json& json) {
+  std::string text = write_json_line(json);
+  return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+}
+
+std::string in_unit(Unit unit) {
+  const UnitInfo& row = info(unit);
+  return row.pretty.empty() ? "" : " in " + std::string(row.pretty);
+}
+
+Error wrong_kind(const PortDefinition& port, const Json& json, const std::string& place) {
+  std::string hint;
+  if (json.is_string() && port.kind == ValueKind::number) {
+    const std::string& text = json.get_ref<const std::string&>();
+    if (const auto quantity = parse_quantity(text, port.unit); quantity)
+      return {ErrorCode::wrong_kind, place,
+              "expects a number" + in_unit(port.unit) + ", found the text " + shown(json) + "; write " + shortest(*quantity)};
+    const std::size_t blank = text.find_last_of("0123456789. ");
+    const UnitInfo* found = find_unit(blank == std::string::npos ? text : text.substr(blank + 1));
+    // "m2" ends in a digit, so the symbol is looked for behind the last blank too.
+    if (found == nullptr && text.rfind(' ') != std::string::npos) found = find_unit(text.substr(text.rfind(' ') + 1));
+    if (found != nullptr)
+      return {ErrorCode::wrong_unit, place,
+              "expects a number" + in_unit(port.unit) + ", found " + shown(json) + ", which is in " + std::string(found->name) +
+                  "s; convert it and write the plain number"};
+  }
+  return {ErrorCode::wrong_kind, place,
+          "expects " + std::string(name_of(port.kind)) + (port.kind == ValueKind::number ? in_unit(port.unit) : "") + ", found " + shown(json)};
+}
+
+Result<Vector3> vector_from_json(const Json& json, const std::string& place) {
+  if (!json.is_array() || json.size() != 3 || !json[0].is_number() || !json[1].is_number() || !json[2].is_number())
+    return Error{ErrorCode::wrong_kind, place, "expects a point [x, y, z] in m, found " + shown(json)};
+  const Vector3 v{json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+  if (!is_finite(v)) return Error{ErrorCode::not_finite, place, "the coordinates must be finite numbers"};
+  return v;
+}
+
+Json vector_to_json(const Vector3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Result<Shared<std::vector<std::string>>> texts_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
+  if (!json.is_array()) return wrong_kind(port, json, place);
+  std::vector<std::string> texts;
+  for (const Json& text : json) {
+    if (!text.is_string()) return wrong_kind(port, json, place);
+    texts.push_back(text.get<std::string>());
+  }
+  return Shared<std::vector<std::string>>(std::move(texts));
+}
+
+Result<Shared<std::vector<Point3>>> points_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
+  if (!json.is_array()) return wrong_kind(port, json, place);
+  std::vector<Point3> points;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    auto point = vector_from_json(json[i], place + "/" + std::to_string(i));
+    if (!point) return point.error();
+    points.push_back(*point);
+  }
+  return Shared<std::vector<Point3>>(std::move(points));
+}
+
+std::vector<std::string> column_ids(const PortDefinition& port) {
+  std::vector<std::string> ids;
+  for (const ColumnDefinition& column : port.columns) ids.push_back(column.id);
+  return ids;
+}
+
+Result<Scalar> field_from_json(const ColumnDefinition& column, const Json& json, const std::string& place) {
+  if (column.is_text) {
+    if (!json.is_string()) return Error{ErrorCode::wrong_kind, place, "expects a text, found " + shown(json)};
+    return Scalar(json.get<std::string>());
+  }
+  PortDefinition port;
+  port.unit = column.unit;
+  port.hard_minimum = column.minimum;
+  port.hard_maximum = column.maximum;
+  auto number = value_from_json(port, json, place);
+  if (!number) return number.error();
+  return Scalar(std::get<double>(*number));
+}
+
+Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
+  if (!json.is_array()) return wrong_kind(port, json, place);
+  Table table;
+  table.columns = column_ids(port);
+  for (std::size_t r = 0; r < json.size(); ++r) {
+    const std::string row_place = place + "/" + std::to_string(r);
+    if (!json[r].is_object()) return Error{ErrorCode::wrong_kind, row_place, "expects a row {\"column\": value, ...}, found " + shown(json[r])};
+    if (auto keys = check_keys(json[r], table.columns, row_place); !keys) return keys.error();
+    auto& row = table.rows.emplace_back();
+    for (const ColumnDefinition& column : port.columns) {
+      const auto it = json[r].find(column.id);
+      if (it == json[r].end()) {
+        if (column.is_required) return Error{ErrorCode::missing, row_place, "the column `" + column.id + "` is missing"};
+        row.push_back(column.default_value);
+        continue;
+      }
+      auto field = field_from_json(column, *it, row_place + "/" + column.id);
+      if (!field) return field.error();
+      row.push_back(std::move(*field));
+    }
+  }
+  return Shared<Table>(std::move(table));
+}
+
+// Kinds whose values look alike in JSON and in memory.
+Result<Value> text_like(const PortDefinition& port, const Json& json, const std::string& place) {
+  if (port.kind == ValueKind::json) {
+    if (!json.is_structured()) return wrong_kind(port, json, place);
+    return Value(write_json_line(json));
+  }
+  if (!json.is_string()) return wrong_kind(port, json, place);
+  return Value(json.get<std::string>());
+}
+
+template <class T>
+Result<Value> as_value(Result<T> result) {
+  if (!result) return result.error();
+  return Value(std::move(*result));
+}
+
+Result<Value> decode(const PortDefinition& port, const Json& json, const std::string& place) {
+  switch (port.kind) {
+    case ValueKind::boolean:
+      if (!json.is_boolean()) return wrong_kind(port, json, place);
+      return Value(json.get<bool>());
+    case ValueKind::integer:
+      if (!json.is_number_integer() || (json.is_number_unsigned() && json.get<std::uint64_t>() > (1ull << 53)))
+        return wrong_kind(port, json, place);
+      return Value(json.get<std::int64_t>());
+    case ValueKind::number:
+      if (!json.is_number()) return wrong_kind(port, json, place);
+      return Value(json.get<double>());
+    case ValueKind::text:
+    case ValueKind::choice:
+    case ValueKind::port:
+    case ValueKind::json: return text_like(port, json, place);
+    case ValueKind::point: return as_value(vector_from_json(json, place));
+    case ValueKind::points: return as_value(points_from_json(port, json, place));
+    case ValueKind::texts: return as_value(texts_from_json(port, json, place));
+    case ValueKind::selection: {
+      auto selection = selection_from_json(json, place);
+      if (!selection) return selection.error();
+      return Value(Shared<Selection>(std::move(*selection)));
+    }
+    case ValueKind::table: return as_value(table_from_json(port, json, place));
+    case ValueKind::mesh: break;
+  }
+  return Error{ErrorCode::wrong_kind, place, "meshes cannot be set; they are computed"};
+}
+
+}  // namespace
+
+Json selection_to_json(const Selection& selection) {
+  if (selection.is_query()) {
+    Json query = Json::object();
+    if (!selection.typification.empty()) query["typification"] = selection.typification;
+    if (!selection.tag.empty()) query["tag"] = selection.tag;
+    return query;
+  }
+  if (selection.ids.size() == 1) return selection.ids.front();
+  return selection.ids;
+}
+
+Result<Selection> selection_from_json(const Json& json, const std::string& place) {
+  Selection selection;
+  if (json.is_string()) {
+    selection.ids.push_back(json.get<std::string>());
+  } else if (json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& id) { return id.is_string(); })) {
+    for (const Json& id : json) selection.ids.push_back(id.get<std::string>());
+    std::sort(selection.ids.begin(), selection.ids.end());
+    selection.ids.erase(std::unique(selection.ids.begin(), selection.ids.end()), selection.ids.end());
+  } else if (json.is_object()) {
+    if (auto keys = check_keys(json, {"typification", "tag"}, place); !keys) return keys.error();
+    for (const auto& [key, text] : json.items()) {
+      if (!text.is_string() || text.get_ref<const std::string&>().empty())
+        return Error{ErrorCode::wrong_kind, place + "/" + key, "expects a text, found " + shown(text)};
+      (key == "tag" ? selection.tag : selection.typification) = text.get<std::string>();
+    }
+  } else {
+    return Error{ErrorCode::wrong_kind, place, "expects " + std::string(name_of(ValueKind::selection)) + ", found " + shown(json)};
+  }
+  return selection;
+}
+
+Result<void> check_keys(const Json& json, const std::vector<std::string>& known, const std::string& place) {
+  for (const auto& [key, value] : json.items())
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      return Error{ErrorCode::unknown_field, place.empty() ? key : place + "/" + key, "unknown field `" + key + "`" + did_you_mean(key, known)};
+  return {};
+}
+
+namespace {
+
+Json table_to_json(const Table& table) {
+  Json rows = Json::array();
+  for (const auto& row : table.rows) {
+    Json object = Json::object();
+    for (std::size_t c = 0; c < row.size() && c < table.columns.size(); ++c)
+      if (const double* number = std::get_if<double>(&row[c])) object[table.columns[c]] = *number;
+      else object[table.columns[c]] = std::get<std::string>(row[c]);
+    rows.push_back(std::move(object));
+  }
+  return rows;
+}
+
+}  // namespace
+
+Json value_to_json(const Value& value, ValueKind kind) {
+  if (kind == ValueKind::json) return Json::parse(std::get<std::string>(value), nullptr, false);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag;
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* vector = std::get_if<Vector3>(&value)) return vector_to_json(*vector);
+  if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&value)) return **texts;
+  if (const auto* selection = std::get_if<Shared<Selection>>(&value)) return selection_to_json(**selection);
+  if (const auto* table = std::get_if<Shared<Table>>(&value)) return table_to_json(**table);
+  if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) {
+    Json list = Json::array();
+    for (const Point3& p : **points) list.push_back(vector_to_json(p));
+    return list;
+  }
+  return nullptr;
+}
+
+Result<void> check_value(const PortDefinition& port, const Value& value, const std::string& place) {
+  if (!is_finite(value)) return Error{ErrorCode::not_finite, place, "must be a finite number"};
+  if (port.kind == ValueKind::number || port.kind == ValueKind::integer) {
+    const double number = as_number(value);
+    if (number < port.hard_minimum || number > port.hard_maximum) {
+      const std::string unit(info(port.unit).pretty.empty() ? "" : " " + std::string(info(port.unit).pretty));
+      std::string range = std::isinf(port.hard_maximum)   ? "at least " + shortest(port.hard_minimum)
+                          : std::isinf(port.hard_minimum) ? "at most " + shortest(port.hard_maximum)
+                                                          : "between " + shortest(port.hard_minimum) + " and " + shortest(port.hard_maximum);
+      return Error{ErrorCode::out_of_range, place, "must be " + range + unit + ", found " + shortest(number)};
+    }
+  }
+  if (port.kind == ValueKind::choice) {
+    std::vector<std::string> known;
+    for (const ChoiceDefinition& choice : port.choices) known.push_back(choice.id);
+    const auto& text = std::get<std::string>(value);
+    if (std::find(known.begin(), known.end(), text) == known.end()) {
+      std::string list;
+      for (const std::string& choice : known) list += (list.empty() ? "`" : ", `") + choice + "`";
+      return Error{ErrorCode::out_of_range, place, "`" + text + "` is none of " + list + did_you_mean(text, known)};
+    }
+  }
+  if (port.kind == ValueKind::port && !parse_port_path(std::get<std::string>(value)) && !std::get<std::string>(value).empty())
+    return Error{ErrorCode::wrong_kind, place, "expects a port written `typification.port`, found `" + std::get<std::string>(value) + "`"};
+  return {};
+}
+
+Result<Value> value_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
+  auto value = decode(port, json, place);
+  if (!value) return value;
+  if (auto check = check_value(port, *value, place); !check) return check.error();
+  return value;
+}
+
+Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type, const Json& json, const std::string& place) {
+  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"port\": value, ...}, found " + shown(json)};
+  std::map<std::string, Value> values;
+  std::vector<std::string> settings;
+  for (const PortDefinition& port : type.ports)
+    if (!port.is_computed) settings.push_back(port.id);
+  for (const auto& [key, content] : json.items()) {
+    const std::string here = place.empty() ? key : place + "/" + key;
+    const PortDefinition* port = type.find_port(key);
+    if (port == nullptr)
+      return Error{ErrorCode::unknown_field, here, "`" + type.id + "` has no `" + key + "`" + did_you_mean(key, settings)};
+    if (port->is_computed) return Error{ErrorCode::conflict, here, "`" + key + "` is computed and cannot be set"};
+    auto value = value_from_json(*port, content, here);
+    if (!value) return value.error();
+    if (port->is_required || *value != port->default_value) values[key] = std::move(*value);
+  }
+  for (const PortDefinition& port : type.ports)
+    if (port.is_required && !values.contains(port.id))
+      return Error{ErrorCode::missing, place, "`" + type.id + "` needs `" + port.id + "`"};
+  return values;
+}
+
+Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value>& values) {
+  Json json = Json::object();
+  for (const PortDefinition& port : type.ports)
+    if (const auto it = values.find(port.id); it != values.end() && (port.is_required || it->second != port.default_value))
+      json[port.id] = value_to_json(it->second, port.kind);
+  return json;
+}
+
+Json command_to_json(const Registry& registry, const Command& command) {
+  Json json = Json::object();
+  json["command"] = command.id;
+  if (const CommandDefinition* definition = registry.command(command.id))
+    if (Json arguments = ports_to_json(*definition, command.arguments); !arguments.empty()) json["arguments"] = std::move(arguments);
+  return json;
+}
+
+Result<Command> command_from_json(const Registry& registry, const Json& json, const std::string& place) {
+  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"command\": ..., \"arguments\": {...}}"};
+  if (auto keys = check_keys(json, {"command", "arguments"}, place); !keys) return keys.error();
+  const auto name = json.find("command");
+  if (name == json.end() || !name->is_string()) return Error{ErrorCode::missing, place, "`command` is missing"};
+  const CommandDefinition* definition = registry.command(name->get_ref<const std::string&>());
+  if (definition == nullptr)
+    return Error{ErrorCode::unknown_type, place,
+                 "unknown command `" + name->get<std::string>() + "`" + did_you_mean(name->get<std::string>(), keys_of(registry.commands()))};
+  auto arguments = ports_from_json(*definition, json.value("arguments", Json::object()), place.empty() ? "arguments" : place + "/arguments");
+  if (!arguments) return arguments.error();
+  return Command{definition->id, std::move(*arguments)};
+}
+
+}  // namespace bl

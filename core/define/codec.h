@@ -1,0 +1,36 @@
+// Values to JSON and back, checked against their declaration; every error carries its place.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/define/command_builder.h"
+#include "core/define/json_text.h"
+#include "core/define/registry.h"
+
+namespace bl {
+
+/// The JSON form of a value. Meshes have none.
+Json value_to_json(const Value& value, ValueKind kind);
+/// A value of the declared kind, inside the hard range, finite; otherwise an error at `place`.
+Result<Value> value_from_json(const PortDefinition& port, const Json& json, const std::string& place);
+/// The checks that a value from code must pass too: range, choices, columns, finite numbers.
+Result<void> check_value(const PortDefinition& port, const Value& value, const std::string& place);
+
+Json selection_to_json(const Selection& selection);
+Result<Selection> selection_from_json(const Json& json, const std::string& place);
+
+/// An object of port values. Unknown names, computed ports and wrong values are errors with their place.
+Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type, const Json& json, const std::string& place);
+/// The values that differ from their defaults, in the order of the declaration.
+Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value>& values);
+
+/// {"command": id, "arguments": {...}}
+Json command_to_json(const Registry& registry, const Command& command);
+Result<Command> command_from_json(const Registry& registry, const Json& json, const std::string& place);
+
+/// The JSON object `json` must hold no other keys than `known`.
+Result<void> check_keys(const Json& json, const std::vector<std::string>& known, const std::string& place);
+
+}  // namespace bl

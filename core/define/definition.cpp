@@ -1,0 +1,42 @@
+// Look-ups in definitions.
+#include "core/define/definition.h"
+
+#include <algorithm>
+
+namespace bl {
+
+std::string_view name_of(CombineRule rule) {
+  switch (rule) {
+    case CombineRule::none: return "none";
+    case CombineRule::sum: return "sum";
+    case CombineRule::blend: return "blend";
+    case CombineRule::min: return "min";
+    case CombineRule::max: return "max";
+  }
+  return "none";
+}
+
+std::string_view name_of(End end) { return end == End::from ? "from" : "to"; }
+
+std::optional<PortPath> parse_port_path(std::string_view text) {
+  const std::size_t dot = text.find('.');
+  if (dot == std::string_view::npos || dot == 0 || dot + 1 == text.size()) return std::nullopt;
+  return PortPath{std::string(text.substr(0, dot)), std::string(text.substr(dot + 1)), ""};
+}
+
+std::size_t TypeDefinition::port_index(std::string_view port) const {
+  return static_cast<std::size_t>(
+      std::find_if(ports.begin(), ports.end(), [&](const PortDefinition& p) { return p.id == port; }) - ports.begin());
+}
+
+const PortDefinition* TypeDefinition::find_port(std::string_view port) const {
+  const std::size_t index = port_index(port);
+  return index < ports.size() ? &ports[index] : nullptr;
+}
+
+bool LinkDefinition::is_whole(End end) const {
+  return std::any_of(reads.begin(), reads.end(), [&](const LinkRead& r) { return r.end == end && r.is_whole; }) ||
+         std::any_of(proposes.begin(), proposes.end(), [&](const LinkWrite& w) { return w.end == end && w.is_whole; });
+}
+
+}  // namespace bl

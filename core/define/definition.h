@@ -1,0 +1,162 @@
+// What a declaration leaves behind as plain data: ports, typifications, link kinds and commands.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/base/result.h"
+#include "core/base/unit.h"
+#include "core/define/value.h"
+
+namespace bl {
+
+/// What an evaluation may know of the moment: the tick's number and the pool to compute with. No clock, no order.
+struct Tick {
+  std::int64_t index = 0;
+  ThreadPool* pool = nullptr;    ///< only set evaluations (solvers) may use it; nullptr means one thread
+};
+
+/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; the others choose a value.
+enum class CombineRule { none, sum, blend, min, max };
+std::string_view name_of(CombineRule rule);
+
+/// One column of a table port.
+struct ColumnDefinition {
+  std::string id;
+  bool is_text = false;
+  bool is_required = false;
+  Unit unit = Unit::none;
+  Scalar default_value = 0.0;
+  double minimum = -std::numeric_limits<double>::infinity(), maximum = std::numeric_limits<double>::infinity();
+  std::string doc;
+};
+
+struct ChoiceDefinition {
+  std::string id, doc;
+};
+
+/// One declared datum of a typification, link kind or command.
+struct PortDefinition {
+  std::string id, doc;
+  ValueKind kind = ValueKind::number;
+  Unit unit = Unit::none;
+  std::string unit_from;              ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
+  bool is_computed = false;           ///< written by evaluations only; never set by people or links
+  bool is_required = false;           ///< has no usable default (ids in commands)
+  bool is_residual = false;           ///< a scene is settled when every residual is within its tolerance
+  CombineRule rule = CombineRule::none;
+  double step_limit = std::numeric_limits<double>::infinity();    ///< largest change in one tick
+  Value default_value = 0.0;
+  double hard_minimum = -std::numeric_limits<double>::infinity(), hard_maximum = std::numeric_limits<double>::infinity();
+  std::optional<double> soft_minimum, soft_maximum;
+  std::vector<ChoiceDefinition> choices;
+  std::vector<ColumnDefinition> columns;
+  std::function<Value(const void*)> get;                 ///< reads the bound member of its struct
+  std::function<void(void*, const Value&)> set;          ///< writes it
+};
+
+/// `typification.port`, or the parameter that chooses it when `chosen_by` is set.
+struct PortPath {
+  std::string typification, port;
+  std::string chosen_by;
+};
+/// "smart_volume.volume" as its two halves; nothing where there is no dot with text on both sides.
+std::optional<PortPath> parse_port_path(std::string_view text);
+
+/// A datum read from other nodes: where it stands, and what kind and unit the reader expects.
+struct ReadDefinition {
+  PortPath path;
+  ValueKind kind = ValueKind::number;
+  std::optional<Unit> unit;                                         ///< empty: any unit
+  bool is_whole = false;                                            ///< gets the values of all nodes of its end at once
+  std::function<void(void*, std::span<const Value* const>)> assign;
+};
+
+/// A datum written to other nodes: a proposal of a link, or a reply of a set evaluation.
+struct WriteDefinition {
+  PortPath path;
+  ValueKind kind = ValueKind::number;
+  std::optional<Unit> unit;
+  bool is_whole = false;
+  std::function<void(const void*, std::span<std::optional<Value>>)> extract;
+};
+
+/// The set of nodes that a typification evaluates together: which input port selects it, what is read and written back.
+struct SetDefinition {
+  std::string selection;              ///< id of the selecting input port
+  std::vector<ReadDefinition> reads;
+  std::vector<WriteDefinition> writes;
+};
+
+/// The values of one set at evaluation, row by row: member m's read r is reads[m * read_count + r].
+struct SetValues {
+  std::size_t members = 0;
+  std::vector<Value> reads;
+  std::vector<std::optional<Value>> writes;    ///< filled by the evaluation, same layout
+};
+
+/// Changes values saved under an older revision; the JSON text in and out is the object of port values.
+struct UpgradeDefinition {
+  int from_revision = 0;
+  std::string doc;
+  std::function<Result<std::string>(const std::string&)> upgrade;
+};
+
+struct TypeDefinition {
+  std::string id, label, doc;
+  int revision = 1;
+  std::vector<std::string> aliases;
+  std::vector<UpgradeDefinition> upgrades;
+  std::vector<PortDefinition> ports;       ///< settings first, computed ports after them
+
+  const PortDefinition* find_port(std::string_view port) const;
+  std::size_t port_index(std::string_view port) const;    ///< ports.size() where there is none
+};
+
+/// A role of a node. `evaluate` is empty for roles whose computed ports are written by a solver.
+struct TypificationDefinition : TypeDefinition {
+  std::vector<SetDefinition> sets;
+  /// Reads the settings in `values` (all ports, in order), writes the computed ones; `sets` as declared.
+  std::function<Result<void>(std::span<Value> values, std::span<SetValues> sets, const Tick&)> evaluate;
+};
+
+enum class End { from = 0, to = 1 };
+std::string_view name_of(End end);
+
+struct LinkRead : ReadDefinition {
+  End end = End::from;
+};
+struct LinkWrite : WriteDefinition {
+  End end = End::to;
+};
+
+/// Values as a link evaluation sees them: per declared read one pointer, or one for each node of a whole end.
+struct LinkReads {
+  std::vector<std::vector<const Value*>> values;
+};
+struct LinkWrites {
+  std::vector<std::vector<std::optional<Value>>> values;
+};
+
+/// Code on an edge. Evaluated for each pair (from, to) of its ends; an end that is read or written `whole` counts once.
+struct LinkDefinition : TypeDefinition {
+  std::vector<LinkRead> reads;
+  std::vector<LinkWrite> proposes;
+  std::vector<std::pair<std::string, std::string>> same_units;    ///< pairs of port parameters whose units must agree
+  std::string same_units_unless;                                  ///< a boolean parameter that lifts that rule
+  /// Parameters as the struct that the evaluation takes; made once per change of the link.
+  std::function<std::shared_ptr<const void>(std::span<const Value>)> instantiate;
+  std::function<Result<void>(const void* parameters, const LinkReads&, LinkWrites&, const Tick&)> evaluate;
+
+  /// Does the link treat all nodes of this end in one evaluation?
+  bool is_whole(End end) const;
+};
+
+}  // namespace bl

@@ -1,0 +1,26 @@
+// Strict reading and diff-friendly writing of JSON text.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/base/result.h"
+
+namespace bl {
+
+using Json = nlohmann::ordered_json;
+
+/// Parses one JSON value. Refuses comments, NaN, numbers beyond a double, a key given twice in one object, nesting deeper
+/// than 64 levels and text that is not UTF-8; the place of an error is "line L, column C".
+Result<Json> parse_json(std::string_view text);
+
+/// Writes with two-space indents; what fits into `width` columns stays on one line. Shortest round-trip numbers, no locale.
+/// Ends without a line feed. The text depends on the value alone.
+std::string write_json(const Json& value, int width = 120);
+
+/// Everything on one line.
+std::string write_json_line(const Json& value);
+
+}  // namespace bl

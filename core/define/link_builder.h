@@ -1,0 +1,102 @@
+// Declares a link kind: parameters, what it reads at its ends, what it proposes, and one pure evaluate().
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "core/define/port_builder.h"
+
+namespace bl {
+
+/// T has `struct In` (parameters), `struct Ends` (read from the frozen state), `struct Out` (proposals),
+/// `declare(LinkBuilder<T>&)` and `static Result<Out> evaluate(const In&, const Ends&, const Tick&)`.
+/// A member of type All<X> makes its end whole: one evaluation for all of its nodes. Optional members propose only when set.
+template <class T>
+class LinkBuilder : public TypeBuilder<LinkDefinition> {
+ public:
+  using TypeBuilder::TypeBuilder;
+  using In = typename T::In;
+  using Ends = typename T::Ends;
+  using Out = typename T::Out;
+
+  template <class M>
+  PortBuilder<M> param(M In::* member, std::string id) { return add_port(definition_->ports, member, std::move(id)); }
+  template <ChoiceMember E>
+  PortBuilder<E> param(E In::* member, std::string id, std::vector<Choice<E>> choices) {
+    return add_choice(definition_->ports, member, std::move(id), std::move(choices));
+  }
+
+  /// Reads `path` ("typification.port", or "node.id") of the end into `member`; `unit` is what the code expects there.
+  template <class M>
+  LinkBuilder& reads(M Ends::* member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
+    LinkRead& read = definition_->reads.emplace_back();
+    read.end = end;
+    read.path = parse_port_path(path).value();
+    read.unit = unit;
+    bind_read(read, member);
+    return *this;
+  }
+  /// Reads the port that people chose in `parameter`.
+  template <class M>
+  LinkBuilder& reads_chosen(M Ends::* member, End end, std::string parameter) {
+    LinkRead& read = definition_->reads.emplace_back();
+    read.end = end;
+    read.path.chosen_by = std::move(parameter);
+    bind_read(read, member);
+    return *this;
+  }
+  template <class M>
+  LinkBuilder& proposes(M Out::* member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
+    LinkWrite& write = definition_->proposes.emplace_back();
+    write.end = end;
+    write.path = parse_port_path(path).value();
+    write.unit = unit;
+    bind_write(write, member);
+    return *this;
+  }
+  template <class M>
+  LinkBuilder& proposes_chosen(M Out::* member, End end, std::string parameter) {
+    LinkWrite& write = definition_->proposes.emplace_back();
+    write.end = end;
+    write.path.chosen_by = std::move(parameter);
+    bind_write(write, member);
+    return *this;
+  }
+  /// The ports chosen in two parameters must have units of one dimension, unless the boolean parameter `unless` is on.
+  LinkBuilder& same_units(std::string parameter, std::string other, std::string unless = "") {
+    definition_->same_units.emplace_back(std::move(parameter), std::move(other));
+    definition_->same_units_unless = std::move(unless);
+    return *this;
+  }
+
+  static LinkDefinition build() {
+    LinkDefinition definition;
+    LinkBuilder builder(definition);
+    T::declare(builder);
+    builder.bind_evaluation();
+    return definition;
+  }
+
+ private:
+  void bind_evaluation() {
+    const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition_->ports);
+    const auto reads = std::make_shared<const std::vector<LinkRead>>(definition_->reads);
+    const auto proposes = std::make_shared<const std::vector<LinkWrite>>(definition_->proposes);
+    definition_->instantiate = [ports](std::span<const Value> values) -> std::shared_ptr<const void> {
+      auto in = std::make_shared<In>();
+      for (std::size_t p = 0; p < ports->size(); ++p) (*ports)[p].set(in.get(), values[p]);
+      return in;
+    };
+    definition_->evaluate = [reads, proposes](const void* parameters, const LinkReads& in, LinkWrites& out,
+                                              const Tick& tick) -> Result<void> {
+      Ends ends;
+      for (std::size_t r = 0; r < reads->size(); ++r) (*reads)[r].assign(&ends, in.values[r]);
+      Result<Out> result = T::evaluate(*static_cast<const In*>(parameters), ends, tick);
+      if (!result) return result.error();
+      for (std::size_t w = 0; w < proposes->size(); ++w) (*proposes)[w].extract(&result.value(), out.values[w]);
+      return {};
+    };
+  }
+};
+
+}  // namespace bl

@@ -1,0 +1,117 @@
+// The fluent declaration of one port: the member's type decides which modifiers exist.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/define/binding.h"
+
+namespace bl {
+
+/// One choice of an enumeration port: the value in code, the text in files, and what it does.
+template <class E>
+struct Choice {
+  E value;
+  std::string id, doc;
+};
+
+/// Declares a port bound to a member of type M. Defaults come from the struct's member initialisers.
+template <class M>
+class PortBuilder {
+ public:
+  explicit PortBuilder(PortDefinition& port) : port_(&port) {}
+
+  PortBuilder& doc(std::string text) { port_->doc = std::move(text); return *this; }
+  PortBuilder& required() { port_->is_required = true; return *this; }
+
+  PortBuilder& unit(Unit unit) requires NumericMember<M> || std::same_as<M, Vector3> || std::same_as<M, std::vector<Point3>> {
+    port_->unit = unit;
+    return *this;
+  }
+  /// The unit is named by another port of the same declaration: a unit symbol in a text, or a port whose unit it is.
+  PortBuilder& unit_from(std::string port) requires std::same_as<M, double> { port_->unit_from = std::move(port); return *this; }
+  PortBuilder& min(double hard) requires NumericMember<M> { port_->hard_minimum = hard; return *this; }
+  PortBuilder& max(double hard) requires NumericMember<M> { port_->hard_maximum = hard; return *this; }
+  PortBuilder& range(double low, double high) requires NumericMember<M> { return min(low).max(high); }
+  /// What a slider spans; people may type values outside it, up to the hard range.
+  PortBuilder& soft(double low, double high) requires NumericMember<M> {
+    port_->soft_minimum = low;
+    port_->soft_maximum = high;
+    return *this;
+  }
+  /// Links may propose to this port; `rule` says how proposals combine.
+  PortBuilder& combine(CombineRule rule) requires std::same_as<M, double> || std::same_as<M, Vector3> {
+    port_->rule = rule;
+    return *this;
+  }
+  PortBuilder& step_limit(double limit) requires std::same_as<M, double> || std::same_as<M, Vector3> {
+    port_->step_limit = limit;
+    return *this;
+  }
+  PortBuilder& residual() requires std::same_as<M, double> { port_->is_residual = true; return *this; }
+  PortBuilder& column(ColumnDefinition column) requires std::same_as<M, Table> || std::same_as<M, Shared<Table>> {
+    port_->columns.push_back(std::move(column));
+    return *this;
+  }
+
+ private:
+  PortDefinition* port_;
+};
+
+/// Binds `member` of Owner as a new port; the default is what a fresh Owner holds.
+template <class Owner, class M>
+PortBuilder<M> add_port(std::vector<PortDefinition>& ports, M Owner::* member, std::string id) {
+  PortDefinition& port = ports.emplace_back();
+  port.id = std::move(id);
+  port.kind = Binding<M>::kKind;
+  port.default_value = Binding<M>::to_value(Owner{}.*member);
+  port.get = [member](const void* owner) { return Binding<M>::to_value(static_cast<const Owner*>(owner)->*member); };
+  port.set = [member](void* owner, const Value& value) { static_cast<Owner*>(owner)->*member = Binding<M>::from_value(value); };
+  return PortBuilder<M>(port);
+}
+
+/// Binds an enumeration: files and values hold the text of the choice, the struct the enumerator.
+template <class Owner, ChoiceMember E>
+PortBuilder<E> add_choice(std::vector<PortDefinition>& ports, E Owner::* member, std::string id, std::vector<Choice<E>> choices) {
+  PortDefinition& port = ports.emplace_back();
+  port.id = std::move(id);
+  port.kind = ValueKind::choice;
+  for (const Choice<E>& choice : choices) port.choices.push_back({choice.id, choice.doc});
+  port.get = [member, choices](const void* owner) -> Value {
+    for (const Choice<E>& choice : choices)
+      if (choice.value == static_cast<const Owner*>(owner)->*member) return choice.id;
+    return choices.front().id;
+  };
+  port.set = [member, choices](void* owner, const Value& value) {
+    const std::string text = Binding<std::string>::from_value(value);
+    for (const Choice<E>& choice : choices)
+      if (choice.id == text) static_cast<Owner*>(owner)->*member = choice.value;
+  };
+  const Owner fresh{};
+  port.default_value = port.get(&fresh);
+  return PortBuilder<E>(port);
+}
+
+/// What typifications, link kinds and commands declare alike.
+template <class Definition>
+class TypeBuilder {
+ public:
+  explicit TypeBuilder(Definition& definition) : definition_(&definition) {}
+
+  /// The id in files. Never changes once released: a renamed type keeps its old ids as aliases.
+  TypeBuilder& id(std::string text) { definition_->id = std::move(text); return *this; }
+  TypeBuilder& label(std::string text) { definition_->label = std::move(text); return *this; }
+  TypeBuilder& doc(std::string text) { definition_->doc = std::move(text); return *this; }
+  TypeBuilder& alias(std::string old_id) { definition_->aliases.push_back(std::move(old_id)); return *this; }
+  /// Raises the revision by one; `upgrade` turns the JSON object of the revision before into the new one.
+  TypeBuilder& upgrade(std::string what, std::function<Result<std::string>(const std::string&)> change) {
+    definition_->upgrades.push_back({definition_->revision++, std::move(what), std::move(change)});
+    return *this;
+  }
+
+ protected:
+  Definition* definition_;
+};
+
+}  // namespace bl

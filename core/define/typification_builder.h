@@ -1,0 +1,161 @@
+// Declares a typification: a plain struct with In and Out, one declare(), and one pure evaluate().
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "core/define/port_builder.h"
+
+namespace bl {
+
+/// Declares what is read from, and written back to, each node of a set.
+template <class Sets, class Out, class Member, class Reply>
+class SetBuilder {
+ public:
+  explicit SetBuilder(SetDefinition& set) : set_(&set) {}
+
+  template <class M>
+  SetBuilder& reads(M Member::* member, std::string_view path, std::optional<Unit> unit = std::nullopt) {
+    ReadDefinition& read = set_->reads.emplace_back();
+    read.path = parse_port_path(path).value();
+    read.unit = unit;
+    bind_read(read, member);
+    return *this;
+  }
+  /// Reads the port that people chose in the parameter `parameter`.
+  template <class M>
+  SetBuilder& reads_chosen(M Member::* member, std::string parameter) {
+    ReadDefinition& read = set_->reads.emplace_back();
+    read.path.chosen_by = std::move(parameter);
+    bind_read(read, member);
+    return *this;
+  }
+  template <class M>
+  SetBuilder& writes(M Reply::* member, std::string_view path) {
+    WriteDefinition& write = set_->writes.emplace_back();
+    write.path = parse_port_path(path).value();
+    bind_write(write, member);
+    return *this;
+  }
+
+ private:
+  SetDefinition* set_;
+};
+
+struct NoReply {};
+struct NoSets {};
+
+/// T has `struct In`, `struct Out`, `declare(TypificationBuilder<T>&)` and one of
+/// `static Result<Out> evaluate(const In&, const Tick&)`,
+/// `static Result<Out> evaluate(const In&, const Sets&, const Tick&)`, or none.
+template <class T>
+class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
+ public:
+  using TypeBuilder::TypeBuilder;
+  using In = typename T::In;
+  using Out = typename T::Out;
+
+  template <class M>
+  PortBuilder<M> in(M In::* member, std::string id) { return add_port(definition_->ports, member, std::move(id)); }
+  template <ChoiceMember E>
+  PortBuilder<E> in(E In::* member, std::string id, std::vector<Choice<E>> choices) {
+    return add_choice(definition_->ports, member, std::move(id), std::move(choices));
+  }
+  /// Declare all settings before the first output.
+  template <class M>
+  PortBuilder<M> out(M Out::* member, std::string id) {
+    auto builder = add_port(definition_->ports, member, std::move(id));
+    definition_->ports.back().is_computed = true;
+    return builder;
+  }
+  template <ChoiceMember E>
+  PortBuilder<E> out(E Out::* member, std::string id, std::vector<Choice<E>> choices) {
+    auto builder = add_choice(definition_->ports, member, std::move(id), std::move(choices));
+    definition_->ports.back().is_computed = true;
+    return builder;
+  }
+
+  /// The nodes that the selection port `selection` names are read into `members`, in ascending node id.
+  template <class Sets, class Member>
+  SetBuilder<Sets, Out, Member, NoReply> set(std::string selection, std::vector<Member> Sets::* members) {
+    SetDefinition& set = add_set<Sets>(std::move(selection), members);
+    replies_.emplace_back([](const Out&, const SetDefinition&, SetValues&) {});
+    return SetBuilder<Sets, Out, Member, NoReply>(set);
+  }
+  /// The same, and `replies` (one for each member, same order) is written back to them.
+  template <class Sets, class Member, class Reply>
+  SetBuilder<Sets, Out, Member, Reply> set(std::string selection, std::vector<Member> Sets::* members, std::vector<Reply> Out::* replies) {
+    SetDefinition& set = add_set<Sets>(std::move(selection), members);
+    replies_.emplace_back([replies](const Out& out, const SetDefinition& definition, SetValues& values) {
+      const std::size_t count = definition.writes.size();
+      for (std::size_t m = 0; m < values.members && m < (out.*replies).size(); ++m)
+        for (std::size_t w = 0; w < count; ++w)
+          definition.writes[w].extract(&(out.*replies)[m], std::span(&values.writes[m * count + w], 1));
+    });
+    return SetBuilder<Sets, Out, Member, Reply>(set);
+  }
+
+  static TypificationDefinition build() {
+    TypificationDefinition definition;
+    TypificationBuilder builder(definition);
+    T::declare(builder);
+    builder.bind_evaluation();
+    return definition;
+  }
+
+ private:
+  template <class Sets, class Member>
+  SetDefinition& add_set(std::string selection, std::vector<Member> Sets::* members) {
+    definition_->sets.push_back({std::move(selection), {}, {}});
+    loaders_.emplace_back([members](void* sets, const SetDefinition& definition, const SetValues& values) {
+      auto& list = static_cast<Sets*>(sets)->*members;
+      list.resize(values.members);
+      const std::size_t count = definition.reads.size();
+      for (std::size_t m = 0; m < values.members; ++m)
+        for (std::size_t r = 0; r < count; ++r) {
+          const Value* value = &values.reads[m * count + r];
+          definition.reads[r].assign(&list[m], std::span(&value, 1));
+        }
+    });
+    return definition_->sets.back();
+  }
+
+  void bind_evaluation() {
+    using Loader = std::function<void(void*, const SetDefinition&, const SetValues&)>;
+    using Replier = std::function<void(const Out&, const SetDefinition&, SetValues&)>;
+    constexpr bool kIsPlain = requires(const In& in, const Tick& tick) { T::evaluate(in, tick); };
+    constexpr bool kHasSets = requires { typename T::Sets; };
+    if constexpr (!kIsPlain && !kHasSets) return;
+    else {
+      const auto ports = std::make_shared<const std::vector<PortDefinition>>(definition_->ports);
+      const auto sets = std::make_shared<const std::vector<SetDefinition>>(definition_->sets);
+      const std::vector<Loader> loaders = loaders_;
+      const std::vector<Replier> repliers = replies_;
+      definition_->evaluate = [ports, sets, loaders, repliers](std::span<Value> values, std::span<SetValues> set_values,
+                                                               const Tick& tick) -> Result<void> {
+        In in;
+        for (std::size_t p = 0; p < ports->size(); ++p)
+          if (!(*ports)[p].is_computed) (*ports)[p].set(&in, values[p]);
+        Result<Out> out = [&]() -> Result<Out> {
+          if constexpr (kIsPlain) {
+            return T::evaluate(in, tick);
+          } else {
+            typename T::Sets members;
+            for (std::size_t s = 0; s < loaders.size(); ++s) loaders[s](&members, (*sets)[s], set_values[s]);
+            return T::evaluate(in, members, tick);
+          }
+        }();
+        if (!out) return out.error();
+        for (std::size_t p = 0; p < ports->size(); ++p)
+          if ((*ports)[p].is_computed) values[p] = (*ports)[p].get(&out.value());
+        for (std::size_t s = 0; s < repliers.size(); ++s) repliers[s](out.value(), (*sets)[s], set_values[s]);
+        return {};
+      };
+    }
+  }
+
+  std::vector<std::function<void(void*, const SetDefinition&, const SetValues&)>> loaders_;
+  std::vector<std::function<void(const Out&, const SetDefinition&, SetValues&)>> replies_;
+};
+
+}  // namespace bl

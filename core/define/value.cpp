@@ -1,0 +1,109 @@
+// Finite-checks, hashing and table look-ups of values.
+#include "core/define/value.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bl {
+
+std::size_t Table::column(std::string_view name) const {
+  return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
+}
+
+double Table::number(std::size_t row, std::string_view name) const {
+  const std::size_t c = column(name);
+  if (row >= rows.size() || c >= rows[row].size()) return 0;
+  const double* number = std::get_if<double>(&rows[row][c]);
+  return number ? *number : 0;
+}
+
+const std::string& Table::text(std::size_t row, std::string_view name) const {
+  static const std::string kNothing;
+  const std::size_t c = column(name);
+  if (row >= rows.size() || c >= rows[row].size()) return kNothing;
+  const std::string* text = std::get_if<std::string>(&rows[row][c]);
+  return text ? *text : kNothing;
+}
+
+std::string_view name_of(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::boolean: return "true or false";
+    case ValueKind::integer: return "a whole number";
+    case ValueKind::number: return "a number";
+    case ValueKind::text: return "a text";
+    case ValueKind::choice: return "one of its choices";
+    case ValueKind::port: return "a port written `typification.port`";
+    case ValueKind::json: return "a JSON object";
+    case ValueKind::point: return "a point [x, y, z]";
+    case ValueKind::points: return "a list of points [[x, y, z], ...]";
+    case ValueKind::texts: return "a list of texts";
+    case ValueKind::selection: return "a node id, a list of node ids, or {\"typification\": ..., \"tag\": ...}";
+    case ValueKind::table: return "a list of rows";
+    case ValueKind::mesh: return "a mesh";
+  }
+  return "a value";
+}
+
+bool is_proposable(ValueKind kind) { return kind == ValueKind::number || kind == ValueKind::point; }
+
+bool is_finite(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return std::isfinite(*number);
+  if (const auto* vector = std::get_if<Vector3>(&value)) return is_finite(*vector);
+  if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value))
+    return std::all_of((*points)->begin(), (*points)->end(), [](const Point3& p) { return is_finite(p); });
+  if (const auto* table = std::get_if<Shared<Table>>(&value)) {
+    for (const auto& row : (*table)->rows)
+      for (const Scalar& field : row)
+        if (const double* number = std::get_if<double>(&field); number && !std::isfinite(*number)) return false;
+  }
+  return true;
+}
+
+namespace {
+
+struct Adder {
+  Hash& hash;
+  void operator()(bool flag) const { hash.add(std::uint64_t{flag ? 1u : 0u}); }
+  void operator()(std::int64_t number) const { hash.add(static_cast<std::uint64_t>(number)); }
+  void operator()(double number) const { hash.add(number); }
+  void operator()(const std::string& text) const { hash.add(std::string_view(text)); }
+  void operator()(const Vector3& v) const { hash.add(v); }
+  void operator()(const Shared<std::vector<Point3>>& points) const {
+    hash.add(std::uint64_t{points->size()});
+    for (const Point3& p : *points) hash.add(p);
+  }
+  void operator()(const Shared<std::vector<std::string>>& texts) const {
+    hash.add(std::uint64_t{texts->size()});
+    for (const std::string& text : *texts) hash.add(std::string_view(text));
+  }
+  void operator()(const Shared<Selection>& selection) const {
+    hash.add(std::uint64_t{selection->ids.size()});
+    for (const std::string& id : selection->ids) hash.add(std::string_view(id));
+    hash.add(std::string_view(selection->typification));
+    hash.add(std::string_view(selection->tag));
+  }
+  void operator()(const Shared<Table>& table) const {
+    hash.add(std::uint64_t{table->rows.size()});
+    for (const auto& row : table->rows)
+      for (const Scalar& field : row)
+        if (const double* number = std::get_if<double>(&field)) hash.add(*number);
+        else hash.add(std::string_view(std::get<std::string>(field)));
+  }
+  void operator()(const MeshPointer&) const {}
+};
+
+}  // namespace
+
+void add_to(Hash& hash, const Value& value) {
+  hash.add(std::uint64_t{value.index()});
+  std::visit(Adder{hash}, value);
+}
+
+double as_number(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? 1 : 0;
+  return 0;
+}
+
+}  // namespace bl

@@ -1,0 +1,77 @@
+// The kinds of value that ports hold, and the one variant type that carries them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/base/hash.h"
+#include "core/base/mesh.h"
+#include "core/base/vector.h"
+
+namespace bl {
+
+/// An immutable T that snapshots share; compares by content.
+template <class T>
+class Shared {
+ public:
+  Shared() : content_(empty()) {}
+  Shared(T content) : content_(std::make_shared<const T>(std::move(content))) {}    // NOLINT: implicit on purpose
+  const T& operator*() const { return *content_; }
+  const T* operator->() const { return content_.get(); }
+  bool operator==(const Shared& other) const { return content_ == other.content_ || *content_ == *other.content_; }
+
+ private:
+  static const std::shared_ptr<const T>& empty() {
+    static const std::shared_ptr<const T> nothing = std::make_shared<const T>();
+    return nothing;
+  }
+  std::shared_ptr<const T> content_;
+};
+
+/// A set of nodes: named ones, or all that carry a typification and/or a tag. Always walked in ascending node id.
+struct Selection {
+  std::vector<std::string> ids;
+  std::string typification;
+  std::string tag;
+  bool operator==(const Selection&) const = default;
+  bool is_empty() const { return ids.empty() && typification.empty() && tag.empty(); }
+  bool is_query() const { return !typification.empty() || !tag.empty(); }
+};
+
+/// A number or a text: one field of a table.
+using Scalar = std::variant<double, std::string>;
+
+/// Rows under named columns; the columns are those that the port declares, in that order.
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<std::vector<Scalar>> rows;
+  bool operator==(const Table&) const = default;
+
+  /// Index of a column, or the number of columns where there is none.
+  std::size_t column(std::string_view name) const;
+  double number(std::size_t row, std::string_view name) const;
+  const std::string& text(std::size_t row, std::string_view name) const;
+};
+
+/// `port` is a text of the form `typification.port`; `json` a text that holds one JSON value as it stood in a file.
+enum class ValueKind { boolean, integer, number, text, choice, port, json, point, points, texts, selection, table, mesh };
+
+/// Text, choice, port and json share std::string; the declared kind tells them apart.
+using Value = std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>,
+                           Shared<std::vector<std::string>>, Shared<Selection>, Shared<Table>, MeshPointer>;
+
+std::string_view name_of(ValueKind kind);
+/// Can a link propose values of this kind?
+bool is_proposable(ValueKind kind);
+/// Are all numbers in it finite?
+bool is_finite(const Value& value);
+/// Folds a value into a hash; meshes count as nothing, because they follow from the rest.
+void add_to(Hash& hash, const Value& value);
+/// The number in a number, integer or boolean; 0 for other kinds.
+double as_number(const Value& value);
+
+}  // namespace bl
