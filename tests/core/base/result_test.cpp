@@ -1,0 +1,92 @@
+// Result and Error: values, errors, places and the names of codes.
+#include "core/base/result.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <string>
+
+namespace bl {
+namespace {
+
+Result<int> half(int number) {
+  if (number % 2 != 0) return Error{ErrorCode::wrong_kind, "number", "is odd"};
+  return number / 2;
+}
+
+Result<void> positive(int number) {
+  if (number <= 0) return Error{ErrorCode::out_of_range, "", "must be positive"};
+  return {};
+}
+
+TEST(Result, HoldsAValueOrAnError) {
+  const Result<int> good = half(8), bad = half(7);
+  ASSERT_TRUE(good.ok());
+  EXPECT_TRUE(static_cast<bool>(good));
+  EXPECT_EQ(good.value(), 4);
+  EXPECT_EQ(*good, 4);
+  ASSERT_FALSE(bad.ok());
+  EXPECT_FALSE(static_cast<bool>(bad));
+  EXPECT_EQ(bad.error(), (Error{ErrorCode::wrong_kind, "number", "is odd"}));
+}
+
+TEST(Result, OfNothingIsSuccessOrAnError) {
+  EXPECT_TRUE(positive(1).ok());
+  EXPECT_TRUE(static_cast<bool>(positive(1)));
+  const Result<void> bad = positive(0);
+  ASSERT_FALSE(bad.ok());
+  EXPECT_EQ(bad.error().code, ErrorCode::out_of_range);
+}
+
+TEST(Result, ValueCanBeChangedInPlace) {
+  Result<std::string> text = std::string("ab");
+  text->push_back('c');
+  *text += "d";
+  text.value() += "e";
+  EXPECT_EQ(*text, "abcde");
+  const Result<std::string>& seen = text;
+  EXPECT_EQ(seen->size(), 5u);
+}
+
+TEST(Result, MovesWhatCannotBeCopied) {
+  Result<std::unique_ptr<int>> made = std::make_unique<int>(3);
+  const std::unique_ptr<int> taken = std::move(made).value();
+  EXPECT_EQ(*taken, 3);
+  Result<std::unique_ptr<int>> again = std::make_unique<int>(4);
+  const std::unique_ptr<int> taken_too = *std::move(again);
+  EXPECT_EQ(*taken_too, 4);
+}
+
+TEST(Result, AnEmptyTextIsAValue) {
+  const Result<std::string> empty = std::string();
+  EXPECT_TRUE(empty.ok());
+}
+
+TEST(Error, TextHasThePlaceInFront) {
+  EXPECT_EQ((Error{ErrorCode::missing, "nodes/tower", "has no name"}.text()), "nodes/tower: has no name");
+  EXPECT_EQ((Error{ErrorCode::missing, "", "has no name"}.text()), "has no name");
+}
+
+TEST(Error, WithinPutsAPlaceInFront) {
+  const Error inner{ErrorCode::missing, "demand", "is missing"};
+  EXPECT_EQ(inner.within("tower").within("nodes").place, "nodes/tower/demand");
+  EXPECT_EQ(inner.within("").place, "demand");
+  EXPECT_EQ((Error{ErrorCode::io, "", "x"}.within("file").place), "file");
+  EXPECT_EQ(inner.within("tower").code, ErrorCode::missing);
+  EXPECT_EQ(inner.within("tower").message, "is missing");
+  EXPECT_EQ(inner.place, "demand");
+}
+
+TEST(Error, EveryCodeHasANameOfItsOwn) {
+  std::set<std::string_view> names;
+  const int last = static_cast<int>(ErrorCode::internal);
+  for (int code = 0; code <= last; ++code) names.insert(name_of(static_cast<ErrorCode>(code)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(last) + 1);
+  EXPECT_EQ(name_of(ErrorCode::unknown_field), "unknown_field");
+  EXPECT_EQ(name_of(ErrorCode::internal), "internal");
+  for (const std::string_view name : names) EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), name.npos);
+}
+
+}  // namespace
+}  // namespace bl

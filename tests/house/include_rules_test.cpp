@@ -1,0 +1,227 @@
+// Holds the tree to the rules of the house, and the checkers to samples with planted faults.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "tests/house/rules.h"
+
+namespace bl::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Files that may be longer than line_limit(), each with its reason. A row that is no longer needed fails, too.
+const std::map<std::string, std::string> kLongFiles = {};
+
+struct SourceFile {
+  std::string path, text;
+};
+
+std::string read(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+bool is_foreign(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  return name.starts_with(".") || name == "node_modules" || name == "dist";
+}
+
+// All .h and .cpp files below the named folders, in ascending order of their paths.
+std::vector<SourceFile> sources(std::initializer_list<const char*> tops) {
+  const fs::path root = BL_SOURCE_DIR;
+  std::vector<SourceFile> files;
+  for (const char* top : tops) {
+    if (!fs::exists(root / top)) continue;
+    for (auto entry = fs::recursive_directory_iterator(root / top); entry != fs::recursive_directory_iterator(); ++entry) {
+      if (entry->is_directory() && is_foreign(entry->path())) entry.disable_recursion_pending();
+      const fs::path extension = entry->path().extension();
+      if (!entry->is_regular_file() || (extension != ".h" && extension != ".cpp")) continue;
+      files.push_back({fs::relative(entry->path(), root).generic_string(), read(entry->path())});
+    }
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+  return files;
+}
+
+void expect_none(const std::vector<Finding>& findings) {
+  for (const Finding& finding : findings) ADD_FAILURE() << finding.place << ": " << finding.sentence;
+}
+
+// Does any file lie in the folder or below it? Folders without are not part of the checkout.
+bool holds_files(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) return true;
+  return false;
+}
+
+std::vector<std::string> sentences(const std::vector<Finding>& findings) {
+  std::vector<std::string> all;
+  all.reserve(findings.size());
+  for (const Finding& finding : findings) all.push_back(finding.place + ": " + finding.sentence);
+  return all;
+}
+
+// --- The tree -------------------------------------------------------------------------------------------------------
+
+TEST(House, IncludesFollowTheDesign) {
+  const auto files = sources({"core", "nodes", "links", "ui"});
+  ASSERT_GT(files.size(), 10u) << "too few sources found below " << BL_SOURCE_DIR;
+  for (const SourceFile& file : files) expect_none(check_includes(file.path, file.text));
+}
+
+TEST(House, NothingMakesResultsDependOnLibraryClockOrHashOrder) {
+  for (const SourceFile& file : sources({"core", "nodes", "links", "ui"})) expect_none(check_words(file.path, file.text));
+}
+
+TEST(House, FilesBeginWithASentence) {
+  for (const SourceFile& file : sources({"core", "nodes", "links", "ui", "tests"})) expect_none(check_form(file.path, file.text));
+}
+
+TEST(House, FilesStaySmall) {
+  std::map<std::string, std::string> unused = kLongFiles;
+  for (const SourceFile& file : sources({"core", "nodes", "links", "ui"})) {
+    const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
+    if (lines <= line_limit(file.path)) continue;
+    if (unused.erase(file.path) == 0)
+      ADD_FAILURE() << file.path << " has " << lines << " lines, more than " << line_limit(file.path)
+                    << ": split it, or list it in kLongFiles with the reason";
+  }
+  for (const auto& [path, reason] : unused) ADD_FAILURE() << path << " need not be in kLongFiles any more";
+}
+
+TEST(House, EveryFolderHasAReadme) {
+  const fs::path root = BL_SOURCE_DIR;
+  std::vector<fs::path> folders = {root / "tests"};
+  for (const char* top : {"core", "nodes", "links", "ui", "scenes"}) {
+    if (!fs::exists(root / top)) continue;
+    folders.push_back(root / top);
+    for (auto entry = fs::recursive_directory_iterator(root / top); entry != fs::recursive_directory_iterator(); ++entry) {
+      if (!entry->is_directory()) continue;
+      if (is_foreign(entry->path()) || entry->path() == root / "scenes/old") entry.disable_recursion_pending();
+      if (!is_foreign(entry->path()) && holds_files(entry->path())) folders.push_back(entry->path());
+    }
+  }
+  for (const fs::path& folder : folders)
+    EXPECT_TRUE(fs::exists(folder / "README.md")) << fs::relative(folder, root) << " has no README.md: say what it holds";
+}
+
+// --- The checkers, on planted faults --------------------------------------------------------------------------------
+
+struct Sample {
+  const char *path, *line, *expected;  // a part of the finding; empty: no finding
+};
+
+TEST(HouseRules, IncludesOfSamples) {
+  const Sample samples[] = {
+      {"core/define/a.cpp", "#include \"core/base/text.h\"", ""},
+      {"core/define/a.cpp", "#include \"core/geometry/cell.h\"", "core/define/ may not include core/geometry/cell.h"},
+      {"core/base/a.h", "#include \"core/define/port.h\"", "may not include"},
+      {"core/graph/a.cpp", "#include \"core/geometry/cell.h\"", "may not include"},
+      {"core/graph/a.cpp", "#include \"nodes/volume.h\"", "may not include"},
+      {"core/session/commands/a.cpp", "#include \"core/file/scene_file.h\"", ""},
+      {"core/session/a.cpp", "#include \"core/exchange/dxf.h\"", "may not include"},
+      {"core/exchange/a.cpp", "#include \"core/geometry/cell.h\"", ""},
+      {"core/exchange/a.cpp", "#include \"core/session/log.h\"", "may not include"},
+      {"core/geometry/a.cpp", "#include \"core/graph/scene.h\"", "may not include"},
+      {"core/sun/a.cpp", "#include \"core/traffic/network.h\"", "may not include"},
+      {"nodes/a.cpp", "#include \"core/geometry/cell.h\"", ""},
+      {"nodes/a.cpp", "#include \"core/graph/scene.h\"", "may not include"},
+      {"nodes/a.cpp", "#include \"nodes/b.h\"", "may not include"},
+      {"links/a.cpp", "#include \"links/b.h\"", "may not include"},
+      {"links/a.cpp", "  #  include   \"core/session/log.h\"  // why", "may not include"},
+      {"ui/cli/main.cpp", "#include \"core/session/log.h\"", ""},
+      {"ui/cli/main.cpp", "#include \"links/keep_distance.cpp\"", "may not include"},
+      {"ui/cli/main.cpp", "#include <core/session/log.h>", "take quotes"},
+      {"core/base/a.cpp", "#include \"text.h\"", "no path from the root"},
+      {"core/base/a.cpp", "#include \"../base/text.h\"", "no path from the root"},
+      {"core/mystery/a.cpp", "#include <vector>", "no row"},
+      {"core/base/a.cpp", "// #include \"core/graph/scene.h\"", ""},
+      {"core/base/a.cpp", "/* \n#include \"core/graph/scene.h\"\n*/", ""},
+      {"core/geometry/a.cpp", "#include <CGAL/Point_3.h>", ""},
+      {"core/geometry/a.h", "#include <CGAL/Point_3.h>", ".cpp files only"},
+      {"core/exchange/a.cpp", "#include <CGAL/Point_3.h>", "core/geometry/ only"},
+      {"core/define/a.cpp", "#include <nlohmann/json.hpp>", ""},
+      {"core/define/a.h", "#include <nlohmann/json.hpp>", ".cpp files only"},
+      {"core/define/a.h", "#include <nlohmann/json_fwd.hpp>", ""},
+      {"ui/desktop/app/window.cpp", "#include <GLFW/glfw3.h>", ""},
+      {"ui/cli/main.cpp", "#include <imgui.h>", "ui/desktop/ only"},
+  };
+  for (const Sample& sample : samples) {
+    SCOPED_TRACE(std::string(sample.path) + " | " + sample.line);
+    const auto found = sentences(check_includes(sample.path, std::string("// A sample.\n") + sample.line + "\n"));
+    if (*sample.expected == '\0') {
+      EXPECT_TRUE(found.empty()) << found.front();
+    } else {
+      ASSERT_EQ(found.size(), 1u);
+      EXPECT_NE(found[0].find(sample.expected), std::string::npos) << found[0];
+    }
+  }
+}
+
+TEST(HouseRules, WordsOfSamples) {
+  const Sample samples[] = {
+      {"core/graph/a.cpp", "auto h = std::hash<int>{}(1);", "std::hash"},
+      {"core/graph/a.cpp", "auto h = std::hash_like(1);", ""},
+      {"core/graph/a.cpp", "std::uniform_real_distribution<double> d;", "distribution"},
+      {"core/graph/a.cpp", "std::normal_distribution<double> d;", "distribution"},
+      {"core/graph/a.cpp", "our_distribution d;", ""},
+      {"core/graph/a.cpp", "int i = rand ();", "rand"},
+      {"core/graph/a.cpp", "int i = std::rand();", "rand"},
+      {"core/graph/a.cpp", "int i = operand(1) + strand(2) + box.rand();", ""},
+      {"core/graph/a.cpp", "std::unordered_map<int, int> m;", "hash table"},
+      {"nodes/a.cpp", "#include <unordered_set>", "hash table"},
+      {"core/geometry/a.cpp", "std::unordered_map<int, int> m;", ""},
+      {"core/session/a.cpp", "#include <chrono>", "wall clock"},
+      {"links/a.cpp", "auto now = std::chrono::steady_clock::now();", "wall clock"},
+      {"ui/cli/a.cpp", "#include <chrono>", ""},
+      {"core/base/a.cpp", "#include <chrono>", ""},
+      {"core/graph/a.cpp", "// neither rand() nor std::hash", ""},
+      {"core/graph/a.cpp", "auto text = \"rand() \\\" std::hash\";", ""},
+      {"core/graph/a.cpp", "auto text = R\"x(\" rand() )x\"; int i = rand();", "rand"},
+      {"core/graph/a.cpp", "char q = '\"'; int million = 1'000'000; rand();", "rand"},
+  };
+  for (const Sample& sample : samples) {
+    SCOPED_TRACE(std::string(sample.path) + " | " + sample.line);
+    const auto found = sentences(check_words(sample.path, sample.line));
+    if (*sample.expected == '\0') {
+      EXPECT_TRUE(found.empty()) << found.front();
+    } else {
+      ASSERT_EQ(found.size(), 1u);
+      EXPECT_NE(found[0].find(sample.expected), std::string::npos) << found[0];
+    }
+  }
+}
+
+TEST(HouseRules, FormOfSamples) {
+  EXPECT_TRUE(check_form("core/base/a.h", "// Says what it is for.\n#pragma once\n").empty());
+  EXPECT_EQ(check_form("core/base/a.h", "// Says what it is for.\n").size(), 1u);
+  EXPECT_EQ(check_form("core/base/a.h", "// Says what it is for.\n// #pragma once\n").size(), 1u);
+  EXPECT_EQ(check_form("core/base/a.cpp", "#include <vector>\n").size(), 1u);
+  EXPECT_EQ(check_form("core/base/a.cpp", "// a.cpp\n").size(), 1u);
+  EXPECT_EQ(check_form("core/base/a.h", "").size(), 2u);
+  EXPECT_EQ(line_limit("nodes/volume.cpp"), 180);
+  EXPECT_EQ(line_limit("core/graph/tick.cpp"), 450);
+}
+
+TEST(HouseRules, FindingsNameTheirLine) {
+  const auto found = check_includes("core/base/a.cpp", "// A sample.\n\n/* two\nlines */\n#include \"core/graph/scene.h\"");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].place, "core/base/a.cpp:5");
+}
+
+TEST(HouseRules, CodeOnlyKeepsLinesAndSurvivesOddEnds) {
+  EXPECT_EQ(code_only("a // b\nc"), "a     \nc");
+  EXPECT_EQ(code_only("a /* b\nc */ d"), "a     \n     d");
+  for (const char* odd : {"", "\"", "\"\\", "'", "/*", "/", "//", "R\"", "R\"(", "R\"x(", "R\"x", "a'", "'\\"})
+    EXPECT_EQ(code_only(odd).size(), std::string(odd).size()) << odd;
+}
+
+}  // namespace
+}  // namespace bl::house

@@ -1,0 +1,234 @@
+// The tables and the readers behind the rules of the house.
+#include "tests/house/rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <functional>
+#include <span>
+
+namespace bl::house {
+
+namespace {
+
+// A row reads: files in this folder may include these folders. Longer names come before their beginnings.
+struct Layer {
+  std::string_view folder;
+  std::array<std::string_view, 8> sees;
+};
+
+constexpr std::array kLayers = {
+    Layer{"core/base/", {"core/base/"}},
+    Layer{"core/define/", {"core/define/", "core/base/"}},
+    Layer{"core/graph/", {"core/graph/", "core/define/", "core/base/"}},
+    Layer{"core/file/", {"core/file/", "core/graph/", "core/define/", "core/base/"}},
+    Layer{"core/session/", {"core/session/", "core/file/", "core/graph/", "core/define/", "core/base/"}},
+    Layer{"core/exchange/",
+          {"core/exchange/", "core/graph/", "core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/"}},
+    Layer{"core/geometry/", {"core/geometry/", "core/base/"}},
+    Layer{"core/traffic/", {"core/traffic/", "core/geometry/", "core/base/"}},
+    Layer{"core/sun/", {"core/sun/", "core/geometry/", "core/base/"}},
+    Layer{"nodes/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/"}},
+    Layer{"links/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/"}},
+    Layer{"ui/", {"ui/", "core/"}},
+};
+
+// A row reads: headers of this library only in this folder, and in .cpp files only where that is said.
+struct Library {
+  std::string_view beginning, folder;
+  bool cpp_only;
+  std::string_view name;
+};
+
+constexpr std::array kLibraries = {
+    Library{"CGAL/", "core/geometry/", true, "CGAL"},
+    Library{"nlohmann/json.hpp", "", true, "nlohmann/json.hpp (headers take nlohmann/json_fwd.hpp)"},
+    Library{"muParser", "", true, "muParser"},
+    Library{"proj.h", "core/exchange/", true, "PROJ"},
+    Library{"csv.h", "core/exchange/", true, "libcsv"},
+    Library{"GLFW/", "ui/desktop/", false, "GLFW"},
+    Library{"imgui", "ui/desktop/", false, "Dear ImGui"},
+    Library{"backends/imgui", "ui/desktop/", false, "Dear ImGui"},
+    Library{"epoxy/", "ui/desktop/", false, "epoxy"},
+};
+
+// A row reads: this word is not used in these folders; an empty list means in none of ours.
+struct Word {
+  std::string_view word;
+  std::span<const std::string_view> folders, except;
+  std::string_view why;
+};
+
+constexpr std::array<std::string_view, 5> kOrdered = {"core/graph/", "core/define/", "core/session/", "nodes/", "links/"};
+constexpr std::array<std::string_view, 3> kClocks = {"ui/", "tests/", "core/base/"};
+constexpr std::string_view kUnordered = "the order of a hash table must not reach the state: take std::map, std::set or a vector";
+constexpr std::string_view kOwnRandom = "its output is not fixed by the standard: take core/base/random.h";
+
+constexpr std::array kWords = {
+    Word{"std::hash", {}, {}, "its output is not fixed by the standard: take core/base/hash.h"},
+    Word{"rand", {}, {}, kOwnRandom},
+    Word{"random_device", {}, {}, kOwnRandom},
+    Word{"unordered_map", kOrdered, {}, kUnordered},
+    Word{"unordered_set", kOrdered, {}, kUnordered},
+    Word{"unordered_multimap", kOrdered, {}, kUnordered},
+    Word{"unordered_multiset", kOrdered, {}, kUnordered},
+    Word{"chrono", {}, kClocks, "the wall clock must not reach the result: only ui, tests and core/base may read it"},
+};
+
+bool is_word_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+bool starts_with_any(std::string_view path, std::span<const std::string_view> beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(), [&](auto b) { return path.starts_with(b); });
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
+  return text;
+}
+
+// Calls visit(number, line) for every line, counting from 1.
+void for_each_line(std::string_view text, const std::function<void(int, std::string_view)>& visit) {
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    visit(number, text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+std::string place(std::string_view path, int line) { return std::string(path) + ":" + std::to_string(line); }
+
+// Does the line of code hold the word by itself? A function of that name with an object before it is another one.
+bool holds_word(std::string_view line, std::string_view word) {
+  for (std::size_t at = line.find(word); at != std::string_view::npos; at = line.find(word, at + 1)) {
+    const std::string_view before = line.substr(0, at), after = line.substr(at + word.size());
+    if (!before.empty() && (is_word_character(before.back()) || before.back() == '.' || before.ends_with("->"))) continue;
+    if (!after.empty() && is_word_character(after.front())) continue;
+    if (word == "rand" && !trimmed(after).starts_with("(")) continue;
+    return true;
+  }
+  return false;
+}
+
+// Does the line of code name one of the distributions of the standard library?
+bool holds_distribution(std::string_view line) {
+  for (std::size_t at = line.find("std::"); at != std::string_view::npos; at = line.find("std::", at + 1)) {
+    std::string_view name = line.substr(at + 5);
+    name = name.substr(0, std::find_if_not(name.begin(), name.end(), is_word_character) - name.begin());
+    if (name.ends_with("_distribution")) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string code_only(std::string_view text) {
+  std::string code(text);
+  const auto blank = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < std::min(end, code.size()); ++i)
+      if (code[i] != '\n') code[i] = ' ';
+  };
+  const auto end_of = [&](std::string_view closing, std::size_t from) {
+    const std::size_t at = text.find(closing, from);
+    return at == std::string_view::npos ? text.size() : at + closing.size();
+  };
+  for (std::size_t i = 0; i < text.size();) {
+    const std::string_view rest = text.substr(i);
+    const bool is_separator = text[i] == '\'' && i > 0 && is_word_character(text[i - 1]);
+    std::size_t end = i + 1;
+    if (rest.starts_with("//")) {
+      end = std::min(text.find('\n', i), text.size());
+    } else if (rest.starts_with("/*")) {
+      end = end_of("*/", i + 2);
+    } else if (rest.starts_with("R\"") && (i == 0 || !is_word_character(text[i - 1]))) {
+      const std::size_t bracket = std::min(rest.find('('), rest.size());
+      end = end_of(")" + std::string(rest.substr(2, bracket - std::min<std::size_t>(bracket, 2))) + "\"", i + bracket);
+    } else if ((text[i] == '"' || text[i] == '\'') && !is_separator) {
+      while (end < text.size() && text[end] != text[i] && text[end] != '\n') end += text[end] == '\\' ? 2 : 1;
+      ++end;
+    } else {
+      ++i;
+      continue;
+    }
+    blank(i, end);
+    i = end;
+  }
+  return code;
+}
+
+std::vector<Finding> check_includes(std::string_view path, std::string_view text) {
+  std::vector<Finding> findings;
+  const auto layer = std::find_if(kLayers.begin(), kLayers.end(), [&](const Layer& l) { return path.starts_with(l.folder); });
+  if (layer == kLayers.end()) {
+    findings.push_back({place(path, 1), "this folder has no row in the include rules (tests/house/rules.cpp): give it one"});
+    return findings;
+  }
+  // Blanking keeps the length of lines, but takes the quoted name away: the place comes from the code, the name from the text.
+  const std::string code = code_only(text);
+  std::size_t offset = 0;
+  for_each_line(code, [&](int number, std::string_view line) {
+    const std::string_view original = trimmed(text.substr(offset, line.size()));
+    offset += line.size() + 1;
+    std::string_view directive = trimmed(line);
+    if (!directive.starts_with("#")) return;
+    directive = trimmed(directive.substr(1));
+    if (!directive.starts_with("include")) return;
+    const std::size_t open = original.find_first_of("\"<");
+    if (open == std::string_view::npos) return;
+    const bool is_quoted = original[open] == '"';
+    const std::size_t close = original.find(is_quoted ? '"' : '>', open + 1);
+    const std::string name(original.substr(open + 1, close == std::string_view::npos ? close : close - open - 1));
+    const auto report = [&](const std::string& sentence) { findings.push_back({place(path, number), sentence}); };
+
+    const std::array<std::string_view, 5> ours = {"core/", "nodes/", "links/", "ui/", "tests/"};
+    if (starts_with_any(name, ours)) {
+      const bool is_allowed = std::any_of(layer->sees.begin(), layer->sees.end(),
+                                          [&](std::string_view folder) { return !folder.empty() && name.starts_with(folder); });
+      if (!is_allowed) report(std::string(layer->folder) + " may not include " + name + " (design: who may include whom)");
+      if (!is_quoted) report("our own header " + name + " is included with <>: take quotes");
+    } else if (is_quoted) {
+      report("\"" + name + "\" is no path from the root of the checkout: write it as such, or take <> for a library");
+    }
+    for (const Library& library : kLibraries) {
+      if (!name.starts_with(library.beginning)) continue;
+      if (!path.starts_with(library.folder)) {
+        report(std::string(library.name) + " is seen by " + std::string(library.folder) + " only");
+      } else if (library.cpp_only && !path.ends_with(".cpp")) {
+        report(std::string(library.name) + " is seen by .cpp files only");
+      }
+    }
+  });
+  return findings;
+}
+
+std::vector<Finding> check_words(std::string_view path, std::string_view text) {
+  std::vector<Finding> findings;
+  for_each_line(code_only(text), [&](int number, std::string_view line) {
+    for (const Word& row : kWords) {
+      if (!row.folders.empty() && !starts_with_any(path, row.folders)) continue;
+      if (starts_with_any(path, row.except) || !holds_word(line, row.word)) continue;
+      findings.push_back({place(path, number), "`" + std::string(row.word) + "`: " + std::string(row.why)});
+    }
+    if (holds_distribution(line))
+      findings.push_back({place(path, number), "a standard distribution: " + std::string(kOwnRandom)});
+  });
+  return findings;
+}
+
+std::vector<Finding> check_form(std::string_view path, std::string_view text) {
+  std::vector<Finding> findings;
+  const std::string_view first = text.substr(0, text.find('\n'));
+  const auto spaces = std::count(first.begin(), first.end(), ' ');
+  if (!first.starts_with("// ") || spaces < 3)
+    findings.push_back({place(path, 1), "the first line of a file is a comment: one sentence that says what the file is for"});
+  if (path.ends_with(".h")) {
+    bool has_guard = false;
+    for_each_line(code_only(text), [&](int, std::string_view line) { has_guard |= trimmed(line) == "#pragma once"; });
+    if (!has_guard) findings.push_back({place(path, 1), "the header has no `#pragma once`"});
+  }
+  return findings;
+}
+
+int line_limit(std::string_view path) { return path.starts_with("nodes/") || path.starts_with("links/") ? 180 : 450; }
+
+}  // namespace bl::house

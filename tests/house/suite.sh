@@ -1,0 +1,113 @@
+# The whole test run and the fuzzers, in steps; `bl` reads this file for `./bl test` and `./bl fuzz`.
+# shellcheck shell=sh
+# shellcheck disable=SC2154
+
+# What the thread sanitizer is run on: everything that starts threads.
+tsan_tests='[Tt]hread|[Tt]ick|[Pp]arallel|[Ll]aw'
+short_fuzzing=20    # seconds for each fuzzer within ./bl test
+
+passed=0
+failed=0
+
+heading() { printf '\n== %s\n' "$*"; step_began=$(date +%s); }
+step_time() { printf -- '-- %s: %s s\n' "$1" $(($(date +%s) - step_began)); }
+
+# attribute NAME FILE: a number of the first element of a JUnit file.
+attribute() { sed -n "s/^[[:space:]]*$1=\"\([0-9]*\)\".*/\1/p; /<testcase/q" "$2" | head -n 1; }
+
+# run_ctest PRESET ARGUMENTS...: runs the tests of a build and adds to $passed and $failed.
+run_ctest() {
+  preset=$1
+  shift
+  junit=$root/build/$preset/junit.xml
+  rm -f "$junit"
+  # shellcheck disable=SC2086
+  ${build_prefix:-} ctest --test-dir "$root/build/$preset" -j "$(nproc)" --output-on-failure --no-tests=error \
+    --output-junit "$junit" "$@" </dev/null
+  code=$?
+  tests=0 bad=0 idle=0
+  if [ -f "$junit" ]; then
+    tests=$(attribute tests "$junit") bad=$(attribute failures "$junit")
+    idle=$(($(attribute disabled "$junit") + $(attribute skipped "$junit")))
+  fi
+  # A ctest that fails without a failed test (none found, a program missing) is a failure all the same.
+  [ "$code" -ne 0 ] && [ "${bad:-0}" -eq 0 ] && bad=1
+  passed=$((passed + ${tests:-0} - bad - idle))
+  [ "$passed" -lt 0 ] && passed=0
+  failed=$((failed + bad))
+  return "$code"
+}
+
+# checked PRESET CTEST ARGUMENTS...: builds a preset and runs its tests; a build that fails counts as one failed test.
+checked() {
+  if build "$1" ON; then run_ctest "$@"; else failed=$((failed + 1)); fi
+}
+
+# The programs that the fuzz build makes, as paths inside its folder.
+fuzzer_list() {
+  ninja -C "$root/build/fuzz" -t targets all | sed -n 's/^\([^ :]*_fuzzer\): CXX_EXECUTABLE_LINKER.*/\1/p'
+}
+
+# run_fuzzers SECONDS: builds and runs every fuzzer; fails when one does.
+run_fuzzers() {
+  case $1 in '' | *[!0-9]*) fail "fuzz takes a whole number of seconds, not \`$1\`." ;; esac
+  configure fuzz ON || return 1
+  fuzzers=$(fuzzer_list)
+  [ -n "$fuzzers" ] || { say 'bl: there are no fuzzers yet.'; return 0; }
+  # shellcheck disable=SC2086
+  build fuzz ON $fuzzers || return 1
+  broken=0
+  for fuzzer in $fuzzers; do
+    name=$(basename "$fuzzer" _fuzzer)
+    corpus=$root/build/fuzz/corpus/$name finds=$root/build/fuzz/finds log=$logs/fuzz-$name.log
+    mkdir -p "$corpus" "$finds"
+    case $name in
+      *scene*)
+        find "$root/scenes" -name '*.json' | while IFS= read -r scene; do
+          cp -- "$scene" "$corpus/$(printf '%s' "${scene#"$root/scenes/"}" | tr / -)"
+        done
+        ;;
+    esac
+    if "$root/build/fuzz/$fuzzer" -max_total_time="$1" -timeout=25 -rss_limit_mb=4096 -print_final_stats=1 \
+      -artifact_prefix="$finds/$name-" "$corpus" >"$log" 2>&1 </dev/null; then
+      printf '%s: %s inputs in %s s, no find\n' "$name" \
+        "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" "$1"
+    else
+      broken=$((broken + 1))
+      grep -E 'ERROR: |SUMMARY: |runtime error: |Test unit written' "$log" | head -n 8
+      printf '%s: FOUND something; input in %s, the whole story: %s\n' "$name" "$finds" "$log"
+    fi
+  done
+  [ "$broken" -eq 0 ]
+}
+
+# run_suite CTEST ARGUMENTS...: all steps; nothing that fails is passed over, and the last line says the sum.
+run_suite() {
+  heading 'Release'
+  checked release "$@"
+  step_time 'Release'
+  if [ $# -eq 0 ] && [ "${BL_QUICK:-}" != 1 ]; then
+    heading 'Address and undefined behaviour sanitizers'
+    ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+    export ASAN_OPTIONS UBSAN_OPTIONS
+    checked asan
+    step_time 'Sanitizers'
+
+    heading 'Thread sanitizer'
+    # With much address randomisation the thread sanitizer of this compiler does not start; nor would the tests be listed.
+    build_prefix=
+    [ "$(cat /proc/sys/vm/mmap_rnd_bits 2>/dev/null || echo 0)" -gt 28 ] && setarch -R true 2>/dev/null &&
+      build_prefix='setarch -R'
+    TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
+    export TSAN_OPTIONS
+    checked tsan -R "$tsan_tests"
+    build_prefix=
+    step_time 'Thread sanitizer'
+
+    heading "Fuzzers, $short_fuzzing s each"
+    run_fuzzers "$short_fuzzing" || failed=$((failed + 1))
+    step_time 'Fuzzers'
+  fi
+  printf '\n%s passed, %s failed\n' "$passed" "$failed"
+  [ "$failed" -eq 0 ]
+}
