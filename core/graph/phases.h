@@ -1,0 +1,19 @@
+// The phases of a tick as functions from the frozen state to the next one.
+#pragma once
+
+#include "core/graph/state.h"
+
+namespace bl {
+
+/// Phase 3: every link reads `frozen` and fills its own slot. Parallel over links.
+void evaluate_links(const State& frozen, State& next, ThreadPool& pool);
+/// Phase 4: per port, proposals combine in ascending link id; then step limit, hard range, locks last.
+void resolve_proposals(const State& frozen, State& next, ThreadPool& pool);
+/// Phase 5: typifications without sets, where an input changed. Parallel over nodes.
+void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool);
+/// Phase 6: typifications with sets, in ascending node id; all read what phase 5 left, then all replies are written.
+void evaluate_sets(State& next, ThreadPool& pool);
+/// Phase 7: residuals, calm count and hash.
+void commit(State& next);
+
+}  // namespace bl

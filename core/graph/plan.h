@@ -1,0 +1,73 @@
+// A scene compiled for running: ids turned into indices, ends resolved to nodes, parameters made into structs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/graph/scene.h"
+
+namespace bl {
+
+/// One port of one typification of one node. `type == kNodeId` stands for the node's own id, which links may read.
+struct PortRef {
+  std::uint32_t node = 0;
+  std::uint16_t type = 0, port = 0;
+  static constexpr std::uint16_t kNodeId = 0xffff;
+  auto operator<=>(const PortRef&) const = default;
+};
+
+struct TypePlan {
+  const TypificationDefinition* definition = nullptr;
+  std::vector<Value> set_values;        ///< all ports in order; defaults where nobody has set a value
+  std::vector<bool> is_set, is_locked;
+};
+
+struct NodePlan {
+  std::string id, name;
+  Value id_value;
+  std::vector<TypePlan> types;          ///< ascending typification id
+};
+
+struct LinkPlan {
+  std::string id;
+  const LinkDefinition* definition = nullptr;    ///< nullptr for ghosts
+  bool is_enabled = true, is_muted = false;
+  double strength = 1;
+  std::shared_ptr<const void> parameters;
+  std::vector<std::uint32_t> nodes[2];           ///< node indices of the ends, ascending
+  bool is_symmetric = false;                     ///< both ends are the same nodes: each unordered pair once
+  std::vector<std::vector<PortRef>> reads;       ///< per declared read: one for each node of its end
+  std::vector<PortRef> targets;                  ///< distinct ports proposed to, ascending
+  std::vector<std::vector<std::uint32_t>> writes;    ///< per declared proposal: index into `targets` for each node of its end
+  std::optional<Error> error;                    ///< why the link cannot run
+};
+
+struct SetPlan {
+  std::uint32_t node = 0, type = 0, set = 0;
+  std::vector<std::uint32_t> members;
+  std::vector<PortRef> reads, writes;            ///< row by row, as in SetValues
+  std::optional<Error> error;
+};
+
+struct Plan {
+  Scene scene;                          ///< as compiled; what the definitions and ids refer to
+  Settings settings;
+  std::vector<NodePlan> nodes;          ///< ascending id
+  std::vector<LinkPlan> links;          ///< ascending id
+  std::vector<SetPlan> sets;            ///< ascending node id, then typification, then set
+
+  /// Index of a node, or nodes.size().
+  std::uint32_t node_index(std::string_view id) const;
+  std::optional<PortRef> find(std::uint32_t node, const PortPath& path) const;
+  const PortDefinition& port(PortRef ref) const { return nodes[ref.node].types[ref.type].definition->ports[ref.port]; }
+  /// "typification.port" of a reference.
+  std::string path_text(PortRef ref) const;
+};
+
+/// Links that cannot run are kept with the reason; nothing is left out.
+std::shared_ptr<const Plan> compile(const Scene& scene, const Registry& registry);
+
+}  // namespace bl

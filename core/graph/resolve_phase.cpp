@@ -1,0 +1,136 @@
+// Phase 4: voices on one port become its effective value and its tension.
+#include <algorithm>
+#include <cmath>
+
+#include "core/graph/phases.h"
+
+namespace bl {
+
+namespace {
+
+struct Heard {
+  PortRef target;
+  const Voice* voice;
+};
+
+double clamped(const PortDefinition& port, double value) { return std::clamp(value, port.hard_minimum, port.hard_maximum); }
+
+// Changes add up: next = now + sum of strength · change, no longer than the step limit.
+void resolve_sum(const PortDefinition& port, bool is_locked, std::span<const Heard> heard, Value& value, double& tension, double& move) {
+  Vector3 sum;
+  double number = 0, loudness = 0;
+  for (const Heard& h : heard) {
+    loudness += h.voice->strength * h.voice->magnitude;
+    if (const auto* v = std::get_if<Vector3>(&h.voice->value)) sum += *v * h.voice->strength;
+    else number += as_number(h.voice->value) * h.voice->strength;
+  }
+  const double length = port.kind == ValueKind::point ? norm(sum) : std::abs(number);
+  const double share = is_locked ? 0 : (length > port.step_limit ? port.step_limit / length : 1);
+  if (auto* position = std::get_if<Vector3>(&value)) *position += sum * share;
+  else value = clamped(port, as_number(value) + number * share);
+  move = length * share;
+  tension = std::max(0.0, loudness - move);
+}
+
+// Wanted values: a weighted mean in which the set value is one voice, or the smallest or largest of all.
+double combined(const PortDefinition& port, const Value& set, bool is_set, std::span<const Heard> heard) {
+  const double base = as_number(set);
+  if (port.rule == CombineRule::blend) {
+    double sum = is_set ? base : 0, weight = is_set ? 1 : 0;
+    for (const Heard& h : heard) {
+      sum += h.voice->strength * as_number(h.voice->value);
+      weight += h.voice->strength;
+    }
+    return weight > 0 ? sum / weight : base;
+  }
+  double result = base;
+  for (const Heard& h : heard)
+    if (h.voice->strength > 0) {
+      const double wanted = as_number(h.voice->value);
+      result = port.rule == CombineRule::min ? std::min(result, wanted) : std::max(result, wanted);
+    }
+  return result;
+}
+
+Vector3 blended(const Value& set, bool is_set, std::span<const Heard> heard) {
+  const Vector3 base = std::get<Vector3>(set);
+  Vector3 sum = is_set ? base : Vector3{};
+  double weight = is_set ? 1 : 0;
+  for (const Heard& h : heard) {
+    sum += std::get<Vector3>(h.voice->value) * h.voice->strength;
+    weight += h.voice->strength;
+  }
+  return weight > 0 ? sum / weight : base;
+}
+
+void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t p, const Value& before, std::span<const Heard> heard, Value& value,
+                   double& tension) {
+  const bool is_set = type.is_set[p];
+  if (port.kind == ValueKind::point) {
+    const Vector3 old = std::get<Vector3>(before);
+    Vector3 step = blended(type.set_values[p], is_set, heard) - old;
+    if (const double length = norm(step); length > port.step_limit) step *= port.step_limit / length;
+    value = type.is_locked[p] ? type.set_values[p] : Value(old + step);
+    for (const Heard& h : heard) tension += h.voice->strength * distance(std::get<Vector3>(h.voice->value), std::get<Vector3>(value));
+    return;
+  }
+  const double old = as_number(before);
+  double wanted = combined(port, type.set_values[p], is_set, heard);
+  wanted = std::clamp(wanted, old - port.step_limit, old + port.step_limit);
+  value = type.is_locked[p] ? type.set_values[p] : Value(clamped(port, wanted));
+  for (const Heard& h : heard) tension += h.voice->strength * std::abs(as_number(h.voice->value) - as_number(value));
+  if (is_set && port.rule == CombineRule::blend) tension += std::abs(as_number(type.set_values[p]) - as_number(value));
+}
+
+// All voices that count, by port; within a port in ascending link id, because links are walked in that order.
+std::vector<Heard> gather(const State& next) {
+  std::vector<Heard> heard;
+  for (std::size_t l = 0; l < next.links.size(); ++l) {
+    if (next.plan->links[l].is_muted) continue;
+    for (const Voice& voice : next.links[l].voices) heard.push_back({voice.target, &voice});
+  }
+  std::stable_sort(heard.begin(), heard.end(), [](const Heard& a, const Heard& b) { return a.target < b.target; });
+  return heard;
+}
+
+void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<const Heard> heard, double& largest_move) {
+  std::size_t at = 0;
+  for (std::uint16_t t = 0; t < next.nodes[n].types.size(); ++t) {
+    const TypePlan& type = next.plan->nodes[n].types[t];
+    TypeState& state = next.nodes[n].types[t];
+    for (std::uint16_t p = 0; p < type.definition->ports.size(); ++p) {
+      const PortDefinition& port = type.definition->ports[p];
+      if (port.is_computed) continue;
+      const std::size_t first = at;
+      while (at < heard.size() && heard[at].target == PortRef{n, t, p}) ++at;
+      const auto voices = heard.subspan(first, at - first);
+      double tension = 0, move = 0;
+      if (port.rule == CombineRule::sum) {
+        if (!voices.empty()) resolve_sum(port, type.is_locked[p], voices, state.values[p], tension, move);
+        if (port.unit == Unit::metre) largest_move = std::max(largest_move, move);
+      } else if (port.rule != CombineRule::none) {
+        resolve_value(port, type, p, frozen.nodes[n].types[t].values[p], voices, state.values[p], tension);
+      } else {
+        state.values[p] = type.set_values[p];
+      }
+      state.tension[p] = tension;
+    }
+  }
+}
+
+}  // namespace
+
+void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
+  const std::vector<Heard> heard = gather(next);
+  std::vector<std::size_t> start(next.nodes.size() + 1, heard.size());
+  for (std::size_t i = heard.size(); i-- > 0;) start[heard[i].target.node] = i;
+  for (std::size_t n = next.nodes.size(); n-- > 0;) start[n] = std::min(start[n], start[n + 1]);
+  std::vector<double> moves(next.nodes.size(), 0);
+  pool.for_each_chunk(next.nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      resolve_node(frozen, next, static_cast<std::uint32_t>(n), std::span(heard).subspan(start[n], start[n + 1] - start[n]), moves[n]);
+  });
+  next.largest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+}
+
+}  // namespace bl

@@ -1,0 +1,152 @@
+// Settings, look-ups and hash of a scene.
+#include "core/graph/scene.h"
+
+#include <algorithm>
+
+#include "core/base/text.h"
+#include "core/define/port_builder.h"
+
+namespace bl {
+
+namespace {
+
+TypeDefinition declare_settings() {
+  TypeDefinition type;
+  type.id = "settings";
+  type.label = "Settings";
+  type.doc = "What holds for the whole scene.";
+  auto port = [&](auto member, const char* id) { return add_port(type.ports, member, id); };
+  port(&Settings::title, "title").doc("The name of the project, shown on reports.");
+  port(&Settings::about, "about").doc("What the scene is for, in a few sentences.");
+  port(&Settings::tolerance, "tolerance").unit(Unit::ratio).range(1e-9, 1).soft(0.001, 0.1)
+      .doc("Settled means that every demand is met within this share of itself.");
+  port(&Settings::move_limit, "move_limit").unit(Unit::metre).min(0).soft(0, 1)
+      .doc("Settled means that no link moves a node by more than this in a tick.");
+  port(&Settings::calm_ticks, "calm_ticks").range(1, 1000).soft(1, 50).doc("Settled means calm for this many ticks in a row.");
+  port(&Settings::coordinate_system, "coordinate_system").doc("Where the plan came from: a CRS such as EPSG:28992; empty for a free place.");
+  port(&Settings::origin_x, "origin_x").doc("First coordinate of the local origin in that system, in its own unit.");
+  port(&Settings::origin_y, "origin_y").doc("Second coordinate of the local origin in that system, in its own unit.");
+  port(&Settings::latitude, "latitude").unit(Unit::degree).range(-90, 90).doc("Latitude of the local origin (WGS84), north positive.");
+  port(&Settings::longitude, "longitude").unit(Unit::degree).range(-180, 180).doc("Longitude of the local origin (WGS84), east positive.");
+  port(&Settings::true_north, "true_north").unit(Unit::degree).range(-360, 360)
+      .doc("Direction of true north, measured clockwise from the y axis.");
+  return type;
+}
+
+}  // namespace
+
+const TypeDefinition& settings_type() {
+  static const TypeDefinition kType = declare_settings();
+  return kType;
+}
+
+Settings settings_of(const Scene& scene) {
+  Settings settings;
+  for (const PortDefinition& port : settings_type().ports)
+    if (const auto it = scene.settings.find(port.id); it != scene.settings.end()) port.set(&settings, it->second);
+  return settings;
+}
+
+namespace {
+
+void add_values(Hash& hash, const PortValues& values) {
+  hash.add(std::uint64_t{values.size()});
+  for (const auto& [id, value] : values) {
+    hash.add(std::string_view(id));
+    add_to(hash, value);
+  }
+}
+
+}  // namespace
+
+std::uint64_t hash_of(const Scene& scene) {
+  Hash hash;
+  add_values(hash, scene.settings);
+  for (const auto& [id, node] : scene.nodes) {
+    hash.add(std::string_view(id));
+    hash.add(std::string_view(node.name));
+    for (const auto& [type, values] : node.types) {
+      hash.add(std::string_view(type));
+      add_values(hash, values);
+    }
+    for (const auto& [type, text] : node.ghosts) {
+      hash.add(std::string_view(type));
+      hash.add(std::string_view(text));
+    }
+    for (const std::string& path : node.locked) hash.add(std::string_view(path));
+  }
+  for (const auto& [id, link] : scene.links) {
+    hash.add(std::string_view(id));
+    hash.add(std::string_view(link.kind));
+    add_to(hash, Shared<Selection>(link.from));
+    add_to(hash, Shared<Selection>(link.to));
+    hash.add(std::uint64_t{(link.is_enabled ? 1u : 0u) + (link.is_muted ? 2u : 0u)});
+    hash.add(link.strength);
+    add_values(hash, link.parameters);
+    hash.add(std::string_view(link.ghost));
+  }
+  return hash.value();
+}
+
+std::vector<std::string> resolve(const Scene& scene, const Registry& registry, const Selection& selection) {
+  std::vector<std::string> ids;
+  if (!selection.is_query()) {
+    for (const std::string& id : selection.ids)
+      if (scene.nodes.contains(id)) ids.push_back(id);
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
+  }
+  const TypificationDefinition* type = registry.typification(selection.typification);
+  const std::string type_id = type ? type->id : selection.typification;
+  for (const auto& [id, node] : scene.nodes) {
+    if (!selection.typification.empty() && !node.types.contains(type_id)) continue;
+    if (!selection.tag.empty()) {
+      const auto base = node.types.find(std::string(kBaseNode));
+      if (base == node.types.end()) continue;
+      const auto tags = base->second.find("tags");
+      if (tags == base->second.end()) continue;
+      const auto& list = *std::get<Shared<std::vector<std::string>>>(tags->second);
+      if (std::find(list.begin(), list.end(), selection.tag) == list.end()) continue;
+    }
+    ids.push_back(id);
+  }
+  return ids;
+}
+
+const Value& set_value(const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port) {
+  if (const auto values = node.types.find(type.id); values != node.types.end())
+    if (const auto it = values->second.find(port.id); it != values->second.end()) return it->second;
+  return port.default_value;
+}
+
+Unit unit_of(const Registry& registry, const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port) {
+  if (port.unit_from.empty()) return port.unit;
+  const PortDefinition* namer = type.find_port(port.unit_from);
+  if (namer == nullptr) return port.unit;
+  const Value& name = set_value(node, type, *namer);
+  const std::string* text = std::get_if<std::string>(&name);
+  if (text == nullptr) return port.unit;
+  if (namer->kind == ValueKind::port) {
+    const auto path = parse_port_path(*text);
+    if (!path) return Unit::none;
+    const auto chosen = registry.port(*path);
+    return chosen ? (*chosen)->unit : Unit::none;
+  }
+  const UnitInfo* row = find_unit(*text);
+  return row ? row->unit : Unit::none;
+}
+
+Result<NodeRecord*> SceneEdit::node(const std::string& id) {
+  const auto it = scene_->nodes.find(id);
+  if (it != scene_->nodes.end()) return &it->second;
+  return Error{ErrorCode::not_found, "nodes/" + id, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene_->nodes))};
+}
+
+Result<LinkRecord*> SceneEdit::link(const std::string& id) {
+  const auto it = scene_->links.find(id);
+  if (it != scene_->links.end()) return &it->second;
+  return Error{ErrorCode::not_found, "links/" + id, "there is no link `" + id + "`" + did_you_mean(id, keys_of(scene_->links))};
+}
+
+}  // namespace bl

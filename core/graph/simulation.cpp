@@ -1,0 +1,48 @@
+// Runs the phases of a tick in their order.
+#include "core/graph/simulation.h"
+
+#include "core/graph/phases.h"
+
+namespace bl {
+
+Simulation::Simulation(const Registry& registry, int threads, double (*now)()) : registry_(&registry), pool_(threads), now_(now) {
+  set_scene({});
+}
+
+void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed) {
+  auto plan = compile(scene, *registry_);
+  state_ = std::make_shared<State>(state_ ? carry(*state_, std::move(plan), placed) : initial_state(std::move(plan)));
+}
+
+Result<void> Simulation::restore_state(const SavedState& saved) {
+  auto state = restore(saved, state_->plan);
+  if (!state) return state.error();
+  state_ = std::make_shared<State>(std::move(*state));
+  return {};
+}
+
+void Simulation::step() {
+  double last = now_ ? now_() : 0;
+  auto lap = [&](double& share) {
+    if (!now_) return;
+    const double time = now_();
+    share += time - last;
+    last = time;
+  };
+  const State& frozen = *state_;
+  auto next = std::make_shared<State>(frozen);
+  ++next->tick;
+  evaluate_links(frozen, *next, pool_);
+  lap(times_.links);
+  resolve_proposals(frozen, *next, pool_);
+  lap(times_.resolve);
+  evaluate_nodes(frozen, *next, pool_);
+  lap(times_.nodes);
+  evaluate_sets(*next, pool_);
+  lap(times_.solve);
+  commit(*next);
+  lap(times_.commit);
+  state_ = std::move(next);
+}
+
+}  // namespace bl

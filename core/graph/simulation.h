@@ -1,0 +1,43 @@
+// The tick: links read S(t) and propose, proposals are resolved, nodes and solvers evaluate, S(t+1) is published.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/graph/state.h"
+
+namespace bl {
+
+/// Seconds spent in the phases of one tick; for benches, never read by the tick.
+struct PhaseTimes {
+  double links = 0, resolve = 0, nodes = 0, solve = 0, commit = 0;
+};
+
+class Simulation {
+ public:
+  /// `now` gives seconds for PhaseTimes; without it they stay 0. It cannot influence the result.
+  Simulation(const Registry& registry, int threads, double (*now)() = nullptr);
+
+  /// Compiles the scene and keeps what of the running state still fits. `placed`: ports that people have just put somewhere.
+  void set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed = {});
+  /// Continues from a saved state of the current scene.
+  Result<void> restore_state(const SavedState& saved);
+  /// One tick.
+  void step();
+
+  /// The last published state; stays valid and unchanged for as long as somebody holds it.
+  std::shared_ptr<const State> state() const { return state_; }
+  const PhaseTimes& times() const { return times_; }
+  ThreadPool& pool() { return pool_; }
+
+ private:
+  const Registry* registry_;
+  ThreadPool pool_;
+  double (*now_)();
+  std::shared_ptr<const State> state_;
+  PhaseTimes times_;
+};
+
+}  // namespace bl

@@ -1,0 +1,148 @@
+// Making, carrying over, saving and hashing states.
+#include "core/graph/state.h"
+
+namespace bl {
+
+namespace {
+
+bool is_held(const State& state, const LinkState& link, const Voice& voice) {
+  return link.error.has_value() && state.plan->port(voice.target).rule != CombineRule::sum;
+}
+
+}  // namespace
+
+std::uint64_t hash_of(const State& state) {
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(state.tick));
+  hash.add(static_cast<std::uint64_t>(state.calm));
+  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
+    hash.add(std::string_view(state.plan->nodes[n].id));
+    for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t) {
+      hash.add(std::string_view(state.plan->nodes[n].types[t].definition->id));
+      for (const Value& value : state.nodes[n].types[t].values) add_to(hash, value);
+    }
+  }
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    for (const Voice& voice : state.links[l].voices)
+      if (is_held(state, state.links[l], voice)) {
+        hash.add(std::string_view(state.plan->links[l].id));
+        add_to(hash, voice.value);
+      }
+  return hash.value();
+}
+
+SavedState save(const State& state) {
+  SavedState saved{state.tick, state.calm, {}, {}};
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
+    auto& values = saved.nodes[state.plan->nodes[n].id];
+    for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t) {
+      const TypePlan& type = state.plan->nodes[n].types[t];
+      for (std::uint16_t p = 0; p < type.definition->ports.size(); ++p)
+        if (const Value& value = state.nodes[n].types[t].values[p];
+            type.definition->ports[p].kind != ValueKind::mesh && value != type.set_values[p])
+          values[state.plan->path_text({n, t, p})] = value;
+    }
+    if (values.empty()) saved.nodes.erase(state.plan->nodes[n].id);
+  }
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    for (const Voice& voice : state.links[l].voices)
+      if (is_held(state, state.links[l], voice))
+        saved.held[state.plan->links[l].id].push_back({{state.plan->nodes[voice.target.node].id, state.plan->path_text(voice.target)}, voice});
+  return saved;
+}
+
+State initial_state(std::shared_ptr<const Plan> plan) {
+  State state;
+  for (const NodePlan& node : plan->nodes) {
+    NodeState& fresh = state.nodes.emplace_back();
+    for (const TypePlan& type : node.types)
+      fresh.types.push_back({type.set_values, std::vector<double>(type.set_values.size(), 0), std::nullopt, false});
+  }
+  state.links.resize(plan->links.size());
+  state.plan = std::move(plan);
+  state.hash = hash_of(state);
+  return state;
+}
+
+namespace {
+
+void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& after, TypeState& fresh, const std::set<std::string>& placed) {
+  for (std::size_t p = 0; p < after.definition->ports.size(); ++p) {
+    const PortDefinition& port = after.definition->ports[p];
+    const bool is_lasting = port.is_computed || port.rule == CombineRule::sum;
+    if (is_lasting && !placed.contains(port.id)) fresh.values[p] = old.values[p];
+  }
+  fresh.error = old.error;
+  fresh.is_evaluated = old.is_evaluated && before.set_values == after.set_values;
+}
+
+void carry_link(const State& old, std::size_t from, const Plan& plan, LinkState& fresh) {
+  fresh.error = old.links[from].error;
+  for (const Voice& voice : old.links[from].voices) {
+    const std::uint32_t node = plan.node_index(old.plan->nodes[voice.target.node].id);
+    if (node == plan.nodes.size()) continue;
+    const auto path = parse_port_path(old.plan->path_text(voice.target));
+    if (const auto ref = plan.find(node, *path)) fresh.voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
+  }
+}
+
+}  // namespace
+
+State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed) {
+  State state = initial_state(std::move(plan));
+  state.tick = old.tick;
+  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
+    const NodePlan& node = state.plan->nodes[n];
+    const std::uint32_t before = old.plan->node_index(node.id);
+    if (before == old.plan->nodes.size()) continue;
+    for (std::size_t t = 0; t < node.types.size(); ++t)
+      for (std::size_t o = 0; o < old.plan->nodes[before].types.size(); ++o) {
+        const TypePlan& type = old.plan->nodes[before].types[o];
+        if (type.definition != node.types[t].definition) continue;
+        std::set<std::string> ports;
+        for (const PortDefinition& port : type.definition->ports)
+          if (placed.contains({node.id, type.definition->id + "." + port.id})) ports.insert(port.id);
+        carry_type(type, old.nodes[before].types[o], node.types[t], state.nodes[n].types[t], ports);
+      }
+  }
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    for (std::size_t o = 0; o < old.plan->links.size(); ++o)
+      if (old.plan->links[o].id == state.plan->links[l].id && old.plan->links[o].definition == state.plan->links[l].definition)
+        carry_link(old, o, *state.plan, state.links[l]);
+  state.hash = hash_of(state);
+  return state;
+}
+
+Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan) {
+  State state = initial_state(std::move(plan));
+  state.tick = saved.tick;
+  state.calm = saved.calm;
+  auto find = [&](const std::string& node_id, const std::string& text) -> Result<PortRef> {
+    const std::uint32_t node = state.plan->node_index(node_id);
+    if (node == state.plan->nodes.size()) return Error{ErrorCode::not_found, "state/nodes/" + node_id, "there is no node `" + node_id + "`"};
+    const auto path = parse_port_path(text);
+    if (path)
+      if (const auto ref = state.plan->find(node, *path)) return *ref;
+    return Error{ErrorCode::not_found, "state/nodes/" + node_id, "the node has no port `" + text + "`"};
+  };
+  for (const auto& [node, values] : saved.nodes)
+    for (const auto& [path, value] : values) {
+      const auto ref = find(node, path);
+      if (!ref) return ref.error();
+      state.nodes[ref->node].types[ref->type].values[ref->port] = value;
+    }
+  for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
+    const auto held = saved.held.find(state.plan->links[l].id);
+    if (held == saved.held.end()) continue;
+    state.links[l].error = Error{ErrorCode::internal, "links/" + held->first, "held since before the scene was saved"};
+    for (const auto& [target, voice] : held->second) {
+      const auto ref = find(target.first, target.second);
+      if (!ref) return ref.error();
+      state.links[l].voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
+    }
+  }
+  state.hash = hash_of(state);
+  return state;
+}
+
+}  // namespace bl

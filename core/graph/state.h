@@ -1,0 +1,73 @@
+// The running state S(t): what every view reads. Immutable once published.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/graph/plan.h"
+
+namespace bl {
+
+struct TypeState {
+  std::vector<Value> values;             ///< effective and computed values, in the order of the declaration
+  std::vector<double> tension;           ///< per port, in its unit: how far the proposals disagree with the effective value
+  std::optional<Error> error;            ///< the last evaluation failed; values are the last good ones
+  bool is_evaluated = false;             ///< the computed values follow from the settings beside them
+};
+
+struct NodeState {
+  std::vector<TypeState> types;
+};
+
+/// What one link says about one port in this tick, all of its pairs together.
+struct Voice {
+  PortRef target;
+  Value value;                           ///< a change for `sum` ports, a wanted value for the others
+  double magnitude = 0;                  ///< for `sum` ports: the lengths of the single changes added up
+  double strength = 1;
+};
+
+struct LinkState {
+  std::vector<Voice> voices;             ///< ascending target
+  std::optional<Error> error;            ///< why it did not run; value proposals of the last good tick are kept
+};
+
+struct State {
+  std::int64_t tick = 0;
+  std::shared_ptr<const Plan> plan;
+  std::vector<NodeState> nodes;          ///< as plan->nodes
+  std::vector<LinkState> links;          ///< as plan->links
+  std::int64_t calm = 0;                 ///< ticks in a row in which nothing much moved and all demands were met
+  double largest_move = 0;               ///< [m] of this tick
+  double largest_residual = 0;           ///< over all residual ports
+  std::uint64_t hash = 0;
+
+  bool is_settled() const { return calm >= plan->settings.calm_ticks; }
+  const Value& value(PortRef ref) const {
+    return ref.type == PortRef::kNodeId ? plan->nodes[ref.node].id_value : nodes[ref.node].types[ref.type].values[ref.port];
+  }
+};
+
+/// The hash of everything that the next tick depends on: values, held proposals, the calm count, the tick.
+std::uint64_t hash_of(const State& state);
+
+/// Values of a running state as a scene file keeps them, by node and "typification.port"; meshes are not among them.
+struct SavedState {
+  std::int64_t tick = 0, calm = 0;
+  std::map<std::string, std::map<std::string, Value>> nodes;
+  std::map<std::string, std::vector<std::pair<std::pair<std::string, std::string>, Voice>>> held;    ///< by link: (node, path), voice
+};
+SavedState save(const State& state);
+
+/// A state for `plan` at tick 0: settings as set, computed values at their defaults.
+State initial_state(std::shared_ptr<const Plan> plan);
+/// What of `old` still fits, under a new plan; `placed` ports start again from their set values.
+State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed);
+/// A saved state put over the initial one. Values for nodes or ports that are not there are errors with a place.
+Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan);
+
+}  // namespace bl
