@@ -60,6 +60,7 @@ struct PortDefinition {
   std::vector<ColumnDefinition> columns;
   std::function<Value(const void*)> get;                 ///< reads the bound member of its struct
   std::function<void(void*, const Value&)> set;          ///< writes it
+  std::function<void(void*, const Value&)> recall;       ///< of a computed port: gives its last value to the settings struct
 };
 
 /// `typification.port`, or the parameter that chooses it when `chosen_by` is set.

@@ -75,6 +75,15 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
     return builder;
   }
 
+  /// An output that the next evaluation sees again in `last`: the own, saved state of a typification. Only for those with sets,
+  /// which are evaluated in every tick.
+  template <class M>
+  PortBuilder<M> memory(M Out::* member, M In::* last, std::string id) {
+    auto builder = out(member, std::move(id));
+    definition_->ports.back().recall = [last](void* in, const Value& value) { static_cast<In*>(in)->*last = Binding<M>::from_value(value); };
+    return builder;
+  }
+
   /// The nodes that the selection port `selection` names are read into `members`, in ascending node id.
   template <class Sets, class Member>
   SetBuilder<Sets, Out, Member, NoReply> set(std::string selection, std::vector<Member> Sets::* members) {
@@ -136,6 +145,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
         In in;
         for (std::size_t p = 0; p < ports->size(); ++p)
           if (!(*ports)[p].is_computed) (*ports)[p].set(&in, values[p]);
+          else if ((*ports)[p].recall) (*ports)[p].recall(&in, values[p]);
         Result<Out> out = [&]() -> Result<Out> {
           if constexpr (kIsPlain) {
             return T::evaluate(in, tick);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <functional>
+#include <initializer_list>
 #include <span>
 
 namespace bl::house {
@@ -96,7 +97,13 @@ void for_each_line(std::string_view text, const std::function<void(int, std::str
   }
 }
 
-std::string place(std::string_view path, int line) { return std::string(path) + ":" + std::to_string(line); }
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) text.append(part);
+  return text;
+}
+
+std::string place(std::string_view path, int line) { return joined({path, ":", std::to_string(line)}); }
 
 // Does the line of code hold the word by itself? A function of that name with an object before it is another one.
 bool holds_word(std::string_view line, std::string_view word) {
@@ -142,7 +149,7 @@ std::string code_only(std::string_view text) {
       end = end_of("*/", i + 2);
     } else if (rest.starts_with("R\"") && (i == 0 || !is_word_character(text[i - 1]))) {
       const std::size_t bracket = std::min(rest.find('('), rest.size());
-      end = end_of(")" + std::string(rest.substr(2, bracket - std::min<std::size_t>(bracket, 2))) + "\"", i + bracket);
+      end = end_of(joined({")", rest.substr(2, bracket - std::min<std::size_t>(bracket, 2)), "\""}), i + bracket);
     } else if ((text[i] == '"' || text[i] == '\'') && !is_separator) {
       while (end < text.size() && text[end] != text[i] && text[end] != '\n') end += text[end] == '\\' ? 2 : 1;
       ++end;
@@ -184,17 +191,17 @@ std::vector<Finding> check_includes(std::string_view path, std::string_view text
     if (starts_with_any(name, ours)) {
       const bool is_allowed = std::any_of(layer->sees.begin(), layer->sees.end(),
                                           [&](std::string_view folder) { return !folder.empty() && name.starts_with(folder); });
-      if (!is_allowed) report(std::string(layer->folder) + " may not include " + name + " (design: who may include whom)");
-      if (!is_quoted) report("our own header " + name + " is included with <>: take quotes");
+      if (!is_allowed) report(joined({layer->folder, " may not include ", name, " (design: who may include whom)"}));
+      if (!is_quoted) report(joined({"our own header ", name, " is included with <>: take quotes"}));
     } else if (is_quoted) {
-      report("\"" + name + "\" is no path from the root of the checkout: write it as such, or take <> for a library");
+      report(joined({"\"", name, "\" is no path from the root of the checkout: write it as such, or take <> for a library"}));
     }
     for (const Library& library : kLibraries) {
       if (!name.starts_with(library.beginning)) continue;
       if (!path.starts_with(library.folder)) {
-        report(std::string(library.name) + " is seen by " + std::string(library.folder) + " only");
+        report(joined({library.name, " is seen by ", library.folder, " only"}));
       } else if (library.cpp_only && !path.ends_with(".cpp")) {
-        report(std::string(library.name) + " is seen by .cpp files only");
+        report(joined({library.name, " is seen by .cpp files only"}));
       }
     }
   });
@@ -207,10 +214,9 @@ std::vector<Finding> check_words(std::string_view path, std::string_view text) {
     for (const Word& row : kWords) {
       if (!row.folders.empty() && !starts_with_any(path, row.folders)) continue;
       if (starts_with_any(path, row.except) || !holds_word(line, row.word)) continue;
-      findings.push_back({place(path, number), "`" + std::string(row.word) + "`: " + std::string(row.why)});
+      findings.push_back({place(path, number), joined({"`", row.word, "`: ", row.why})});
     }
-    if (holds_distribution(line))
-      findings.push_back({place(path, number), "a standard distribution: " + std::string(kOwnRandom)});
+    if (holds_distribution(line)) findings.push_back({place(path, number), joined({"a standard distribution: ", kOwnRandom})});
   });
   return findings;
 }
