@@ -30,10 +30,9 @@ run_ctest() {
     tests=$(attribute tests "$junit") bad=$(attribute failures "$junit")
     idle=$(($(attribute disabled "$junit") + $(attribute skipped "$junit")))
   fi
+  passed=$((passed + ${tests:-0} - ${bad:-0} - idle))
   # A ctest that fails without a failed test (none found, a program missing) is a failure all the same.
   [ "$code" -ne 0 ] && [ "${bad:-0}" -eq 0 ] && bad=1
-  passed=$((passed + ${tests:-0} - bad - idle))
-  [ "$passed" -lt 0 ] && passed=0
   failed=$((failed + bad))
   return "$code"
 }
