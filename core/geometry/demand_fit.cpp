@@ -1,0 +1,239 @@
+// The feedback loop: each weight follows its own error, with acceleration, limits and repair.
+#include "core/geometry/demand_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/text.h"
+
+namespace bl {
+
+namespace {
+
+constexpr double kBallFactor = 4 * std::numbers::pi / 3;
+// In one step r³ at most doubles, and loses at most half: beyond that the linear response says nothing any more.
+constexpr double kMostGrowth = 2, kMostLoss = 0.5;
+// An emptied cell's site is put back into its own cell by this margin (1 would put it on the bisector).
+constexpr double kRepair = 0.8;
+// Share of the diagonal step: the response matrix, scaled by its diagonal, has eigenvalues between 0 and 2.
+constexpr double kStep = 0.8;
+// A weight never falls below this share of the weight whose whole ball has the demanded volume.
+constexpr double kLeastShare = 1e-4;
+
+double cube_of_radius(double weight) { return weight * std::sqrt(weight); }
+
+// Cube root by Newton's steps from a power of two: only correctly rounded operations, so the same bits everywhere.
+double cube_root(double x) {
+  if (!(x > 0)) return 0;
+  int exponent = 0;
+  (void)std::frexp(x, &exponent);
+  double root = std::ldexp(1.0, exponent / 3 + (exponent > 0 ? 1 : 0));
+  for (int i = 0; i < 7; ++i) root -= (root * root * root - x) / (3 * root * root);
+  return root;
+}
+
+// -ln(1 - f) for f in (0, 0.98]: 2 artanh(f / (2 - f)) as a series, for the same reason.
+double minus_log_of_rest(double f) {
+  const double z = f / (2 - f), square = z * z;
+  double sum = 0, power = z;
+  for (int k = 1; power / k > 1e-17 * sum; k += 2) {
+    sum += power / k;
+    power *= square;
+  }
+  return 2 * sum;
+}
+
+double weight_of_cube(double cube) {
+  const double radius = cube_root(cube);
+  return radius * radius;
+}
+// Weight whose whole ball has this volume.
+double weight_of_volume(double volume) { return weight_of_cube(volume / kBallFactor); }
+
+// The nearest place inside the domain on the way to its centroid; the position itself where it is inside.
+Point3 place_inside(const ConvexDomain& domain, const Point3& position) {
+  const Vector3 way = position - domain.centroid;
+  double share = 1;
+  for (std::size_t k = 0; k < domain.planes.size(); ++k) {
+    if (domain.faces[k].size() < 3) continue;
+    const Vector3& normal = domain.planes[k].normal;
+    const double rise = dot(normal, way), room = dot(normal, domain.vertices[domain.faces[k].front()] - domain.centroid);
+    if (rise * share > room) share = room / rise;
+  }
+  return share < 1 ? domain.centroid + (0.99 * share) * way : position;
+}
+
+class Fit {
+ public:
+  Fit(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
+      std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options)
+      : domain_(domain), options_(options), sites_(sites.begin(), sites.end()), free_(sites.size(), 1) {
+    for (std::size_t i = 0; i < locked.size(); ++i) free_[i] = locked[i] == 0;
+    report_.demands.assign(demands.begin(), demands.end());
+    report_.state = state;
+    if (report_.state.previous_move.size() != sites.size()) report_.state = {std::vector<double>(sites.size(), 0), 1};
+    start_fresh_sites();
+  }
+
+  Result<FitReport> run() {
+    PowerDiagram diagram;
+    if (auto set = diagram.set_domain(domain_); !set) return set.error();
+    CellOptions cells;
+    cells.with_shape = false;
+    cells.pool = options_.pool;
+    for (int step = 0; step < std::max(1, options_.steps); ++step) {
+      const auto measured = diagram.update(sites_, cells);
+      if (!measured) return measured.error();
+      if (step == 0) grant(*measured);
+      report_.steps = step + 1;
+      judge(*measured);
+      if (report_.is_met) break;
+      move(*measured);
+    }
+    for (const PowerSite& site : sites_) report_.weights.push_back(site.weight);
+    return std::move(report_);
+  }
+
+ private:
+  // Free sites without a weight yet: all of them alike where no site has one, else each by its own demand.
+  void start_fresh_sites() {
+    const bool all_fresh = std::none_of(sites_.begin(), sites_.end(), [](const PowerSite& s) { return s.weight > 0; });
+    std::vector<double> start;
+    if (all_fresh) start = initial_weights(domain_, sites_, report_.demands);
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (!free_[i] || sites_[i].weight > 0) continue;
+      sites_[i].weight = all_fresh ? start[i] : weight_of_volume(report_.demands[i]);
+    }
+  }
+
+  // What can be granted: coincident sites get nothing, and the rest is scaled where it exceeds the domain.
+  void grant(std::span<const CellMeasure> cells) {
+    const std::vector<double> asked = report_.demands;
+    double wanted = 0, taken = 0;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (!free_[i]) {
+        taken += cells[i].volume;
+      } else if (cells[i].state == SiteState::coincident) {
+        report_.demands[i] = 0;
+      } else {
+        wanted += asked[i];
+      }
+    }
+    const double room = std::max(0.0, domain_.volume - taken);
+    if (wanted > room * (1 + 1e-12)) {
+      const double share = room / wanted;
+      for (std::size_t i = 0; i < sites_.size(); ++i) {
+        if (free_[i]) report_.demands[i] *= share;
+      }
+      report_.infeasible = "the demands exceed the domain: " + fixed(wanted, 1) + " m³ are asked for, " + fixed(room, 1) +
+                           " m³ are there; each site gets " + fixed(100 * share, 1) + " % of its demand";
+    }
+    for (std::uint32_t i = 0; i < sites_.size(); ++i) {
+      if (free_[i] && report_.demands[i] < asked[i]) report_.losses.push_back({i, asked[i], report_.demands[i]});
+      if (free_[i] && !(report_.demands[i] > 0)) sites_[i].weight = std::min(sites_[i].weight, 0.0);
+    }
+  }
+
+  bool is_fitted(std::size_t i) const { return free_[i] && report_.demands[i] > 0; }
+
+  void judge(std::span<const CellMeasure> cells) {
+    report_.volumes.resize(cells.size());
+    report_.error = 0;
+    report_.worst_site = 0;
+    for (std::uint32_t i = 0; i < cells.size(); ++i) {
+      report_.volumes[i] = cells[i].volume;
+      if (!is_fitted(i)) continue;
+      const double error = std::abs(cells[i].volume - report_.demands[i]) / report_.demands[i];
+      if (error > report_.error) {
+        report_.error = error;
+        report_.worst_site = i;
+      }
+    }
+    report_.is_met = report_.error <= options_.tolerance;
+  }
+
+  // Weight that brings an emptied cell back: with it the site wins at its own position (or at a place inside the domain).
+  double repaired_weight(std::size_t i) const {
+    const Point3 place = place_inside(domain_, sites_[i].position);
+    double best = 0.1 * weight_of_volume(report_.demands[i]);
+    for (std::size_t j = 0; j < sites_.size(); ++j) {
+      if (j != i) best = std::max(best, sites_[j].weight - kRepair * squared_norm(sites_[j].position - place));
+    }
+    return std::max(sites_[i].weight, best + squared_norm(place - sites_[i].position));
+  }
+
+  void move(std::span<const CellMeasure> cells) {
+    if (options_.gain > 0) return move_by_gain(cells);
+    FitState& state = report_.state;
+    // Against the slope: the acceleration has overshot and starts again (O'Donoghue and Candès 2015).
+    double agreement = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (is_fitted(i)) agreement += (report_.demands[i] - cells[i].volume) * state.previous_move[i] / std::max(1e-300, sites_[i].weight);
+    }
+    if (agreement < 0) state.momentum = 1;
+    const double next = 0.5 * (1 + std::sqrt(1 + 4 * state.momentum * state.momentum));
+    const double share = (state.momentum - 1) / next;
+    state.momentum = next;
+    std::vector<double> weights(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      weights[i] = sites_[i].weight;
+      if (!is_fitted(i)) continue;
+      if (!(cells[i].volume > 0) || !(cells[i].volume_by_own_weight > 0)) {
+        weights[i] = repaired_weight(i);
+        state.previous_move[i] = 0;
+        continue;
+      }
+      const double cube = cube_of_radius(sites_[i].weight);
+      const double change = (report_.demands[i] - cells[i].volume) / cells[i].volume_by_own_weight;
+      const double step = options_.damping * kStep * 1.5 * std::sqrt(sites_[i].weight) * change;
+      const double move = std::clamp(step + share * state.previous_move[i], (kMostLoss - 1) * cube, (kMostGrowth - 1) * cube);
+      state.previous_move[i] = move;
+      weights[i] = std::max(weight_of_cube(cube + move), kLeastShare * weight_of_volume(report_.demands[i]));
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
+  }
+
+  // The constant gain of 2007.
+  void move_by_gain(std::span<const CellMeasure> cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (!is_fitted(i)) continue;
+      const double weight = sites_[i].weight + options_.gain * (report_.demands[i] - cells[i].volume);
+      sites_[i].weight = std::max(weight, kLeastShare * weight_of_volume(report_.demands[i]));
+    }
+  }
+
+  const ConvexDomain& domain_;
+  FitOptions options_;
+  std::vector<PowerSite> sites_;
+  std::vector<std::uint8_t> free_;
+  FitReport report_;
+};
+
+}  // namespace
+
+std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands) {
+  double sum = 0;
+  for (const double demand : demands) sum += std::max(0.0, demand);
+  if (demands.empty() || !(sum > 0) || !(domain.volume > 0)) return std::vector<double>(sites.size(), 0.0);
+  const double fill = std::clamp(sum / domain.volume, 1e-9, 0.98);
+  const double volume = sum / static_cast<double>(demands.size()) * (minus_log_of_rest(fill) / fill);
+  return std::vector<double>(sites.size(), weight_of_volume(volume));
+}
+
+Result<FitReport> adapt_weights(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
+                                std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options) {
+  if (demands.size() != sites.size() || (!locked.empty() && locked.size() != sites.size())) {
+    return Error{ErrorCode::out_of_range, "", "there has to be one demand, and one lock or none, for each site"};
+  }
+  for (std::size_t i = 0; i < demands.size(); ++i) {
+    if (!std::isfinite(demands[i])) return Error{ErrorCode::not_finite, "", "the demand of site " + std::to_string(i) + " is not a number"};
+    if (demands[i] < 0) return Error{ErrorCode::out_of_range, "", "the demand of site " + std::to_string(i) + " is negative"};
+  }
+  if (!(options.gain >= 0) || !std::isfinite(options.gain) || !(options.damping > 0 && options.damping <= 1) || !(options.tolerance >= 0)) {
+    return Error{ErrorCode::out_of_range, "", "gain and tolerance have to be zero or more, damping between 0 and 1"};
+  }
+  return Fit(domain, sites, demands, locked, state, options).run();
+}
+
+}  // namespace bl

@@ -1,0 +1,180 @@
+// Cells against reference values that were computed by quadrature, without any polyhedron clipper.
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/geometry/demand_fit.h"
+#include "tests/core/geometry/geometry_support.h"
+
+namespace bl::test {
+namespace {
+
+double value_of(const nlohmann::json& j) { return j.is_string() ? parse_number(j.get<std::string>()).value() : j.get<double>(); }
+
+Result<ConvexDomain> domain_of(const nlohmann::json& boundary) {
+  std::vector<Plane> planes;
+  for (const auto& p : boundary.at("planes")) planes.push_back({{p[0], p[1], p[2]}, p[3]});
+  return from_planes(planes);
+}
+
+std::vector<PowerSite> sites_of(const nlohmann::json& scene) {
+  std::vector<PowerSite> sites;
+  for (std::size_t i = 0; i < scene.at("sites").size(); ++i) {
+    const auto& p = scene["sites"][i];
+    sites.push_back({{p[0], p[1], p[2]}, scene["weights"][i]});
+  }
+  return sites;
+}
+
+double facet_area(const CellMeasure& cell, const std::string& name) {
+  const auto colon = name.find(':');
+  const auto kind = name.substr(0, colon) == "plane" ? FacetArea::Kind::plane : FacetArea::Kind::site;
+  const auto index = static_cast<std::uint32_t>(std::stoul(name.substr(colon + 1)));
+  for (const FacetArea& facet : cell.facets) {
+    if (facet.kind == kind && facet.index == index) return facet.area;
+  }
+  return 0;
+}
+
+struct Worst {
+  double volume = 0, facet = 0, sphere = 0;
+};
+
+double relative(double got, double wanted) { return std::abs(got - wanted) / std::abs(wanted); }
+
+void compare(const nlohmann::json& wanted, const CellMeasure& cell, Worst& worst) {
+  const auto check = [&](double got, double expected, double& largest, const std::string& what) {
+    if (expected == 0) {
+      EXPECT_NEAR(got, 0, 1e-13) << what;
+      return;
+    }
+    largest = std::max(largest, relative(got, expected));
+    EXPECT_LE(relative(got, expected), 1e-11) << what << ": " << shortest(got) << " instead of " << shortest(expected);
+  };
+  check(cell.volume, value_of(wanted.at("volume")), worst.volume, "volume");
+  check(cell.spherical_area, value_of(wanted.at("spherical_area")), worst.sphere, "spherical area");
+  double facets = 0;
+  for (const auto& [name, area] : wanted.at("facet_areas").items()) {
+    check(facet_area(cell, name), value_of(area), worst.facet, name);
+    facets += value_of(area);
+  }
+  double got = 0;
+  for (const FacetArea& facet : cell.facets) got += facet.area;
+  EXPECT_NEAR(got, facets, 1e-11 * std::max(1e-2, facets)) << "a facet too many or too few";
+}
+
+TEST(Oracle, EveryCellMatchesTheQuadrature) {
+  const auto path = shared_file("oracle/cells.json");
+  if (path.empty()) GTEST_SKIP() << "the reference values (../shared/oracle) are not here";
+  const auto all = nlohmann::json::parse(std::ifstream(path));
+  Worst worst;
+  int cells_checked = 0;
+  for (const auto& scene : all.at("cases")) {
+    SCOPED_TRACE(scene.at("name").get<std::string>());
+    const auto domain = domain_of(scene.at("boundary"));
+    ASSERT_TRUE(domain.ok()) << domain.error().text();
+    const auto cells = cells_of(*domain, sites_of(scene));
+    for (const auto& wanted : scene.at("cells")) {
+      const auto site = wanted.at("site").get<std::size_t>();
+      SCOPED_TRACE("site " + std::to_string(site));
+      compare(wanted, cells.at(site), worst);
+      ++cells_checked;
+    }
+  }
+  RecordProperty("cells", cells_checked);
+  std::printf("%d cells; worst relative error: volume %.1e, facet %.1e, spherical %.1e\n", cells_checked, worst.volume, worst.facet,
+              worst.sphere);
+}
+
+TEST(Oracle, FittedWeightsGiveTheDemandedVolumes) {
+  const auto path = shared_file("oracle/fits.json");
+  if (path.empty()) GTEST_SKIP() << "the reference values (../shared/oracle) are not here";
+  const auto all = nlohmann::json::parse(std::ifstream(path));
+  double worst = 0;
+  for (const auto& scene : all.at("cases")) {
+    SCOPED_TRACE(scene.at("name").get<std::string>());
+    const auto domain = domain_of(scene.at("boundary"));
+    ASSERT_TRUE(domain.ok()) << domain.error().text();
+    const auto sites = sites_of(scene);
+    const auto cells = cells_of(*domain, sites);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const double demand = scene.at("demands")[i];
+      worst = std::max(worst, relative(cells[i].volume, demand));
+      EXPECT_LE(relative(cells[i].volume, demand), 1e-9) << i;
+    }
+  }
+  std::printf("worst relative error of the demands: %.1e\n", worst);
+}
+
+// Neighbour cells of sphere packings, ids as in the file; without the ball.
+struct Packing {
+  std::vector<PowerSite> sites;
+  std::vector<int> ids;
+};
+
+Packing read_packing(const std::filesystem::path& path) {
+  Packing packing;
+  std::ifstream file(path);
+  int id = 0;
+  double x = 0, y = 0, z = 0, r = 0;
+  while (file >> id >> x >> y >> z >> r) {
+    packing.sites.push_back({{x, y, z}, r * r});
+    packing.ids.push_back(id);
+  }
+  return packing;
+}
+
+TEST(Oracle, PackingOfUnequalSpheres) {
+  const auto path = shared_file("data/laguerre/voro_pack_six_cube_poly.txt");
+  const auto table = shared_file("data/laguerre/voro_pack_six_cube_poly_volumes.csv");
+  if (path.empty() || table.empty()) GTEST_SKIP() << "the packing (../shared/data/laguerre) is not here";
+  const Packing packing = read_packing(path);
+  ASSERT_EQ(packing.sites.size(), 159u);
+  const ConvexDomain domain = box({-3, -3, 0}, {3, 3, 6});
+  const auto all = cells_of(domain, packing.sites);
+  EXPECT_EQ(totals_of(all).outside, 3u);
+  EXPECT_EQ(totals_of(all).alive, 156u);
+  EXPECT_NEAR(totals_of(all).cell_volume, 216, 1e-10);
+  // The table was made without the three that lie outside.
+  std::vector<PowerSite> inside;
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].state == SiteState::outside) continue;
+    inside.push_back(packing.sites[i]);
+    ids.push_back(packing.ids[i]);
+  }
+  const auto cells = cells_of(domain, inside);
+  EXPECT_NEAR(totals_of(cells).cell_volume, 216, 1e-10);
+  std::ifstream file(table);
+  std::string line;
+  std::getline(file, line);
+  int rows = 0;
+  while (std::getline(file, line)) {
+    const int id = std::stoi(line);
+    const auto text = line.substr(line.find(',') + 1);
+    const double wanted = parse_number(text.substr(0, text.find(','))).value();
+    const auto at = std::find(ids.begin(), ids.end(), id);
+    ASSERT_NE(at, ids.end());
+    EXPECT_NEAR(cells[static_cast<std::size_t>(at - ids.begin())].cell_volume, wanted, 2e-12) << "id " << id;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 156);
+}
+
+TEST(Oracle, PackingWithSwallowedSpheres) {
+  const auto path = shared_file("data/laguerre/voro_pack_six_cube_poly.txt");
+  if (path.empty()) GTEST_SKIP() << "the packing (../shared/data/laguerre) is not here";
+  Packing packing = read_packing(path);
+  for (std::size_t i = 7; i < packing.sites.size(); i += 8) packing.sites[i].weight = 1.6 * 1.6;
+  const auto cells = cells_of(box({-3, -3, 0}, {3, 3, 6}), packing.sites);
+  const CellTotals totals = totals_of(cells);
+  EXPECT_EQ(totals.alive, 124u);
+  EXPECT_EQ(totals.hidden, 32u);
+  EXPECT_EQ(totals.outside, 3u);
+  EXPECT_NEAR(totals.cell_volume, 216, 1e-10);
+  for (const CellMeasure& cell : cells) EXPECT_EQ(cell.reason.empty(), cell.state == SiteState::alive);
+}
+
+}  // namespace
+}  // namespace bl::test
