@@ -119,10 +119,7 @@ Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& js
 
 // Kinds whose values look alike in JSON and in memory.
 Result<Value> text_like(const PortDefinition& port, const Json& json, const std::string& place) {
-  if (port.kind == ValueKind::json) {
-    if (!json.is_structured()) return wrong_kind(port, json, place);
-    return Value(write_json_line(json));
-  }
+  if (port.kind == ValueKind::json) return Value(write_json_line(json));
   if (!json.is_string()) return wrong_kind(port, json, place);
   return Value(json.get<std::string>());
 }
@@ -238,10 +235,28 @@ Json value_to_json(const Value& value, ValueKind kind) {
   return nullptr;
 }
 
+namespace {
+
+bool is_within_reach(const Vector3& v) {
+  return std::abs(v.x) <= kCoordinateLimit && std::abs(v.y) <= kCoordinateLimit && std::abs(v.z) <= kCoordinateLimit;
+}
+
+Error far_away(const std::string& place) {
+  return {ErrorCode::out_of_range, place, "lies farther than 10 000 km from the origin; use local metric coordinates"};
+}
+
+}  // namespace
+
 Result<void> check_value(const PortDefinition& port, const Value& value, const std::string& place) {
   if (!is_finite(value)) return Error{ErrorCode::not_finite, place, "must be a finite number"};
+  if (const auto* point = std::get_if<Vector3>(&value); point && !is_within_reach(*point)) return far_away(place);
+  if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value))
+    for (std::size_t i = 0; i < (*points)->size(); ++i)
+      if (!is_within_reach((**points)[i])) return far_away(place + "/" + std::to_string(i));
   if (port.kind == ValueKind::number || port.kind == ValueKind::integer) {
     const double number = as_number(value);
+    if (std::abs(number) > kNumberLimit)
+      return Error{ErrorCode::out_of_range, place, "must be between -1e15 and 1e15, found " + shortest(number)};
     if (number < port.hard_minimum || number > port.hard_maximum) {
       const std::string unit(info(port.unit).pretty.empty() ? "" : " " + std::string(info(port.unit).pretty));
       std::string range = std::isinf(port.hard_maximum)   ? "at least " + shortest(port.hard_minimum)

@@ -11,6 +11,9 @@
 
 namespace bl {
 
+/// No coordinate [m] and no number may be larger: beyond them a double has no millimetre, or no sense, left.
+inline constexpr double kCoordinateLimit = 1e7, kNumberLimit = 1e15;
+
 /// The JSON form of a value. Meshes have none.
 Json value_to_json(const Value& value, ValueKind kind);
 /// A value of the declared kind, inside the hard range, finite; otherwise an error at `place`.

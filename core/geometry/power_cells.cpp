@@ -172,7 +172,7 @@ void judge(const ConvexDomain& domain, const PowerSite& site, std::uint32_t twin
     out.state = SiteState::outside;
     out.reason = "lies outside the domain" + (emptiness.empty() ? std::string("; its cell reaches in") : "; " + emptiness);
   } else if (!emptiness.empty()) {
-    out.state = has_cell ? SiteState::starved : SiteState::hidden;
+    out.state = out.cell_volume > 0 ? SiteState::starved : SiteState::hidden;
     out.reason = emptiness;
   }
 }

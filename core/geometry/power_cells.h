@@ -32,10 +32,10 @@ inline constexpr double kMostStoreys = 10000;
 /// What became of a site. The first that holds, in this order: coincident, outside, hidden, starved, alive.
 enum class SiteState : std::uint8_t {
   alive,       ///< inside the domain, with a volume
-  hidden,      ///< has no cell in the power diagram of all sites: swallowed by heavier neighbours
+  hidden,      ///< has no power cell inside the domain: swallowed by heavier neighbours, or its cell lies beyond the boundary
   outside,     ///< position outside the domain; its cell may reach in, and is measured all the same
   coincident,  ///< same position as another site that lives (the heavier, or the lower index on equal weight)
-  starved,     ///< nothing left: weight not positive, cell outside the domain, or ball does not reach its own cell
+  starved,     ///< has a power cell but no volume: weight not positive, or its ball does not reach its own cell
 };
 
 /// Stable lower-case name of a state, as shown to people and in files.

@@ -1,0 +1,17 @@
+// Whole files in and out; writing never leaves half a file behind.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+
+namespace bl {
+
+/// The bytes of a file of at most 1 GiB.
+Result<std::string> read_file(const std::string& path);
+
+/// Writes to a temporary name beside `path`, flushes to disk, then renames: an interrupted save leaves the old file whole.
+Result<void> write_file(const std::string& path, std::string_view content);
+
+}  // namespace bl

@@ -1,0 +1,245 @@
+// The frame of a scene file: format, version, upgrades, settings, records and saved state.
+#include "core/file/scene_file.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/define/codec.h"
+
+namespace bl {
+
+bool SceneReading::is_usable() const {
+  return std::none_of(problems.begin(), problems.end(), [](const Problem& p) { return p.is_error; });
+}
+
+const Error& SceneReading::first_error() const {
+  return std::find_if(problems.begin(), problems.end(), [](const Problem& p) { return p.is_error; })->error;
+}
+
+namespace {
+
+// Brings the values of one type, saved under an older revision, to the current one.
+Result<void> upgrade_values(const TypeDefinition& type, std::int64_t revision, Json& values, const std::string& place) {
+  if (revision > type.revision)
+    return Error{ErrorCode::version, place, "`" + type.id + "` was saved by a newer version of the program (revision " + std::to_string(revision) + ")"};
+  for (const UpgradeDefinition& step : type.upgrades) {
+    if (step.from_revision < revision) continue;
+    auto text = step.upgrade(write_json_line(values));
+    if (!text) return text.error().within(place);
+    auto changed = parse_json(*text);
+    if (!changed) return changed.error().within(place);
+    values = std::move(*changed);
+  }
+  return {};
+}
+
+class Reader {
+ public:
+  explicit Reader(const Registry& registry) : registry_(registry) {}
+
+  SceneReading run(std::string_view text) {
+    auto json = parse_json(text);
+    if (!json) fail(json.error());
+    else read(*json);
+    return std::move(reading_);
+  }
+
+ private:
+  void fail(Error error) { reading_.problems.push_back({true, std::move(error)}); }
+  template <class T>
+  bool note(const Result<T>& result) {
+    if (!result) fail(result.error());
+    return result.ok();
+  }
+
+  void read(Json& file) {
+    if (!file.is_object() || file.value("format", Json()) != "behaviourlinks")
+      return fail({ErrorCode::parse, "format", "this is not a scene: a scene starts with {\"format\": \"behaviourlinks\", \"version\": 1, ...}"});
+    const auto version = file.find("version");
+    if (version == file.end() || !version->is_number_integer()) return fail({ErrorCode::missing, "version", "the version number is missing"});
+    if (*version > kSceneVersion)
+      return fail({ErrorCode::version, "version",
+                   "the file has version " + version->dump() + ", this program reads up to " + std::to_string(kSceneVersion) + "; get a newer program"});
+    if (*version < 1) return fail({ErrorCode::version, "version", "there is no version " + version->dump()});
+    note(check_keys(file, {"format", "version", "revisions", "settings", "nodes", "links", "state", "view"}, ""));
+    read_revisions(file);
+    if (const auto it = file.find("settings"); it != file.end())
+      if (auto settings = ports_from_json(settings_type(), *it, "settings"); note(settings)) reading_.scene.settings = std::move(*settings);
+    read_records(file, "nodes", [this](Json& json, const std::string& id, const std::string& place) { read_node(json, id, place); });
+    read_records(file, "links", [this](Json& json, const std::string& id, const std::string& place) { read_link(json, id, place); });
+    if (const auto it = file.find("view"); it != file.end()) {
+      if (it->is_object()) reading_.scene.view = write_json_line(*it);
+      else fail({ErrorCode::wrong_kind, "view", "expects an object"});
+    }
+    if (reading_.is_usable())
+      for (Problem& problem : check_scene(reading_.scene, registry_)) reading_.problems.push_back(std::move(problem));
+    if (const auto it = file.find("state"); it != file.end() && reading_.is_usable()) read_state(*it);
+  }
+
+  void read_revisions(const Json& file) {
+    const auto it = file.find("revisions");
+    if (it == file.end()) return;
+    if (!it->is_object()) return fail({ErrorCode::wrong_kind, "revisions", "expects {\"type\": revision, ...}"});
+    for (const auto& [id, number] : it->items())
+      if (number.is_number_integer() && number >= 1) revisions_[id] = number.get<std::int64_t>();
+      else fail({ErrorCode::wrong_kind, "revisions/" + id, "expects a whole number from 1"});
+  }
+
+  std::int64_t revision_of(const std::string& id) const {
+    const auto it = revisions_.find(id);
+    return it == revisions_.end() ? 1 : it->second;
+  }
+
+  template <class Read>
+  void read_records(Json& file, const std::string& key, Read read_one) {
+    const auto list = file.find(key);
+    if (list == file.end()) return;
+    if (!list->is_array()) return fail({ErrorCode::wrong_kind, key, "expects a list"});
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string number = key + "/" + std::to_string(i);
+      const Json& record = (*list)[i];
+      if (!record.is_object() || !record.contains("id") || !record["id"].is_string()) {
+        fail({ErrorCode::missing, number, "`id` is missing"});
+        continue;
+      }
+      const std::string id = record["id"].get<std::string>();
+      if (!is_identifier(id)) fail({ErrorCode::wrong_kind, number + "/id", "`" + id.substr(0, 80) + "` is no id: use 1 to 64 of a-z 0-9 _ - . #"});
+      else read_one((*list)[i], id, key + "/" + id);
+    }
+  }
+
+  void read_node(Json& json, const std::string& id, const std::string& place) {
+    if (reading_.scene.nodes.contains(id)) return fail({ErrorCode::duplicate, place, "two nodes have the id `" + id + "`; ids must be unique"});
+    if (const auto types = json.find("types"); types != json.end() && types->is_object())
+      for (auto& [type_id, values] : types->items())
+        if (const TypificationDefinition* type = registry_.typification(type_id))
+          if (!note(upgrade_values(*type, revision_of(type_id), values, place + "/types/" + type_id))) return;
+    if (auto node = node_from_json(json, registry_, place); note(node)) reading_.scene.nodes.emplace(id, std::move(*node));
+  }
+
+  void read_link(Json& json, const std::string& id, const std::string& place) {
+    if (reading_.scene.links.contains(id)) return fail({ErrorCode::duplicate, place, "two links have the id `" + id + "`; ids must be unique"});
+    if (const auto kind = json.find("kind"); kind != json.end() && kind->is_string())
+      if (const LinkDefinition* type = registry_.link(kind->get_ref<const std::string&>()); type && json.contains("parameters"))
+        if (!note(upgrade_values(*type, revision_of(kind->get<std::string>()), json["parameters"], place + "/parameters"))) return;
+    if (auto link = link_from_json(json, registry_, place); note(link)) reading_.scene.links.emplace(id, std::move(*link));
+  }
+
+  Result<Value> state_value(const std::string& node, const std::string& path, const Json& json, const std::string& place) const {
+    const auto parsed = parse_port_path(path);
+    const auto record = reading_.scene.nodes.find(node);
+    if (record == reading_.scene.nodes.end()) return Error{ErrorCode::not_found, place, "there is no node `" + node + "`"};
+    if (!parsed) return Error{ErrorCode::wrong_kind, place, "expects \"typification.port\""};
+    const auto port = registry_.port(*parsed);
+    if (!port) return port.error().within(place);
+    if (!record->second.types.contains(parsed->typification))
+      return Error{ErrorCode::not_found, place, "the node is not a `" + parsed->typification + "`"};
+    return value_from_json(**port, json, place);
+  }
+
+  void read_state(const Json& json) {
+    if (!json.is_object()) return fail({ErrorCode::wrong_kind, "state", "expects an object"});
+    if (!note(check_keys(json, {"tick", "calm", "nodes", "held"}, "state"))) return;
+    SavedState state;
+    for (const auto& [key, number] : {std::pair<const char*, std::int64_t&>{"tick", state.tick}, {"calm", state.calm}}) {
+      const auto it = json.find(key);
+      if (it == json.end()) continue;
+      if (!it->is_number_integer() || *it < 0 || *it > (std::int64_t{1} << 53))
+        return fail({ErrorCode::wrong_kind, std::string("state/") + key, "expects a whole number from 0"});
+      number = it->get<std::int64_t>();
+    }
+    const Json nodes = json.value("nodes", Json::object());
+    if (!nodes.is_object()) return fail({ErrorCode::wrong_kind, "state/nodes", "expects an object"});
+    for (const auto& [node, values] : nodes.items()) {
+      if (!values.is_object()) return fail({ErrorCode::wrong_kind, "state/nodes/" + node, "expects an object"});
+      for (const auto& [path, content] : values.items()) {
+        auto value = state_value(node, path, content, "state/nodes/" + node + "/" + path);
+        if (!note(value)) return;
+        state.nodes[node][path] = std::move(*value);
+      }
+    }
+    if (!read_held(json.value("held", Json::object()), state)) return;
+    reading_.state = std::move(state);
+  }
+
+  bool read_held(const Json& held, SavedState& state) {
+    if (!held.is_object()) {
+      fail({ErrorCode::wrong_kind, "state/held", "expects an object"});
+      return false;
+    }
+    for (const auto& [link, voices] : held.items()) {
+      const std::string place = "state/held/" + link;
+      if (!reading_.scene.links.contains(link) || !voices.is_object()) {
+        fail({ErrorCode::not_found, place, "expects the wanted values of a link of this scene"});
+        return false;
+      }
+      for (const auto& [target, content] : voices.items()) {
+        const std::size_t slash = target.find('/');
+        const std::string node = target.substr(0, slash), path = slash == std::string::npos ? "" : target.substr(slash + 1);
+        auto value = state_value(node, path, content, place + "/" + target);
+        if (!note(value)) return false;
+        state.held[link].push_back({{node, path}, Voice{{}, std::move(*value), 0, reading_.scene.links.at(link).strength}});
+      }
+    }
+    return true;
+  }
+
+  const Registry& registry_;
+  SceneReading reading_;
+  std::map<std::string, std::int64_t> revisions_;
+};
+
+Json revisions_of(const Scene& scene, const Registry& registry) {
+  std::map<std::string, int> revisions;
+  for (const auto& [id, node] : scene.nodes)
+    for (const auto& [type, values] : node.types)
+      if (const int revision = registry.typification(type)->revision; revision > 1) revisions[type] = revision;
+  for (const auto& [id, link] : scene.links)
+    if (link.ghost.empty())
+      if (const int revision = registry.link(link.kind)->revision; revision > 1) revisions[link.kind] = revision;
+  return revisions.empty() ? Json::object() : Json(revisions);
+}
+
+Json state_to_json(const SavedState& state, const Registry& registry) {
+  auto kind_of = [&](const std::string& path) { return (*registry.port(*parse_port_path(path)))->kind; };
+  Json json = Json::object();
+  json["tick"] = state.tick;
+  json["calm"] = state.calm;
+  Json& nodes = json["nodes"] = Json::object();
+  for (const auto& [node, values] : state.nodes)
+    for (const auto& [path, value] : values) nodes[node][path] = value_to_json(value, kind_of(path));
+  for (const auto& [link, voices] : state.held)
+    for (const auto& [target, voice] : voices) json["held"][link][target.first + "/" + target.second] = value_to_json(voice.value, kind_of(target.second));
+  return json;
+}
+
+}  // namespace
+
+SceneReading read_scene(std::string_view text, const Registry& registry) { return Reader(registry).run(text); }
+
+std::string write_scene(const Scene& scene, const Registry& registry, const SavedState* state) {
+  Json file = Json::object();
+  file["format"] = "behaviourlinks";
+  file["version"] = kSceneVersion;
+  if (Json revisions = revisions_of(scene, registry); !revisions.empty()) file["revisions"] = std::move(revisions);
+  if (Json settings = ports_to_json(settings_type(), scene.settings); !settings.empty()) file["settings"] = std::move(settings);
+  file["nodes"] = Json::array();
+  for (const auto& [id, node] : scene.nodes) {
+    Json record = {{"id", id}};
+    record.update(node_to_json(node, registry));
+    file["nodes"].push_back(std::move(record));
+  }
+  file["links"] = Json::array();
+  for (const auto& [id, link] : scene.links) {
+    Json record = {{"id", id}};
+    record.update(link_to_json(link, registry));
+    file["links"].push_back(std::move(record));
+  }
+  if (state != nullptr && state->tick > 0) file["state"] = state_to_json(*state, registry);
+  if (!scene.view.empty()) file["view"] = Json::parse(scene.view, nullptr, false);
+  return write_json(file) + "\n";
+}
+
+}  // namespace bl
