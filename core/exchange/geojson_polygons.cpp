@@ -1,0 +1,208 @@
+// GeoJSON by nlohmann/json; its exceptions end here.
+#include "core/exchange/geojson_polygons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/base/text.h"
+#include "core/exchange/local_frame.h"
+
+namespace bl {
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::string join(const std::string& place, std::string_view step) {
+  return place.empty() ? std::string(step) : place + "/" + std::string(step);
+}
+std::string join(const std::string& place, std::size_t step) { return join(place, std::to_string(step)); }
+
+const Json* member(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  return found == object.end() ? nullptr : &*found;
+}
+
+std::string type_of(const Json& object) {
+  const Json* type = object.is_object() ? member(object, "type") : nullptr;
+  return type && type->is_string() ? type->get<std::string>() : std::string();
+}
+
+std::string plain_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return shortest(value.get<double>());
+  return value.dump();
+}
+
+const std::vector<std::string> kTypes = {"FeatureCollection",  "Feature", "Polygon",    "MultiPolygon",
+                                         "GeometryCollection", "Point",   "MultiPoint", "LineString",
+                                         "MultiLineString"};
+
+class Reader {
+ public:
+  Result<GeoDocument> read(const Json& root);
+
+ private:
+  Result<std::string> crs_of(const Json& object, const std::string& place, const std::string& inherited);
+  Result<void> read_feature(const Json& object, const std::string& place, const std::string& crs);
+  Result<void> read_geometry(const Json& object, const std::string& place, GeoFeature& feature);
+  Result<void> read_polygon(const Json& coordinates, const std::string& place, GeoFeature& feature);
+  Result<std::array<double, 2>> read_position(const Json& position, const std::string& place);
+
+  GeoDocument document_;
+  bool heights_ = false;
+};
+
+// The member `crs` of the 2008 format: {"type": "name", "properties": {"name": ...}} or {"type": "EPSG", ... "code"}.
+Result<std::string> Reader::crs_of(const Json& object, const std::string& place, const std::string& inherited) {
+  const Json* crs = member(object, "crs");
+  if (crs == nullptr) return inherited;
+  if (crs->is_null()) {
+    document_.notes.push_back(
+        "The member `crs` is null, which says that the CRS is not known; WGS84 longitude and latitude were assumed.");
+    return inherited;
+  }
+  const Json* properties = crs->is_object() ? member(*crs, "properties") : nullptr;
+  if (properties && properties->is_object()) {
+    const Json* name = member(*properties, "name");
+    const Json* code = member(*properties, "code");
+    if (name && name->is_string()) return tidy_crs_name(name->get<std::string>());
+    if (code && (code->is_number_integer() || code->is_string())) return tidy_crs_name("EPSG:" + plain_text(*code));
+  }
+  return Error{ErrorCode::parse, join(place, "crs"),
+               "The member `crs` is not understood. Write {\"type\": \"name\", \"properties\": {\"name\": \"EPSG:28992\"}}, or "
+               "give the CRS as an option."};
+}
+
+Result<GeoDocument> Reader::read(const Json& root) {
+  const std::string type = type_of(root);
+  if (type.empty())
+    return Error{
+        ErrorCode::parse, "",
+        "This is JSON but not GeoJSON: it has no member `type`. A FeatureCollection, a Feature or a geometry is needed."};
+  auto crs = crs_of(root, "", "OGC:CRS84");
+  if (!crs) return crs.error();
+  if (type == "FeatureCollection") {
+    const Json* features = member(root, "features");
+    if (features == nullptr || !features->is_array())
+      return Error{ErrorCode::missing, "features", "A FeatureCollection needs an array `features`; it is missing or no array."};
+    for (std::size_t i = 0; i < features->size(); ++i)
+      if (auto done = read_feature((*features)[i], "features/" + std::to_string(i), *crs); !done) return done.error();
+  } else if (auto done = read_feature(root, "", *crs); !done) {
+    return done.error();
+  }
+  if (heights_) document_.notes.push_back("The third numbers of the positions (heights) were left out: a plan is flat.");
+  return std::move(document_);
+}
+
+Result<void> Reader::read_feature(const Json& object, const std::string& place, const std::string& crs) {
+  if (!object.is_object())
+    return Error{ErrorCode::parse, place, "A feature must be an object; this is " + std::string(object.type_name()) + "."};
+  GeoFeature feature;
+  feature.place = place;
+  const bool is_feature = type_of(object) == "Feature";
+  auto own_crs = place.empty() ? Result<std::string>(crs) : crs_of(object, place, crs);
+  if (!own_crs) return own_crs.error();
+  feature.crs = *own_crs;
+  const Json* geometry = is_feature ? member(object, "geometry") : &object;
+  if (is_feature) {
+    const Json* properties = member(object, "properties");
+    if (properties && properties->is_object())
+      for (const auto& [name, value] : properties->items())
+        if (value.is_primitive() && !value.is_null()) feature.properties.emplace_back(name, plain_text(value));
+    const Json* id = member(object, "id");
+    if (id && (id->is_string() || id->is_number())) feature.properties.emplace_back("id", plain_text(*id));
+  }
+  if (geometry && !geometry->is_null()) {
+    if (auto done = read_geometry(*geometry, is_feature ? join(place, "geometry") : place, feature); !done) return done.error();
+  }
+  document_.features.push_back(std::move(feature));
+  return {};
+}
+
+Result<void> Reader::read_geometry(const Json& object, const std::string& place, GeoFeature& feature) {
+  const std::string type = type_of(object);
+  if (std::find(kTypes.begin() + 2, kTypes.end(), type) == kTypes.end())
+    return Error{ErrorCode::unknown_type, join(place, "type"),
+                 "The geometry type `" + type + "` is not one of GeoJSON" + did_you_mean(type, kTypes) +
+                     (did_you_mean(type, kTypes).empty() ? ". Write Polygon or MultiPolygon." : "")};
+  auto crs = crs_of(object, place, feature.crs);
+  if (!crs) return crs.error();
+  feature.crs = *crs;
+  if (type == "GeometryCollection") {
+    const Json* parts = member(object, "geometries");
+    if (parts == nullptr || !parts->is_array())
+      return Error{ErrorCode::missing, join(place, "geometries"), "A GeometryCollection needs an array `geometries`."};
+    // A collection within a collection is legal but discouraged; refusing it bounds the depth of this recursion.
+    for (std::size_t i = 0; i < parts->size(); ++i) {
+      const std::string part_place = join(join(place, "geometries"), i);
+      if (type_of((*parts)[i]) == "GeometryCollection")
+        return Error{ErrorCode::parse, part_place,
+                     "A GeometryCollection inside another one is not read; put its parts into the outer one."};
+      if (auto done = read_geometry((*parts)[i], part_place, feature); !done) return done;
+    }
+    return {};
+  }
+  if (type != "Polygon" && type != "MultiPolygon") return {};
+  const Json* coordinates = member(object, "coordinates");
+  const std::string coordinates_place = join(place, "coordinates");
+  if (coordinates == nullptr || !coordinates->is_array())
+    return Error{ErrorCode::missing, coordinates_place,
+                 "A " + type + " needs an array `coordinates`; it is missing or no array."};
+  if (type == "Polygon") return read_polygon(*coordinates, coordinates_place, feature);
+  for (std::size_t i = 0; i < coordinates->size(); ++i)
+    if (auto done = read_polygon((*coordinates)[i], join(coordinates_place, i), feature); !done) return done;
+  return {};
+}
+
+Result<void> Reader::read_polygon(const Json& coordinates, const std::string& place, GeoFeature& feature) {
+  GeoPolygon polygon;
+  polygon.place = place;
+  if (!coordinates.is_array()) return Error{ErrorCode::parse, place, "A polygon must be an array of rings."};
+  for (std::size_t r = 0; r < coordinates.size(); ++r) {
+    const Json& ring = coordinates[r];
+    const std::string ring_place = join(place, r);
+    if (!ring.is_array()) return Error{ErrorCode::parse, ring_place, "A ring must be an array of positions [x, y]."};
+    polygon.rings.emplace_back();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      auto position = read_position(ring[i], join(ring_place, i));
+      if (!position) return position.error();
+      polygon.rings.back().push_back(*position);
+    }
+  }
+  if (!polygon.rings.empty()) feature.polygons.push_back(std::move(polygon));
+  return {};
+}
+
+Result<std::array<double, 2>> Reader::read_position(const Json& position, const std::string& place) {
+  if (!position.is_array() || position.size() < 2 || !position[0].is_number() || !position[1].is_number())
+    return Error{ErrorCode::parse, place,
+                 "A position must be an array of two numbers [x, y] (longitude, latitude); this is " +
+                     position.dump().substr(0, 60) + "."};
+  heights_ = heights_ || position.size() > 2;
+  const std::array<double, 2> point{position[0].get<double>(), position[1].get<double>()};
+  if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
+    return Error{ErrorCode::not_finite, place, "A position must have finite numbers."};
+  return point;
+}
+
+}  // namespace
+
+Result<GeoDocument> read_geojson_polygons(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  try {
+    return Reader().read(Json::parse(text));
+  } catch (const Json::parse_error& error) {
+    const std::string_view before = text.substr(0, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t column = before.size() - (before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1) + 1;
+    return Error{ErrorCode::parse, "line " + std::to_string(line) + ", column " + std::to_string(column),
+                 "The text is not valid JSON from here on; is the file complete, and is it GeoJSON?"};
+  } catch (const Json::exception&) {
+    return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
+  }
+}
+
+}  // namespace bl

@@ -1,0 +1,37 @@
+// Reads the polygons of a GeoJSON text with their properties and coordinate reference system, and judges none of them.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace bl {
+
+/// One polygon as written: rings[0] is the outer one, the others are holes; x (longitude) first, in units of the CRS.
+struct GeoPolygon {
+  std::string place;  ///< such as "features/3/geometry/coordinates/0"
+  std::vector<std::vector<std::array<double, 2>>> rings;
+};
+
+/// One feature; a bare geometry counts as a feature without properties.
+struct GeoFeature {
+  std::string place;                                            ///< "features/3", or empty for a bare feature or geometry
+  std::string crs;                                              ///< tidy name; "OGC:CRS84" where the text says nothing
+  std::vector<std::pair<std::string, std::string>> properties;  ///< plain values as text, in the order of the JSON library
+  std::vector<GeoPolygon> polygons;                             ///< none for points and lines
+};
+
+struct GeoDocument {
+  std::vector<GeoFeature> features;
+  std::vector<std::string> notes;
+};
+
+/// Understands FeatureCollection, Feature, Polygon, MultiPolygon and GeometryCollection (RFC 7946) and the older `crs`
+/// member of the 2008 format. Points and lines become features without polygons.
+Result<GeoDocument> read_geojson_polygons(std::string_view text);
+
+}  // namespace bl

@@ -1,0 +1,180 @@
+// Local frames by PROJ: each frame has a PROJ context of its own, so that threads never share one; no network is used.
+#include "core/exchange/local_frame.h"
+
+#include <proj.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "core/base/text.h"
+
+namespace bl {
+
+namespace {
+
+// A CRS is kept when 1 m on the ground is 1 m in it within this: UTM (4e-4) passes, web Mercator does not.
+constexpr double kStretchKept = 1e-3;
+constexpr double kProbe = 100;  // [m] half the length over which the stretch is measured
+constexpr double kDegree = std::numbers::pi / 180;
+
+double whole(double number, double step) { return std::round(number / step) * step; }
+
+std::string own_projection(double latitude, double longitude) {
+  return "+proj=tmerc +lat_0=" + fixed(latitude, 6) + " +lon_0=" + fixed(longitude, 6) +
+         " +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs";
+}
+
+}  // namespace
+
+struct LocalFrame::Transforms {
+  PJ_CONTEXT* context = nullptr;
+  PJ* to_degrees = nullptr;  // CRS → longitude, latitude [deg]; null where the CRS is that already
+  PJ* to_metres = nullptr;   // longitude, latitude [rad] → own projection; null where the CRS is kept
+
+  ~Transforms() {
+    proj_destroy(to_degrees);
+    proj_destroy(to_metres);
+    proj_context_destroy(context);
+  }
+  // x = longitude, y = latitude [deg]; infinite where PROJ has no answer.
+  PJ_COORD degrees(double x, double y) const {
+    const PJ_COORD from = proj_coord(x, y, 0, 0);
+    return to_degrees ? proj_trans(to_degrees, PJ_FWD, from) : from;
+  }
+  PJ_COORD metres(const PJ_COORD& degree) const {
+    return proj_trans(to_metres, PJ_FWD, proj_coord(degree.xy.x * kDegree, degree.xy.y * kDegree, 0, 0));
+  }
+  // The CRS coordinates of a point `east`, `north` metres off the origin of the own projection.
+  PJ_COORD crs_of_offset(double east, double north) const {
+    const PJ_COORD radian = proj_trans(to_metres, PJ_INV, proj_coord(east, north, 0, 0));
+    return proj_trans(to_degrees, PJ_INV, proj_coord(radian.xy.x / kDegree, radian.xy.y / kDegree, 0, 0));
+  }
+  Result<void> open(const std::string& crs, const std::string& database);
+  void note_area_of_use(const std::string& crs, const PJ_COORD& middle, std::vector<std::string>& notes) const;
+};
+
+// Prepares `to_degrees`; the EPSG definitions come from proj.db, which may be missing.
+Result<void> LocalFrame::Transforms::open(const std::string& crs, const std::string& database) {
+  const bool own_path = database.empty() || proj_context_set_database_path(context, database.c_str(), nullptr, nullptr);
+  if (!own_path || proj_context_get_database_metadata(context, "EPSG.VERSION") == nullptr)
+    return Error{ErrorCode::io, "crs",
+                 "The CRS `" + crs + "` needs PROJ's database proj.db, which was not found" +
+                     (database.empty() ? std::string() : " at `" + database + "`") +
+                     ". Install the package proj-data, or name the folder of proj.db in the environment variable PROJ_LIB."};
+  PJ* source = proj_create(context, crs.c_str());
+  const bool is_crs = source != nullptr && proj_is_crs(source);
+  proj_destroy(source);
+  PJ* raw = is_crs ? proj_create_crs_to_crs(context, crs.c_str(), "OGC:CRS84", nullptr) : nullptr;
+  if (raw != nullptr) {
+    to_degrees = proj_normalize_for_visualization(context, raw);
+    proj_destroy(raw);
+  }
+  if (to_degrees == nullptr)
+    return Error{
+        ErrorCode::parse, "crs",
+        "The CRS `" + crs + "` is not known. Write an EPSG code such as EPSG:28992, or OGC:CRS84 for longitude and latitude."};
+  return {};
+}
+
+void LocalFrame::Transforms::note_area_of_use(const std::string& crs, const PJ_COORD& middle,
+                                              std::vector<std::string>& notes) const {
+  double west = 0, south = 0, east = 0, north = 0;
+  const char* name = nullptr;
+  PJ* source = proj_create(context, crs.c_str());
+  const bool known = proj_get_area_of_use(context, source, &west, &south, &east, &north, &name) && west > -1000 && west <= east;
+  const double x = middle.xy.x, y = middle.xy.y;
+  if (known && (x < west || x > east || y < south || y > north))
+    notes.push_back("The site lies at latitude " + fixed(y, 3) + "°, longitude " + fixed(x, 3) + "°, outside the area that " +
+                    crs + " is made for (" + (name ? name : "unnamed") + "): check the CRS.");
+  proj_destroy(source);
+}
+
+LocalFrame::LocalFrame() : transforms_(std::make_unique<Transforms>()) {}
+LocalFrame::LocalFrame(LocalFrame&&) noexcept = default;
+LocalFrame& LocalFrame::operator=(LocalFrame&&) noexcept = default;
+LocalFrame::~LocalFrame() = default;
+
+Result<void> LocalFrame::use_own_projection() {
+  proj_destroy(transforms_->to_metres);
+  reference_.crs = own_projection(reference_.latitude, reference_.longitude);
+  transforms_->to_metres = proj_create(transforms_->context, reference_.crs.c_str());
+  if (transforms_->to_metres == nullptr)
+    return Error{ErrorCode::internal, "crs", "PROJ refused the local projection `" + reference_.crs + "`."};
+  return {};
+}
+
+void LocalFrame::keep_crs(const std::string& crs, double x, double y, double north_x, double north_y) {
+  reference_ = {crs, std::round(x), std::round(y), 0, 0, std::atan2(north_x, north_y) / kDegree};
+  proj_destroy(transforms_->to_metres);
+  transforms_->to_metres = nullptr;
+  const PJ_COORD origin = transforms_->degrees(reference_.origin_x, reference_.origin_y);
+  reference_.longitude = origin.xy.x;
+  reference_.latitude = origin.xy.y;
+}
+
+Result<LocalFrame> LocalFrame::make(const std::string& crs, double x, double y, const std::string& database) {
+  LocalFrame frame;
+  Transforms& transforms = *frame.transforms_;
+  transforms.context = proj_context_create();
+  proj_log_level(transforms.context, PJ_LOG_NONE);
+  proj_context_set_enable_network(transforms.context, 0);
+  const bool degrees = is_longitude_latitude(crs);
+  if (!degrees) {
+    if (auto opened = transforms.open(crs, database); !opened) return opened.error();
+  }
+  const PJ_COORD middle = transforms.degrees(x, y);
+  if (!(std::abs(middle.xy.x) <= 360) || !(std::abs(middle.xy.y) <= 90))
+    return Error{ErrorCode::out_of_range, "crs",
+                 "The middle of the site (" + fixed(x, 3) + ", " + fixed(y, 3) + ") is nowhere on Earth in " + crs +
+                     ". Check the CRS, and that x (or longitude) comes before y (or latitude)."};
+  // Six decimals of a degree are a decimetre: the text of the projection then says exactly where its origin is.
+  frame.reference_.latitude = whole(middle.xy.y, 1e-6);
+  frame.reference_.longitude = whole(middle.xy.x, 1e-6);
+  if (auto made = frame.use_own_projection(); !made) return made.error();
+  if (degrees) return frame;
+  transforms.note_area_of_use(crs, middle, frame.notes_);
+
+  const PJ_COORD e0 = transforms.crs_of_offset(-kProbe, 0), e1 = transforms.crs_of_offset(kProbe, 0);
+  const PJ_COORD n0 = transforms.crs_of_offset(0, -kProbe), n1 = transforms.crs_of_offset(0, kProbe);
+  const double ex = (e1.xy.x - e0.xy.x) / (2 * kProbe), ey = (e1.xy.y - e0.xy.y) / (2 * kProbe);
+  const double nx = (n1.xy.x - n0.xy.x) / (2 * kProbe), ny = (n1.xy.y - n0.xy.y) / (2 * kProbe);
+  const double east = std::sqrt(ex * ex + ey * ey), north = std::sqrt(nx * nx + ny * ny);
+  const bool true_lengths = std::abs(east - 1) < kStretchKept && std::abs(north - 1) < kStretchKept;
+  const bool true_angles = std::abs(ex * nx + ey * ny) < kStretchKept && ex * ny - ey * nx > 0 && ny > 0.5;
+  if (true_lengths && true_angles) {
+    frame.keep_crs(crs, x, y, nx, ny);
+    if (std::abs(east - 1) > 1e-4)
+      frame.notes_.push_back("Lengths are those of " + crs + ": 1 m on the ground is " + fixed(east, 5) + " m in it.");
+  } else {
+    frame.notes_.push_back("1 m on the ground is " + shortest(whole(east, 1e-6)) + " (east) by " + shortest(whole(north, 1e-6)) +
+                           " (north) units of " + crs + ": the plan was projected anew in metres about its middle.");
+  }
+  return frame;
+}
+
+Point3 LocalFrame::to_local(double x, double y) const {
+  if (transforms_->to_metres == nullptr) return {x - reference_.origin_x, y - reference_.origin_y, 0};
+  const PJ_COORD point = transforms_->metres(transforms_->degrees(x, y));
+  return {point.xy.x, point.xy.y, 0};
+}
+
+std::string tidy_crs_name(std::string_view name) {
+  while (!name.empty() && (name.front() == ' ' || name.front() == '\t')) name.remove_prefix(1);
+  while (!name.empty() && (name.back() == ' ' || name.back() == '\t')) name.remove_suffix(1);
+  std::string upper(name);
+  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  if (upper.ends_with("CRS84") || upper == "WGS84" || upper == "WGS 84") return "OGC:CRS84";
+  const std::size_t digits = upper.find_last_not_of("0123456789") + 1;
+  const bool has_code = digits > 0 && digits < upper.size() && (upper[digits - 1] == ':' || upper[digits - 1] == '/');
+  const bool epsg = upper.starts_with("EPSG:") || upper.find("DEF:CRS:EPSG:") != std::string::npos ||
+                    upper.find("DEF/CRS/EPSG/") != std::string::npos;
+  if (!has_code || !epsg) return std::string(name);
+  const std::string code = upper.substr(digits);
+  return code == "4326" ? "OGC:CRS84" : "EPSG:" + code;
+}
+
+bool is_longitude_latitude(std::string_view crs) { return crs == "OGC:CRS84"; }
+
+}  // namespace bl

@@ -1,0 +1,48 @@
+// Imports a programme of demands from a CSV table: uses, floor areas, counts, storey heights and wanted neighbours.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace bl {
+
+struct ProgrammeOptions {
+  /// Our column → the header in the file, where that is called otherwise: {"use", "Room Name"}. Columns: use, name,
+  /// floor_area_m2, floor_area_min_m2, floor_area_max_m2, count, storey_height_m, adjacent_to, tags.
+  std::map<std::string, std::string> columns;
+  std::optional<char> separator;  ///< ',', ';' or '\t'; nothing: found out
+  std::optional<char> decimal;    ///< '.' or ','; nothing: found out per column
+  double storey_height = 3.2;     ///< of rows that give none [m]
+};
+
+/// One row: `count` alike items, each with its own floor area.
+struct ProgrammeRow {
+  std::size_t line = 0;                  ///< of the file, from 1
+  std::string use;                       ///< unique in the import
+  std::string name;                      ///< what people call it; the use where the file has no such column
+  std::optional<double> floor_area_min;  ///< of ONE item [m²]
+  double floor_area = 0;                 ///< of ONE item [m²]; `count` multiplies it
+  std::optional<double> floor_area_max;  ///< of ONE item [m²]
+  double storey_height = 0;              ///< [m]
+  int count = 1;
+  std::vector<std::string> adjacent_to;  ///< uses of this import
+  std::vector<std::string> tags;
+};
+
+struct ProgrammeImport {
+  std::vector<ProgrammeRow> rows;
+  std::size_t items = 0;  ///< sum of the counts
+  double floor_area = 0;  ///< sum of count · floor area [m²]
+  char separator = ',';
+  std::vector<std::string> notes;  ///< what was assumed, renamed or left out, one sentence each
+};
+
+Result<ProgrammeImport> read_programme_csv(std::string_view text, const ProgrammeOptions& options = {});
+
+}  // namespace bl
