@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Files that may be longer than line_limit(), each with its reason. A row that is no longer needed fails, too.
-const std::map<std::string, std::string> kLongFiles = {};
+const std::map<std::string, std::string> long_files = {};
 
 struct SourceFile {
   std::string path, text;
@@ -85,15 +85,15 @@ TEST(House, FilesBeginWithASentence) {
 }
 
 TEST(House, FilesStaySmall) {
-  std::map<std::string, std::string> unused = kLongFiles;
+  std::map<std::string, std::string> unused = long_files;
   for (const SourceFile& file : sources({"core", "nodes", "links", "ui"})) {
     const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
     if (lines <= line_limit(file.path)) continue;
     if (unused.erase(file.path) == 0)
       ADD_FAILURE() << file.path << " has " << lines << " lines, more than " << line_limit(file.path)
-                    << ": split it, or list it in kLongFiles with the reason";
+                    << ": split it, or list it in long_files with the reason";
   }
-  for (const auto& [path, reason] : unused) ADD_FAILURE() << path << " need not be in kLongFiles any more";
+  for (const auto& [path, reason] : unused) ADD_FAILURE() << path << " need not be in long_files any more";
 }
 
 TEST(House, EveryFolderHasAReadme) {

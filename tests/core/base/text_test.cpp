@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <clocale>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <locale>
 #include <string>
@@ -31,13 +32,12 @@ TEST(Text, ShortestReadsBackAsTheSameBits) {
   Random random(1);
   int tried = 0;
   for (int i = 0; i < 20000; ++i) {
-    double number = 0;
     const std::uint64_t bits = random.bits();
-    std::memcpy(&number, &bits, sizeof number);
+    const double number = std::bit_cast<double>(bits);
     if (!std::isfinite(number)) continue;
     const auto back = parse_number(shortest(number));
     ASSERT_TRUE(back.has_value()) << shortest(number);
-    ASSERT_EQ(std::memcmp(&*back, &number, sizeof number), 0) << shortest(number);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(*back), bits) << shortest(number);
     ++tried;
   }
   EXPECT_GT(tried, 19000);
