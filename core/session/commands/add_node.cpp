@@ -1,0 +1,33 @@
+// Adds a node, with all of its content where it is pasted or brought back.
+#include <nlohmann/json.hpp>
+
+#include "core/file/scene_file.h"
+#include "core/session/support.h"
+
+namespace bl {
+
+void AddNode::declare(CommandBuilder<AddNode>& c) {
+  c.id("add_node").label("Add node").doc("Adds a node to the scene.");
+  c.argument(&In::id, "id").required().doc("Id of the new node; must not be taken.");
+  c.argument(&In::node, "node").doc("The node as it stands in a scene file, without its id.");
+}
+
+Inverse AddNode::apply(SceneEdit& edit, const In& in) {
+  if (auto id = check_new_id(in.id, edit.scene().nodes.contains(in.id), "nodes"); !id) return id.error();
+  auto json = parse_json(in.node.text);
+  if (!json) return json.error().within("nodes/" + in.id);
+  auto node = node_from_json(*json, edit.registry(), "nodes/" + in.id);
+  if (!node) return node.error();
+  for (const auto& [type, values] : node->types)
+    for (const auto& [port, value] : values)
+      if (const auto* selection = std::get_if<Shared<Selection>>(&value); selection && !(*selection)->is_query())
+        for (const std::string& id : (*selection)->ids)
+          if (id != in.id && !edit.scene().nodes.contains(id))
+            return Error{ErrorCode::not_found, "nodes/" + in.id + "/" + type + "/" + port, "there is no node `" + id + "`"};
+  edit.scene().nodes.emplace(in.id, std::move(*node));
+  return std::vector{command<RemoveNode>({in.id})};
+}
+
+}  // namespace bl
+
+BL_COMMAND(add_node, AddNode)

@@ -1,0 +1,67 @@
+// Removes a node; links and sets that name it lose it too, and links with an empty end go with it.
+#include <nlohmann/json.hpp>
+
+#include "core/file/scene_file.h"
+#include "core/session/support.h"
+
+namespace bl {
+
+void RemoveNode::declare(CommandBuilder<RemoveNode>& c) {
+  c.id("remove_node").label("Remove node").doc("Removes a node, and the links that would lose an end with it.");
+  c.argument(&In::id, "id").required().doc("Id of the node.");
+}
+
+namespace {
+
+// Takes the node out of all links; says how to bring them back.
+void leave_links(SceneEdit& edit, const std::string& id, std::vector<Command>& inverse) {
+  auto& links = edit.scene().links;
+  for (auto it = links.begin(); it != links.end();) {
+    LinkRecord& link = it->second;
+    Selection from = link.from, to = link.to;
+    const bool is_from = drop(from, id), is_to = drop(to, id);
+    if ((is_from && from.is_empty()) || (is_to && to.is_empty())) {
+      inverse.push_back(command<AddLink>({it->first, {write_json_line(link_to_json(link, edit.registry()))}}));
+      it = links.erase(it);
+      continue;
+    }
+    if (is_from || is_to) {
+      inverse.push_back(command<SetLinkEnds>({it->first, link.from, link.to}));
+      link.from = std::move(from);
+      link.to = std::move(to);
+    }
+    ++it;
+  }
+}
+
+// Takes the node out of the sets that other nodes name in their settings.
+void leave_sets(SceneEdit& edit, const std::string& id, std::vector<Command>& inverse) {
+  for (auto& [other, node] : edit.scene().nodes)
+    for (auto& [type_id, values] : node.types) {
+      const TypificationDefinition& type = *edit.registry().typification(type_id);
+      for (const PortDefinition& port : type.ports) {
+        const auto it = values.find(port.id);
+        if (it == values.end() || port.kind != ValueKind::selection) continue;
+        Selection selection = *std::get<Shared<Selection>>(it->second);
+        if (!drop(selection, id)) continue;
+        inverse.push_back(command<SetPort>({other, {type_id + "." + port.id}, as_json_text(it->second, port.kind)}));
+        assign(values, port, Shared<Selection>(std::move(selection)));
+      }
+    }
+}
+
+}  // namespace
+
+Inverse RemoveNode::apply(SceneEdit& edit, const In& in) {
+  auto node = edit.node(in.id);
+  if (!node) return node.error();
+  std::vector<Command> inverse{command<AddNode>({in.id, {write_json_line(node_to_json(**node, edit.registry()))}})};
+  edit.scene().nodes.erase(in.id);
+  leave_links(edit, in.id, inverse);
+  leave_sets(edit, in.id, inverse);
+  return inverse;
+}
+
+}  // namespace bl
+
+BL_COMMAND(remove_node, RemoveNode)

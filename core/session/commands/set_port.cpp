@@ -1,0 +1,30 @@
+// Sets one setting of a node.
+#include "core/session/support.h"
+
+namespace bl {
+
+void SetPort::declare(CommandBuilder<SetPort>& c) {
+  c.id("set_port").label("Set value").doc("Sets a value of a node. A position starts again from the value that is set.");
+  c.argument(&In::node, "node").required().doc("Id of the node.");
+  c.argument(&In::port, "port").required().doc("Which value, written `typification.port`.");
+  c.argument(&In::value, "value").doc("The new value as in a scene file; null for the default.");
+}
+
+Inverse SetPort::apply(SceneEdit& edit, const In& in) {
+  const auto site = find_setting(edit, in.node, in.port);
+  if (!site) return site.error();
+  const std::string path = site->type->id + "." + site->port->id, place = "nodes/" + in.node + "/" + site->type->id + "/" + site->port->id;
+  auto value = argument_value(*site->type, site->port->id, in.value, place);
+  if (!value) return value.error();
+  if (const auto* selection = std::get_if<Shared<Selection>>(&*value); selection && !(*selection)->is_empty())
+    if (auto check = check_selection(edit.scene(), **selection, place); !check) return check.error();
+  PortValues& values = site->node->types.at(site->type->id);
+  std::vector inverse{command<SetPort>({in.node, {path}, current_value(values, *site->port)})};
+  assign(values, *site->port, *value);
+  edit.place(in.node, path);
+  return inverse;
+}
+
+}  // namespace bl
+
+BL_COMMAND(set_port, SetPort)

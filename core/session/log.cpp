@@ -1,0 +1,123 @@
+// JSON lines of the log, out and in.
+#include "core/session/log.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/codec.h"
+
+namespace bl {
+
+namespace {
+
+constexpr int kLogVersion = 1;
+
+Result<std::int64_t> number_in(const Json& line, const char* key, bool is_required) {
+  const auto it = line.find(key);
+  if (it == line.end() && !is_required) return std::int64_t{0};
+  if (it == line.end() || !it->is_number_integer() || *it < 0) return Error{ErrorCode::missing, key, "expects a whole number from 0"};
+  return it->get<std::int64_t>();
+}
+
+Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
+  if (auto keys = check_keys(line, {"seq", "tick", "author", "gesture", "undoes", "redoes", "command", "arguments"}, ""); !keys) return keys.error();
+  LogEntry entry;
+  for (const auto& [key, target, is_required] :
+       {std::tuple<const char*, std::int64_t*, bool>{"seq", &entry.seq, true}, {"tick", &entry.tick, true}, {"gesture", &entry.gesture, true},
+        {"undoes", &entry.undoes, false}, {"redoes", &entry.redoes, false}}) {
+    auto number = number_in(line, key, is_required);
+    if (!number) return number.error();
+    *target = *number;
+  }
+  if (!line.contains("author") || !line["author"].is_string()) return Error{ErrorCode::missing, "author", "expects a text"};
+  entry.author = line["author"].get<std::string>();
+  Json command = Json::object();
+  for (const char* key : {"command", "arguments"})
+    if (line.contains(key)) command[key] = line[key];
+  auto parsed = command_from_json(registry, command, "");
+  if (!parsed) return parsed.error();
+  entry.command = std::move(*parsed);
+  return entry;
+}
+
+Result<LogCheck> check_from_json(const Json& json, bool is_end) {
+  auto tick = json.is_object() ? number_in(json, "tick", true) : Result<std::int64_t>(Error{ErrorCode::parse, "", "expects {\"tick\", \"hash\"}"});
+  if (!tick) return tick.error();
+  if (!json.contains("hash") || !json["hash"].is_string()) return Error{ErrorCode::missing, "hash", "expects 16 hexadecimal digits"};
+  return LogCheck{*tick, json["hash"].get<std::string>(), is_end};
+}
+
+Result<void> read_line(const Json& line, const Registry& registry, LogFile& log) {
+  if (!line.is_object()) return Error{ErrorCode::parse, "", "expects an object"};
+  for (const bool is_end : {false, true})
+    if (const auto it = line.find(is_end ? "end" : "check"); it != line.end()) {
+      auto check = check_from_json(*it, is_end);
+      if (!check) return check.error();
+      log.checks.push_back(std::move(*check));
+      return {};
+    }
+  auto entry = entry_from_json(line, registry);
+  if (!entry) return entry.error();
+  if (!log.entries.empty() && (entry->seq <= log.entries.back().seq || entry->tick < log.entries.back().tick))
+    return Error{ErrorCode::conflict, "seq", "the entries are not in order"};
+  log.entries.push_back(std::move(*entry));
+  return {};
+}
+
+}  // namespace
+
+std::string log_header(std::string_view scene_text) {
+  Json header = Json::object();
+  header["format"] = "behaviourlinks-log";
+  header["version"] = kLogVersion;
+  header["scene"] = Json::parse(scene_text, nullptr, false);
+  return write_json_line(header) + "\n";
+}
+
+std::string log_line(const LogEntry& entry, const Registry& registry) {
+  Json line = Json::object();
+  line["seq"] = entry.seq;
+  line["tick"] = entry.tick;
+  line["author"] = entry.author;
+  line["gesture"] = entry.gesture;
+  if (entry.undoes != 0) line["undoes"] = entry.undoes;
+  if (entry.redoes != 0) line["redoes"] = entry.redoes;
+  line.update(command_to_json(registry, entry.command));
+  return write_json_line(line) + "\n";
+}
+
+std::string log_line(const LogCheck& check) {
+  Json line = Json::object();
+  line[check.is_end ? "end" : "check"] = {{"tick", check.tick}, {"hash", check.hash}};
+  return write_json_line(line) + "\n";
+}
+
+Result<LogFile> read_log(std::string_view text, const Registry& registry) {
+  LogFile log;
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view content = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const std::string place = "line " + std::to_string(++number);
+    if (content.empty()) continue;
+    auto line = parse_json(content);
+    if (!line && end == std::string_view::npos && number > 1) {
+      log.is_cut_off = true;
+      break;
+    }
+    if (!line) return line.error().within(place);
+    if (number == 1) {
+      if (!line->is_object() || line->value("format", Json()) != "behaviourlinks-log" || !line->contains("scene"))
+        return Error{ErrorCode::parse, place, "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
+      if (line->value("version", Json()) != kLogVersion)
+        return Error{ErrorCode::version, place, "this program reads logs of version " + std::to_string(kLogVersion)};
+      log.scene = write_json((*line)["scene"]) + "\n";
+      continue;
+    }
+    if (auto done = read_line(*line, registry, log); !done) return done.error().within(place);
+  }
+  if (number == 0) return Error{ErrorCode::parse, "", "the log is empty"};
+  return log;
+}
+
+}  // namespace bl

@@ -1,0 +1,43 @@
+// The log of commands: undo, journal and replay are all made of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/define/command_builder.h"
+#include "core/define/registry.h"
+
+namespace bl {
+
+/// One command as somebody gave it. Entries of one gesture are undone together.
+struct LogEntry {
+  std::int64_t seq = 0, tick = 0, gesture = 0;
+  std::string author;
+  Command command;
+  std::int64_t undoes = 0, redoes = 0;    ///< the gesture that this entry takes back or brings back; 0: none
+};
+
+/// A hash that was reached at a tick; replay must reach it too.
+struct LogCheck {
+  std::int64_t tick = 0;
+  std::string hash;
+  bool is_end = false;
+};
+
+/// What a log file holds: JSON lines, the first with the scene it starts from.
+struct LogFile {
+  std::string scene;                      ///< text of the scene file
+  std::vector<LogEntry> entries;
+  std::vector<LogCheck> checks;
+  bool is_cut_off = false;                ///< the last line was incomplete, as after a crash; it is left out
+};
+
+std::string log_header(std::string_view scene_text);
+std::string log_line(const LogEntry& entry, const Registry& registry);
+std::string log_line(const LogCheck& check);
+Result<LogFile> read_log(std::string_view text, const Registry& registry);
+
+}  // namespace bl

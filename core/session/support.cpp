@@ -1,0 +1,64 @@
+// Shared steps of the commands.
+#include "core/session/support.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/define/codec.h"
+
+namespace bl {
+
+JsonText as_json_text(const Value& value, ValueKind kind) { return {write_json_line(value_to_json(value, kind))}; }
+
+Result<Value> argument_value(const TypeDefinition& type, const std::string& port_id, const JsonText& json, const std::string& place) {
+  const PortDefinition* port = type.find_port(port_id);
+  if (port == nullptr) return Error{ErrorCode::unknown_field, place, "`" + type.id + "` has no `" + port_id + "`" + did_you_mean(port_id, port_ids(type))};
+  if (port->is_computed) return Error{ErrorCode::conflict, place, "`" + port_id + "` is computed and cannot be set"};
+  auto value = parse_json(json.text);
+  if (!value) return value.error().within(place);
+  if (value->is_null()) return port->default_value;
+  return value_from_json(*port, *value, place);
+}
+
+void assign(PortValues& values, const PortDefinition& port, const Value& value) {
+  if (value == port.default_value) values.erase(port.id);
+  else values[port.id] = value;
+}
+
+JsonText current_value(const PortValues& values, const PortDefinition& port) {
+  const auto it = values.find(port.id);
+  return it == values.end() ? JsonText{"null"} : as_json_text(it->second, port.kind);
+}
+
+Result<PortSite> find_setting(SceneEdit& edit, const std::string& node_id, const PortChoice& choice) {
+  auto node = edit.node(node_id);
+  if (!node) return node.error();
+  const std::string place = "nodes/" + node_id;
+  const auto path = parse_port_path(choice.path);
+  if (!path) return Error{ErrorCode::wrong_kind, place, "expects a port written `typification.port`, found `" + choice.path + "`"};
+  const auto port = edit.registry().port(*path);
+  if (!port) return port.error().within(place);
+  const TypificationDefinition* type = edit.registry().typification(path->typification);
+  if (!(*node)->types.contains(type->id)) return Error{ErrorCode::conflict, place, "the node is not a `" + type->id + "`; typify it first"};
+  if ((*port)->is_computed) return Error{ErrorCode::conflict, place + "/" + choice.path, "`" + path->port + "` is computed and cannot be set or locked"};
+  return PortSite{*node, type, *port};
+}
+
+Result<void> check_selection(const Scene& scene, const Selection& selection, const std::string& place) {
+  if (selection.is_empty()) return Error{ErrorCode::missing, place, "names no node"};
+  for (const std::string& id : selection.ids)
+    if (!scene.nodes.contains(id)) return Error{ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene.nodes))};
+  return {};
+}
+
+bool drop(Selection& selection, const std::string& id) { return std::erase(selection.ids, id) > 0; }
+
+Result<void> check_new_id(const std::string& id, bool is_taken, const std::string& place) {
+  if (!is_identifier(id)) return Error{ErrorCode::wrong_kind, place, "`" + id.substr(0, 80) + "` is no id: use 1 to 64 of a-z 0-9 _ - . #"};
+  if (is_taken) return Error{ErrorCode::duplicate, place + "/" + id, "the id `" + id + "` is taken"};
+  return {};
+}
+
+}  // namespace bl

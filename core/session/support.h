@@ -1,0 +1,33 @@
+// What several commands need: JSON arguments, selections that lose a node, and checks before a change.
+#pragma once
+
+#include <string>
+
+#include "core/define/json_text.h"
+#include "core/session/commands.h"
+
+namespace bl {
+
+/// The text of a value as a command argument.
+JsonText as_json_text(const Value& value, ValueKind kind);
+/// A setting of a type from a JSON argument; `null` stands for the default.
+Result<Value> argument_value(const TypeDefinition& type, const std::string& port, const JsonText& json, const std::string& place);
+/// Sets a value, or takes it away where it is the default.
+void assign(PortValues& values, const PortDefinition& port, const Value& value);
+/// The current value of a port as a command argument.
+JsonText current_value(const PortValues& values, const PortDefinition& port);
+/// A node's setting: its node, type and port, or the sentence why there is none.
+struct PortSite {
+  NodeRecord* node;
+  const TypificationDefinition* type;
+  const PortDefinition* port;
+};
+Result<PortSite> find_setting(SceneEdit& edit, const std::string& node, const PortChoice& port);
+/// Does the selection name only nodes of the scene?
+Result<void> check_selection(const Scene& scene, const Selection& selection, const std::string& place);
+/// The selection without `id`; whether it changed.
+bool drop(Selection& selection, const std::string& id);
+/// An id for a new element, or why it cannot be one.
+Result<void> check_new_id(const std::string& id, bool is_taken, const std::string& place);
+
+}  // namespace bl
