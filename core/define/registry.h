@@ -55,6 +55,9 @@ void register_typifications(Registry& registry);
 void register_links(Registry& registry);
 void register_commands(Registry& registry);
 
+/// All types of the program; made once, never changed.
+const Registry& full_registry();
+
 }  // namespace bl
 
 /// Each closes a file of its folder: makes the type known under the file's stem.

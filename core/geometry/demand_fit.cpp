@@ -163,6 +163,16 @@ class Fit {
     return std::max(sites_[i].weight, best + squared_norm(place - sites_[i].position));
   }
 
+  // The change of weight [m²] that brings one cell to its demand while the others stay. A cell bounded by its neighbours
+  // grows like the cube of the change, a free ball slower, so a cell far too small is led by its cube root, and one too
+  // large by its volume: of the two estimates always the more careful one.
+  static double response_step(const CellMeasure& cell, double demand) {
+    const double linear = (demand - cell.volume) / cell.volume_by_own_weight;
+    if (demand <= cell.volume) return linear;
+    const double side = cube_root(cell.volume);
+    return std::min(linear, 3 * side * side * (cube_root(demand) - side) / cell.volume_by_own_weight);
+  }
+
   void move(std::span<const CellMeasure> cells) {
     if (options_.gain > 0) return move_by_gain(cells);
     FitState& state = report_.state;
@@ -180,14 +190,18 @@ class Fit {
       weights[i] = sites_[i].weight;
       if (!is_fitted(i)) continue;
       if (!(cells[i].volume > 0) || !(cells[i].volume_by_own_weight > 0)) {
-        weights[i] = repaired_weight(i);
+        // Emptied by its own last move: half of that back. Otherwise its neighbours did it.
+        const double back = -0.5 * state.previous_move[i];
+        weights[i] = back > 0 ? weight_of_cube(cube_of_radius(sites_[i].weight) + back) : repaired_weight(i);
         state.previous_move[i] = 0;
         continue;
       }
-      const double cube = cube_of_radius(sites_[i].weight);
-      const double change = (report_.demands[i] - cells[i].volume) / cells[i].volume_by_own_weight;
-      const double step = options_.damping * kStep * 1.5 * std::sqrt(sites_[i].weight) * change;
-      const double move = std::clamp(step + share * state.previous_move[i], (kMostLoss - 1) * cube, (kMostGrowth - 1) * cube);
+      const double cube = cube_of_radius(sites_[i].weight), stretch = 1.5 * std::sqrt(sites_[i].weight);
+      const double step = options_.damping * kStep * stretch * response_step(cells[i], report_.demands[i]);
+      const double volume = cells[i].volume, per_volume = stretch / cells[i].volume_by_own_weight;
+      const double least = std::max((kMostLoss - 1) * cube, (kMostLoss - 1) * volume * per_volume);
+      const double most = std::min((kMostGrowth - 1) * cube, (kMostGrowth - 1) * std::max(volume, 0.1 * report_.demands[i]) * per_volume);
+      const double move = std::clamp(step + share * state.previous_move[i], least, most);
       state.previous_move[i] = move;
       weights[i] = std::max(weight_of_cube(cube + move), kLeastShare * weight_of_volume(report_.demands[i]));
     }
