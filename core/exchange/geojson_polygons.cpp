@@ -36,6 +36,16 @@ std::string plain_text(const Json& value) {
   return value.dump();
 }
 
+// A value in a few characters. The library's own dump recurses, and would overflow the stack on deeply nested arrays.
+std::string brief(const Json& value) {
+  if (value.is_object()) return "{...}";
+  if (!value.is_array()) return value.dump().substr(0, 40);
+  std::string text = "[";
+  for (std::size_t i = 0; i < value.size() && i < 4; ++i)
+    text.append(i > 0 ? "," : "").append(value[i].is_structured() ? "..." : value[i].dump().substr(0, 40));
+  return text.append(value.size() > 4 ? ",...]" : "]");
+}
+
 const std::vector<std::string> kTypes = {"FeatureCollection",  "Feature", "Polygon",    "MultiPolygon",
                                          "GeometryCollection", "Point",   "MultiPoint", "LineString",
                                          "MultiLineString"};
@@ -179,8 +189,7 @@ Result<void> Reader::read_polygon(const Json& coordinates, const std::string& pl
 Result<std::array<double, 2>> Reader::read_position(const Json& position, const std::string& place) {
   if (!position.is_array() || position.size() < 2 || !position[0].is_number() || !position[1].is_number())
     return Error{ErrorCode::parse, place,
-                 "A position must be an array of two numbers [x, y] (longitude, latitude); this is " +
-                     position.dump().substr(0, 60) + "."};
+                 "A position must be an array of two numbers [x, y] (longitude, latitude); this is " + brief(position) + "."};
   heights_ = heights_ || position.size() > 2;
   const std::array<double, 2> point{position[0].get<double>(), position[1].get<double>()};
   if (!std::isfinite(point[0]) || !std::isfinite(point[1]))

@@ -14,6 +14,7 @@ namespace bl {
 namespace {
 
 constexpr double kSamePoint = 1e-3;     // [m] closer points are one: surveys and rounded files know no less
+constexpr double kSpikeWidth = 1e-6;    // [m] narrower ones are lines but for rounding
 constexpr double kConvexDepth = 1e-3;   // [m] a point so little inside the hull does not make a plan non-convex
 constexpr double kSmallestArea = 1e-2;  // [m²] less is no site but a line or a wrong CRS
 constexpr double kLargestExtent = 1e5;  // [m] more is a region or a wrong CRS
@@ -145,6 +146,27 @@ Result<void> check_degrees(const RawRing& ring, const std::string& place) {
   return {};
 }
 
+// Where the line runs out to a point and back over itself, that point encloses nothing: it is dropped. Returns how many were.
+std::size_t drop_spikes(Ring& ring) {
+  std::size_t dropped = 0, steady = 0;  // corners in a row that are sound
+  for (std::size_t i = 0; ring.size() > 3 && steady < ring.size();) {
+    const std::size_t count = ring.size(), before = (i + count - 1) % count, after = (i + 1) % count;
+    const Vector3 in = ring[i] - ring[before], out = ring[after] - ring[i];
+    const double shorter = std::min(norm(in), norm(out)), longer = std::max(norm(in), norm(out));
+    const bool spike = shorter < kSamePoint || (dot(in, out) < 0 && std::abs(in.x * out.y - in.y * out.x) < kSpikeWidth * longer);
+    if (!spike) {
+      i = after;
+      ++steady;
+      continue;
+    }
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
+    ++dropped;
+    steady = 0;
+    i = (i + ring.size() - 1) % ring.size();  // the corner before it has changed
+  }
+  return dropped;
+}
+
 // Local points without the closing point and without repeated ones, in the wanted direction.
 Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, bool counter_clockwise, const std::string& place,
                         std::vector<std::string>& notes) {
@@ -165,6 +187,8 @@ Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, bool counte
     ++repeated;
   }
   if (repeated > 0) notes.push_back("In the ring " + place + ", " + std::to_string(repeated) + " repeated points were dropped.");
+  if (const std::size_t spikes = drop_spikes(ring); spikes > 0)
+    notes.push_back("In the ring " + place + ", " + std::to_string(spikes) + " spikes without width were cut off.");
   if (ring.size() < 3)
     return Error{ErrorCode::geometry, place,
                  "A ring needs at least 3 different points; this one has " + std::to_string(ring.size()) + "."};

@@ -134,6 +134,22 @@ TEST(PlanBoundary, HullOfAnLShape) {
   EXPECT_DOUBLE_EQ(convex_hull_plan(*plan).added_area, 50);
 }
 
+TEST(PlanBoundary, SpikesAreCutOff) {
+  const auto plan = read_plan_boundary(
+      polygon("[[[85000,446000],[85100,446000],[85120,446000],[85100,446000],[85100,446050],[85000,446050],[85000,446000]]]",
+              "EPSG:28992"));
+  ASSERT_TRUE(plan) << plan.error().text();
+  EXPECT_DOUBLE_EQ(plan->area, 5000);
+  EXPECT_EQ(plan->outer.size(), 4u);
+  EXPECT_TRUE(has_note(*plan, "In the ring coordinates/0, 2 spikes without width were cut off."));
+}
+
+TEST(PlanBoundary, DeepNestingIsAnError) {
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  EXPECT_EQ(error_of(polygon(deep)),
+            "coordinates/0/0: A position must be an array of two numbers [x, y] (longitude, latitude); this is [...].");
+}
+
 TEST(PlanBoundary, SiteOutsideItsCrsIsNoted) {
   const auto plan = read_plan_boundary(polygon("[[[0,0],[20,0],[20,10],[0,10],[0,0]]]", "EPSG:28992"));
   ASSERT_TRUE(plan) << plan.error().text();
