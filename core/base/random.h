@@ -16,6 +16,7 @@ class Random {
   std::uint64_t bits() { return Hash::mix(key_ + 0x9e3779b97f4a7c15ull * ++counter_); }
   /// Uniform in [0, 1), 53 bits.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
+  /// Uniform in [low, high]; `high` only by rounding.
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// Uniform in {0, ..., count-1}; the bias of the multiplication is below 2^-32 for counts below 2^32.
   std::uint64_t below(std::uint64_t count) { return static_cast<std::uint64_t>(uniform() * static_cast<double>(count)); }

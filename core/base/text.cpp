@@ -16,18 +16,19 @@ std::string shortest(double number) {
 
 std::string fixed(double number, int decimals) {
   if (!std::isfinite(number)) return shortest(number);
-  char buffer[400];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::fixed, decimals).ptr;
-  std::string text(buffer, end);
+  // 309 digits before the point, the point, a sign and the decimals.
+  std::string text(static_cast<std::size_t>(decimals) + 312, ' ');
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed, decimals).ptr;
+  text.resize(static_cast<std::size_t>(end - text.data()));
   if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
   return text;
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   double number = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
   return number;
 }
 

@@ -10,9 +10,9 @@ namespace bl {
 
 /// The shortest text that reads back as the same double (std::to_chars).
 std::string shortest(double number);
-/// With a fixed number of decimals, for people; never "-0.00".
+/// With a fixed number of decimals (from 0), for people; never "-0.00".
 std::string fixed(double number, int decimals);
-/// The whole text as a finite or infinite double with a decimal point; nothing where anything is left over.
+/// The whole text as a finite double with a decimal point; nothing where anything is left over.
 std::optional<double> parse_number(std::string_view text);
 /// Of `names`, the one that `name` was probably meant to be (few edits away), or empty.
 std::string nearest_name(std::string_view name, std::span<const std::string> names);
