@@ -50,11 +50,15 @@ void Clipper::start_box(const Vector3& minimum, const Vector3& maximum, std::uin
   faces.clear();
   loops.clear();
   for (unsigned corner = 0; corner < 8; ++corner) {
-    vertices.push_back({(corner & 1u) ? maximum.x : minimum.x, (corner & 2u) ? maximum.y : minimum.y,
-                        (corner & 4u) ? maximum.z : minimum.z});
+    vertices.push_back(
+        {(corner & 1u) ? maximum.x : minimum.x, (corner & 2u) ? maximum.y : minimum.y, (corner & 4u) ? maximum.z : minimum.z});
   }
-  const std::array<Plane, 6> planes{{{{-1, 0, 0}, -minimum.x}, {{1, 0, 0}, maximum.x}, {{0, -1, 0}, -minimum.y},
-                                     {{0, 1, 0}, maximum.y}, {{0, 0, -1}, -minimum.z}, {{0, 0, 1}, maximum.z}}};
+  const std::array<Plane, 6> planes{{{{-1, 0, 0}, -minimum.x},
+                                     {{1, 0, 0}, maximum.x},
+                                     {{0, -1, 0}, -minimum.y},
+                                     {{0, 1, 0}, maximum.y},
+                                     {{0, 0, -1}, -minimum.z},
+                                     {{0, 0, 1}, maximum.z}}};
   for (unsigned side = 0; side < 6; ++side) {
     ClippedFace face{planes[side].normal, planes[side].offset, FacetArea::Kind::plane, box_index, 4 * side, 4};
     loops.insert(loops.end(), kLoops[side].begin(), kLoops[side].end());

@@ -40,7 +40,8 @@ std::tuple<long long, long long, double> plane_key(const Plane& plane) {
 // The triangles of a hull, gathered into faces.
 class FaceMerger {
  public:
-  FaceMerger(std::span<const Point3> points, std::vector<Triangle> triangles) : points_(points), triangles_(std::move(triangles)) {
+  FaceMerger(std::span<const Point3> points, std::vector<Triangle> triangles)
+      : points_(points), triangles_(std::move(triangles)) {
     Vector3 low = points[0], high = points[0];
     double largest = 0;
     for (const Point3& p : points) {
@@ -92,7 +93,8 @@ class FaceMerger {
     const Vector3 normal = size > 0 ? area / size : Vector3{0, 0, 1};
     const Point3 at = points_[triangles_[seed][0]];
     const auto lies_in = [&](const Triangle& t) {
-      return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return std::abs(dot(normal, points_[v] - at)) <= tolerance_; });
+      return std::all_of(t.begin(), t.end(),
+                         [&](std::uint32_t v) { return std::abs(dot(normal, points_[v] - at)) <= tolerance_; });
     };
     const std::uint32_t group = static_cast<std::uint32_t>(planes_.size());
     planes_.push_back({normal, dot(normal, at)});
@@ -173,11 +175,13 @@ bool is_less(const Point3& a, const Point3& b) { return std::tuple(a.x, a.y, a.z
 Result<void> check_points(std::span<const Point3> points, std::string_view what) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_finite(points[i])) {
-      return Error{ErrorCode::not_finite, "", std::string(what) + " " + std::to_string(i) + " has a coordinate that is not a number"};
+      return Error{ErrorCode::not_finite, "",
+                   std::string(what) + " " + std::to_string(i) + " has a coordinate that is not a number"};
     }
     if (std::max({std::abs(points[i].x), std::abs(points[i].y), std::abs(points[i].z)}) > kLargestCoordinate) {
-      return Error{ErrorCode::out_of_range, "",
-                   std::string(what) + " " + std::to_string(i) + " lies more than 1e8 m from the origin: move the scene's origin near it"};
+      return Error{
+          ErrorCode::out_of_range, "",
+          std::string(what) + " " + std::to_string(i) + " lies more than 1e8 m from the origin: move the scene's origin near it"};
     }
   }
   return {};
@@ -247,7 +251,8 @@ Result<ConvexDomain> from_mesh(const Mesh& mesh) {
   std::vector<Point3> used;
   for (const auto& t : mesh.triangles) {
     for (unsigned i = 0; i < 3; ++i) {
-      if (t[i] >= mesh.vertices.size()) return Error{ErrorCode::geometry, "", "a triangle of the boundary mesh names a vertex that is not there"};
+      if (t[i] >= mesh.vertices.size())
+        return Error{ErrorCode::geometry, "", "a triangle of the boundary mesh names a vertex that is not there"};
       edges.emplace_back(t[i], t[(i + 1) % 3]);
       twins.emplace_back(t[(i + 1) % 3], t[i]);
       used.push_back(mesh.vertices[t[i]]);
@@ -256,7 +261,8 @@ Result<ConvexDomain> from_mesh(const Mesh& mesh) {
   std::sort(edges.begin(), edges.end());
   std::sort(twins.begin(), twins.end());
   if (edges != twins || std::adjacent_find(edges.begin(), edges.end()) != edges.end()) {
-    return Error{ErrorCode::geometry, "", "the boundary mesh is not closed: each edge needs one triangle on either side, turned the same way"};
+    return Error{ErrorCode::geometry, "",
+                 "the boundary mesh is not closed: each edge needs one triangle on either side, turned the same way"};
   }
   auto domain = convex_hull(used);
   if (!domain) return domain.error();

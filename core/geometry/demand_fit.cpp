@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/hash.h"
 #include "core/base/text.h"
+#include "core/geometry/response_system.h"
 
 namespace bl {
 
@@ -16,10 +18,16 @@ constexpr double kBallFactor = 4 * std::numbers::pi / 3;
 constexpr double kMostGrowth = 2, kMostLoss = 0.5;
 // An emptied cell's site is put back into its own cell by this margin (1 would put it on the bisector).
 constexpr double kRepair = 0.8;
+// The same for Newton's step, whose direction should rather not be bent.
+constexpr double kMostNewtonGrowth = 8, kMostNewtonLoss = 0.9;
+// Newton's step is halved no further than this.
+constexpr double kLeastStep = 1.0 / 256;
 // Share of the diagonal step: the response matrix, scaled by its diagonal, has eigenvalues between 0 and 2.
 constexpr double kStep = 0.8;
 // A weight never falls below this share of the weight whose whole ball has the demanded volume.
 constexpr double kLeastShare = 1e-4;
+// A free ball never exceeds so many times what it takes to hold the whole domain: more weight only drowns the others.
+constexpr double kMostReach = 4;
 
 double cube_of_radius(double weight) { return weight * std::sqrt(weight); }
 
@@ -72,8 +80,13 @@ class Fit {
     for (std::size_t i = 0; i < locked.size(); ++i) free_[i] = locked[i] == 0;
     report_.demands.assign(demands.begin(), demands.end());
     report_.state = state;
-    if (report_.state.previous_move.size() != sites.size()) report_.state = {std::vector<double>(sites.size(), 0), 1};
+    if (report_.state.previous_move.size() != sites.size()) {
+      report_.state = {};
+      report_.state.previous_move.assign(sites.size(), 0);
+    }
+    recognise(sites, demands);
     start_fresh_sites();
+    keep_in_bounds();
   }
 
   Result<FitReport> run() {
@@ -90,6 +103,7 @@ class Fit {
       judge(*measured);
       if (report_.is_met) break;
       move(*measured);
+      keep_in_bounds();
     }
     for (const PowerSite& site : sites_) report_.weights.push_back(site.weight);
     return std::move(report_);
@@ -104,6 +118,13 @@ class Fit {
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!free_[i] || sites_[i].weight > 0) continue;
       sites_[i].weight = all_fresh ? start[i] : weight_of_volume(report_.demands[i]);
+    }
+  }
+
+  void keep_in_bounds() {
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      const double reach = kMostReach * (domain_.size() + distance(sites_[i].position, domain_.centroid));
+      if (free_[i]) sites_[i].weight = std::clamp(sites_[i].weight, 0.0, std::min(kLargestWeight, reach * reach));
     }
   }
 
@@ -131,7 +152,7 @@ class Fit {
     }
     for (std::uint32_t i = 0; i < sites_.size(); ++i) {
       if (free_[i] && report_.demands[i] < asked[i]) report_.losses.push_back({i, asked[i], report_.demands[i]});
-      if (free_[i] && !(report_.demands[i] > 0)) sites_[i].weight = std::min(sites_[i].weight, 0.0);
+      if (free_[i] && !(report_.demands[i] > 0)) sites_[i].weight = 0;
     }
   }
 
@@ -174,12 +195,19 @@ class Fit {
   }
 
   void move(std::span<const CellMeasure> cells) {
+    if (options_.method == FitMethod::newton) return move_together(cells);
     if (options_.gain > 0) return move_by_gain(cells);
+    move_alone(cells);
+  }
+
+  // Feedback: each site by its own response, with Nesterov's acceleration in radius³ (the ball's volume is linear in it).
+  void move_alone(std::span<const CellMeasure> cells) {
     FitState& state = report_.state;
     // Against the slope: the acceleration has overshot and starts again (O'Donoghue and Candès 2015).
     double agreement = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (is_fitted(i)) agreement += (report_.demands[i] - cells[i].volume) * state.previous_move[i] / std::max(1e-300, sites_[i].weight);
+      if (is_fitted(i))
+        agreement += (report_.demands[i] - cells[i].volume) * state.previous_move[i] / std::max(1e-300, sites_[i].weight);
     }
     if (agreement < 0) state.momentum = 1;
     const double next = 0.5 * (1 + std::sqrt(1 + 4 * state.momentum * state.momentum));
@@ -200,12 +228,88 @@ class Fit {
       const double step = options_.damping * kStep * stretch * response_step(cells[i], report_.demands[i]);
       const double volume = cells[i].volume, per_volume = stretch / cells[i].volume_by_own_weight;
       const double least = std::max((kMostLoss - 1) * cube, (kMostLoss - 1) * volume * per_volume);
-      const double most = std::min((kMostGrowth - 1) * cube, (kMostGrowth - 1) * std::max(volume, 0.1 * report_.demands[i]) * per_volume);
+      const double most =
+          std::min((kMostGrowth - 1) * cube, (kMostGrowth - 1) * std::max(volume, 0.1 * report_.demands[i]) * per_volume);
       const double move = std::clamp(step + share * state.previous_move[i], least, most);
       state.previous_move[i] = move;
       weights[i] = std::max(weight_of_cube(cube + move), kLeastShare * weight_of_volume(report_.demands[i]));
     }
     for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
+  }
+
+  // Damped Newton. The last move is judged by what it led to: taken back by half where it went too far (Kitagawa, Mérigot and
+  // Thibert 2019: cells must not vanish, the residual has to fall), else followed by the next step.
+  void move_together(std::span<const CellMeasure> cells) {
+    FitState& state = report_.state;
+    double squares = 0, ratio = 1;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (!is_fitted(i)) continue;
+      const double error = cells[i].volume - report_.demands[i];
+      squares += error * error / report_.demands[i];
+      ratio = std::min(ratio, cells[i].volume / report_.demands[i]);
+    }
+    const double residual = std::sqrt(squares);
+    if (state.residual >= 0 && state.share > kLeastStep &&
+        (ratio < state.least_ratio || residual > (1 - 0.1 * state.share) * state.residual)) {
+      state.share *= 0.5;
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (!is_fitted(i)) continue;
+        state.previous_move[i] *= 0.5;
+        sites_[i].weight = weight_of_cube(std::max(0.0, cube_of_radius(sites_[i].weight) - state.previous_move[i]));
+      }
+      return;
+    }
+    // A round of repair first; what is empty even then must not hold up the others.
+    if (ratio <= 0 && state.share > 0) return repair(cells);
+    if (state.residual < 0) state.least_ratio = 0.5 * ratio;
+    step_together(cells, residual);
+  }
+
+  void repair(std::span<const CellMeasure> cells) {
+    report_.state.residual = -1;
+    report_.state.share = 0;
+    std::vector<double> weights(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      weights[i] = is_fitted(i) && !(cells[i].volume > 0) ? repaired_weight(i) : sites_[i].weight;
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
+  }
+
+  void step_together(std::span<const CellMeasure> cells, double residual) {
+    FitState& state = report_.state;
+    std::vector<double> wanted(cells.size(), 0);
+    std::vector<std::uint8_t> fitted(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      fitted[i] = is_fitted(i);
+      if (fitted[i]) wanted[i] = report_.demands[i] - cells[i].volume;
+    }
+    const std::vector<double> change =
+        ResponseSystem(sites_, cells, fitted).solve(wanted, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+    state.residual = residual;
+    state.share = options_.damping;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      state.previous_move[i] = 0;
+      if (!fitted[i] || !(cells[i].volume > 0)) continue;
+      const double cube = cube_of_radius(sites_[i].weight);
+      const double move = options_.damping * 1.5 * std::sqrt(sites_[i].weight) * change[i];
+      const double bounded = weight_of_cube(cube + std::clamp(move, -kMostNewtonLoss * cube, kMostNewtonGrowth * cube));
+      sites_[i].weight = std::max(bounded, kLeastShare * weight_of_volume(report_.demands[i]));
+      state.previous_move[i] = cube_of_radius(sites_[i].weight) - cube;
+    }
+  }
+
+  // Moves of the last call are comparable only while the problem is the same.
+  void recognise(std::span<const PowerSite> sites, std::span<const double> demands) {
+    Hash hash;
+    for (const Point3& v : domain_.vertices) hash.add(v);
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      hash.add(sites[i].position);
+      hash.add(demands[i]);
+      hash.add(std::uint64_t{free_[i]});
+      if (!free_[i]) hash.add(sites[i].weight);
+    }
+    if (report_.state.problem != hash.value()) report_.state.residual = -1;
+    report_.state.problem = hash.value();
   }
 
   // The constant gain of 2007.
@@ -226,7 +330,8 @@ class Fit {
 
 }  // namespace
 
-std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands) {
+std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites,
+                                    std::span<const double> demands) {
   double sum = 0;
   for (const double demand : demands) sum += std::max(0.0, demand);
   if (demands.empty() || !(sum > 0) || !(domain.volume > 0)) return std::vector<double>(sites.size(), 0.0);
@@ -241,10 +346,12 @@ Result<FitReport> adapt_weights(const ConvexDomain& domain, std::span<const Powe
     return Error{ErrorCode::out_of_range, "", "there has to be one demand, and one lock or none, for each site"};
   }
   for (std::size_t i = 0; i < demands.size(); ++i) {
-    if (!std::isfinite(demands[i])) return Error{ErrorCode::not_finite, "", "the demand of site " + std::to_string(i) + " is not a number"};
+    if (!std::isfinite(demands[i]))
+      return Error{ErrorCode::not_finite, "", "the demand of site " + std::to_string(i) + " is not a number"};
     if (demands[i] < 0) return Error{ErrorCode::out_of_range, "", "the demand of site " + std::to_string(i) + " is negative"};
   }
-  if (!(options.gain >= 0) || !std::isfinite(options.gain) || !(options.damping > 0 && options.damping <= 1) || !(options.tolerance >= 0)) {
+  if (!(options.gain >= 0) || !std::isfinite(options.gain) || !(options.damping > 0 && options.damping <= 1) ||
+      !(options.tolerance >= 0)) {
     return Error{ErrorCode::out_of_range, "", "gain and tolerance have to be zero or more, damping between 0 and 1"};
   }
   return Fit(domain, sites, demands, locked, state, options).run();

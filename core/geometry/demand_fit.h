@@ -12,43 +12,56 @@
 
 namespace bl {
 
+/// How weights follow the errors.
+enum class FitMethod : std::uint8_t {
+  feedback,  ///< each site by its own error, as in 2007; tens of steps, more the fuller the domain
+  newton,    ///< all sites together by the exact linear response; a handful of steps at any fill
+};
+
 struct FitOptions {
-  double gain = 0;           ///< [1/m]: w += gain · (demand - volume), as in 2007; 0: each site by its own response dV/dw
-  int steps = 1;             ///< at most so many evaluations of the diagram
-  double tolerance = 0.01;   ///< stop when no site is farther from its (fitting) demand than this share of it
-  double damping = 1;        ///< share of the step that is taken with gain 0, in (0, 1]
+  FitMethod method = FitMethod::feedback;
+  double gain = 0;          ///< [1/m]: w += gain · (demand - volume), as in 2007; 0: each site by its own response dV/dw.
+                            ///< Only for `feedback`
+  int steps = 1;            ///< at most so many evaluations of the diagram
+  double tolerance = 0.01;  ///< stop when no site is farther from its (fitting) demand than this share of it
+  double damping = 1;       ///< share of the step that is taken with gain 0, in (0, 1]
   ThreadPool* pool = nullptr;
 };
 
 /// What one call starts from besides weights. Plain data to be saved with the scene, so that a tick is a pure function of it.
 struct FitState {
-  std::vector<double> previous_move;   ///< last change of radius³ per site [m³]; empty: none yet
-  double momentum = 1;                 ///< counter of the acceleration (Nesterov's t); 1: starting afresh
+  std::vector<double> previous_move;  ///< last change of radius³ per site [m³]; empty: none yet
+  double momentum = 1;                ///< feedback: counter of the acceleration (Nesterov's t); 1: starting afresh
+  std::uint64_t problem = 0;          ///< hash of domain, positions, demands and locks that the fields below belong to
+  double residual = -1;    ///< newton: sqrt(sum of (V - D)²/D) before the last move [m^1.5]; negative: no move to be judged
+  double share = 1;        ///< newton: share of the full step that the last move was; 0: emptied cells were repaired
+  double least_ratio = 0;  ///< newton: smallest V/D that a step may lead to
   bool operator==(const FitState&) const = default;
 };
 
 /// A demand that cannot be met, and what it gets instead.
 struct DemandLoss {
   std::uint32_t site = 0;
-  double demand = 0, granted = 0;      ///< [m³]
+  double demand = 0, granted = 0;  ///< [m³]
 };
 
 struct FitReport {
-  std::vector<double> weights;         ///< [m²], to be used next
-  FitState state;                      ///< to be handed to the next call
-  std::vector<double> demands;         ///< [m³] that were aimed at: as given, or scaled where infeasible
-  std::vector<double> volumes;         ///< [m³] at the last evaluation, which is of `weights` where `is_met`
-  double error = 0;                    ///< largest |volume - demand| / demand of the sites that are free, at the last evaluation
-  std::uint32_t worst_site = 0;        ///< who has it
-  int steps = 0;                       ///< evaluations made
-  bool is_met = false;                 ///< error <= tolerance: `weights` are those that were evaluated
-  std::string infeasible;              ///< a sentence where the demands exceed the domain; empty otherwise
-  std::vector<DemandLoss> losses;      ///< per site that gets less than it asked for
+  std::vector<double> weights;     ///< [m²], to be used next
+  FitState state;                  ///< to be handed to the next call
+  std::vector<double> demands;     ///< [m³] that were aimed at: as given, or scaled where infeasible
+  std::vector<double> volumes;     ///< [m³] at the last evaluation, which is of `weights` where `is_met`
+  double error = 0;                ///< largest |volume - demand| / demand of the sites that are free, at the last evaluation
+  std::uint32_t worst_site = 0;    ///< who has it
+  int steps = 0;                   ///< evaluations made
+  bool is_met = false;             ///< error <= tolerance: `weights` are those that were evaluated
+  std::string infeasible;          ///< a sentence where the demands exceed the domain; empty otherwise
+  std::vector<DemandLoss> losses;  ///< per site that gets less than it asked for
 };
 
 /// Equal weights [m²] from which no site inside the domain is empty (the diagram is then an ordinary Voronoi diagram):
 /// a common radius from the mean demand, enlarged with the fill f by -ln(1-f)/f.
-std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands);
+std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites,
+                                    std::span<const double> demands);
 
 /// Takes up to `options.steps` steps from the weights of `sites` towards volume = demand [m³] for each site that is not
 /// locked (`locked` empty: all free). Weights of locked sites stay. Pure: the same arguments give the same bits.

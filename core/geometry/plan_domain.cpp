@@ -31,8 +31,8 @@ std::string crossing_sides(const std::vector<Corner>& plan) {
       const double from = turn(c, d, a), to = turn(c, d, b);
       if (!((turn(a, b, c) > 0) != (turn(a, b, d) > 0) && (from > 0) != (to > 0))) continue;
       const double share = from / (from - to);
-      return "the plan polygon crosses itself: side " + std::to_string(a.given) + " and side " + std::to_string(c.given) + " meet at " +
-             place_of(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y));
+      return "the plan polygon crosses itself: side " + std::to_string(a.given) + " and side " + std::to_string(c.given) +
+             " meet at " + place_of(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y));
     }
   }
   return {};
@@ -93,9 +93,11 @@ ConvexDomain prism(const std::vector<Corner>& plan, double bottom, double top) {
 }  // namespace
 
 Result<ConvexDomain> extrude(std::span<const Point3> plan, double bottom, double top) {
-  if (!std::isfinite(bottom) || !std::isfinite(top)) return Error{ErrorCode::not_finite, "", "a height of the boundary is not a number"};
+  if (!std::isfinite(bottom) || !std::isfinite(top))
+    return Error{ErrorCode::not_finite, "", "a height of the boundary is not a number"};
   if (!(top > bottom)) {
-    return Error{ErrorCode::geometry, "", "the top of the boundary (" + shortest(top) + " m) has to lie above its bottom (" + shortest(bottom) + " m)"};
+    return Error{ErrorCode::geometry, "",
+                 "the top of the boundary (" + shortest(top) + " m) has to lie above its bottom (" + shortest(bottom) + " m)"};
   }
   if (std::max(std::abs(top), std::abs(bottom)) > kLargestCoordinate) {
     return Error{ErrorCode::out_of_range, "", "the heights of the boundary lie beyond 1e8 m"};
@@ -107,7 +109,8 @@ Result<ConvexDomain> extrude(std::span<const Point3> plan, double bottom, double
   for (const Point3& p : flat) extent = std::max(extent, distance(p, flat.front()));
   const std::vector<Corner> all = simplified(flat, 0);
   if (all.size() < 3) {
-    return Error{ErrorCode::geometry, "", "a plan polygon needs at least 3 corners at different places, " + std::to_string(all.size()) + " found"};
+    return Error{ErrorCode::geometry, "",
+                 "a plan polygon needs at least 3 corners at different places, " + std::to_string(all.size()) + " found"};
   }
   std::vector<Corner> corners = simplified(flat, 1e-12 * extent);
   const double doubled = doubled_area(corners);
@@ -121,7 +124,8 @@ Result<ConvexDomain> extrude(std::span<const Point3> plan, double bottom, double
     const Corner& corner = corners[i];
     if (turn(corners[(i + n - 1) % n], corner, corners[(i + 1) % n]) <= 0) {
       return Error{ErrorCode::geometry, "",
-                   "the plan polygon is not convex (corner " + std::to_string(corner.given) + " at " + place_of(corner.x, corner.y) +
+                   "the plan polygon is not convex (corner " + std::to_string(corner.given) + " at " +
+                       place_of(corner.x, corner.y) +
                        "); non-convex plans come with exact boundaries later: use the hull or simplify"};
     }
   }

@@ -18,7 +18,8 @@ double determinant(const Vector3& a, const Vector3& b, const Vector3& c) { retur
 
 // The point on three planes (Cramer's rule).
 Point3 meeting_point(const Plane& a, const Plane& b, const Plane& c) {
-  const Vector3 sum = a.offset * cross(b.normal, c.normal) + b.offset * cross(c.normal, a.normal) + c.offset * cross(a.normal, b.normal);
+  const Vector3 sum =
+      a.offset * cross(b.normal, c.normal) + b.offset * cross(c.normal, a.normal) + c.offset * cross(a.normal, b.normal);
   return sum / determinant(a.normal, b.normal, c.normal) + Vector3{};
 }
 
@@ -29,7 +30,8 @@ Result<std::vector<Plane>> unit_planes(std::span<const Plane> planes) {
     if (!is_finite(planes[k].normal) || !std::isfinite(planes[k].offset) || !std::isfinite(length)) {
       return Error{ErrorCode::not_finite, "", "boundary plane " + std::to_string(k) + " has a number that is not finite"};
     }
-    if (!(length > 1e-100)) return Error{ErrorCode::geometry, "", "boundary plane " + std::to_string(k) + " has no direction: its normal is zero"};
+    if (!(length > 1e-100))
+      return Error{ErrorCode::geometry, "", "boundary plane " + std::to_string(k) + " has no direction: its normal is zero"};
     result.push_back({planes[k].normal / length, planes[k].offset / length});
   }
   return result;
@@ -86,7 +88,8 @@ ConvexDomain exact_domain(const Clipper& shape, const std::vector<Plane>& planes
 }  // namespace
 
 Result<ConvexDomain> from_planes(std::span<const Plane> input) {
-  if (input.size() < 4) return Error{ErrorCode::geometry, "", "a boundary needs at least 4 planes, " + std::to_string(input.size()) + " given"};
+  if (input.size() < 4)
+    return Error{ErrorCode::geometry, "", "a boundary needs at least 4 planes, " + std::to_string(input.size()) + " given"};
   auto planes = unit_planes(input);
   if (!planes) return planes.error();
   const double far_away = 2 * kLargestCoordinate;
@@ -100,7 +103,9 @@ Result<ConvexDomain> from_planes(std::span<const Plane> input) {
     for (std::uint32_t k = 0; k < planes->size(); ++k) {
       const Plane& plane = (*planes)[k];
       if (!shape.cut(plane.normal, plane.offset - dot(plane.normal, origin), FacetArea::Kind::plane, k)) {
-        return Error{ErrorCode::geometry, "", "the boundary planes leave no space: plane " + std::to_string(k) + " cuts away what the planes before it left"};
+        return Error{
+            ErrorCode::geometry, "",
+            "the boundary planes leave no space: plane " + std::to_string(k) + " cuts away what the planes before it left"};
       }
     }
     if (std::any_of(shape.faces.begin(), shape.faces.end(), [](const ClippedFace& face) { return face.index == kBox; })) {

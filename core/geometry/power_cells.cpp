@@ -59,11 +59,15 @@ Result<void> check_input(std::span<const PowerSite> sites, const ConvexDomain& d
     return Error{ErrorCode::out_of_range, "", "there has to be one storey height for each site"};
   }
   if (!options.with_shape) return {};
-  const auto is_fit = [&](double storey) { return storey > 0 && std::isfinite(storey) && (domain.maximum.z - domain.minimum.z) / storey <= kMostStoreys; };
-  const bool all_fit = options.storey_heights.empty() ? is_fit(options.storey_height)
-                                                      : std::all_of(options.storey_heights.begin(), options.storey_heights.end(), is_fit);
+  const auto is_fit = [&](double storey) {
+    return storey > 0 && std::isfinite(storey) && (domain.maximum.z - domain.minimum.z) / storey <= kMostStoreys;
+  };
+  const bool all_fit = options.storey_heights.empty()
+                           ? is_fit(options.storey_height)
+                           : std::all_of(options.storey_heights.begin(), options.storey_heights.end(), is_fit);
   if (!all_fit) {
-    return Error{ErrorCode::out_of_range, "", "a storey height has to be positive, and the boundary no higher than 10000 storeys"};
+    return Error{ErrorCode::out_of_range, "",
+                 "a storey height has to be positive, and the boundary no higher than 10000 storeys"};
   }
   return {};
 }
@@ -129,12 +133,14 @@ Point3 wrap_centre(const Bench& bench, double squared_radius) {
 
 MeshPointer make_mesh(Bench& bench, const PowerSite& site, int depth) {
   bench.loops.clear();
-  for (const ClippedFace& face : bench.cell.faces) bench.loops.push_back(std::span(bench.cell.loops).subspan(face.first, face.count));
+  for (const ClippedFace& face : bench.cell.faces)
+    bench.loops.push_back(std::span(bench.cell.loops).subspan(face.first, face.count));
   return std::make_shared<const Mesh>(tessellate(bench.cell.vertices, bench.loops, depth, {}, std::sqrt(site.weight),
                                                  wrap_centre(bench, site.weight), site.position));
 }
 
-void measure_cell(std::span<const PowerSite> sites, std::uint32_t index, const CellOptions& options, Bench& bench, CellMeasure& out) {
+void measure_cell(std::span<const PowerSite> sites, std::uint32_t index, const CellOptions& options, Bench& bench,
+                  CellMeasure& out) {
   const PowerSite& site = sites[index];
   Point3 cell_centroid;
   out.cell_volume = bench.cell.volume_and_centroid(cell_centroid);
@@ -160,11 +166,12 @@ std::string number(std::uint32_t site) { return "site " + std::to_string(site); 
 
 void judge(const ConvexDomain& domain, const PowerSite& site, std::uint32_t twin, bool has_cell, std::uint32_t swallower,
            CellMeasure& out) {
-  const std::string emptiness = !has_cell ? "swallowed: " + number(swallower) + " outweighs it at its position"
+  const std::string emptiness = !has_cell                ? "swallowed: " + number(swallower) + " outweighs it at its position"
                                 : !(out.cell_volume > 0) ? std::string("its power cell lies outside the domain")
                                 : !(site.weight > 0)     ? std::string("its weight is not positive, so it has no ball")
-                                : !(out.volume > 0)      ? std::string("its ball does not reach its own power cell: neighbours are heavier")
-                                                         : std::string();
+                                : !(out.volume > 0)
+                                    ? std::string("its ball does not reach its own power cell: neighbours are heavier")
+                                    : std::string();
   if (twin != kNone) {
     out.state = SiteState::coincident;
     out.reason = "lies at the position of " + number(twin) + ", which is heavier or comes first";
@@ -261,7 +268,8 @@ Result<std::span<const CellMeasure>> PowerDiagram::update(std::span<const PowerS
   return Error{ErrorCode::internal, "", std::string("the power cells failed: ") + problem.what()};
 }
 
-Result<std::vector<CellMeasure>> power_cells(const ConvexDomain& domain, std::span<const PowerSite> sites, const CellOptions& options) {
+Result<std::vector<CellMeasure>> power_cells(const ConvexDomain& domain, std::span<const PowerSite> sites,
+                                             const CellOptions& options) {
   PowerDiagram diagram;
   if (auto set = diagram.set_domain(domain); !set) return set.error();
   const auto cells = diagram.update(sites, options);

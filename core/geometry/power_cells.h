@@ -55,14 +55,14 @@ struct CellMeasure {
   SiteState state = SiteState::alive;
   std::string reason;  ///< a sentence for people; empty where the site is alive
 
-  double volume = 0;          ///< of the shape [m³]
-  double cell_volume = 0;     ///< of power cell ∩ domain, without the ball [m³]; these tile the domain
-  double surface_area = 0;    ///< of the shape: all flat facets and the spherical part [m²]
-  double spherical_area = 0;  ///< the part of the surface on the ball [m²]
-  double floor_area = 0;      ///< sum of the horizontal sections at mid-storey heights [m²]; 0 where not asked for
-  double footprint = 0;       ///< exact area of the plan projection [m²]; 0 where not asked for
-  double height = 0;          ///< exact vertical extent [m]; 0 where not asked for
-  double bottom = 0;          ///< lowest z [m]; the site's own z where the shape is empty
+  double volume = 0;                ///< of the shape [m³]
+  double cell_volume = 0;           ///< of power cell ∩ domain, without the ball [m³]; these tile the domain
+  double surface_area = 0;          ///< of the shape: all flat facets and the spherical part [m²]
+  double spherical_area = 0;        ///< the part of the surface on the ball [m²]
+  double floor_area = 0;            ///< sum of the horizontal sections at mid-storey heights [m²]; 0 where not asked for
+  double footprint = 0;             ///< exact area of the plan projection [m²]; 0 where not asked for
+  double height = 0;                ///< exact vertical extent [m]; 0 where not asked for
+  double bottom = 0;                ///< lowest z [m]; the site's own z where the shape is empty
   double volume_by_own_weight = 0;  ///< dV_i/dw_i [m]: sum over shared facets of A/(2 d), plus spherical area/(2 radius)
   Point3 centroid;                  ///< of the shape [m]; the site's own position where the shape is empty
   std::vector<FacetArea> facets;    ///< sorted by (kind, index), only those with an area

@@ -17,14 +17,15 @@ namespace bl {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using VertexBase =
+    CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
 using CellBase = CGAL::Regular_triangulation_cell_base_3<Kernel>;
 using Structure = CGAL::Triangulation_data_structure_3<VertexBase, CellBase>;
 using Triangulation = CGAL::Regular_triangulation_3<Kernel, Structure>;
 
 // The site of least power at the position of `site`; of equals the lowest index among it and its neighbours.
-std::uint32_t find_swallower(const Triangulation& triangulation, std::span<const PowerSite> sites, const PowerNeighbours& neighbours,
-                             std::uint32_t site) {
+std::uint32_t find_swallower(const Triangulation& triangulation, std::span<const PowerSite> sites,
+                             const PowerNeighbours& neighbours, std::uint32_t site) {
   const Point3 p = sites[site].position;
   const auto vertex = triangulation.nearest_power_vertex({p.x, p.y, p.z});
   const auto power = [&](std::uint32_t j) { return squared_norm(sites[j].position - p) - sites[j].weight; };

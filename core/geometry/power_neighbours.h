@@ -13,7 +13,7 @@ namespace bl {
 /// Neighbour lists of all sites in one array. Lists are sorted by index: nothing depends on the order of the triangulation.
 struct PowerNeighbours {
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> first;      ///< neighbours of site i are list[first[i] .. first[i + 1])
+  std::vector<std::uint32_t> first;  ///< neighbours of site i are list[first[i] .. first[i + 1])
   std::vector<std::uint32_t> list;
   std::vector<std::uint8_t> has_cell;    ///< has the site a cell in the unbounded diagram of the participants?
   std::vector<std::uint32_t> swallower;  ///< of a participant without a cell: the site of least power at its position

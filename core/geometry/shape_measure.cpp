@@ -46,9 +46,7 @@ Span span_in_disc(double t0, double t1, double delta, double squared_disc_radius
 }
 
 // Angle that an edge piece subtends at the foot point, positive counter-clockwise.
-double swept_angle(double t0, double t1, double delta) {
-  return std::atan2(delta * (t1 - t0), delta * delta + t0 * t1);
-}
+double swept_angle(double t0, double t1, double delta) { return std::atan2(delta * (t1 - t0), delta * delta + t0 * t1); }
 
 // Solid angle, seen from the centre, of what lies between the disc's rim and an edge piece outside the disc.
 // κ θ - sgn(δ) [g(t1) - g(t0)] with g(t) = atan2(|h| t, |δ| sqrt(h² + δ² + t²)), the difference taken as one angle.
@@ -145,7 +143,8 @@ void measure_unwrapped(const Clipper& cell, double cell_volume, const Point3& ce
 
 }  // namespace
 
-void measure_shape(const Clipper& cell, double squared_radius, double cell_volume, const Point3& cell_centroid, ShapeMeasure& out) {
+void measure_shape(const Clipper& cell, double squared_radius, double cell_volume, const Point3& cell_centroid,
+                   ShapeMeasure& out) {
   out.areas.clear();
   out.volume = out.spherical_area = 0;
   out.is_empty = true;

@@ -19,7 +19,8 @@ struct ShapeMeasure {
 };
 
 /// `squared_radius` [m²] positive; `cell_volume` and `cell_centroid` are those of the whole polyhedron.
-void measure_shape(const Clipper& cell, double squared_radius, double cell_volume, const Point3& cell_centroid, ShapeMeasure& out);
+void measure_shape(const Clipper& cell, double squared_radius, double cell_volume, const Point3& cell_centroid,
+                   ShapeMeasure& out);
 
 /// Exact vertical extent: fills `lowest` and `highest`. After measure_shape, for a shape that is not empty.
 void measure_extent(const Clipper& cell, double squared_radius, ShapeMeasure& shape);

@@ -93,13 +93,16 @@ std::vector<PowerSite> make_sites(Bytes& bytes, const ConvexDomain& domain) {
 }
 
 void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
-  for (const double number : {cell.volume, cell.cell_volume, cell.surface_area, cell.spherical_area, cell.floor_area, cell.footprint,
-                              cell.height, cell.bottom, cell.volume_by_own_weight, cell.centroid.x, cell.centroid.y, cell.centroid.z}) {
+  for (const double number :
+       {cell.volume, cell.cell_volume, cell.surface_area, cell.spherical_area, cell.floor_area, cell.footprint, cell.height,
+        cell.bottom, cell.volume_by_own_weight, cell.centroid.x, cell.centroid.y, cell.centroid.z}) {
     demand(std::isfinite(number), "every number is finite");
   }
   demand(cell.volume >= 0 && cell.volume <= cell.cell_volume, "the shape is part of the cell");
-  demand(cell.height >= 0 && cell.height <= (domain.maximum.z - domain.minimum.z) * (1 + 1e-6), "the shape is no higher than the domain");
-  demand(cell.footprint <= 1e-6 + 1.000001 * (domain.maximum.x - domain.minimum.x) * (domain.maximum.y - domain.minimum.y), "footprint");
+  demand(cell.height >= 0 && cell.height <= (domain.maximum.z - domain.minimum.z) * (1 + 1e-6),
+         "the shape is no higher than the domain");
+  demand(cell.footprint <= 1e-6 + 1.000001 * (domain.maximum.x - domain.minimum.x) * (domain.maximum.y - domain.minimum.y),
+         "footprint");
   demand(cell.reason.empty() == (cell.state == bl::SiteState::alive), "whoever does not live has a reason");
   demand((cell.mesh != nullptr) == (cell.volume > 0), "each volume has a mesh");
   if (!cell.mesh) return;
@@ -128,7 +131,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if ((mode & 128u) != 0 && sites.size() <= 40) {
     const std::vector<double> demands(sites.size(), 0.5 * domain.volume / static_cast<double>(sites.size() + 1));
     bl::FitOptions fit;
-    fit.steps = 5;
+    fit.steps = 6;
+    fit.method = (mode & 64u) != 0 ? bl::FitMethod::newton : bl::FitMethod::feedback;
     const auto fitted = bl::adapt_weights(domain, sites, demands, {}, {}, fit);
     demand(fitted.ok() && fitted->weights.size() == sites.size(), "a fit always answers");
     for (const double weight : fitted->weights) demand(std::isfinite(weight), "weights are finite");

@@ -68,7 +68,8 @@ TEST(ConvexDomain, HullRefusesWhatHasNoVolume) {
 
 TEST(ConvexDomain, PlanesKeepTheirIndex) {
   // A box with a redundant plane (4) and a repeated one (5); not normalised.
-  const std::vector<Plane> planes{{{-2, 0, 0}, 0}, {{1, 0, 0}, 1}, {{0, -1, 0}, 0}, {{0, 3, 0}, 3}, {{1, 1, 0}, 5}, {{1, 0, 0}, 1}, {{0, 0, -1}, 0}, {{0, 0, 1}, 1}};
+  const std::vector<Plane> planes{{{-2, 0, 0}, 0}, {{1, 0, 0}, 1}, {{0, -1, 0}, 0}, {{0, 3, 0}, 3},
+                                  {{1, 1, 0}, 5},  {{1, 0, 0}, 1}, {{0, 0, -1}, 0}, {{0, 0, 1}, 1}};
   const auto domain = from_planes(planes);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   EXPECT_EQ(domain->planes.size(), 8u);
@@ -92,7 +93,8 @@ TEST(ConvexDomain, PyramidFromPlanesHasOneApex) {
 TEST(ConvexDomain, PlanesThatDoNotCloseAreRefused) {
   const std::vector<Plane> open{{{-1, 0, 0}, 0}, {{1, 0, 0}, 1}, {{0, -1, 0}, 0}, {{0, 1, 0}, 1}, {{0, 0, -1}, 0}};
   expect_refused(from_planes(open), "do not close");
-  const std::vector<Plane> empty{{{-1, 0, 0}, 0}, {{1, 0, 0}, -1}, {{0, -1, 0}, 0}, {{0, 1, 0}, 1}, {{0, 0, -1}, 0}, {{0, 0, 1}, 1}};
+  const std::vector<Plane> empty{{{-1, 0, 0}, 0}, {{1, 0, 0}, -1}, {{0, -1, 0}, 0},
+                                 {{0, 1, 0}, 1},  {{0, 0, -1}, 0}, {{0, 0, 1}, 1}};
   expect_refused(from_planes(empty), "leave no space: plane 1");
   const std::vector<Plane> zero{{{0, 0, 0}, 0}, {{1, 0, 0}, 1}, {{0, -1, 0}, 0}, {{0, 1, 0}, 1}};
   expect_refused(from_planes(zero), "plane 0 has no direction");
@@ -101,7 +103,8 @@ TEST(ConvexDomain, PlanesThatDoNotCloseAreRefused) {
 
 TEST(ConvexDomain, SmallDomainsFarAwayAreExact) {
   const double x = 100000, s = 0.5;
-  const std::vector<Plane> planes{{{-1, 0, 0}, -x}, {{1, 0, 0}, x + s}, {{0, -1, 0}, -x}, {{0, 1, 0}, x + s}, {{0, 0, -1}, 0}, {{0, 0, 1}, s}};
+  const std::vector<Plane> planes{{{-1, 0, 0}, -x},   {{1, 0, 0}, x + s}, {{0, -1, 0}, -x},
+                                  {{0, 1, 0}, x + s}, {{0, 0, -1}, 0},    {{0, 0, 1}, s}};
   const auto domain = from_planes(planes);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   EXPECT_DOUBLE_EQ(domain->volume, 0.125);

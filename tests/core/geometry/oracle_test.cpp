@@ -83,8 +83,8 @@ TEST(Oracle, EveryCellMatchesTheQuadrature) {
     }
   }
   RecordProperty("cells", cells_checked);
-  std::printf("%d cells; worst relative error: volume %.1e, facet %.1e, spherical %.1e\n", cells_checked, worst.volume, worst.facet,
-              worst.sphere);
+  std::printf("%d cells; worst relative error: volume %.1e, facet %.1e, spherical %.1e\n", cells_checked, worst.volume,
+              worst.facet, worst.sphere);
 }
 
 TEST(Oracle, FittedWeightsGiveTheDemandedVolumes) {

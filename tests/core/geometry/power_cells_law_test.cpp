@@ -8,7 +8,8 @@ namespace {
 
 // A bounded domain without symmetry, so that nothing holds by luck.
 ConvexDomain skew_domain() {
-  const std::vector<Point3> points{{0, 0, 0}, {1, 0.1, 0}, {1.1, 1, 0.1}, {0, 0.9, -0.1}, {0.2, 0.1, 1}, {0.9, 0.8, 1.2}, {0.1, 1, 0.9}};
+  const std::vector<Point3> points{{0, 0, 0},     {1, 0.1, 0},     {1.1, 1, 0.1}, {0, 0.9, -0.1},
+                                   {0.2, 0.1, 1}, {0.9, 0.8, 1.2}, {0.1, 1, 0.9}};
   return convex_hull(points).value();
 }
 
@@ -31,7 +32,8 @@ TEST(PowerCellLaws, SharedFacetsAreSeenAlikeFromBothSides) {
     for (const FacetArea& facet : cells[i].facets) {
       if (facet.kind != FacetArea::Kind::site || facet.area < 1e-10) continue;
       const auto& others = cells[facet.index].facets;
-      const auto back = std::find_if(others.begin(), others.end(), [&](const FacetArea& f) { return f.kind == facet.kind && f.index == i; });
+      const auto back =
+          std::find_if(others.begin(), others.end(), [&](const FacetArea& f) { return f.kind == facet.kind && f.index == i; });
       ASSERT_NE(back, others.end());
       EXPECT_NEAR(back->area, facet.area, 1e-12);
     }
@@ -46,7 +48,8 @@ TEST(PowerCellLaws, SharedFacetsAreSeenAlikeInsideTheBalls) {
     for (const FacetArea& facet : cells[i].facets) {
       if (facet.kind != FacetArea::Kind::site || facet.area < 1e-10) continue;
       const auto& others = cells[facet.index].facets;
-      const auto back = std::find_if(others.begin(), others.end(), [&](const FacetArea& f) { return f.kind == facet.kind && f.index == i; });
+      const auto back =
+          std::find_if(others.begin(), others.end(), [&](const FacetArea& f) { return f.kind == facet.kind && f.index == i; });
       ASSERT_NE(back, others.end());
       EXPECT_NEAR(back->area, facet.area, 1e-12);
     }
@@ -124,14 +127,17 @@ TEST(PowerCellLaws, ScaleByTheCube) {
     for (const PowerSite& s : sites) moved.push_back({scale * s.position, scale * scale * s.weight});
     const auto after = cells_of(big, moved);
     expect_alike(cells, after, scale, 1e-12);
-    for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_NEAR(after[i].footprint, scale * scale * cells[i].footprint, 1e-12 * scale * scale);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      EXPECT_NEAR(after[i].footprint, scale * scale * cells[i].footprint, 1e-12 * scale * scale);
   }
 }
 
 TEST(PowerCellLaws, StayTheSameFarFromTheOrigin) {
   const auto sites = random_sites(50, 22, 0.0, 0.05);
   // Whole eighths and a power of two, so that moving is exact and only the arithmetic is tested.
-  const auto round = [](const Point3& p) { return Point3{std::round(p.x * 4096) / 4096, std::round(p.y * 4096) / 4096, std::round(p.z * 4096) / 4096}; };
+  const auto round = [](const Point3& p) {
+    return Point3{std::round(p.x * 4096) / 4096, std::round(p.y * 4096) / 4096, std::round(p.z * 4096) / 4096};
+  };
   const Vector3 shift{16384, -8192, 128};
   std::vector<PowerSite> here, there;
   for (const PowerSite& s : sites) {
@@ -281,7 +287,8 @@ TEST(PowerCellLaws, FloorsOfThinStoreysAddUpToTheVolume) {
   CellOptions options;
   options.storey_height = 0.0005;
   const auto cells = power_cells(skew_domain(), sites, options).value();
-  for (const CellMeasure& cell : cells) EXPECT_NEAR(cell.floor_area * options.storey_height, cell.volume, 2e-3 * cell.volume + 1e-9);
+  for (const CellMeasure& cell : cells)
+    EXPECT_NEAR(cell.floor_area * options.storey_height, cell.volume, 2e-3 * cell.volume + 1e-9);
 }
 
 }  // namespace

@@ -38,10 +38,14 @@ TEST(PowerCells, BallCutByAPlane) {
   EXPECT_NEAR(cell.footprint, 4 * kPi, 1e-12);
   // One storey of 3 m: its section at 1.5 m has squared radius 4 - 0.25.
   EXPECT_NEAR(cell.floor_area, 3.75 * kPi, 1e-12);
-  EXPECT_NEAR(cell.centroid.z, 1 + (kPi * 81.0 / 4 / 9) / (9 * kPi) * 0 + [] {
-    // First moment of the cut-off cap about the centre: pi/4 (r² - h²)², towards -z; so the rest has it towards +z.
-    return (kPi / 4 * 9) / (32 * kPi / 3 - 5 * kPi / 3);
-  }(), 1e-12);
+  EXPECT_NEAR(
+      cell.centroid.z,
+      1 + (kPi * 81.0 / 4 / 9) / (9 * kPi) * 0 +
+          [] {
+            // First moment of the cut-off cap about the centre: pi/4 (r² - h²)², towards -z; so the rest has it towards +z.
+            return (kPi / 4 * 9) / (32 * kPi / 3 - 5 * kPi / 3);
+          }(),
+      1e-12);
 }
 
 TEST(PowerCells, BoxInsideAHugeBall) {
@@ -105,7 +109,8 @@ TEST(PowerCells, SiteThatItsOwnBallDoesNotReachIsStarved) {
 TEST(PowerCells, AbsurdInputIsRefusedWithASentence) {
   const ConvexDomain domain = unit_cube();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const PowerSite& bad : {PowerSite{{nan, 0, 0}, 1}, PowerSite{{0, 0, 0}, nan}, PowerSite{{1e9, 0, 0}, 1}, PowerSite{{0, 0, 0}, 1e19}}) {
+  for (const PowerSite& bad :
+       {PowerSite{{nan, 0, 0}, 1}, PowerSite{{0, 0, 0}, nan}, PowerSite{{1e9, 0, 0}, 1}, PowerSite{{0, 0, 0}, 1e19}}) {
     const auto cells = power_cells(domain, std::vector<PowerSite>{{{0.5, 0.5, 0.5}, 1}, bad});
     ASSERT_FALSE(cells.ok());
     EXPECT_NE(cells.error().message.find("site 1"), std::string::npos);
@@ -133,8 +138,8 @@ void expect_sound(const char* name, const ConvexDomain& domain, std::span<const 
     const CellMeasure& cell = cells[i];
     EXPECT_EQ(cell.reason.empty(), cell.state == SiteState::alive);
     EXPECT_EQ(cell.volume > 0, cell.mesh != nullptr) << i;
-    for (const double number : {cell.volume, cell.cell_volume, cell.surface_area, cell.floor_area, cell.footprint, cell.height, cell.bottom,
-                                cell.volume_by_own_weight, cell.centroid.x, cell.centroid.y, cell.centroid.z}) {
+    for (const double number : {cell.volume, cell.cell_volume, cell.surface_area, cell.floor_area, cell.footprint, cell.height,
+                                cell.bottom, cell.volume_by_own_weight, cell.centroid.x, cell.centroid.y, cell.centroid.z}) {
       EXPECT_TRUE(std::isfinite(number)) << i;
     }
     EXPECT_TRUE(std::is_sorted(cell.facets.begin(), cell.facets.end(), [](const FacetArea& a, const FacetArea& b) {
@@ -162,7 +167,9 @@ TEST(PowerCells, DegenerateZoo) {
   expect_sound("one", domain, std::vector<PowerSite>{{{1, 1, 1}, 1}});
   expect_sound("two", domain, std::vector<PowerSite>{{{1, 1, 1}, 1}, {{3, 1, 1}, 1}});
   expect_sound("three", domain, std::vector<PowerSite>{{{1, 1, 1}, 1}, {{3, 1, 1}, 1}, {{2, 3, 1}, 2}});
-  expect_sound("collinear", domain, std::vector<PowerSite>{{{1, 1, 1}, 1}, {{2, 2, 2}, 1}, {{3, 3, 3}, 1}, {{3.5, 3.5, 3.5}, 1}, {{2.5, 2.5, 2.5}, 9}});
+  expect_sound(
+      "collinear", domain,
+      std::vector<PowerSite>{{{1, 1, 1}, 1}, {{2, 2, 2}, 1}, {{3, 3, 3}, 1}, {{3.5, 3.5, 3.5}, 1}, {{2.5, 2.5, 2.5}, 9}});
   expect_sound("lattice", domain, grid(0.3));
   expect_sound("lattice, full", domain, grid(10));
   expect_sound("lattice, tangent balls", domain, grid(0.25));
@@ -188,7 +195,8 @@ TEST(PowerCells, DegenerateZoo) {
   expect_sound("cospherical with centre", domain, sphere);
   expect_sound("all at one place", domain, std::vector<PowerSite>(20, {{1, 2, 3}, 0.5}));
   expect_sound("all outside", domain, std::vector<PowerSite>{{{-1, 1, 1}, 4}, {{5, 1, 1}, 1}, {{9, 9, 9}, 0.1}});
-  expect_sound("on corners and edges", domain, std::vector<PowerSite>{{{0, 0, 0}, 1}, {{4, 4, 4}, 1}, {{0, 0, 4}, 16}, {{4, 0, 2}, 1}});
+  expect_sound("on corners and edges", domain,
+               std::vector<PowerSite>{{{0, 0, 0}, 1}, {{4, 4, 4}, 1}, {{0, 0, 4}, 16}, {{4, 0, 2}, 1}});
   std::vector<PowerSite> close;
   for (int i = 0; i < 12; ++i) close.push_back({{1 + 1e-5 * i, 1, 1 + 1e-5 * (i % 3)}, 1});
   expect_sound("very close", domain, close);

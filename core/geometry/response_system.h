@@ -1,0 +1,32 @@
+// The linear response of all volumes to all weights, and its solution: the heart of the Newton step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/power_cells.h"
+
+namespace bl {
+
+/// The matrix dV_i/dw_j of the sites that are free to move: off the diagonal -A_ij / (2 d_ij), on it the sum of these plus
+/// spherical area / (2 radius). Symmetric and positive definite while some shape has a free surface.
+class ResponseSystem {
+ public:
+  /// `is_free` says per site whether its weight is an unknown; sites without volume take no part.
+  ResponseSystem(std::span<const PowerSite> sites, std::span<const CellMeasure> cells, std::span<const std::uint8_t> is_free);
+
+  /// Changes of weight [m²] for wanted changes of volume [m³]: conjugate gradients, preconditioned by the diagonal, until the
+  /// scaled residual has shrunk by `tolerance`. Sequential, so the result depends on the arguments alone.
+  std::vector<double> solve(std::span<const double> wanted, double tolerance) const;
+
+ private:
+  void multiply(const std::vector<double>& x, std::vector<double>& result) const;
+
+  std::vector<double> diagonal_;      // 0: no unknown
+  std::vector<std::uint32_t> first_;  // row i: entries first_[i] .. first_[i + 1)
+  std::vector<std::uint32_t> column_;
+  std::vector<double> value_;
+};
+
+}  // namespace bl
