@@ -1,0 +1,199 @@
+// Laws of whole scenes: text, threads, order, save and load, rewind, replay and undo leave the result as it is.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/random.h"
+#include "core/define/codec.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+constexpr int kTicks = 25;
+
+std::uint64_t hash_after(const std::string& text, int ticks, int threads) {
+  World world = World::from_text(text, threads);
+  world.tick(ticks);
+  return world.state().hash;
+}
+
+class SceneLaws : public testing::TestWithParam<std::string> {};
+
+TEST_P(SceneLaws, LoadsWithoutProblemsAndSavesByteForByte) {
+  const std::string text = project_file(GetParam());
+  const SceneReading reading = read_scene(text, full_registry());
+  for (const Problem& problem : reading.problems) ADD_FAILURE() << problem.error.text();
+  EXPECT_EQ(write_scene(reading.scene, full_registry(), reading.state ? &*reading.state : nullptr), text);
+}
+
+TEST_P(SceneLaws, OneTwoThreeAndEightThreadsAgree) {
+  const std::string text = project_file(GetParam());
+  const std::uint64_t one = hash_after(text, kTicks, 1);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(hash_after(text, kTicks, threads), one) << threads << " threads";
+}
+
+// The same nodes and links, created one by one by commands in shuffled order.
+Scene rebuilt(const Scene& scene, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Command> nodes, links;
+  for (const auto& [id, node] : scene.nodes) {
+    NodeRecord bare = node;
+    std::erase_if(bare.types, [](const auto& type) { return type.first != kBaseNode; });
+    bare.locked.clear();
+    bare.ghosts.clear();
+    nodes.push_back(command<AddNode>({id, {write_json_line(node_to_json(bare, full_registry()))}}));
+  }
+  std::vector<Command> roles;
+  for (const auto& [id, node] : scene.nodes) {
+    for (const auto& [type, values] : node.types)
+      if (type != kBaseNode)
+        roles.push_back(command<Typify>({id, type, {write_json_line(ports_to_json(*full_registry().typification(type), values))}}));
+  }
+  for (const auto& [id, link] : scene.links) links.push_back(command<AddLink>({id, {write_json_line(link_to_json(link, full_registry()))}}));
+  Scene fresh;
+  fresh.settings = scene.settings;
+  fresh.view = scene.view;
+  SceneEdit edit(fresh, full_registry());
+  for (auto* list : {&nodes, &roles, &links}) {
+    for (std::size_t i = list->size(); i > 1; --i) std::swap((*list)[i - 1], (*list)[random.below(i)]);
+    for (const Command& command : *list) {
+      const auto done = apply(edit, command);
+      EXPECT_TRUE(done.ok()) << done.error().text();
+    }
+  }
+  for (const auto& [id, node] : scene.nodes) {
+    fresh.nodes[id].ghosts = node.ghosts;
+    for (const std::string& path : node.locked) EXPECT_TRUE(apply(edit, command<LockPort>({id, {path}})).ok());
+  }
+  return fresh;
+}
+
+TEST_P(SceneLaws, TheOrderOfCreationDoesNotMatter) {
+  const SceneReading reading = read_scene(project_file(GetParam()), full_registry());
+  if (reading.state) return;    // a scene in mid-run starts from its state, not from its creation
+  const std::uint64_t straight = hash_after(write_scene(reading.scene, full_registry()), kTicks, 1);
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const Scene shuffled = rebuilt(reading.scene, seed);
+    EXPECT_TRUE(shuffled == reading.scene);
+    EXPECT_EQ(hash_after(write_scene(shuffled, full_registry()), kTicks, 1), straight);
+  }
+}
+
+TEST_P(SceneLaws, SavingAndLoadingInMidRunChangesNothing) {
+  World through = World::from_file(GetParam());
+  through.tick(kTicks / 2);
+  const SavedState saved = save(through.state());
+  const std::string text = write_scene(through.session().scene(), full_registry(), &saved);
+  World loaded = World::from_text(text);
+  EXPECT_EQ(loaded.state().hash, through.state().hash);
+  for (int i = 0; i < kTicks / 2; ++i) {
+    through.tick();
+    loaded.tick();
+    ASSERT_EQ(loaded.state().hash, through.state().hash) << "tick " << through.state().tick;
+  }
+}
+
+TEST_P(SceneLaws, StepRewindStepGivesTheSame) {
+  World world = World::from_file(GetParam());
+  world.tick(3);
+  const auto kept = world.session().state();
+  const SavedState saved = save(*kept);
+  world.tick(5);
+  const std::uint64_t first = world.state().hash;
+  Simulation again(full_registry(), 1);
+  again.set_scene(world.session().scene());
+  ASSERT_TRUE(again.restore_state(saved).ok());
+  EXPECT_EQ(again.state()->hash, kept->hash);
+  for (int i = 0; i < 5; ++i) again.step();
+  EXPECT_EQ(again.state()->hash, first);
+}
+
+// Commands as a person might give them to this scene.
+Command random_command(const Scene& scene, Random& random, int number) {
+  auto pick = [&](const auto& map) {
+    auto it = map.begin();
+    std::advance(it, static_cast<std::ptrdiff_t>(random.below(map.size())));
+    return it->first;
+  };
+  const std::string fresh = "fresh" + std::to_string(number);
+  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 12);
+  const std::string number_text = std::to_string(random.below(40));
+  switch (kind) {
+    case 1: return command<SetPort>({pick(scene.nodes), {"node.position"}, {"[" + number_text + ", 12, 5]"}});
+    case 2: return command<RemoveNode>({pick(scene.nodes)});
+    case 3: return command<RenameNode>({pick(scene.nodes), "Name " + number_text});
+    case 4: return command<RemoveLink>({pick(scene.links)});
+    case 5: return command<EnableLink>({pick(scene.links), random.below(2) == 0});
+    case 6: return command<MuteLink>({pick(scene.links), random.below(2) == 0});
+    case 7: return command<SetLinkStrength>({pick(scene.links), random.uniform()});
+    case 8: return command<LockPort>({pick(scene.nodes), {"node.position"}});
+    case 9: return command<Typify>({pick(scene.nodes), "control", {R"({"value": 3})"}});
+    case 10: return command<SetSetting>({"title", {"\"" + number_text + "\""}});
+    case 11: return command<Untypify>({pick(scene.nodes), "smart_volume"});
+    default: return command<AddNode>({fresh, {R"({"position": [)" + number_text + R"(, 8, 6], "types": {"smart_volume": {"demand": 900}}})"}});
+  }
+}
+
+TEST_P(SceneLaws, UndoingEverythingGivesTheScenesBytesAndReplayTheSameHash) {
+  const std::string text = project_file(GetParam());
+  World world = World::from_text(text);
+  const std::uint64_t scene_hash = hash_of(world.session().scene());
+  Random random(21, text.size());
+  int done = 0;
+  for (int i = 0; i < 60; ++i) {
+    if (world.submit(random_command(world.session().scene(), random, i), i % 3 == 0 ? "anna" : "ben").empty()) ++done;
+    if (i % 10 == 0) world.tick();
+  }
+  EXPECT_GT(done, 10);
+  world.tick(2);
+  // Authors take turns in reverse order of their entries, so that every undo finds the scene that it was made for.
+  std::vector<std::string> authors;
+  for (const LogEntry& entry : world.session().log()) authors.push_back(entry.author);
+  std::reverse(authors.begin(), authors.end());
+  std::set<std::int64_t> gestures;
+  for (const LogEntry& entry : world.session().log()) gestures.insert(entry.gesture);
+  ASSERT_EQ(gestures.size(), authors.size());
+  for (const std::string& author : authors) {
+    const auto undone = world.session().undo(author);
+    ASSERT_TRUE(undone.ok()) << undone.error().text();
+  }
+  EXPECT_EQ(hash_of(world.session().scene()), scene_hash);
+  EXPECT_EQ(write_scene(world.session().scene(), full_registry()), write_scene(read_scene(text, full_registry()).scene, full_registry()));
+  world.tick(2);
+  std::string log = log_header(text);
+  for (const LogEntry& entry : world.session().log()) log += log_line(entry, full_registry());
+  log += log_line(LogCheck{world.state().tick, hex_digits(world.state().hash), true});
+  const auto file = read_log(log, full_registry());
+  ASSERT_TRUE(file.ok()) << file.error().text();
+  const auto report = replay(*file, full_registry(), 2);
+  ASSERT_TRUE(report.ok()) << report.error().text();
+  EXPECT_FALSE(report->first_mismatch.has_value());
+  EXPECT_EQ(report->hash, hex_digits(world.state().hash));
+  EXPECT_EQ(report->checks, 1u);
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, SceneLaws, testing::ValuesIn(small_scenes()), test_name);
+
+TEST(StudyLaws, StudiesLoadSaveAndAgreeOnThreads) {
+  for (const std::string& path : shipped_scenes()) {
+    if (!path.starts_with("scenes/studies/")) continue;
+    const std::string text = project_file(path);
+    const SceneReading reading = read_scene(text, full_registry());
+    EXPECT_TRUE(reading.problems.empty()) << path;
+    EXPECT_EQ(write_scene(reading.scene, full_registry()), text) << path;
+    EXPECT_EQ(hash_after(text, 3, 2), hash_after(text, 3, 1)) << path;
+  }
+}
+
+}  // namespace
+}  // namespace bl

@@ -1,0 +1,121 @@
+// Law of commands: a command and then its inverse give the same scene, for every registered command.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "nodes": [
+  {"id": "a", "position": [1, 2, 3], "tags": ["x"], "types": {"smart_volume": {"demand": 900}, "strange": {"deep": [1, {"k": null}]}}, "locked": ["node.position"]},
+  {"id": "b", "types": {"smart_volume": {}}},
+  {"id": "c", "types": {"statistics": {"nodes": ["a", "b"]}}}],
+  "links": [
+  {"id": "l", "kind": "keep_distance", "from": "a", "to": "b"},
+  {"id": "m", "kind": "keep_distance", "from": "b", "to": ["a", "c"], "strength": 0.5},
+  {"id": "n", "kind": "unheard_of", "from": "nowhere", "to": 7}]})";
+
+std::vector<Command> every_command() {
+  return {command<AddNode>({"z", {R"({"name": "Z", "types": {"smart_volume": {"demand": 5}}})"}}),
+          command<RemoveNode>({"a"}),
+          command<RemoveNode>({"b"}),
+          command<RenameNode>({"a", "Anna"}),
+          command<Typify>({"b", "control", {R"({"value": 4})"}}),
+          command<Untypify>({"a", "smart_volume"}),
+          command<SetPort>({"a", {"smart_volume.demand"}, {"1234.5"}}),
+          command<SetPort>({"c", {"statistics.nodes"}, {R"({"tag": "x"})"}}),
+          command<LockPort>({"b", {"node.position"}}),
+          command<UnlockPort>({"a", {"node.position"}}),
+          command<AddLink>({"o", {R"({"kind": "attract", "from": "a", "to": {"typification": "smart_volume"}})"}}),
+          command<RemoveLink>({"m"}),
+          command<RemoveLink>({"n"}),
+          command<SetLinkEnds>({"l", Selection{{"b"}, "", ""}, Selection{{}, "", "x"}}),
+          command<SetLinkParameter>({"l", full_registry().link("keep_distance")->ports.front().id, {"7"}}),
+          command<SetLinkStrength>({"m", 0.25}),
+          command<EnableLink>({"l", false}),
+          command<MuteLink>({"l", true}),
+          command<SetSetting>({"tolerance", {"0.02"}}),
+          command<Batch>({{R"([{"command": "rename_node", "arguments": {"id": "a", "name": "B"}}, {"command": "remove_node", "arguments": {"id": "b"}}])"}})};
+}
+
+TEST(UndoLaws, EveryCommandIsTaken) {
+  std::set<std::string> taken;
+  for (const Command& command : every_command()) taken.insert(command.id);
+  for (const auto& [id, command] : full_registry().commands()) EXPECT_TRUE(taken.contains(id)) << id;
+}
+
+TEST(UndoLaws, ACommandAndItsInverseGiveTheSameBytes) {
+  const SceneReading reading = read_scene(kScene, full_registry());
+  ASSERT_TRUE(reading.is_usable()) << reading.first_error().text();
+  for (const Command& command : every_command()) {
+    Scene scene = reading.scene;
+    SceneEdit edit(scene, full_registry());
+    const auto inverse = apply(edit, command);
+    ASSERT_TRUE(inverse.ok()) << command.id << ": " << inverse.error().text();
+    EXPECT_NE(hash_of(scene), hash_of(reading.scene)) << command.id << " changed nothing";
+    for (const Command& back : *inverse) {
+      const auto done = apply(edit, back);
+      ASSERT_TRUE(done.ok()) << command.id << ": " << done.error().text();
+    }
+    EXPECT_EQ(hash_of(scene), hash_of(reading.scene)) << command.id;
+    EXPECT_EQ(write_scene(scene, full_registry()), write_scene(reading.scene, full_registry())) << command.id;
+  }
+}
+
+TEST(UndoLaws, AFailedBatchLeavesTheSceneAsItWas) {
+  const SceneReading reading = read_scene(kScene, full_registry());
+  Scene scene = reading.scene;
+  SceneEdit edit(scene, full_registry());
+  const auto done = apply(edit, command<Batch>({{R"([{"command": "remove_node", "arguments": {"id": "a"}},
+    {"command": "rename_node", "arguments": {"id": "a", "name": "B"}}])"}}));
+  ASSERT_FALSE(done.ok());
+  EXPECT_EQ(done.error().message, "there is no node `a`, did you mean `b`?");
+  EXPECT_TRUE(scene == reading.scene);
+}
+
+TEST(UndoLaws, UndoIsPerAuthorAndRedoBringsBack) {
+  World world = World::from_text(kScene);
+  ASSERT_EQ(world.submit(command<RenameNode>({"a", "by Anna"}), "anna"), "");
+  ASSERT_EQ(world.submit(command<RenameNode>({"b", "by Ben"}), "ben"), "");
+  ASSERT_TRUE(world.session().undo("anna").ok());
+  EXPECT_EQ(world.session().scene().nodes.at("a").name, "");
+  EXPECT_EQ(world.session().scene().nodes.at("b").name, "by Ben");
+  ASSERT_TRUE(world.session().redo("anna").ok());
+  EXPECT_EQ(world.session().scene().nodes.at("a").name, "by Anna");
+  ASSERT_TRUE(world.session().undo("anna").ok());
+  EXPECT_EQ(world.session().undo("anna").error().message, "there is nothing to undo for anna");
+  ASSERT_TRUE(world.session().redo("anna").ok());
+  EXPECT_EQ(world.session().redo("anna").error().message, "there is nothing to redo for anna");
+  // A new step of Anna's forgets what she could have redone.
+  ASSERT_TRUE(world.session().undo("anna").ok());
+  ASSERT_EQ(world.submit(command<RenameNode>({"a", "anew"}), "anna"), "");
+  EXPECT_FALSE(world.session().redo("anna").ok());
+}
+
+TEST(UndoLaws, AGestureIsOneStep) {
+  World world = World::from_text(kScene);
+  const std::int64_t drag = world.session().new_gesture();
+  for (int i = 1; i <= 5; ++i)
+    ASSERT_TRUE(world.session().submit(command<SetPort>({"b", {"node.position"}, {"[" + std::to_string(i) + ", 0, 0]"}}), "anna", drag).ok());
+  EXPECT_EQ(std::get<Vector3>(world.session().scene().nodes.at("b").types.at("node").at("position")).x, 5);
+  ASSERT_TRUE(world.session().undo("anna").ok());
+  EXPECT_FALSE(world.session().scene().nodes.at("b").types.at("node").contains("position"));
+  ASSERT_TRUE(world.session().redo("anna").ok());
+  EXPECT_EQ(std::get<Vector3>(world.session().scene().nodes.at("b").types.at("node").at("position")).x, 5);
+}
+
+TEST(UndoLaws, WhatCannotBeUndoneSaysWhyAndChangesNothing) {
+  World world = World::from_text(kScene);
+  ASSERT_EQ(world.submit(command<RenameNode>({"b", "by Anna"}), "anna"), "");
+  ASSERT_EQ(world.submit(command<RemoveNode>({"b"}), "ben"), "");
+  const std::uint64_t before = hash_of(world.session().scene());
+  const auto undone = world.session().undo("anna");
+  ASSERT_FALSE(undone.ok());
+  EXPECT_EQ(undone.error().message, "cannot be undone because the scene has changed since: there is no node `b`, did you mean `a`?");
+  EXPECT_EQ(hash_of(world.session().scene()), before);
+}
+
+}  // namespace
+}  // namespace bl
