@@ -3,23 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/hash.h"
 #include "core/base/text.h"
+#include "core/geometry/fit_numbers.h"
 #include "core/geometry/response_system.h"
 
 namespace bl {
 
 namespace {
 
-constexpr double kBallFactor = 4 * std::numbers::pi / 3;
 // In one step r³ at most doubles, and loses at most half: beyond that the linear response says nothing any more.
 constexpr double kMostGrowth = 2, kMostLoss = 0.5;
 // An emptied cell's site is put back into its own cell by this margin (1 would put it on the bisector).
 constexpr double kRepair = 0.8;
-// The same for Newton's step, whose direction should rather not be bent.
-constexpr double kMostNewtonGrowth = 8, kMostNewtonLoss = 0.9;
+// Newton's step leaves at least this share of r³.
+constexpr double kLeastOfCube = 0.1;
 // Newton's step is halved no further than this.
 constexpr double kLeastStep = 1.0 / 256;
 // Share of the diagonal step: the response matrix, scaled by its diagonal, has eigenvalues between 0 and 2.
@@ -28,36 +27,6 @@ constexpr double kStep = 0.8;
 constexpr double kLeastShare = 1e-4;
 // A free ball never exceeds so many times what it takes to hold the whole domain: more weight only drowns the others.
 constexpr double kMostReach = 4;
-
-double cube_of_radius(double weight) { return weight * std::sqrt(weight); }
-
-// Cube root by Newton's steps from a power of two: only correctly rounded operations, so the same bits everywhere.
-double cube_root(double x) {
-  if (!(x > 0)) return 0;
-  int exponent = 0;
-  (void)std::frexp(x, &exponent);
-  double root = std::ldexp(1.0, exponent / 3 + (exponent > 0 ? 1 : 0));
-  for (int i = 0; i < 7; ++i) root -= (root * root * root - x) / (3 * root * root);
-  return root;
-}
-
-// -ln(1 - f) for f in (0, 0.98]: 2 artanh(f / (2 - f)) as a series, for the same reason.
-double minus_log_of_rest(double f) {
-  const double z = f / (2 - f), square = z * z;
-  double sum = 0, power = z;
-  for (int k = 1; power / k > 1e-17 * sum; k += 2) {
-    sum += power / k;
-    power *= square;
-  }
-  return 2 * sum;
-}
-
-double weight_of_cube(double cube) {
-  const double radius = cube_root(cube);
-  return radius * radius;
-}
-// Weight whose whole ball has this volume.
-double weight_of_volume(double volume) { return weight_of_cube(volume / kBallFactor); }
 
 // The nearest place inside the domain on the way to its centroid; the position itself where it is inside.
 Point3 place_inside(const ConvexDomain& domain, const Point3& position) {
@@ -253,9 +222,7 @@ class Fit {
         (ratio < state.least_ratio || residual > (1 - 0.1 * state.share) * state.residual)) {
       state.share *= 0.5;
       for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (!is_fitted(i)) continue;
-        state.previous_move[i] *= 0.5;
-        sites_[i].weight = weight_of_cube(std::max(0.0, cube_of_radius(sites_[i].weight) - state.previous_move[i]));
+        if (is_fitted(i)) follow(i, cube_of_radius(sites_[i].weight) - state.previous_move[i]);
       }
       return;
     }
@@ -287,15 +254,19 @@ class Fit {
         ResponseSystem(sites_, cells, fitted).solve(wanted, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
     state.residual = residual;
     state.share = options_.damping;
+    state.direction.assign(cells.size(), 0);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      state.previous_move[i] = 0;
-      if (!fitted[i] || !(cells[i].volume > 0)) continue;
-      const double cube = cube_of_radius(sites_[i].weight);
-      const double move = options_.damping * 1.5 * std::sqrt(sites_[i].weight) * change[i];
-      const double bounded = weight_of_cube(cube + std::clamp(move, -kMostNewtonLoss * cube, kMostNewtonGrowth * cube));
-      sites_[i].weight = std::max(bounded, kLeastShare * weight_of_volume(report_.demands[i]));
-      state.previous_move[i] = cube_of_radius(sites_[i].weight) - cube;
+      if (fitted[i] && cells[i].volume > 0) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change[i];
+      if (fitted[i]) follow(i, cube_of_radius(sites_[i].weight));
     }
+  }
+
+  // Goes the current share of the step from a place. The bounds bend the way, but less and less as the share shrinks.
+  void follow(std::size_t i, double from) {
+    FitState& state = report_.state;
+    const double cube = std::max(from + state.share * state.direction[i], kLeastOfCube * from);
+    sites_[i].weight = std::max(weight_of_cube(cube), kLeastShare * weight_of_volume(report_.demands[i]));
+    state.previous_move[i] = cube_of_radius(sites_[i].weight) - from;
   }
 
   // Moves of the last call are comparable only while the problem is the same.
@@ -329,16 +300,6 @@ class Fit {
 };
 
 }  // namespace
-
-std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites,
-                                    std::span<const double> demands) {
-  double sum = 0;
-  for (const double demand : demands) sum += std::max(0.0, demand);
-  if (demands.empty() || !(sum > 0) || !(domain.volume > 0)) return std::vector<double>(sites.size(), 0.0);
-  const double fill = std::clamp(sum / domain.volume, 1e-9, 0.98);
-  const double volume = sum / static_cast<double>(demands.size()) * (minus_log_of_rest(fill) / fill);
-  return std::vector<double>(sites.size(), weight_of_volume(volume));
-}
 
 Result<FitReport> adapt_weights(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
                                 std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options) {

@@ -31,6 +31,7 @@ struct FitOptions {
 /// What one call starts from besides weights. Plain data to be saved with the scene, so that a tick is a pure function of it.
 struct FitState {
   std::vector<double> previous_move;  ///< last change of radius³ per site [m³]; empty: none yet
+  std::vector<double> direction;      ///< newton: change of radius³ per site that the full step would be [m³]
   double momentum = 1;                ///< feedback: counter of the acceleration (Nesterov's t); 1: starting afresh
   std::uint64_t problem = 0;          ///< hash of domain, positions, demands and locks that the fields below belong to
   double residual = -1;    ///< newton: sqrt(sum of (V - D)²/D) before the last move [m^1.5]; negative: no move to be judged

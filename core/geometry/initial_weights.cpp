@@ -1,0 +1,89 @@
+// Weights to start from, such that no site begins without a cell.
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/demand_fit.h"
+#include "core/geometry/fit_numbers.h"
+
+namespace bl {
+
+namespace {
+
+// -ln(1 - f) for f in (0, 0.98]: 2 artanh(f / (2 - f)) as a series of correctly rounded operations.
+double minus_log_of_rest(double f) {
+  const double z = f / (2 - f), square = z * z;
+  double sum = 0, power = z;
+  for (int k = 1; power / k > 1e-17 * sum; k += 2) {
+    sum += power / k;
+    power *= square;
+  }
+  return 2 * sum;
+}
+
+// Largest share s <= `most` for which centroid + s * way stays in the domain, shrunk to nine tenths.
+double share_inside(const ConvexDomain& domain, const Vector3& way, double most) {
+  for (std::size_t k = 0; k < domain.planes.size(); ++k) {
+    if (domain.faces[k].size() < 3) continue;
+    const double rise = dot(domain.planes[k].normal, way);
+    const double room = 0.9 * dot(domain.planes[k].normal, domain.vertices[domain.faces[k].front()] - domain.centroid);
+    if (rise * most > room) most = room / rise;
+  }
+  return most;
+}
+
+// Sites that crowd a part of the domain, or lie outside it, are given the ordinary Voronoi diagram of images of them that
+// are spread over the domain: with image x = c + s (p - m), the power diagram of weights (1 - s)|p|² - 2 t·p + K is the
+// Voronoi diagram of the images s p + t, whatever K; K is chosen so that every ball reaches its site's image.
+struct Spread {
+  bool is_needed = false;
+  double s = 1;
+  Point3 middle;
+};
+
+Spread spread_of(const ConvexDomain& domain, std::span<const PowerSite> sites) {
+  Spread spread;
+  if (sites.size() < 2) spread.is_needed = !sites.empty() && !domain.contains(sites[0].position);
+  Vector3 low = sites[0].position, high = low;
+  bool all_inside = true;
+  for (const PowerSite& site : sites) {
+    const Point3& p = site.position;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    all_inside = all_inside && domain.contains(p);
+  }
+  spread.middle = 0.5 * (low + high);
+  const double extent = distance(low, high);
+  if (all_inside && (extent > 0.4 * domain.size() || sites.size() < 2)) return spread;
+  spread.is_needed = true;
+  spread.s = extent > 1e-6 * domain.size() ? domain.size() / extent : 1;
+  for (const PowerSite& site : sites) spread.s = share_inside(domain, site.position - spread.middle, spread.s);
+  return spread;
+}
+
+}  // namespace
+
+std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites,
+                                    std::span<const double> demands) {
+  double sum = 0;
+  for (const double demand : demands) sum += std::max(0.0, demand);
+  if (demands.empty() || sites.empty() || !(sum > 0) || !(domain.volume > 0)) return std::vector<double>(sites.size(), 0.0);
+  const double fill = std::clamp(sum / domain.volume, 1e-9, 0.98);
+  const double volume = sum / static_cast<double>(demands.size()) * (minus_log_of_rest(fill) / fill);
+  std::vector<double> weights(sites.size(), weight_of_volume(volume));
+  const Spread spread = spread_of(domain, sites);
+  if (!spread.is_needed) return weights;
+  // Relative to the domain's centroid: x = s q + t with q = p - c and t = -s (m - c).
+  const Vector3 shift = -spread.s * (spread.middle - domain.centroid);
+  double lift = 0;
+  std::vector<double> slope(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Vector3 q = sites[i].position - domain.centroid;
+    slope[i] = (1 - spread.s) * squared_norm(q) - 2 * dot(shift, q);
+    const double needed = squared_norm(spread.s * q + shift - q) - slope[i];
+    lift = i == 0 ? needed : std::max(lift, needed);
+  }
+  for (std::size_t i = 0; i < sites.size(); ++i) weights[i] += slope[i] + lift;
+  return weights;
+}
+
+}  // namespace bl
