@@ -127,8 +127,7 @@ bool holds(const Bench& bench, double squared_radius, const Point3& point, doubl
 // The point towards which the mesh is wrapped: the site, or where it is not inside its own cell, the shape's centroid.
 Point3 wrap_centre(const Bench& bench, double squared_radius) {
   if (holds(bench, squared_radius, {}, kInsideShare * std::sqrt(squared_radius))) return {};
-  if (holds(bench, squared_radius, bench.shape.centroid, 0)) return bench.shape.centroid;
-  return bench.shape.point_inside;
+  return bench.shape.centroid;
 }
 
 MeshPointer make_mesh(Bench& bench, const PowerSite& site, int depth) {
@@ -147,6 +146,8 @@ void measure_cell(std::span<const PowerSite> sites, std::uint32_t index, const C
   if (!(site.weight > 0) || bench.cell.is_empty()) return;
   measure_shape(bench.cell, site.weight, out.cell_volume, cell_centroid, bench.shape);
   if (bench.shape.is_empty || !(bench.shape.volume > 0)) return;
+  // A sliver seen from a far-away site may have a centroid of pure rounding; a point of its facets is then the better answer.
+  if (!holds(bench, site.weight, bench.shape.centroid, 0)) bench.shape.centroid = bench.shape.point_inside;
   out.volume = bench.shape.volume;
   out.spherical_area = bench.shape.spherical_area;
   out.centroid = site.position + bench.shape.centroid;

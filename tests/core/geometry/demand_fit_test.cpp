@@ -180,6 +180,31 @@ TEST(DemandFit, EmptiedCellsComeBack) {
   }
 }
 
+// Arrangements in which many sites lie outside their own cells, or whose cells are all thin.
+TEST(DemandFit, NewtonMeetsDemandsOfHardArrangements) {
+  const auto expect_fit = [](const char* name, Scene scene, auto&& place) {
+    SCOPED_TRACE(name);
+    for (PowerSite& site : scene.sites) site.position = place(site.position);
+    FitOptions options;
+    options.method = FitMethod::newton;
+    options.steps = 150;
+    const FitReport report = fit(scene, options);
+    EXPECT_TRUE(report.is_met) << report.error;
+    std::printf("newton, %s: %d steps to 1 %%\n", name, report.steps);
+  };
+  for (const double fill : {0.3, 0.9}) {
+    const Scene scene = make_scene(100, fill);
+    expect_fit("in one corner", scene, [](const Point3& p) { return 0.1 * p; });
+    expect_fit("mostly outside", scene, [](const Point3& p) { return 3 * p - Vector3{100, 100, 100}; });
+    expect_fit("on one line", scene, [](const Point3& p) { return Point3{50, 50, p.z}; });
+    expect_fit("in one plane", scene, [](const Point3& p) { return Point3{p.x, p.y, 30}; });
+  }
+  Scene slab = make_scene(100, 0.9);
+  slab.domain = box({0, 0, 0}, {100, 100, 1});
+  for (double& demand : slab.demands) demand *= 0.01;
+  expect_fit("slab", slab, [](const Point3& p) { return Point3{p.x, p.y, 0.01 * p.z}; });
+}
+
 // A site moved a little in every tick, one step a tick: the others keep their volumes on the way.
 TEST(DemandFit, NewtonFollowsADrag) {
   Scene scene = make_scene(60, 0.7);
