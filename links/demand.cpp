@@ -1,0 +1,123 @@
+// Deals the floor areas of a programme out to volumes as demands.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/base/text.h"
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+
+namespace bl {
+
+namespace {
+
+struct Demand {
+  struct In {
+    std::string use;
+    bool every_row = true;
+  };
+  struct Ends {
+    Shared<Table> rows;
+    All<std::string> ids, uses;
+  };
+  struct Out {
+    All<std::optional<double>> demand, demand_min, demand_limit, storey_height;
+  };
+
+  static void declare(LinkBuilder<Demand>& l) {
+    l.id("demand").label("Demand").doc(
+        "Deals a programme out to volumes: the floor area of a row, times its count and its storey height, becomes the demand of "
+        "the "
+        "volumes of that use, in equal parts. Smallest and largest floor areas become limits in the same way. Rows of one use "
+        "are "
+        "added up.");
+    l.param(&In::use, "use")
+        .doc("The use whose rows all volumes of this link share. When empty, each volume takes the rows of its own use.");
+    l.param(&In::every_row, "every_row")
+        .doc(
+            "When on, and no use is given, a row for which this link has no volume is an error, so that no floor area is "
+            "forgotten.");
+    l.reads(&Ends::rows, End::from, "programme.rows");
+    l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::uses, End::to, "smart_volume.use");
+    l.proposes(&Out::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
+    l.proposes(&Out::demand_min, End::to, "smart_volume.demand_min", Unit::cubic_metre);
+    l.proposes(&Out::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.proposes(&Out::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    std::map<std::string, Share> shares = shares_of(*ends.rows);
+    if (!in.use.empty() && !shares.contains(in.use)) return no_row(in.use, shares);
+    std::string without_row;
+    for (std::size_t i = 0; i < ends.uses.values.size(); ++i) {
+      const auto share = shares.find(in.use.empty() ? ends.uses.values[i] : in.use);
+      if (share != shares.end()) ++share->second.volumes;
+      else
+        without_row += (without_row.empty() ? "`" : ", `") + ends.ids.values[i] + "` (use `" + ends.uses.values[i] + "`" +
+                       did_you_mean(ends.uses.values[i], keys_of(shares)) + ")";
+    }
+    if (!without_row.empty())
+      return Error{ErrorCode::not_found, "to",
+                   "the programme has no row for the use of " + without_row + "; add the rows or change the uses"};
+    if (in.use.empty() && in.every_row)
+      for (const auto& [use, share] : shares)
+        if (share.volumes == 0 && share.demand > 0)
+          return Error{ErrorCode::missing, "from",
+                       "no volume of this link has the use `" + use + "`; give one that use or turn `every_row` off"};
+    return dealt(in, ends, shares);
+  }
+
+ private:
+  // What all rows of one use ask for together, and how many volumes share it.
+  struct Share {
+    double demand = 0, minimum = 0, maximum = 0, floor_area = 0;
+    double storey_height = 0;
+    bool is_open = false;  // some row has no largest floor area
+    int volumes = 0;
+  };
+
+  static std::map<std::string, Share> shares_of(const Table& rows) {
+    std::map<std::string, Share> shares;
+    for (std::size_t row = 0; row < rows.rows.size(); ++row) {
+      Share& share = shares[rows.text(row, "use")];
+      const double count = rows.number(row, "count"), height = rows.number(row, "storey_height");
+      const double area = rows.number(row, "floor_area") * count, largest = rows.number(row, "floor_area_max");
+      share.demand += area * height;
+      share.minimum += rows.number(row, "floor_area_min") * count * height;
+      share.maximum += largest * count * height;
+      share.is_open = share.is_open || !(largest > 0);
+      share.floor_area += area;
+      share.storey_height = std::max(share.storey_height, height);
+    }
+    return shares;
+  }
+
+  static Out dealt(const In& in, const Ends& ends, const std::map<std::string, Share>& shares) {
+    Out out;
+    for (const std::string& use : ends.uses.values) {
+      const Share& share = shares.at(in.use.empty() ? use : in.use);
+      const double part = 1.0 / share.volumes;
+      out.demand.values.emplace_back(share.demand * part);
+      out.demand_min.values.push_back(wanted(share.minimum * part, share.minimum > 0));
+      out.demand_limit.values.push_back(wanted(share.maximum * part, !share.is_open));
+      // Rows of one use with different storeys: the height at which their areas make up their volume.
+      const double height = share.floor_area > 0 ? share.demand / share.floor_area : share.storey_height;
+      out.storey_height.values.push_back(wanted(height, height > 0));
+    }
+    return out;
+  }
+
+  static std::optional<double> wanted(double value, bool is_given) { return is_given ? std::optional(value) : std::nullopt; }
+
+  static Error no_row(const std::string& use, const std::map<std::string, Share>& shares) {
+    return {ErrorCode::not_found, "use",
+            "the programme has no row of the use `" + use + "`" + did_you_mean(use, keys_of(shares))};
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(demand, Demand)

@@ -1,0 +1,75 @@
+// Pushes two nodes apart while they are within reach of each other; the push falls off linearly.
+#include <optional>
+#include <string>
+
+#include "core/base/random.h"
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+
+namespace bl {
+
+namespace {
+
+struct Repel {
+  struct In {
+    double reach = 20, stiffness = 0.1;
+    bool in_plan = false;
+  };
+  struct Ends {
+    std::string from_id, to_id;
+    Point3 from, to;
+  };
+  struct Out {
+    std::optional<Vector3> from, to;
+  };
+
+  static void declare(LinkBuilder<Repel>& l) {
+    l.id("repel").label("Repel").doc(
+        "Pushes two nodes apart while they are nearer than the reach. The push is strongest where the nodes coincide and falls "
+        "off "
+        "linearly to nothing at the reach. Between sets, every pair repels.");
+    l.param(&In::reach, "reach")
+        .unit(Unit::metre)
+        .min(0)
+        .soft(0, 100)
+        .doc("The distance between the two positions at which the push ends.");
+    l.param(&In::stiffness, "stiffness")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0, 0.5)
+        .doc("The share of the distance missing to the reach that is made up in one tick; each end goes half of the way.");
+    l.param(&In::in_plan, "in_plan")
+        .doc("When on, the distance is measured in plan and the heights of both nodes stay as they are.");
+    l.reads(&Ends::from_id, End::from, "node.id").reads(&Ends::to_id, End::to, "node.id");
+    l.reads(&Ends::from, End::from, "node.position", Unit::metre).reads(&Ends::to, End::to, "node.position", Unit::metre);
+    l.proposes(&Out::from, End::from, "node.position", Unit::metre).proposes(&Out::to, End::to, "node.position", Unit::metre);
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    Vector3 between = ends.to - ends.from;
+    if (in.in_plan) between.z = 0;
+    const double length = norm(between), missing = in.reach - length;
+    if (!(missing > 0)) return Out{};
+    const Vector3 direction = length > 1e-9 ? between / length : direction_by_name(ends);
+    const Vector3 move = direction * (0.5 * in.stiffness * missing);
+    return Out{-move, move};
+  }
+
+ private:
+  // Where two nodes stand on one point, their names decide which level way each of them goes, whichever is asked first.
+  static Vector3 direction_by_name(const Ends& ends) {
+    const bool is_ordered = ends.from_id < ends.to_id;
+    Hash names;
+    names.add(is_ordered ? ends.from_id : ends.to_id);
+    names.add(is_ordered ? ends.to_id : ends.from_id);
+    Random random(names.value());
+    const Vector3 way{random.uniform(0.1, 1), random.uniform(-1, 1), 0};
+    return way / (is_ordered ? norm(way) : -norm(way));
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(repel, Repel)

@@ -1,0 +1,64 @@
+// Inside boundary: projections by hand, margins that leave no room, and volumes drawn off the site.
+#include "tests/links/link_case.h"
+
+namespace bl {
+namespace {
+
+// A box of 60 x 40 x 30 m; the normal of one side is not of length 1.
+Value box() {
+  Table planes{{"x", "y", "z", "offset"}, {}};
+  planes.rows = {{2.0, 0.0, 0.0, 120.0}, {-1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 40.0},
+                 {0.0, -1.0, 0.0, 0.0},  {0.0, 0.0, 1.0, 30.0}, {0.0, 0.0, -1.0, 0.0}};
+  return Shared<Table>(planes);
+}
+
+LinkCase inside(Point3 position, double margin) {
+  LinkCase link("inside_boundary");
+  link.set("margin", margin).from("boundary.planes", box()).to("node.position", position);
+  return link;
+}
+
+TEST(InsideBoundary, ProjectsOntoSidesEdgesAndCorners) {
+  const std::pair<Point3, Vector3> cases[] = {
+      {{70, 20, 10}, {-15, 0, 0}}, {{-1, -2, 10}, {6, 7, 0}}, {{64, 44, 35}, {-9, -9, -10}}};
+  for (const auto& [position, move] : cases) {
+    auto link = inside(position, 5);
+    ASSERT_EQ(link.run(), "");
+    expect_near(link.move(End::to), move, 1e-6);
+  }
+}
+
+TEST(InsideBoundary, FindsTheNearestPointBetweenSlantedSides) {
+  Table wedge{{"x", "y", "z", "offset"}, {{0.0, 1.0, 0.0, 0.0}, {0.6, 0.8, 0.0, 0.0}}};
+  LinkCase link("inside_boundary");
+  link.from("boundary.planes", Shared<Table>(wedge)).to("node.position", Point3{1, 3, 2});
+  ASSERT_EQ(link.run(), "");
+  expect_near(link.move(End::to), {-1, -3, 0}, 1e-6);  // the edge where both sides meet
+}
+
+TEST(InsideBoundary, LeavesTheInsideAloneAndWaitsForAShape) {
+  auto link = inside({55, 35, 25}, 5);
+  ASSERT_EQ(link.run(), "");
+  EXPECT_FALSE(link.moves(End::to));
+  ASSERT_EQ(link.from("boundary.planes", Shared<Table>(Table{})).to("node.position", Point3{1e6, 0, 0}).run(), "");
+  EXPECT_FALSE(link.moves(End::to));
+}
+
+TEST(InsideBoundary, AMarginWithoutRoomIsAnError) {
+  EXPECT_EQ(inside({30, 20, 15}, 15.5).run(), "margin: a margin of 15.5 m leaves no room inside the boundary; make it smaller");
+  EXPECT_EQ(inside({30, 20, 10}, 15).run(), "");  // room for the middle plane exactly
+}
+
+TEST(InsideBoundary, SceneBringsAllVolumesBack) {
+  World world = World::from_file("scenes/links/inside_boundary.json");
+  ASSERT_TRUE(world.settle());
+  expect_near(world.point("gate", "node.position"), {6, 20, 8}, 1e-6);
+  expect_near(world.point("house", "node.position"), {54, 34, 10}, 1e-6);
+  expect_near(world.point("store", "node.position"), {30, 6, 24}, 1e-6);
+  expect_near(world.point("studio", "node.position"), {32, 22, 8}, 0);
+  for (const char* node : {"gate", "house", "store", "studio"})
+    EXPECT_EQ(world.text(node, "smart_volume.state"), "alive") << node;
+}
+
+}  // namespace
+}  // namespace bl

@@ -1,0 +1,80 @@
+// One evaluation of a link kind by hand: parameters and readings by name in, proposals by name out.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/world.h"
+
+namespace bl {
+
+class LinkCase {
+ public:
+  explicit LinkCase(const std::string& kind) : link_(full_registry().link(kind)) {}
+
+  LinkCase& set(const std::string& parameter, Value value) {
+    parameters_[parameter] = std::move(value);
+    return *this;
+  }
+  /// What stands at a port of the end; several values are several nodes of a whole end.
+  LinkCase& read(End end, const std::string& path, std::vector<Value> values) {
+    readings_[{end, path}] = std::move(values);
+    return *this;
+  }
+  LinkCase& from(const std::string& path, Value value) { return read(End::from, path, {std::move(value)}); }
+  LinkCase& to(const std::string& path, Value value) { return read(End::to, path, {std::move(value)}); }
+
+  /// "" or the error's text; then `proposed` can be asked.
+  std::string run() {
+    std::vector<Value> values;
+    for (const PortDefinition& port : link_->ports) {
+      const auto it = parameters_.find(port.id);
+      values.push_back(it != parameters_.end() ? it->second : port.default_value);
+    }
+    LinkReads reads;
+    std::size_t nodes = 1;
+    for (const LinkRead& read : link_->reads) {
+      auto& row = reads.values.emplace_back();
+      for (const Value& value : readings_[{read.end, name(read.path)}]) row.push_back(&value);
+      if (read.is_whole) nodes = row.size();
+    }
+    writes_.values.clear();
+    for (const LinkWrite& write : link_->proposes) writes_.values.emplace_back(write.is_whole ? nodes : 1);
+    const auto done = link_->evaluate(link_->instantiate(values).get(), reads, writes_, Tick{});
+    return done ? "" : done.error().text();
+  }
+
+  std::optional<Value> proposed(End end, const std::string& path, std::size_t node = 0) const {
+    for (std::size_t w = 0; w < link_->proposes.size(); ++w)
+      if (link_->proposes[w].end == end && name(link_->proposes[w].path) == path) return writes_.values[w][node];
+    return std::nullopt;
+  }
+  double number(End end, const std::string& path, std::size_t node = 0) const {
+    return as_number(proposed(end, path, node).value());
+  }
+  Vector3 move(End end) const { return std::get<Vector3>(proposed(end, "node.position").value()); }
+  bool moves(End end) const { return proposed(end, "node.position").has_value(); }
+
+ private:
+  static std::string name(const PortPath& path) {
+    return path.chosen_by.empty() ? path.typification + "." + path.port : path.chosen_by;
+  }
+
+  const LinkDefinition* link_;
+  std::map<std::string, Value> parameters_;
+  std::map<std::pair<End, std::string>, std::vector<Value>> readings_;
+  LinkWrites writes_;
+};
+
+inline void expect_near(const Vector3& found, const Vector3& wanted, double tolerance = 1e-9) {
+  EXPECT_NEAR(found.x, wanted.x, tolerance);
+  EXPECT_NEAR(found.y, wanted.y, tolerance);
+  EXPECT_NEAR(found.z, wanted.z, tolerance);
+}
+
+}  // namespace bl
