@@ -1,0 +1,180 @@
+// The SmartVolumes solver: each tick it adapts the weights of its members and gives each its cell of the diagram.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "core/define/registry.h"
+#include "core/define/typification_builder.h"
+#include "core/geometry/demand_fit.h"
+
+namespace bl {
+namespace {
+
+struct SmartVolumesSolver {
+  enum class Method { feedback };
+  struct In {
+    Selection members{{}, "smart_volume", {}}, boundary{{}, "boundary", {}};
+    Method method = Method::feedback;
+    double gain = 0, tolerance = 0.005, momentum = 1;
+    int steps = 4, tessellation_depth = 1;
+  };
+  struct Member {
+    std::string id;
+    Point3 position;
+    double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0, last_step = 0;
+  };
+  struct Plot { std::string id; Table planes; };
+  struct Sets { std::vector<Member> members; std::vector<Plot> plots; };
+  struct Reply {
+    double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
+    double spherical_area = 0, height = 0, bottom = 0, error = 0, last_step = 0;
+    std::string state, reason;
+    Table neighbours;
+    Point3 centroid;
+    MeshPointer mesh;
+  };
+  struct Out {
+    std::int64_t count = 0;
+    double total_demand = 0, total_volume = 0, boundary_volume = 0, fill = 0, largest_error = 0, total_floor_area = 0, momentum = 1;
+    std::string worst, message;
+    std::vector<Reply> replies;
+  };
+
+  static void declare(TypificationBuilder<SmartVolumesSolver>& t) {
+    t.id("smart_volumes_solver").label("SmartVolumes solver");
+    t.doc("Divides a boundary among SmartVolumes: a bounded power diagram, shrink-wrapped onto balls, whose weights are adapted "
+          "in every tick until each volume has what it wants. A scene may hold several solvers, each with its own members and boundary.");
+    t.in(&In::members, "members").doc("The SmartVolumes that this solver takes care of; a SmartVolume belongs to one solver only.");
+    t.in(&In::boundary, "boundary").doc("The boundary that is divided. Exactly one node with planes has to result.");
+    t.in(&In::method, "method", {{Method::feedback, "feedback", "Each weight follows the error of its own volume, with acceleration."}})
+        .doc("How the weights are adapted.");
+    t.in(&In::gain, "gain").unit(Unit::per_metre).range(0, 1000).soft(0, 1)
+        .doc("Change of weight per missing volume, the same for all, as in 2007; 0 lets each volume find its own from its free surface.");
+    t.in(&In::steps, "steps").range(1, 50).soft(1, 20).doc("Steps of adaptation in one tick: more steps settle in fewer, slower ticks.");
+    t.in(&In::tolerance, "tolerance").unit(Unit::ratio).range(1e-9, 1).soft(0.001, 0.1)
+        .doc("The weights rest while every volume is within this share of what it wants.");
+    t.in(&In::tessellation_depth, "tessellation_depth").range(0, 4)
+        .doc("Fineness of the meshes: each face is split in four so many times. It changes no measure.");
+    t.out(&Out::count, "count").unit(Unit::count).doc("Number of members that have a volume.");
+    t.out(&Out::total_demand, "total_demand").unit(Unit::cubic_metre).doc("Sum of what the members want.");
+    t.out(&Out::total_volume, "total_volume").unit(Unit::cubic_metre).doc("Sum of the volumes of the members.");
+    t.out(&Out::boundary_volume, "boundary_volume").unit(Unit::cubic_metre).doc("Volume inside the boundary.");
+    t.out(&Out::fill, "fill").unit(Unit::ratio).doc("Share of the boundary that the members take.");
+    t.out(&Out::largest_error, "largest_error").unit(Unit::ratio).doc("Largest error of a member, as a share of what it wants.");
+    t.out(&Out::worst, "worst").doc("Id of the member with the largest error; empty where all volumes are exact.");
+    t.out(&Out::total_floor_area, "total_floor_area").unit(Unit::square_metre).doc("Sum of the floor areas of the members.");
+    t.out(&Out::message, "message").doc("What cannot be had, by how much, and who goes without; empty where every demand can be met.");
+    t.memory(&Out::momentum, &In::momentum, "momentum").doc("Counter of the acceleration, which the next tick goes on from; 1 is a fresh start.");
+    t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::planes, "boundary.planes");
+    auto set = t.set("members", &Sets::members, &Out::replies);
+    set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre).reads(&Member::demand, "smart_volume.demand");
+    set.reads(&Member::limit, "smart_volume.demand_limit").reads(&Member::least, "smart_volume.demand_min");
+    set.reads(&Member::storey_height, "smart_volume.storey_height").reads(&Member::weight, "smart_volume.weight");
+    set.reads(&Member::last_step, "smart_volume.last_step").writes(&Reply::last_step, "smart_volume.last_step");
+    set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::error, "smart_volume.error");
+    set.writes(&Reply::weight, "smart_volume.weight").writes(&Reply::radius, "smart_volume.radius");
+    set.writes(&Reply::volume, "smart_volume.volume").writes(&Reply::cell_volume, "smart_volume.cell_volume");
+    set.writes(&Reply::floor_area, "smart_volume.floor_area").writes(&Reply::footprint, "smart_volume.footprint");
+    set.writes(&Reply::surface_area, "smart_volume.surface_area").writes(&Reply::spherical_area, "smart_volume.spherical_area");
+    set.writes(&Reply::height, "smart_volume.height").writes(&Reply::bottom, "smart_volume.bottom").writes(&Reply::mesh, "smart_volume.mesh");
+    set.writes(&Reply::state, "smart_volume.state").writes(&Reply::reason, "smart_volume.reason");
+    set.writes(&Reply::centroid, "smart_volume.centroid").writes(&Reply::neighbours, "smart_volume.neighbours");
+  }
+
+  // The geometry speaks of "site 3"; people know the node by its id.
+  static std::string named(std::string text, const std::vector<Member>& members) {
+    const std::size_t at = text.find("site "), begin = at + 5;
+    if (at == std::string::npos) return text;
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
+    const double site = parse_number(text.substr(begin, end - begin)).value_or(1e300);
+    return site < static_cast<double>(members.size()) ? text.replace(at, end - at, "`" + members[static_cast<std::size_t>(site)].id + "`") : text;
+  }
+
+  static Result<ConvexDomain> domain_of(const std::vector<Plot>& plots) {
+    if (plots.empty()) return Error{ErrorCode::missing, "boundary", "a boundary is needed and none was found: add one, or choose one here"};
+    std::string found;
+    for (const Plot& plot : plots) found += (found.empty() ? "`" : ", `") + plot.id + "`";
+    if (plots.size() > 1) return Error{ErrorCode::conflict, "boundary", std::to_string(plots.size()) + " boundaries were found (" + found + "): choose one of them here"};
+    const Table& table = plots.front().planes;
+    if (table.rows.empty()) return Error{ErrorCode::missing, "boundary", "the boundary " + found + " has no shape: see its own error"};
+    std::vector<Plane> planes;
+    for (std::size_t r = 0; r < table.rows.size(); ++r)
+      planes.push_back({{table.number(r, "x"), table.number(r, "y"), table.number(r, "z")}, table.number(r, "offset")});
+    auto domain = from_planes(planes);
+    return domain ? domain : Result<ConvexDomain>(domain.error().within("boundary"));
+  }
+
+  // Newcomers among settled ones start small, so that they push nobody out; where all are new, the fit starts them all alike.
+  static void start_newcomers(const ConvexDomain& domain, std::span<PowerSite> sites, std::span<const double> wanted) {
+    if (std::none_of(sites.begin(), sites.end(), [](const PowerSite& s) { return s.weight > 0; })) return;
+    for (std::size_t i = 0; i < sites.size(); ++i)
+      if (!(sites[i].weight > 0)) sites[i].weight = 0.5 * initial_weights(domain, sites.subspan(i, 1), wanted.subspan(i, 1)).front();
+  }
+
+  static Reply reply_of(const CellMeasure& cell, double wanted, double weight, double last_step, const std::vector<Member>& members) {
+    Reply reply{wanted, weight, std::sqrt(std::max(0.0, weight)), cell.volume, cell.cell_volume, cell.floor_area, cell.surface_area, cell.footprint,
+                cell.spherical_area, cell.height, cell.bottom, wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0, last_step,
+                std::string(name_of(cell.state)), wanted > 0 ? named(cell.reason, members) : "wants nothing: raise its demand to give it a volume",
+                {{"node", "area"}, {}}, cell.centroid, cell.mesh};
+    for (const FacetArea& facet : cell.facets)
+      if (facet.kind == FacetArea::Kind::site) reply.neighbours.rows.push_back({members[facet.index].id, facet.area});
+    return reply;
+  }
+
+  // Who goes without, and by how much, greatest loss first.
+  static std::string message_of(const Out& out, std::vector<DemandLoss> losses, const std::vector<Member>& members) {
+    std::stable_sort(losses.begin(), losses.end(), [](const auto& a, const auto& b) { return a.demand - a.granted > b.demand - b.granted; });
+    double missing = 0;
+    std::string who;
+    for (std::size_t i = 0; i < losses.size(); ++i) {
+      const double loss = losses[i].demand - losses[i].granted;
+      missing += loss;
+      if (i < 5) who += (i > 0 ? ", `" : "`") + members[losses[i].site].id + "` by " + fixed(loss, 1) + " m³";
+    }
+    if (losses.size() > 5) who += " and " + std::to_string(losses.size() - 5) + " more";
+    return fixed(out.total_demand, 1) + " m³ are wanted, " + fixed(missing, 1) + " m³ more than can be had; short of it fall " + who;
+  }
+
+  static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
+    const auto domain = domain_of(sets.plots);
+    if (!domain) return domain.error();
+    Out out;
+    out.boundary_volume = domain->volume;
+    if (sets.members.empty()) return out;
+    std::vector<PowerSite> sites;
+    std::vector<double> wanted, storey_heights;
+    FitState state;
+    state.momentum = std::max(1.0, in.momentum);
+    for (const Member& member : sets.members) {
+      sites.push_back({member.position, member.weight});
+      wanted.push_back(std::max(std::min(member.demand, member.limit), member.least));
+      storey_heights.push_back(member.storey_height);
+      state.previous_move.push_back(member.last_step);
+    }
+    start_newcomers(*domain, sites, wanted);
+    const auto fit = adapt_weights(*domain, sites, wanted, {}, state, {.gain = in.gain, .steps = in.steps, .tolerance = in.tolerance, .pool = tick.pool});
+    if (!fit) return Error{fit.error().code, "members", named(fit.error().message, sets.members)};
+    for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit->weights[i];
+    const auto cells = power_cells(*domain, sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
+    if (!cells) return Error{cells.error().code, "members", named(cells.error().message, sets.members)};
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      const Reply& reply = out.replies.emplace_back(reply_of((*cells)[i], wanted[i], sites[i].weight, fit->state.previous_move[i], sets.members));
+      out.count += reply.volume > 0 ? 1 : 0;
+      out.total_demand += reply.wanted;
+      out.total_volume += reply.volume;
+      out.total_floor_area += reply.floor_area;
+      if (reply.error <= out.largest_error) continue;
+      out.largest_error = reply.error;
+      out.worst = sets.members[i].id;
+    }
+    out.fill = out.total_volume / out.boundary_volume;
+    out.momentum = fit->state.momentum;
+    if (!fit->losses.empty()) out.message = message_of(out, fit->losses, sets.members);
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace bl
+
+BL_TYPIFICATION(smart_volumes_solver, SmartVolumesSolver)
