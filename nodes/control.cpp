@@ -53,7 +53,6 @@ struct Control {
     if (!(range > 0))
       return Error{ErrorCode::out_of_range, "maximum",
                    "the maximum (" + shortest(in.maximum) + ") has to lie above the minimum (" + shortest(in.minimum) + ")"};
-    if (!std::isfinite(range)) return Error{ErrorCode::out_of_range, "maximum", "the range is too large to be counted: narrow it"};
     if (in.step > range)
       return Error{ErrorCode::out_of_range, "step",
                    "the step (" + shortest(in.step) + ") is larger than the range (" + shortest(range) + "): make it smaller, or 0 for none"};

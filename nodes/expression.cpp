@@ -65,6 +65,8 @@ struct Expression {
         quantities_[symbol] = {row.scale, row.scale, row.dimension};
       }
       for (auto& [name, quantity] : quantities_) parser_.DefineVar(name, &quantity.scaled);
+      parser_.DefineConst("_pi", 3.141592653589793);    // the parser's own have twelve digits
+      parser_.DefineConst("_e", 2.718281828459045);
     }
     Formula(const Formula&) = delete;    // the parser points into quantities_
 
@@ -87,7 +89,6 @@ struct Expression {
       }
       return {};
     }
-
     void set(std::size_t input, double value) { quantities_[kInputs[input]].value = value; }
     // The value with every quantity multiplied by 64 to the power that it has in `base`; nullptr: as it is.
     double value(std::int8_t Dimension::* base) {

@@ -1,0 +1,94 @@
+// The boundary: measures that can be reckoned by hand, and shapes that are refused.
+#include <gtest/gtest.h>
+
+#include "tests/nodes/scene_text.h"
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+std::string error_of(const std::string& ports) {
+  World world = World::from_text(one_node("boundary", ports));
+  world.tick();
+  return world.node_error("it", "boundary");
+}
+
+TEST(Boundary, PlanIsDrawnUpToItsHeight) {
+  World world = World::from_text(one_node("boundary", R"("form": "plan", "plan": [[0,0,7],[10,0,7],[10,20,7],[0,20,7]], "bottom": 2, "height": 5)"));
+  world.tick();
+  EXPECT_EQ(world.node_error("it", "boundary"), "");
+  EXPECT_NEAR(world.number("it", "boundary.volume"), 1000, 1e-9);
+  EXPECT_NEAR(world.number("it", "boundary.ground_area"), 200, 1e-9);
+  const Table& planes = world.table("it", "boundary.planes");
+  ASSERT_EQ(planes.rows.size(), 6u);
+  EXPECT_EQ(planes.number(0, "z"), -1);
+  EXPECT_EQ(planes.number(0, "offset"), -2);
+  EXPECT_EQ(planes.number(1, "z"), 1);
+  EXPECT_EQ(planes.number(1, "offset"), 7);
+  ASSERT_NE(world.mesh("it", "boundary.shape"), nullptr);
+  EXPECT_NEAR(enclosed_volume(*world.mesh("it", "boundary.shape")), 1000, 1e-9);
+}
+
+TEST(Boundary, HullOfATetrahedron) {
+  World world = World::from_text(one_node("boundary", R"("points": [[0,0,0],[6,0,0],[0,6,0],[0,0,6],[1,1,1]])"));
+  world.tick();
+  EXPECT_EQ(world.node_error("it", "boundary"), "");
+  EXPECT_NEAR(world.number("it", "boundary.volume"), 36, 1e-9);
+  EXPECT_NEAR(world.number("it", "boundary.ground_area"), 18, 1e-9);
+  EXPECT_EQ(world.table("it", "boundary.planes").rows.size(), 4u);
+}
+
+TEST(Boundary, GroundAreaOfAnOverhangIsWhatIsSeenFromAbove) {
+  // A pyramid on its tip: 4 m² at the top, nothing on the ground.
+  World world = World::from_text(one_node("boundary", R"("points": [[0,0,0],[-1,-1,3],[1,-1,3],[1,1,3],[-1,1,3]])"));
+  world.tick();
+  EXPECT_NEAR(world.number("it", "boundary.ground_area"), 4, 1e-12);
+  EXPECT_NEAR(world.number("it", "boundary.volume"), 4, 1e-12);
+}
+
+TEST(Boundary, AFreshOneIsUsable) {
+  World world = World::from_text(one_node("boundary", ""));
+  world.tick();
+  EXPECT_EQ(world.node_error("it", "boundary"), "");
+  EXPECT_NEAR(world.number("it", "boundary.volume"), 32000, 1e-6);
+}
+
+TEST(Boundary, RefusesWhatHasNoVolume) {
+  EXPECT_EQ(error_of(R"("points": [[0,0,0],[1,0,0],[0,1,0]])"),
+            "nodes/it/boundary/points: a boundary needs at least 4 points that are not in one plane; 3 given, 3 of them at different places");
+  EXPECT_EQ(error_of(R"("points": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[2,2,0]])"),
+            "nodes/it/boundary/points: all boundary points lie in one plane: add a point above or below it");
+  EXPECT_EQ(error_of(R"("form": "plan", "plan": [[0,0,0],[1,0,0]])"),
+            "nodes/it/boundary/plan: a plan polygon needs at least 3 corners at different places, 2 found");
+  EXPECT_EQ(error_of(R"("form": "plan", "plan": [[0,0,0],[1,0,0],[2,0,0]])"),
+            "nodes/it/boundary/plan: the plan polygon has no area: its corners lie on one line");
+}
+
+TEST(Boundary, RefusesPlansThatBendInOrCross) {
+  const std::string bent = error_of(R"("form": "plan", "plan": [[0,0,0],[10,0,0],[10,10,0],[5,2,0],[0,10,0]])");
+  EXPECT_TRUE(bent.starts_with("nodes/it/boundary/plan: the plan polygon is not convex (corner 3 at (5.000, 2.000))")) << bent;
+  EXPECT_EQ(error_of(R"("form": "plan", "plan": [[0,0,0],[10,10,0],[10,0,0],[0,10,0]])"),
+            "nodes/it/boundary/plan: the plan polygon crosses itself: side 0 and side 2 meet at (5.000, 5.000)");
+}
+
+TEST(Boundary, AnErrorKeepsTheLastGoodShape) {
+  World world = World::from_text(one_node("boundary", R"("form": "plan", "height": 10)"));
+  world.tick();
+  const double volume = world.number("it", "boundary.volume");
+  EXPECT_EQ(world.submit(command<SetPort>({.node = "it", .port = {"boundary.plan"}, .value = {"[[0,0,0],[1,0,0]]"}})), "");
+  world.tick();
+  EXPECT_NE(world.node_error("it", "boundary"), "");
+  EXPECT_EQ(world.number("it", "boundary.volume"), volume);
+}
+
+TEST(Boundary, SceneHoldsTwoSpacesOfKnownSize) {
+  World world = World::from_file("scenes/nodes/boundary.json");
+  EXPECT_TRUE(world.settle(20));
+  // The prism has a triangle of 20 m by 12 m for its section, and is 30 m long.
+  EXPECT_NEAR(world.number("hull", "boundary.volume"), 3600, 1e-6);
+  EXPECT_NEAR(world.number("hull", "boundary.ground_area"), 600, 1e-9);
+  EXPECT_NEAR(world.number("plan", "boundary.ground_area"), 600 - 12.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace bl
