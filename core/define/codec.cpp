@@ -29,10 +29,10 @@ Error wrong_kind(const PortDefinition& port, const Json& json, const std::string
     if (const auto quantity = parse_quantity(text, port.unit); quantity)
       return {ErrorCode::wrong_kind, place,
               "expects a number" + in_unit(port.unit) + ", found the text " + shown(json) + "; write " + shortest(*quantity)};
-    const std::size_t blank = text.find_last_of("0123456789. ");
-    const UnitInfo* found = find_unit(blank == std::string::npos ? text : text.substr(blank + 1));
-    // "m2" ends in a digit, so the symbol is looked for behind the last blank too.
-    if (found == nullptr && text.rfind(' ') != std::string::npos) found = find_unit(text.substr(text.rfind(' ') + 1));
+    std::size_t number_end = text.size();
+    while (number_end > 0 && !parse_number(text.substr(0, number_end))) --number_end;
+    const std::size_t symbol = number_end == 0 ? std::string::npos : text.find_first_not_of(' ', number_end);
+    const UnitInfo* found = symbol == std::string::npos ? nullptr : find_unit(text.substr(symbol));
     if (found != nullptr)
       return {ErrorCode::wrong_unit, place,
               "expects a number" + in_unit(port.unit) + ", found " + shown(json) + ", which is in " + std::string(found->name) +

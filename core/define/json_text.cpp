@@ -120,10 +120,12 @@ void write_line(const Json& value, std::string& out) {
   }
 }
 
-void write_block(const Json& value, std::size_t indent, std::size_t width, std::size_t used, std::string& out) {
+constexpr std::size_t kWidth = 120;
+
+void write_block(const Json& value, std::size_t indent, int open_levels, std::size_t used, std::string& out) {
   std::string line;
   write_line(value, line);
-  if (!value.is_structured() || value.empty() || used + line.size() <= width) {
+  if (!value.is_structured() || value.empty() || (open_levels <= 0 && used + line.size() <= kWidth)) {
     out += line;
     return;
   }
@@ -141,16 +143,16 @@ void write_block(const Json& value, std::size_t indent, std::size_t width, std::
       out += name + ": ";
       start += name.size() + 2;
     }
-    write_block(child, indent + 2, width, start, out);
+    write_block(child, indent + 2, open_levels - 1, start, out);
   }
   out += '\n' + std::string(indent, ' ') + (value.is_object() ? '}' : ']');
 }
 
 }  // namespace
 
-std::string write_json(const Json& value, int width) {
+std::string write_json(const Json& value, int open_levels) {
   std::string out;
-  write_block(value, 0, static_cast<std::size_t>(width), 0, out);
+  write_block(value, 0, open_levels, 0, out);
   return out;
 }
 

@@ -16,9 +16,9 @@ using Json = nlohmann::ordered_json;
 /// than 64 levels and text that is not UTF-8; the place of an error is "line L, column C".
 Result<Json> parse_json(std::string_view text);
 
-/// Writes with two-space indents; what fits into `width` columns stays on one line. Shortest round-trip numbers, no locale.
-/// Ends without a line feed. The text depends on the value alone.
-std::string write_json(const Json& value, int width = 120);
+/// Writes with two-space indents; what fits into 120 columns stays on one line, but for the outermost `open_levels` levels, which
+/// are always one element per line. Shortest round-trip numbers, no locale. Ends without a line feed; depends on the value alone.
+std::string write_json(const Json& value, int open_levels = 0);
 
 /// Everything on one line.
 std::string write_json_line(const Json& value);

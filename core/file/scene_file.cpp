@@ -239,7 +239,7 @@ std::string write_scene(const Scene& scene, const Registry& registry, const Save
   }
   if (state != nullptr && state->tick > 0) file["state"] = state_to_json(*state, registry);
   if (!scene.view.empty()) file["view"] = Json::parse(scene.view, nullptr, false);
-  return write_json(file) + "\n";
+  return write_json(file, 2) + "\n";
 }
 
 }  // namespace bl

@@ -1,0 +1,253 @@
+// The tick by hand: combine rules, locks, tension, step limits, failing links, muting and settling on toy types.
+#include <gtest/gtest.h>
+
+#include "core/define/link_builder.h"
+#include "core/define/typification_builder.h"
+#include "core/graph/simulation.h"
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+// A thing with one port for each rule.
+struct Toy {
+  struct In { double blended = 10, smallest = 100, largest = 0; };
+  struct Out { double doubled = 0; };
+  static void declare(TypificationBuilder<Toy>& t) {
+    t.id("toy").label("Toy").doc("A toy.");
+    t.in(&In::blended, "blended").combine(CombineRule::blend).range(-1000, 1000).doc("Mean.");
+    t.in(&In::smallest, "smallest").combine(CombineRule::min).doc("Minimum.");
+    t.in(&In::largest, "largest").combine(CombineRule::max).step_limit(3).doc("Maximum, 3 a tick.");
+    t.out(&Out::doubled, "doubled").doc("Twice the blended.");
+  }
+  static Result<Out> evaluate(const In& in, const Tick&) {
+    if (in.blended > 900) return Error{ErrorCode::out_of_range, "blended", "too much for a toy"};
+    return Out{2 * in.blended};
+  }
+};
+
+// Wants a value on all three ports; fails when asked to.
+struct Want {
+  struct In { double value = 0; bool is_failing = false; };
+  struct Ends { double source = 0; };
+  struct Out { std::optional<double> blended, smallest, largest; };
+  static void declare(LinkBuilder<Want>& l) {
+    l.id("want").label("Want").doc("Wants a value.");
+    l.param(&In::value, "value").doc("The value.");
+    l.param(&In::is_failing, "fail").doc("Fail.");
+    l.reads(&Ends::source, End::from, "toy.blended");
+    l.proposes(&Out::blended, End::to, "toy.blended").proposes(&Out::smallest, End::to, "toy.smallest").proposes(&Out::largest, End::to, "toy.largest");
+  }
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    if (in.is_failing || ends.source > 500) return Error{ErrorCode::conflict, "value", "does not want to"};
+    return Out{in.value, in.value, in.value};
+  }
+};
+
+struct Push {
+  struct In { Vector3 move; };
+  struct Ends { Point3 to; };
+  struct Out { Vector3 to; };
+  static void declare(LinkBuilder<Push>& l) {
+    l.id("push").label("Push").doc("Pushes.");
+    l.param(&In::move, "move").doc("The move.");
+    l.reads(&Ends::to, End::to, "node.position", Unit::metre).proposes(&Out::to, End::to, "node.position", Unit::metre);
+  }
+  static Result<Out> evaluate(const In& in, const Ends&, const Tick&) { return Out{in.move}; }
+};
+
+const Registry& toys() {
+  static const Registry kRegistry = [] {
+    Registry registry;
+    register_base_node(registry);
+    registry.add(TypificationBuilder<Toy>::build());
+    registry.add(LinkBuilder<Want>::build());
+    registry.add(LinkBuilder<Push>::build());
+    return registry;
+  }();
+  return kRegistry;
+}
+
+class TickTest : public testing::Test {
+ protected:
+  void node(const std::string& id, PortValues toy = {}) { scene_.nodes[id].types = {{"node", {}}, {"toy", std::move(toy)}}; }
+  void link(const std::string& id, const std::string& kind, const std::string& from, const std::string& to, PortValues parameters, double strength = 1) {
+    scene_.links[id] = LinkRecord{kind, {{from}, "", ""}, {{to}, "", ""}, true, false, strength, std::move(parameters), ""};
+  }
+  Simulation& start() {
+    simulation_.set_scene(scene_);
+    return simulation_;
+  }
+  double number(const char* id, const char* path) { return as_number(value_in(*simulation_.state(), id, path)); }
+  double tension(const char* id, std::uint16_t type, std::uint16_t port) {
+    return simulation_.state()->nodes[simulation_.state()->plan->node_index(id)].types[type].tension[port];
+  }
+
+  Scene scene_;
+  Simulation simulation_{toys(), 1};
+};
+
+TEST_F(TickTest, BlendIsTheStrengthWeightedMeanWithTheSetValueAsOneVoice) {
+  node("a");
+  node("b", {{"blended", 20.0}});
+  link("l1", "want", "a", "b", {{"value", 40.0}}, 0.5);
+  link("l2", "want", "a", "b", {{"value", 60.0}}, 0.5);
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.blended"), (20 + 0.5 * 40 + 0.5 * 60) / 2);
+  EXPECT_DOUBLE_EQ(number("b", "toy.doubled"), 70);
+  EXPECT_DOUBLE_EQ(tension("b", 1, 0), 0.5 * 5 + 0.5 * 25 + 15);
+}
+
+TEST_F(TickTest, ADefaultIsNoVoice) {
+  node("a");
+  node("b");
+  link("l1", "want", "a", "b", {{"value", 40.0}}, 0.3);
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 40);
+  EXPECT_DOUBLE_EQ(tension("b", 1, 0), 0);
+}
+
+TEST_F(TickTest, MinAndMaxTakeTheExtremesAndStepLimitsHold) {
+  node("a");
+  node("b");
+  link("l1", "want", "a", "b", {{"value", 40.0}});
+  link("l2", "want", "a", "b", {{"value", 60.0}});
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.smallest"), 40);
+  EXPECT_DOUBLE_EQ(number("b", "toy.largest"), 3);
+  simulation_.step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.largest"), 6);
+}
+
+TEST_F(TickTest, ALockedPortStaysAndShowsItsTension) {
+  node("a");
+  node("b", {{"blended", 20.0}});
+  scene_.nodes["b"].locked = {"toy.blended", "node.position"};
+  link("l1", "want", "a", "b", {{"value", 50.0}});
+  link("p", "push", "a", "b", {{"move", Vector3{3, 4, 0}}});
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 20);
+  EXPECT_DOUBLE_EQ(tension("b", 1, 0), 30);
+  EXPECT_EQ(std::get<Vector3>(value_in(*simulation_.state(), "b", "node.position")), Vector3());
+  EXPECT_DOUBLE_EQ(tension("b", 0, 0), 5);
+}
+
+TEST_F(TickTest, MovesAddUpWithinTheStepLimit) {
+  node("b");
+  link("p1", "push", "b", "b", {{"move", Vector3{3, 0, 0}}});
+  link("p2", "push", "b", "b", {{"move", Vector3{-1, 0, 0}}}, 0.5);
+  start().step();
+  EXPECT_EQ(std::get<Vector3>(value_in(*simulation_.state(), "b", "node.position")), (Vector3{2.5, 0, 0}));
+  EXPECT_DOUBLE_EQ(tension("b", 0, 0), 3 + 0.5 - 2.5);
+  scene_.links["p1"].parameters["move"] = Vector3{30, 0, 0};
+  start().step();
+  EXPECT_EQ(std::get<Vector3>(value_in(*simulation_.state(), "b", "node.position")), (Vector3{7.5, 0, 0}));
+}
+
+TEST_F(TickTest, AMutedLinkIsShownButDoesNotCount) {
+  node("a");
+  node("b");
+  link("l1", "want", "a", "b", {{"value", 40.0}});
+  scene_.links["l1"].is_muted = true;
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 10);
+  EXPECT_EQ(simulation_.state()->links[0].voices.size(), 3u);
+  scene_.links["l1"].is_muted = false;
+  scene_.links["l1"].is_enabled = false;
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 10);
+  EXPECT_TRUE(simulation_.state()->links[0].voices.empty());
+}
+
+TEST_F(TickTest, AFailingLinkKeepsItsLastGoodValueAndSaysSo) {
+  node("a");
+  node("b");
+  link("l1", "want", "a", "b", {{"value", 40.0}});
+  start().step();
+  scene_.links["l1"].parameters["fail"] = true;
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 40);
+  ASSERT_TRUE(simulation_.state()->links[0].error.has_value());
+  EXPECT_EQ(simulation_.state()->links[0].error->text(), "links/l1/value: does not want to");
+  EXPECT_FALSE(simulation_.state()->is_settled());
+}
+
+TEST_F(TickTest, AFailingNodeKeepsItsLastGoodValue) {
+  node("b", {{"blended", 30.0}});
+  start().step();
+  scene_.nodes["b"].types["toy"]["blended"] = 950.0;
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.doubled"), 60);
+  EXPECT_EQ(simulation_.state()->nodes[0].types[1].error->text(), "nodes/b/toy/blended: too much for a toy");
+  scene_.nodes["b"].types["toy"]["blended"] = 40.0;
+  start().step();
+  EXPECT_DOUBLE_EQ(number("b", "toy.doubled"), 80);
+  EXPECT_FALSE(simulation_.state()->nodes[0].types[1].error.has_value());
+}
+
+TEST_F(TickTest, AnEffectCrossesOneLinkPerTickAndCyclesAreFine) {
+  node("a", {{"blended", 20.0}});
+  node("b");
+  link("ab", "want", "a", "b", {{"value", 1.0}});
+  link("ba", "want", "b", "a", {{"value", 3.0}});
+  start().step();
+  EXPECT_DOUBLE_EQ(number("a", "toy.blended"), 11.5);
+  EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 1);
+}
+
+TEST_F(TickTest, LinksToSetsReachEveryMemberOnceAndSkipThemselves) {
+  for (const char* id : {"a", "b", "c"}) node(id);
+  link("p", "push", "a", "a", {{"move", Vector3{1, 0, 0}}});
+  scene_.links["p"].from = Selection{{}, "toy", ""};
+  scene_.links["p"].to = Selection{{}, "toy", ""};
+  start().step();
+  // Unordered pairs (a,b), (a,c), (b,c): b is reached once, c twice.
+  EXPECT_EQ(std::get<Vector3>(value_in(*simulation_.state(), "a", "node.position")).x, 0);
+  EXPECT_EQ(std::get<Vector3>(value_in(*simulation_.state(), "b", "node.position")).x, 1);
+  EXPECT_EQ(std::get<Vector3>(value_in(*simulation_.state(), "c", "node.position")).x, 2);
+}
+
+TEST_F(TickTest, SettlesAfterCalmTicks) {
+  node("b");
+  scene_.settings["calm_ticks"] = std::int64_t{3};
+  start();
+  for (int i = 0; i < 2; ++i) simulation_.step();
+  EXPECT_FALSE(simulation_.state()->is_settled());
+  simulation_.step();
+  EXPECT_TRUE(simulation_.state()->is_settled());
+  link("p", "push", "b", "b", {{"move", Vector3{1, 0, 0}}});
+  start().step();
+  EXPECT_FALSE(simulation_.state()->is_settled());
+}
+
+TEST_F(TickTest, APlacedPositionStartsAgainFromItsSetValue) {
+  node("b");
+  link("p", "push", "b", "b", {{"move", Vector3{1, 0, 0}}});
+  start().step();
+  simulation_.set_scene(scene_);
+  EXPECT_EQ(std::get<Vector3>(value_in(*simulation_.state(), "b", "node.position")).x, 1);
+  simulation_.set_scene(scene_, {{"b", "node.position"}});
+  EXPECT_EQ(std::get<Vector3>(value_in(*simulation_.state(), "b", "node.position")).x, 0);
+}
+
+TEST_F(TickTest, ALinkThatDoesNotFitSaysWhy) {
+  scene_.nodes["a"].types = {{"node", {}}};
+  node("b");
+  link("l1", "want", "a", "b", {});
+  start().step();
+  EXPECT_EQ(simulation_.state()->links[0].error->text(), "links/l1/from: the node `a` has no `toy.blended`, which `want` needs");
+}
+
+TEST_F(TickTest, SnapshotsStayAsTheyWere) {
+  node("b");
+  link("p", "push", "b", "b", {{"move", Vector3{1, 0, 0}}});
+  start();
+  const auto before = simulation_.state();
+  simulation_.step();
+  EXPECT_EQ(before->tick, 0);
+  EXPECT_EQ(std::get<Vector3>(value_in(*before, "b", "node.position")).x, 0);
+  EXPECT_EQ(simulation_.state()->tick, 1);
+}
+
+}  // namespace
+}  // namespace bl
