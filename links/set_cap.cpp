@@ -30,7 +30,7 @@ struct SetCap {
         "volume wants. The statistic should watch the same volumes.");
     l.param(&In::cap, "cap")
         .min(0.001)
-        .soft(0, 100000)
+        .soft(100, 100000)
         .doc(
             "The largest sum allowed, in the unit of the statistic: cubic metres where it adds up volumes, square metres where "
             "it adds up "

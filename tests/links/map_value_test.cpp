@@ -37,7 +37,8 @@ TEST(MapValue, AnEmptyRangeAndAnEndlessResultAreErrors) {
 TEST(MapValue, UnitsMustAgreeUnlessRescaled) {
   const std::string nodes = R"({"format": "behaviourlinks", "version": 1, "nodes": [
     {"id": "a", "types": {"smart_volume": {"demand": 3000}}}, {"id": "b", "types": {"smart_volume": {}}}],
-    "links": [{"id": "l", "kind": "map_value", "from": "a", "to": "b", "parameters": {"source": "smart_volume.demand", "target": )";
+    "links": [{"id": "l", "kind": "map_value", "from": "a", "to": "b",
+    "parameters": {"source": "smart_volume.demand", "target": )";
   World same = World::from_text(nodes + R"("smart_volume.demand_limit"}}]})");
   same.tick();
   EXPECT_EQ(same.link_error("l"), "");
