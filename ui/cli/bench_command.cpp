@@ -1,0 +1,3 @@
+// `bench`: stub.
+#include "ui/cli/commands.h"
+namespace bl::cli { int bench_command(const BenchOptions&) { return 2; } }

@@ -1,0 +1,1 @@
+// The second yardstick of the bench: stub for now.

@@ -1,0 +1,106 @@
+// `check`: says everything that is wrong with scene files, and rewrites them in the one canonical form on request.
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/file/file_io.h"
+#include "core/session/session.h"
+#include "ui/cli/commands.h"
+#include "ui/cli/scene_loading.h"
+#include "ui/cli/survey.h"
+#include "ui/cli/terminal.h"
+
+namespace bl::cli {
+
+namespace {
+
+// Ticks after which every node and link has seen the others: what fails then is wrong with the scene, not with its start.
+constexpr int kTrialTicks = 3;
+
+struct Checked {
+  std::vector<Problem> problems;
+  std::size_t nodes = 0, links = 0;
+  bool is_rewritten = false;
+  std::size_t errors() const {
+    return static_cast<std::size_t>(std::count_if(problems.begin(), problems.end(), [](const Problem& p) { return p.is_error; }));
+  }
+};
+
+// What only shows when the scene runs: a boundary that crosses itself, a volume outside, demands that cannot be met.
+void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
+  auto session = Session::start(full_registry(), reading.scene, reading.state ? &*reading.state : nullptr, 1);
+  if (!session) return problems.push_back({true, session.error()});
+  for (int i = 0; i < kTrialTicks; ++i) (*session)->tick();
+  const State& state = *(*session)->state();
+  for (Error& error : problems_of(state)) {
+    const bool is_known = std::any_of(problems.begin(), problems.end(), [&](const Problem& p) { return p.error == error; });
+    if (!is_known) problems.push_back({true, std::move(error)});
+  }
+  for (const VolumeRow& row : volumes_of(state))
+    if (row.state == "coincident" || row.state == "outside" || row.state == "idle")
+      problems.push_back({false, {ErrorCode::geometry, "nodes/" + row.id, "is " + row.state + (row.reason.empty() ? "" : ": " + row.reason)}});
+  if (const std::string message = solver_message(state); !message.empty()) problems.push_back({false, {ErrorCode::infeasible, "", message}});
+}
+
+Checked check_file(const std::string& file, bool is_writing) {
+  Checked checked;
+  const auto text = read_file(file);
+  if (!text) {
+    checked.problems.push_back({true, text.error()});
+    return checked;
+  }
+  SceneReading reading = read_scene(*text, full_registry());
+  checked.problems = reading.problems;
+  checked.nodes = reading.scene.nodes.size();
+  checked.links = reading.scene.links.size();
+  if (!reading.is_usable()) return checked;
+  if (is_writing) {
+    const std::string canonical = write_scene(reading.scene, full_registry(), reading.state ? &*reading.state : nullptr);
+    if (canonical != *text) {
+      if (auto written = write_file(file, canonical); !written) checked.problems.push_back({true, written.error()});
+      else checked.is_rewritten = true;
+    }
+  }
+  try_out(reading, checked.problems);
+  return checked;
+}
+
+Json checked_json(const std::string& file, const Checked& checked) {
+  Json problems = Json::array();
+  for (const bool is_error : {true, false})
+    for (const Problem& problem : checked.problems)
+      if (problem.is_error == is_error)
+        problems.push_back({{"severity", is_error ? "error" : "warning"}, {"code", std::string(name_of(problem.error.code))},
+                            {"place", problem.error.place}, {"message", problem.error.message}});
+  return {{"file", file}, {"ok", checked.errors() == 0}, {"nodes", checked.nodes}, {"links", checked.links}, {"problems", std::move(problems)}};
+}
+
+}  // namespace
+
+int check_command(const CheckOptions& options) {
+  bool is_all_well = true;
+  Json list = Json::array();
+  for (const std::string& file : options.scenes) {
+    const Checked checked = check_file(file, options.is_writing);
+    print_problems(file, checked.problems);
+    list.push_back(checked_json(file, checked));
+    const std::size_t errors = checked.errors(), warnings = checked.problems.size() - errors;
+    const std::string prefix = options.scenes.size() > 1 ? file + ": " : "";
+    is_all_well &= errors == 0;
+    if (errors > 0) {
+      print_line(coloured(prefix + "not ok: " + counted(errors, "error") + (warnings > 0 ? ", " + counted(warnings, "warning") : ""), Colour::red));
+      continue;
+    }
+    print_line(coloured(prefix + "ok: " + counted(checked.nodes, "node") + ", " + counted(checked.links, "link") +
+                            (warnings > 0 ? ", " + counted(warnings, "warning") : "") + (checked.is_rewritten ? "; rewritten" : ""),
+                        Colour::green));
+  }
+  if (!options.json.empty())
+    if (auto written = write_file(options.json, write_json(Json{{"scenes", std::move(list)}}) + "\n"); !written) {
+      print_error(options.json, written.error());
+      return kBadInput;
+    }
+  return is_all_well ? kDone : kBadInput;
+}
+
+}  // namespace bl::cli

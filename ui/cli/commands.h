@@ -1,0 +1,74 @@
+// The commands of the program: what each is told, and the function that does it and gives the exit code.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bl::cli {
+
+/// Exit codes: all went well; the input is bad; what was asked for cannot be had; stopped by Ctrl-C.
+inline constexpr int kDone = 0, kBadInput = 2, kNotMet = 3, kInterrupted = 130;
+
+struct RunOptions {
+  std::string scene;
+  long long ticks = -1;          ///< -1: run until settled
+  bool is_settling = false;      ///< said in words; it is the default where no ticks are given
+  long long max_ticks = 2000;    ///< of a run until settled
+  int threads = 1;
+  std::string log, report, json, save;
+  std::vector<std::string> set;
+};
+int run_command(const RunOptions& options);
+
+struct CheckOptions {
+  std::vector<std::string> scenes;
+  std::string json;
+  bool is_writing = false;
+};
+int check_command(const CheckOptions& options);
+
+struct ReplayOptions {
+  std::string log;
+  int threads = 1;
+};
+int replay_command(const ReplayOptions& options);
+
+struct NewOptions {
+  std::string boundary, programme, out, feature, crs, title;
+  double height = 0;            ///< [m]
+  double storey_height = 3.2;   ///< [m]
+  double margin = 1;            ///< [m]
+  std::uint64_t seed = 1;
+  bool use_hull = false, is_forced = false;
+  std::vector<std::string> columns;
+};
+int new_command(const NewOptions& options);
+
+struct DocsOptions {
+  std::string type, out;
+  bool is_list = false;
+};
+int docs_command(const DocsOptions& options);
+
+struct SchemaOptions {
+  std::string out;
+};
+int schema_command(const SchemaOptions& options);
+
+struct CellsOptions {
+  std::string input, json;
+  int threads = 1;
+};
+int cells_command(const CellsOptions& options);
+
+struct BenchOptions {
+  std::vector<std::string> scenes;
+  std::vector<int> sites, threads;
+  int repeat = 3, ticks = 20;
+  std::string json;
+};
+int bench_command(const BenchOptions& options);
+
+}  // namespace bl::cli

@@ -1,0 +1,31 @@
+// Writes the log of a run line by line, so that a crash leaves what has happened so far.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+
+namespace bl::cli {
+
+class LogWriter {
+ public:
+  LogWriter() = default;
+  ~LogWriter();
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+
+  Result<void> open(const std::string& path);
+  bool is_open() const { return file_ != nullptr; }
+  /// Writes and hands over to the system at once. The first failure is kept; nothing is written after it.
+  void write(std::string_view lines);
+  Result<void> close();
+
+ private:
+  void fail();
+  std::FILE* file_ = nullptr;
+  std::string path_, failure_;
+};
+
+}  // namespace bl::cli

@@ -1,0 +1,40 @@
+// `replay`: runs a log again and compares every hash that it holds.
+#include "core/file/file_io.h"
+#include "core/session/session.h"
+#include "ui/cli/commands.h"
+#include "ui/cli/scene_loading.h"
+#include "ui/cli/terminal.h"
+
+namespace bl::cli {
+
+int replay_command(const ReplayOptions& options) {
+  const auto text = read_file(options.log);
+  if (!text) {
+    print_error(options.log, text.error());
+    return kBadInput;
+  }
+  const auto log = read_log(*text, full_registry());
+  if (!log) {
+    print_error(options.log, log.error());
+    return kBadInput;
+  }
+  if (log->is_cut_off) print_error(options.log, {ErrorCode::parse, "", "warning: the last line is incomplete, as after a crash; it is left out"});
+  const auto report = replay(*log, full_registry(), options.threads);
+  if (!report) {
+    print_error(options.log, report.error());
+    return kBadInput;
+  }
+  print_line(std::to_string(report->entries) + (report->entries == 1 ? " entry" : " entries") + ", " + std::to_string(report->ticks) +
+             " ticks, hash " + report->hash);
+  if (report->first_mismatch) {
+    print_line(coloured("differs from the log first at tick " + std::to_string(report->first_mismatch->tick) + ": the log has the hash " +
+                            report->first_mismatch->hash,
+                        Colour::red));
+    return kNotMet;
+  }
+  print_line(report->checks == 0 ? "the log holds no checks to compare with"
+                                 : coloured("agrees with all " + std::to_string(report->checks) + " checks", Colour::green));
+  return kDone;
+}
+
+}  // namespace bl::cli

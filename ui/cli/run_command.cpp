@@ -1,0 +1,138 @@
+// `run`: ticks a scene until it settles, and says what came of it.
+#include <algorithm>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/file/file_io.h"
+#include "core/session/session.h"
+#include "ui/cli/commands.h"
+#include "ui/cli/interrupt.h"
+#include "ui/cli/log_writer.h"
+#include "ui/cli/report/report.h"
+#include "ui/cli/run_output.h"
+#include "ui/cli/scene_loading.h"
+#include "ui/cli/set_argument.h"
+#include "ui/cli/settle_watch.h"
+#include "ui/cli/terminal.h"
+
+namespace bl::cli {
+
+namespace {
+
+constexpr long long kTicksPerCheck = 60;
+
+class Run {
+ public:
+  explicit Run(const RunOptions& options) : options_(options) {}
+
+  int execute() {
+    if (!start()) return kBadInput;
+    catch_interrupts();
+    tick_until_done();
+    const bool is_saved = finish();
+    if (is_interrupted()) return interrupt_exit_code();
+    if (!is_saved) return kBadInput;
+    return options_.ticks < 0 && !session_->state()->is_settled() ? kNotMet : kDone;
+  }
+
+ private:
+  bool fail(const std::string& file, const Error& error) {
+    print_error(file, error);
+    return false;
+  }
+
+  bool start() {
+    auto reading = load_scene(options_.scene);
+    if (!reading) return false;
+    auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options_.threads);
+    if (!session) return fail(options_.scene, session.error());
+    session_ = std::move(*session);
+    if (!options_.log.empty()) {
+      if (auto opened = log_.open(options_.log); !opened) return fail(options_.log, opened.error());
+      log_.write(log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr)));
+      session_->on_entry([this](const LogEntry& entry) { log_.write(log_line(entry, full_registry())); });
+    }
+    for (const std::string& argument : options_.set) {
+      auto command = set_command(session_->scene(), full_registry(), argument);
+      if (!command) return fail("", command.error());
+      if (auto done = session_->submit(*command, "command line"); !done) return fail("--set " + argument, done.error());
+    }
+    return true;
+  }
+
+  void record(const State& state) {
+    if (options_.report.empty()) return;
+    ErrorSample sample{state.tick, 0, 0, state.largest_move};
+    const std::vector<VolumeRow> volumes = volumes_of(state);
+    for (const VolumeRow& volume : volumes) {
+      sample.worst_error = std::max(sample.worst_error, volume.error);
+      sample.mean_error += volume.error / static_cast<double>(volumes.size());
+    }
+    history_.push_back(sample);
+  }
+
+  void tick_until_done() {
+    const bool is_settling = options_.ticks < 0;
+    const long long most = is_settling ? options_.max_ticks : options_.ticks;
+    SettleWatch watch;
+    Progress progress;
+    for (long long done = 0; done < most && !is_interrupted(); ++done) {
+      before_ = session_->state();
+      session_->tick();
+      const std::shared_ptr<const State> state = session_->state();
+      record(*state);
+      if (state->tick % kTicksPerCheck == 0) log_.write(log_line(LogCheck{state->tick, hex_digits(state->hash), false}));
+      if (progress.is_due())
+        progress.show("tick " + std::to_string(state->tick) + ", largest error " + fixed(100 * state->largest_residual, 2) + " %, largest move " +
+                      fixed(state->largest_move, 3) + " m");
+      if (!is_settling) continue;
+      if (state->is_settled() || watch.is_hopeless(*state)) return;
+    }
+  }
+
+  std::string outcome(const Survey& survey) const {
+    const State& state = *session_->state();
+    if (state.is_settled())
+      return "settled after " + std::to_string(state.tick) + " ticks, worst error " + fixed(100 * survey.worst_error, 3) + " %, hash " +
+             hex_digits(state.hash);
+    const std::string stopped = is_interrupted() ? "stopped at tick " + std::to_string(state.tick) + "; " : "";
+    return "not settled: " + stopped + why_not_settled(state, before_.get());
+  }
+
+  bool write(const std::string& file, const Result<void>& written) { return written ? true : fail(file, written.error()); }
+
+  // Everything that was asked for, even where a part of it fails.
+  bool finish() {
+    const std::shared_ptr<const State> state = session_->state();
+    const Survey survey = survey_of(*state);
+    const std::string last_line = outcome(survey);
+    bool is_saved = true;
+    if (log_.is_open()) {
+      log_.write(log_line(LogCheck{state->tick, hex_digits(state->hash), true}));
+      is_saved &= write(options_.log, log_.close());
+    }
+    if (!options_.save.empty()) {
+      const SavedState saved = save(*state);
+      is_saved &= write(options_.save, write_file(options_.save, write_scene(session_->scene(), full_registry(), &saved)));
+    }
+    if (!options_.json.empty()) is_saved &= write(options_.json, write_file(options_.json, write_json(survey_json(survey, *state, last_line)) + "\n"));
+    if (!options_.report.empty()) is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
+    print_survey(survey, *state);
+    print_line(coloured(last_line, state->is_settled() ? Colour::green : Colour::red));
+    return is_saved;
+  }
+
+  const RunOptions& options_;
+  std::unique_ptr<Session> session_;
+  std::shared_ptr<const State> before_;
+  LogWriter log_;
+  std::vector<ErrorSample> history_;
+};
+
+}  // namespace
+
+int run_command(const RunOptions& options) { return Run(options).execute(); }
+
+}  // namespace bl::cli

@@ -1,0 +1,25 @@
+// Reading scenes with all of their problems shown.
+#include "ui/cli/scene_loading.h"
+
+#include "core/file/file_io.h"
+#include "ui/cli/terminal.h"
+
+namespace bl::cli {
+
+std::optional<SceneReading> load_scene(const std::string& file) {
+  const auto text = read_file(file);
+  if (!text) {
+    print_error(file, text.error());
+    return std::nullopt;
+  }
+  SceneReading reading = read_scene(*text, full_registry());
+  print_problems(file, reading.problems);
+  if (!reading.is_usable()) return std::nullopt;
+  return reading;
+}
+
+std::string counted(std::size_t number, const std::string& noun) {
+  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+}
+
+}  // namespace bl::cli

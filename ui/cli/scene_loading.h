@@ -1,0 +1,17 @@
+// Reads a scene file for a command, and says everything that is wrong with it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/file/scene_file.h"
+
+namespace bl::cli {
+
+/// The scene, or nothing after all of its problems were printed. Warnings are printed and do not stop it.
+std::optional<SceneReading> load_scene(const std::string& file);
+
+/// "1 node", "3 nodes".
+std::string counted(std::size_t number, const std::string& noun);
+
+}  // namespace bl::cli

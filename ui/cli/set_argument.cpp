@@ -1,0 +1,56 @@
+// Reads what people type after --set.
+#include "ui/cli/set_argument.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/define/json_text.h"
+
+namespace bl::cli {
+
+namespace {
+
+bool holds_text(ValueKind kind) { return kind == ValueKind::text || kind == ValueKind::choice || kind == ValueKind::port; }
+
+// The unit that a scene gives to a port; a node that is not there is left to the command to complain about.
+Unit unit_at(const Scene& scene, const Registry& registry, const std::string& node, const PortPath& path, const PortDefinition& port) {
+  const auto record = scene.nodes.find(node);
+  const TypificationDefinition* type = registry.typification(path.typification);
+  return record == scene.nodes.end() || type == nullptr ? port.unit : unit_of(registry, record->second, *type, port);
+}
+
+Result<std::string> value_text(const PortDefinition& port, Unit unit, const std::string& text, const std::string& place) {
+  const bool is_number = port.kind == ValueKind::number || port.kind == ValueKind::integer;
+  if (is_number)
+    if (const auto quantity = parse_quantity(text, unit))
+      return port.kind == ValueKind::integer && *quantity == static_cast<double>(static_cast<long long>(*quantity))
+                 ? std::to_string(static_cast<long long>(*quantity))
+                 : shortest(*quantity);
+  if (auto json = parse_json(text); json && !(holds_text(port.kind) && !json->is_string() && !json->is_null())) return write_json_line(*json);
+  if (holds_text(port.kind)) return write_json_line(Json(text));
+  if (is_number) {
+    const std::string_view pretty = info(unit).pretty;
+    return Error{ErrorCode::wrong_unit, place,
+                 "`" + text + "` is no number" + (pretty.empty() ? "" : " or quantity in " + std::string(pretty) + " or its multiples")};
+  }
+  return Error{ErrorCode::parse, place, "`" + text + "` is no value of the kind " + std::string(name_of(port.kind)) + "; write it as in a scene file"};
+}
+
+}  // namespace
+
+Result<Command> set_command(const Scene& scene, const Registry& registry, const std::string& argument) {
+  const std::size_t slash = argument.find('/'), equals = argument.find('=');
+  if (slash == std::string::npos || equals == std::string::npos || slash > equals || slash == 0)
+    return Error{ErrorCode::parse, "--set", "expects NODE/TYPIFICATION.PORT=VALUE, found `" + argument + "`"};
+  const std::string node = argument.substr(0, slash), port_text = argument.substr(slash + 1, equals - slash - 1);
+  const std::string place = "--set " + argument.substr(0, equals);
+  const auto path = parse_port_path(port_text);
+  if (!path) return Error{ErrorCode::parse, "--set", "expects a port written TYPIFICATION.PORT, found `" + port_text + "`"};
+  const auto port = registry.port(*path);
+  if (!port) return port.error().within(place);
+  auto value = value_text(**port, unit_at(scene, registry, node, *path, **port), argument.substr(equals + 1), place);
+  if (!value) return value.error();
+  return command<SetPort>({node, {port_text}, {*value}});
+}
+
+}  // namespace bl::cli

@@ -1,0 +1,27 @@
+// Watches a run for signs that it will not settle, so that nobody waits for what cannot come.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/graph/state.h"
+
+namespace bl::cli {
+
+/// The rule (README.md): once no link moves a node by more than the scene's move limit, the worst error has to get better.
+/// It gives up after 40 calm ticks without progress where a solver says that the demands cannot be met or a node fails, and
+/// after 400 such ticks elsewhere. Progress is a worst error below 0.99 of the best one so far.
+class SettleWatch {
+ public:
+  /// Is it hopeless after this tick?
+  bool is_hopeless(const State& state);
+
+ private:
+  double best_error_ = -1;
+  long long idle_ = 0;
+};
+
+/// Why a state is not settled, as the end of the sentence "not settled: ...". `before`: the state of the tick before, or null.
+std::string why_not_settled(const State& state, const State* before);
+
+}  // namespace bl::cli

@@ -1,0 +1,141 @@
+// Standard output and standard error of the program.
+#include "ui/cli/terminal.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+namespace bl::cli {
+
+namespace {
+
+bool wants_colours() {
+  static const bool kWanted = [] {
+    const char* no_colour = std::getenv("NO_COLOR");
+    const char* terminal = std::getenv("TERM");
+    return ::isatty(STDOUT_FILENO) == 1 && (no_colour == nullptr || *no_colour == '\0') &&
+           !(terminal != nullptr && std::string_view(terminal) == "dumb");
+  }();
+  return kWanted;
+}
+
+bool errors_go_to_a_terminal() {
+  static const bool kTerminal = ::isatty(STDERR_FILENO) == 1;
+  return kTerminal;
+}
+
+std::string_view code_of(Colour colour) {
+  switch (colour) {
+    case Colour::plain: return "";
+    case Colour::bold: return "\033[1m";
+    case Colour::dim: return "\033[2m";
+    case Colour::red: return "\033[31m";
+    case Colour::green: return "\033[32m";
+    case Colour::yellow: return "\033[33m";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string coloured(std::string_view text, Colour colour) {
+  if (colour == Colour::plain || !wants_colours()) return std::string(text);
+  return std::string(code_of(colour)).append(text).append("\033[0m");
+}
+
+std::size_t width_of(std::string_view text) {
+  // Continuation bytes of UTF-8 take no column of their own.
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+void print_line(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fputc('\n', stdout);
+}
+
+void TextTable::print() const {
+  std::vector<std::size_t> widths;
+  for (const Column& column : columns_) widths.push_back(width_of(column.header));
+  for (const Row& row : rows_)
+    for (std::size_t c = 0; c < row.cells.size(); ++c) widths[c] = std::max(widths[c], width_of(row.cells[c]));
+  const auto line_of = [&](const std::vector<std::string>& cells) {
+    std::string line;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const std::string cell = c < cells.size() ? cells[c] : "";
+      const std::string fill(widths[c] - width_of(cell), ' ');
+      line += (c > 0 ? "  " : "") + (columns_[c].is_number ? fill + cell : cell + fill);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line;
+  };
+  std::vector<std::string> headers;
+  std::size_t total = 2 * (columns_.size() - 1);
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    headers.push_back(columns_[c].header);
+    total += widths[c];
+  }
+  print_line(coloured(line_of(headers), Colour::bold));
+  for (const Row& row : rows_)
+    if (row.cells.empty()) print_line(coloured(std::string(std::min<std::size_t>(total, 100), '-'), Colour::dim));
+    else print_line(coloured(line_of(row.cells), row.colour));
+}
+
+void complain(std::string_view sentence) {
+  std::fflush(stdout);
+  const std::string line = std::string("behaviourlinks: ").append(sentence).append("\n");
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+namespace {
+
+std::string located(const std::string& file, const Error& error) {
+  const bool is_named = file.empty() || error.place == file || error.place.starts_with(file + "/");
+  return is_named ? error.text() : file + ": " + error.text();
+}
+
+}  // namespace
+
+void print_error(const std::string& file, const Error& error) {
+  std::fflush(stdout);
+  const std::string line = located(file, error) + "\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void print_problems(const std::string& file, const std::vector<Problem>& problems) {
+  std::fflush(stdout);
+  for (const bool is_error : {true, false})
+    for (const Problem& problem : problems) {
+      if (problem.is_error != is_error) continue;
+      const Error marked{problem.error.code, problem.error.place, (is_error ? "" : "warning: ") + problem.error.message};
+      print_error(file, marked);
+    }
+}
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+bool Progress::is_due() const {
+  const double time = now(), since = time - shown_;
+  return time - began_ > 1 && since > (errors_go_to_a_terminal() ? 0.1 : 10);
+}
+
+void Progress::show(const std::string& text) {
+  if (!is_due()) return;
+  shown_ = now();
+  if (errors_go_to_a_terminal()) {
+    std::fprintf(stderr, "\r\033[K%s", text.c_str());
+    is_dirty_ = true;
+  } else {
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+  std::fflush(stderr);
+}
+
+void Progress::clear() {
+  if (is_dirty_) std::fputs("\r\033[K", stderr);
+  is_dirty_ = false;
+}
+
+}  // namespace bl::cli

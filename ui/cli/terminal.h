@@ -1,0 +1,72 @@
+// What people see: colours where they are wanted, tables, sentences about problems, and one line of progress.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/graph/scene.h"
+
+namespace bl::cli {
+
+enum class Colour { plain, bold, dim, red, green, yellow };
+/// The text in a colour, where standard output is a terminal that wants colours; the plain text elsewhere.
+std::string coloured(std::string_view text, Colour colour);
+
+/// Columns that a text takes on a terminal: UTF-8 characters, not bytes.
+std::size_t width_of(std::string_view text);
+
+/// Rows under headers, columns as wide as their content. Numbers are aligned right, texts left.
+class TextTable {
+ public:
+  struct Column {
+    std::string header;
+    bool is_number = false;
+  };
+  explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+  void add(std::vector<std::string> row, Colour colour = Colour::plain) { rows_.push_back({std::move(row), colour}); }
+  /// A line between what stands above and below.
+  void rule() { rows_.push_back({}); }
+  bool is_empty() const { return rows_.empty(); }
+  void print() const;
+
+ private:
+  struct Row {
+    std::vector<std::string> cells;
+    Colour colour = Colour::plain;
+  };
+  std::vector<Column> columns_;
+  std::vector<Row> rows_;
+};
+
+void print_line(std::string_view text = {});
+/// "behaviourlinks: sentence" on standard error.
+void complain(std::string_view sentence);
+/// "file: place: message" on standard error. A place that is the file itself is not said twice.
+void print_error(const std::string& file, const Error& error);
+/// All of them, errors before warnings; warnings are marked as such.
+void print_problems(const std::string& file, const std::vector<Problem>& problems);
+
+/// Seconds since some fixed moment.
+double now();
+
+/// Says on standard error how far a long task is: nothing in its first second; on a terminal one line that is rewritten;
+/// elsewhere a plain line every ten seconds.
+class Progress {
+ public:
+  Progress() : began_(now()), shown_(began_) {}
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  /// Is it time for a new line? Ask before a costly text is made.
+  bool is_due() const;
+  void show(const std::string& text);
+  void clear();
+
+ private:
+  double began_, shown_;
+  bool is_dirty_ = false;
+};
+
+}  // namespace bl::cli
