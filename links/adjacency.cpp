@@ -51,7 +51,7 @@ struct Adjacency {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     const Vector3 between = ends.to - ends.from;
-    const double length = norm(between), missing = in.area - shared_area(ends);
+    const double length = norm(between), missing = in.area - ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area");
     if (!(missing > 0) || !(length > 1e-9)) return Out{};
     // The clear distance, and a way that grows with the missing area. A facet grows by about one and a half times its distance
     // for each metre that the volumes come nearer, so that a small area calls for a short way only.
@@ -60,14 +60,6 @@ struct Adjacency {
     const double way = std::min(length, clear + reach * (missing / in.area));
     const Vector3 move = between * (0.5 * in.stiffness * way / length);
     return Out{move, -move};
-  }
-
- private:
-  static double shared_area(const Ends& ends) {
-    double area = 0;
-    for (std::size_t row = 0; row < ends.neighbours->rows.size(); ++row)
-      if (ends.neighbours->text(row, "node") == ends.to_id) area += ends.neighbours->number(row, "area");
-    return area;
   }
 };
 

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "core/base/random.h"
+#include "core/base/direction.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -50,21 +50,9 @@ struct Repel {
     if (in.in_plan) between.z = 0;
     const double length = norm(between), missing = in.reach - length;
     if (!(missing > 0)) return Out{};
-    const Vector3 direction = length > 1e-9 ? between / length : direction_by_name(ends);
+    const Vector3 direction = length > 1e-9 ? between / length : direction_by_name(ends.from_id, ends.to_id);
     const Vector3 move = direction * (0.5 * in.stiffness * missing);
     return Out{-move, move};
-  }
-
- private:
-  // Where two nodes stand on one point, their names decide which level way each of them goes, whichever is asked first.
-  static Vector3 direction_by_name(const Ends& ends) {
-    const bool is_ordered = ends.from_id < ends.to_id;
-    Hash names;
-    names.add(is_ordered ? ends.from_id : ends.to_id);
-    names.add(is_ordered ? ends.to_id : ends.from_id);
-    Random random(names.value());
-    const Vector3 way{random.uniform(0.1, 1), random.uniform(-1, 1), 0};
-    return way / (is_ordered ? norm(way) : -norm(way));
   }
 };
 

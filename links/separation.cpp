@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/base/random.h"
+#include "core/base/direction.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -53,7 +53,7 @@ struct Separation {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     const Vector3 between = ends.to - ends.from;
-    const double length = norm(between), radii = ends.from_radius + ends.to_radius, area = shared_area(ends);
+    const double length = norm(between), radii = ends.from_radius + ends.to_radius, area = ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area");
     const bool is_together = length <= 1e-9;
     double way = 0;
     // The facet of two equal balls shrinks by pi/2 · distance for each metre; a little more makes it vanish.
@@ -61,28 +61,9 @@ struct Separation {
     if (in.gap > 0 && radii > 0) way = std::max(way, radii + in.gap - length);
     if (is_together) way = std::max(way, 1.0);
     if (!(way > 0)) return Out{};
-    const Vector3 direction = is_together ? direction_by_name(ends) : between / length;
+    const Vector3 direction = is_together ? direction_by_name(ends.from_id, ends.to_id) : between / length;
     const Vector3 move = direction * (0.5 * in.stiffness * way);
     return Out{-move, move};
-  }
-
- private:
-  static double shared_area(const Ends& ends) {
-    double area = 0;
-    for (std::size_t row = 0; row < ends.neighbours->rows.size(); ++row)
-      if (ends.neighbours->text(row, "node") == ends.to_id) area += ends.neighbours->number(row, "area");
-    return area;
-  }
-
-  // Where two nodes stand on one point, their names decide which level way each of them goes, whichever is asked first.
-  static Vector3 direction_by_name(const Ends& ends) {
-    const bool is_ordered = ends.from_id < ends.to_id;
-    Hash names;
-    names.add(is_ordered ? ends.from_id : ends.to_id);
-    names.add(is_ordered ? ends.to_id : ends.from_id);
-    Random random(names.value());
-    const Vector3 way{random.uniform(0.1, 1), random.uniform(-1, 1), 0};
-    return way / (is_ordered ? norm(way) : -norm(way));
   }
 };
 

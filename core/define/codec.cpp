@@ -203,13 +203,15 @@ Result<void> check_keys(const Json& json, const std::vector<std::string>& known,
 
 namespace {
 
-Json table_to_json(const Table& table) {
+Json table_to_json(const Table& table, const std::vector<ColumnDefinition>& columns) {
   Json rows = Json::array();
   for (const auto& row : table.rows) {
     Json object = Json::object();
-    for (std::size_t c = 0; c < row.size() && c < table.columns.size(); ++c)
-      if (const double* number = std::get_if<double>(&row[c])) object[table.columns[c]] = *number;
-      else object[table.columns[c]] = std::get<std::string>(row[c]);
+    for (std::size_t c = 0; c < row.size() && c < columns.size(); ++c) {
+      if (!columns[c].is_required && row[c] == columns[c].default_value) continue;
+      if (const double* number = std::get_if<double>(&row[c])) object[columns[c].id] = *number;
+      else object[columns[c].id] = std::get<std::string>(row[c]);
+    }
     rows.push_back(std::move(object));
   }
   return rows;
@@ -217,8 +219,8 @@ Json table_to_json(const Table& table) {
 
 }  // namespace
 
-Json value_to_json(const Value& value, ValueKind kind) {
-  if (kind == ValueKind::json) return Json::parse(std::get<std::string>(value), nullptr, false);
+Json value_to_json(const Value& value, const PortDefinition& port) {
+  if (port.kind == ValueKind::json) return Json::parse(std::get<std::string>(value), nullptr, false);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag;
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
   if (const auto* number = std::get_if<double>(&value)) return *number;
@@ -226,7 +228,7 @@ Json value_to_json(const Value& value, ValueKind kind) {
   if (const auto* vector = std::get_if<Vector3>(&value)) return vector_to_json(*vector);
   if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&value)) return **texts;
   if (const auto* selection = std::get_if<Shared<Selection>>(&value)) return selection_to_json(**selection);
-  if (const auto* table = std::get_if<Shared<Table>>(&value)) return table_to_json(**table);
+  if (const auto* table = std::get_if<Shared<Table>>(&value)) return table_to_json(**table, port.columns);
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) {
     Json list = Json::array();
     for (const Point3& p : **points) list.push_back(vector_to_json(p));
@@ -313,7 +315,7 @@ Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value
   Json json = Json::object();
   for (const PortDefinition& port : type.ports)
     if (const auto it = values.find(port.id); it != values.end() && (port.is_required || it->second != port.default_value))
-      json[port.id] = value_to_json(it->second, port.kind);
+      json[port.id] = value_to_json(it->second, port);
   return json;
 }
 

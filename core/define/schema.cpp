@@ -132,7 +132,7 @@ Json value_schema(const PortDefinition& port) {
   std::string text = port.doc;
   if (const UnitInfo& unit = info(port.unit); !unit.symbol.empty()) text += " [" + std::string(unit.symbol) + "]";
   schema["description"] = text;
-  if (port.kind != ValueKind::mesh && !port.is_required) schema["default"] = value_to_json(port.default_value, port.kind);
+  if (port.kind != ValueKind::mesh && !port.is_required) schema["default"] = value_to_json(port.default_value, port);
   return schema;
 }
 

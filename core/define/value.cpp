@@ -10,6 +10,12 @@ std::size_t Table::column(std::string_view name) const {
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
 }
 
+std::size_t Table::row_of(std::string_view column_name, std::string_view content) const {
+  std::size_t row = 0;
+  while (row < rows.size() && text(row, column_name) != content) ++row;
+  return row;
+}
+
 double Table::number(std::size_t row, std::string_view name) const {
   const std::size_t c = column(name);
   if (row >= rows.size() || c >= rows[row].size()) return 0;

@@ -53,6 +53,9 @@ struct Table {
 
   /// Index of a column, or the number of columns where there is none.
   std::size_t column(std::string_view name) const;
+  /// The first row with that text in a column, or the number of rows where there is none.
+  std::size_t row_of(std::string_view column, std::string_view text) const;
+  /// Nothing (0, an empty text) where row or column do not exist.
   double number(std::size_t row, std::string_view name) const;
   const std::string& text(std::size_t row, std::string_view name) const;
 };

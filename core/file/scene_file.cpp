@@ -203,15 +203,15 @@ Json revisions_of(const Scene& scene, const Registry& registry) {
 }
 
 Json state_to_json(const SavedState& state, const Registry& registry) {
-  auto kind_of = [&](const std::string& path) { return (*registry.port(*parse_port_path(path)))->kind; };
+  auto port_of = [&](const std::string& path) -> const PortDefinition& { return **registry.port(*parse_port_path(path)); };
   Json json = Json::object();
   json["tick"] = state.tick;
   json["calm"] = state.calm;
   Json& nodes = json["nodes"] = Json::object();
   for (const auto& [node, values] : state.nodes)
-    for (const auto& [path, value] : values) nodes[node][path] = value_to_json(value, kind_of(path));
+    for (const auto& [path, value] : values) nodes[node][path] = value_to_json(value, port_of(path));
   for (const auto& [link, voices] : state.held)
-    for (const auto& [target, voice] : voices) json["held"][link][target.first + "/" + target.second] = value_to_json(voice.value, kind_of(target.second));
+    for (const auto& [target, voice] : voices) json["held"][link][target.first + "/" + target.second] = value_to_json(voice.value, port_of(target.second));
   return json;
 }
 

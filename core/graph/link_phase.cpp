@@ -8,9 +8,11 @@ namespace bl {
 
 namespace {
 
-// Proposals of all pairs of one link on one target, added up in the order of the pairs.
+// Proposals of all pairs of one link on one target, taken together in the order of the pairs. A link speaks with one voice: the
+// mean of the pairs that move anything, so that a node pulled by sixty partners is moved no farther than by one, and
+// links to sets settle whatever the size of the set.
 struct Collected {
-  int count = 0;
+  int count = 0, moving = 0;
   double number = 0;
   Vector3 vector;
   double magnitude = 0;
@@ -20,19 +22,22 @@ struct Collected {
     if (const auto* v = std::get_if<Vector3>(&value)) {
       vector += *v;
       magnitude += norm(*v);
+      if (*v != Vector3{}) ++moving;
       return;
     }
     const double x = as_number(value);
     magnitude += std::abs(x);
+    if (x != 0) ++moving;
     if (rule == CombineRule::min) number = count == 1 ? x : std::min(number, x);
     else if (rule == CombineRule::max) number = count == 1 ? x : std::max(number, x);
     else number += x;
   }
 
   Voice voice(PortRef target, const PortDefinition& port, double strength) const {
-    const double share = port.rule == CombineRule::blend ? 1.0 / count : 1.0;
-    if (port.kind == ValueKind::point) return {target, vector * share, magnitude, strength};
-    return {target, number * share, magnitude, strength};
+    const int voices = port.rule == CombineRule::blend ? count : port.rule == CombineRule::sum ? std::max(1, moving) : 1;
+    const double share = 1.0 / voices;
+    if (port.kind == ValueKind::point) return {target, vector * share, magnitude * share, strength};
+    return {target, number * share, magnitude * share, strength};
   }
 };
 

@@ -123,8 +123,9 @@ void commit(State& next) {
         if (ports[p].is_residual)
           next.largest_residual = std::max(next.largest_residual, std::abs(as_number(next.nodes[n].types[t].values[p])));
     }
-  const bool is_calm =
-      !is_any_error && next.largest_residual <= next.plan->settings.tolerance && next.largest_move <= next.plan->settings.move_limit;
+  const Settings& settings = next.plan->settings;
+  const bool is_calm = !is_any_error && next.largest_residual <= settings.tolerance && next.largest_move <= settings.move_limit &&
+                       next.largest_change <= settings.change_limit;
   next.calm = is_calm ? next.calm + 1 : 0;
   next.hash = hash_of(next);
 }

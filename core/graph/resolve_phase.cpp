@@ -93,7 +93,18 @@ std::vector<Heard> gather(const State& next) {
   return heard;
 }
 
-void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<const Heard> heard, double& largest_move) {
+// What a tick changed at one node: what settling looks at.
+struct Unrest {
+  double move = 0, change = 0;
+};
+
+double relative_change(const Value& before, const Value& after) {
+  if (!std::holds_alternative<double>(after) || before == after) return 0;
+  const double a = as_number(before), b = as_number(after);
+  return std::abs(b - a) / std::max(std::abs(a), std::abs(b));
+}
+
+void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<const Heard> heard, Unrest& unrest) {
   std::size_t at = 0;
   for (std::uint16_t t = 0; t < next.nodes[n].types.size(); ++t) {
     const TypePlan& type = next.plan->nodes[n].types[t];
@@ -107,9 +118,11 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<c
       double tension = 0, move = 0;
       if (port.rule == CombineRule::sum) {
         if (!voices.empty()) resolve_sum(port, type.is_locked[p], voices, state.values[p], tension, move);
-        if (port.unit == Unit::metre) largest_move = std::max(largest_move, move);
+        if (port.unit == Unit::metre) unrest.move = std::max(unrest.move, move);
       } else if (port.rule != CombineRule::none) {
-        resolve_value(port, type, p, frozen.nodes[n].types[t].values[p], voices, state.values[p], tension);
+        const Value& before = frozen.nodes[n].types[t].values[p];
+        resolve_value(port, type, p, before, voices, state.values[p], tension);
+        unrest.change = std::max(unrest.change, relative_change(before, state.values[p]));
       } else {
         state.values[p] = type.set_values[p];
       }
@@ -125,12 +138,16 @@ void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
   std::vector<std::size_t> start(next.nodes.size() + 1, heard.size());
   for (std::size_t i = heard.size(); i-- > 0;) start[heard[i].target.node] = i;
   for (std::size_t n = next.nodes.size(); n-- > 0;) start[n] = std::min(start[n], start[n + 1]);
-  std::vector<double> moves(next.nodes.size(), 0);
+  std::vector<Unrest> unrest(next.nodes.size());
   pool.for_each_chunk(next.nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      resolve_node(frozen, next, static_cast<std::uint32_t>(n), std::span(heard).subspan(start[n], start[n + 1] - start[n]), moves[n]);
+      resolve_node(frozen, next, static_cast<std::uint32_t>(n), std::span(heard).subspan(start[n], start[n + 1] - start[n]), unrest[n]);
   });
-  next.largest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+  next.largest_move = next.largest_change = 0;
+  for (const Unrest& node : unrest) {
+    next.largest_move = std::max(next.largest_move, node.move);
+    next.largest_change = std::max(next.largest_change, node.change);
+  }
 }
 
 }  // namespace bl

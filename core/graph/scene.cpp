@@ -22,6 +22,8 @@ TypeDefinition declare_settings() {
       .doc("Settled means that every demand is met within this share of itself.");
   port(&Settings::move_limit, "move_limit").unit(Unit::metre).min(0).soft(0, 1)
       .doc("Settled means that no link moves a node by more than this in a tick.");
+  port(&Settings::change_limit, "change_limit").unit(Unit::ratio).min(0).soft(0.0001, 0.1)
+      .doc("Settled means that no link changes a value by more than this share of it in a tick.");
   port(&Settings::calm_ticks, "calm_ticks").range(1, 1000).soft(1, 50).doc("Settled means calm for this many ticks in a row.");
   port(&Settings::coordinate_system, "coordinate_system").doc("Where the plan came from: a CRS such as EPSG:28992; empty for a free place.");
   port(&Settings::origin_x, "origin_x").doc("First coordinate of the local origin in that system, in its own unit.");

@@ -40,6 +40,7 @@ struct Settings {
   std::string title, about;
   double tolerance = 0.01;
   double move_limit = 0.02;
+  double change_limit = 0.001;
   int calm_ticks = 5;
   std::string coordinate_system;
   double origin_x = 0, origin_y = 0;

@@ -27,7 +27,7 @@ struct NodeState {
 struct Voice {
   PortRef target;
   Value value;                           ///< a change for `sum` ports, a wanted value for the others
-  double magnitude = 0;                  ///< for `sum` ports: the lengths of the single changes added up
+  double magnitude = 0;                  ///< for `sum` ports: the mean length of the changes that its pairs want
   double strength = 1;
 };
 
@@ -43,6 +43,7 @@ struct State {
   std::vector<LinkState> links;          ///< as plan->links
   std::int64_t calm = 0;                 ///< ticks in a row in which nothing much moved and all demands were met
   double largest_move = 0;               ///< [m] of this tick
+  double largest_change = 0;             ///< of this tick, of any number that links choose, as a share of itself
   double largest_residual = 0;           ///< over all residual ports
   std::uint64_t hash = 0;
 

@@ -10,7 +10,7 @@
 
 namespace bl {
 
-JsonText as_json_text(const Value& value, ValueKind kind) { return {write_json_line(value_to_json(value, kind))}; }
+JsonText as_json_text(const Value& value, const PortDefinition& port) { return {write_json_line(value_to_json(value, port))}; }
 
 Result<Value> argument_value(const TypeDefinition& type, const std::string& port_id, const JsonText& json, const std::string& place) {
   const PortDefinition* port = type.find_port(port_id);
@@ -29,7 +29,7 @@ void assign(PortValues& values, const PortDefinition& port, const Value& value) 
 
 JsonText current_value(const PortValues& values, const PortDefinition& port) {
   const auto it = values.find(port.id);
-  return it == values.end() ? JsonText{"null"} : as_json_text(it->second, port.kind);
+  return it == values.end() ? JsonText{"null"} : as_json_text(it->second, port);
 }
 
 Result<PortSite> find_setting(SceneEdit& edit, const std::string& node_id, const PortChoice& choice) {

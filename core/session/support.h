@@ -9,7 +9,7 @@
 namespace bl {
 
 /// The text of a value as a command argument.
-JsonText as_json_text(const Value& value, ValueKind kind);
+JsonText as_json_text(const Value& value, const PortDefinition& port);
 /// A setting of a type from a JSON argument; `null` stands for the default.
 Result<Value> argument_value(const TypeDefinition& type, const std::string& port, const JsonText& json, const std::string& place);
 /// Sets a value, or takes it away where it is the default.

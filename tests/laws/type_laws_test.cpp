@@ -130,7 +130,7 @@ TEST(TypeLaws, ValuesSurviveJson) {
       if (port.kind == ValueKind::mesh) continue;
       for (int i = 0; i < 50; ++i) {
         const Value value = random_value(port, random);
-        const std::string text = write_json(value_to_json(value, port.kind));
+        const std::string text = write_json(value_to_json(value, port));
         const auto json = parse_json(text);
         ASSERT_TRUE(json.ok()) << text;
         const auto back = value_from_json(port, *json, port.id);

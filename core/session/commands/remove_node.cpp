@@ -44,7 +44,7 @@ void leave_sets(SceneEdit& edit, const std::string& id, std::vector<Command>& in
         if (it == values.end() || port.kind != ValueKind::selection) continue;
         Selection selection = *std::get<Shared<Selection>>(it->second);
         if (!drop(selection, id)) continue;
-        inverse.push_back(command<SetPort>({other, {type_id + "." + port.id}, as_json_text(it->second, port.kind)}));
+        inverse.push_back(command<SetPort>({other, {type_id + "." + port.id}, as_json_text(it->second, port)}));
         assign(values, port, Shared<Selection>(std::move(selection)));
       }
     }

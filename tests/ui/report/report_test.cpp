@@ -1,0 +1,306 @@
+// Reports are complete, well formed and say what the state says, also where a scene is empty or odd.
+#include "ui/cli/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "core/base/mesh.h"
+#include "core/file/file_io.h"
+#include "tests/support/world.h"
+#include "ui/cli/report/figures.h"
+#include "ui/cli/report/furniture.h"
+#include "ui/cli/report/markup.h"
+#include "ui/cli/report/mesh_lines.h"
+#include "ui/cli/report/palette.h"
+#include "ui/cli/report/projection.h"
+
+namespace bl {
+namespace {
+
+constexpr const char* kBlock = R"({"format": "behaviourlinks", "version": 1, "settings": {"title": "A block"},
+  "nodes": [
+    {"id": "brief", "types": {"programme": {"rows": [
+      {"use": "housing", "floor_area": 900, "storey_height": 3, "count": 2}, {"use": "office", "floor_area": 700, "storey_height": 3.5}]}}},
+    {"id": "home_a", "name": "Home <A> & \"B\"", "position": [-8, -6, 6], "types": {"smart_volume": {"use": "housing"}}},
+    {"id": "home_b", "position": [9, -5, 6], "types": {"smart_volume": {"use": "housing"}}},
+    {"id": "office", "name": "Office", "position": [0, 9, 7], "types": {"smart_volume": {"use": "office"}}},
+    {"id": "site", "name": "Site", "types": {"boundary": {}}},
+    {"id": "solver", "types": {"smart_volumes_solver": {}}}],
+  "links": [{"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}},
+            {"id": "near", "kind": "adjacency", "from": "home_a", "to": "office"}]})";
+
+struct Files {
+  std::string html, csv, obj;
+};
+
+std::string folder_for(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / ("report_" + name)).string();
+}
+
+ReportData data_of(const State& state) {
+  ReportData data{&state, {}, "scenes/block.json", "settled after 40 ticks, worst error 0.4 %, hash 00"};
+  for (std::int64_t t = 1; t <= 40; ++t) {
+    const double error = std::pow(0.8, static_cast<double>(t));
+    data.history.push_back({t, error, error / 3, 2 * error});
+  }
+  return data;
+}
+
+Files write_and_read(const std::string& name, const ReportData& data) {
+  const std::string folder = folder_for(name);
+  const auto written = write_report(folder, data);
+  EXPECT_TRUE(written.ok()) << (written.ok() ? "" : written.error().text());
+  Files files;
+  for (const auto& [file, text] : {std::pair{"report.html", &files.html}, {"volumes.csv", &files.csv}, {"volumes.obj", &files.obj}}) {
+    const auto read = read_file(folder + "/" + file);
+    if (read) *text = *read;
+    else ADD_FAILURE() << read.error().text();
+  }
+  return files;
+}
+
+// Tags match, attributes are quoted and not repeated, ampersands start references: what makes XML well formed, as far as a page needs it.
+std::string fault_in(const std::string& xml) {
+  std::vector<std::string> open;
+  for (std::size_t i = xml.find('<'); i != std::string::npos; i = xml.find('<', i + 1)) {
+    const std::size_t end = xml.find('>', i);
+    if (end == std::string::npos) return "a tag that does not end";
+    const std::string tag = xml.substr(i + 1, end - i - 1);
+    if (tag.find('<') != std::string::npos) return "a bare < near " + tag;
+    if (tag.starts_with("!")) continue;
+    if (tag.starts_with("/")) {
+      if (open.empty() || open.back() != tag.substr(1)) return "</" + tag.substr(1) + "> closes " + (open.empty() ? "nothing" : open.back());
+      open.pop_back();
+      continue;
+    }
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return "odd quotes in " + tag;
+    if (!tag.ends_with("/")) open.push_back(tag.substr(0, tag.find(' ')));
+  }
+  for (std::size_t i = xml.find('&'); i != std::string::npos; i = xml.find('&', i + 1))
+    if (const std::size_t end = xml.find(';', i); end == std::string::npos || end - i > 6) return "a bare & near " + xml.substr(i, 20);
+  return open.empty() ? "" : "never closed: " + open.back();
+}
+
+// The objects of an OBJ text as meshes.
+std::map<std::string, Mesh> meshes_in(const std::string& obj) {
+  std::map<std::string, Mesh> meshes;
+  std::istringstream lines(obj);
+  std::string word, name;
+  std::size_t total = 0, first = 0;
+  while (lines >> word) {
+    if (word == "o") {
+      lines >> name;
+      first = total;
+      meshes[name];
+    } else if (word == "v") {
+      Point3 point;
+      lines >> point.x >> point.y >> point.z;
+      meshes[name].vertices.push_back(point);
+      ++total;
+    } else if (word == "f") {
+      std::array<std::size_t, 3> corner{};
+      lines >> corner[0] >> corner[1] >> corner[2];
+      std::array<std::uint32_t, 3> triangle{};
+      for (std::size_t k = 0; k < 3; ++k) triangle[k] = static_cast<std::uint32_t>(corner[k] - 1 - first);
+      meshes[name].triangles.push_back(triangle);
+    } else {
+      std::getline(lines, word);
+    }
+  }
+  return meshes;
+}
+
+bool is_closed(const Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++sides[{t[k], t[(k + 1) % 3]}];
+  for (const auto& [side, count] : sides)
+    if (count != 1 || !sides.contains({side.second, side.first})) return false;
+  return !sides.empty();
+}
+
+TEST(Report, HoldsEveryVolumeInAllThreeFiles) {
+  World world = World::from_text(kBlock);
+  world.tick(60);
+  const Files files = write_and_read("block", data_of(world.state()));
+  EXPECT_EQ(fault_in(files.html), "");
+  for (const char* name : {"home_b", "Office"}) {
+    EXPECT_NE(files.html.find(">" + std::string(name) + "</th>"), std::string::npos) << name;
+    EXPECT_NE(files.csv.find("," + std::string(name) + ","), std::string::npos) << name;
+    EXPECT_NE(files.obj.find("o " + std::string(name) + "\n"), std::string::npos) << name;
+  }
+  EXPECT_NE(files.html.find("Home &lt;A&gt; &amp; &quot;B&quot;</th>"), std::string::npos);
+  EXPECT_EQ(files.html.find("<A>"), std::string::npos);
+  EXPECT_NE(files.html.find("A block"), std::string::npos);
+  EXPECT_NE(files.html.find("settled after 40 ticks"), std::string::npos);
+}
+
+TEST(Report, NeedsNothingFromOutside) {
+  World world = World::from_text(kBlock);
+  world.tick(5);
+  const std::string html = write_and_read("alone", data_of(world.state())).html;
+  for (const char* word : {"<script", "<link", "src=", "@import", "href="}) EXPECT_EQ(html.find(word), std::string::npos) << word;
+  // The only addresses are the names of the two languages.
+  std::size_t addresses = 0;
+  for (std::size_t i = html.find("http"); i != std::string::npos; i = html.find("http", i + 1)) {
+    EXPECT_EQ(html.compare(i, 18, "http://www.w3.org/"), 0);
+    ++addresses;
+  }
+  EXPECT_EQ(addresses, 4u);
+}
+
+TEST(Report, ShapesAreClosedOutwardAndAsLargeAsTheirMeshes) {
+  World world = World::from_text(kBlock);
+  world.tick(60);
+  const auto meshes = meshes_in(write_and_read("shapes", data_of(world.state())).obj);
+  ASSERT_EQ(meshes.size(), 3u);
+  double exported = 0, held = 0;
+  for (const auto& [name, mesh] : meshes) {
+    EXPECT_TRUE(is_closed(mesh)) << name;
+    EXPECT_GT(enclosed_volume(mesh), 0) << name;
+    exported += enclosed_volume(mesh);
+  }
+  for (const char* id : {"home_a", "home_b", "office"}) held += enclosed_volume(*world.mesh(id, "smart_volume.mesh"));
+  EXPECT_NEAR(exported, held, 1e-9 * held);
+}
+
+TEST(Report, IsTheSameTwice) {
+  World world = World::from_text(kBlock);
+  world.tick(10);
+  const Files a = write_and_read("twice", data_of(world.state())), b = write_and_read("twice", data_of(world.state()));
+  EXPECT_EQ(a.html, b.html);
+  EXPECT_EQ(a.csv, b.csv);
+  EXPECT_EQ(a.obj, b.obj);
+}
+
+TEST(Report, SaysSoWhereAVolumeHasNoShape) {
+  // Two volumes on one point: at least one of them stands without a shape, with a reason.
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "far", "name": "Far away", "position": [900, 0, 5], "types": {"smart_volume": {"demand": 500}}},
+    {"id": "inside", "position": [0, 0, 5], "types": {"smart_volume": {"demand": 500}}},
+    {"id": "idle", "position": [1, 0, 5], "types": {"smart_volume": {"demand": 0}}},
+    {"id": "site", "types": {"boundary": {}}}, {"id": "solver", "types": {"smart_volumes_solver": {}}}], "links": []})");
+  world.tick(20);
+  const Files files = write_and_read("lost", data_of(world.state()));
+  EXPECT_EQ(fault_in(files.html), "");
+  for (const char* id : {"far", "inside", "idle"}) {
+    EXPECT_NE(files.csv.find("," + std::string(id) + ","), std::string::npos) << id;
+    const std::string state = world.text(id, "smart_volume.state"), reason = world.text(id, "smart_volume.reason");
+    if (state == "alive") continue;
+    EXPECT_NE(files.html.find(">" + state + "</td>"), std::string::npos) << state;
+    EXPECT_NE(files.html.find(report::escape_xml(reason)), std::string::npos) << reason;
+  }
+  EXPECT_NE(files.obj.find("# Far away: no shape"), std::string::npos) << files.obj.substr(0, 200);
+}
+
+TEST(Report, AnEmptySceneIsAPageToo) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [], "links": []})");
+  world.tick();
+  const Files files = write_and_read("empty", {&world.state(), {}, "folder/nothing.json", "done"});
+  EXPECT_EQ(fault_in(files.html), "");
+  EXPECT_NE(files.html.find("<h1>nothing.json</h1>"), std::string::npos);
+  EXPECT_NE(files.html.find("Nothing to draw"), std::string::npos);
+  EXPECT_EQ(files.html.find("nan"), std::string::npos);
+}
+
+TEST(Report, AVolumeWithoutSiteOrSolverIsAPageToo) {
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "alone", "types": {"smart_volume": {}}}], "links": []})");
+  world.tick();
+  const Files files = write_and_read("one", data_of(world.state()));
+  EXPECT_EQ(fault_in(files.html), "");
+  EXPECT_NE(files.html.find("no solver takes care of it"), std::string::npos);
+}
+
+TEST(Report, AnUnusableFolderIsASentence) {
+  World world = World::from_text(kBlock);
+  world.tick();
+  const std::string taken = folder_for("taken");
+  ASSERT_TRUE(write_file(taken, "a file").ok());
+  for (const std::string& place : {taken, taken + "/below", std::string("/proc/report")}) {
+    const auto written = write_report(place, data_of(world.state()));
+    ASSERT_FALSE(written.ok()) << place;
+    EXPECT_EQ(written.error().code, ErrorCode::io);
+    EXPECT_NE(written.error().message.find("cannot be"), std::string::npos) << written.error().text();
+  }
+  EXPECT_FALSE(write_report(folder_for("none"), {}).ok());
+}
+
+TEST(ReportParts, EscapeWhatXmlDoesNotTake) {
+  EXPECT_EQ(report::escape_xml("<&\">'"), "&lt;&amp;&quot;&gt;&#39;");
+  EXPECT_EQ(report::escape_xml(std::string("a\x01") + "b\xFF" + "c\xC3\xA9"), "a\xEF\xBF\xBD" "b\xEF\xBF\xBD" "c\xC3\xA9");
+  EXPECT_EQ(report::escape_xml("\xED\xA0\x80").find('\xED'), std::string::npos);    // half a surrogate pair
+}
+
+TEST(ReportParts, PathsAreRelativeTenthsThatDoNotDrift) {
+  report::PathText path;
+  path.move({10, 20});
+  for (int i = 1; i <= 3; ++i) path.line({10 + i * 0.14, 20.0 - i});
+  path.close();
+  EXPECT_EQ(path.text(), "M10 20l.1-1 .2-1 .1-1z");
+}
+
+TEST(ReportParts, NumbersReadEasily) {
+  using namespace report;
+  EXPECT_EQ(grouped(1234567), "1\xE2\x80\xAF" "234\xE2\x80\xAF" "567");
+  EXPECT_EQ(grouped(1234), "1234");
+  EXPECT_EQ(grouped(-0.001, 1), "0.0");
+  EXPECT_EQ(signed_percent(-0.5), "\xE2\x88\x92" "50.00\xC2\xA0%");
+  EXPECT_EQ(signed_percent(1e-9), "0.00\xC2\xA0%");
+  EXPECT_EQ(pixels(12.0), "12");
+  EXPECT_EQ(round_length(73), 50);
+  EXPECT_EQ(round_length(0.3), 0.2);
+}
+
+TEST(ReportParts, UsesKeepColoursApartAndHaveLetters) {
+  std::vector<std::string> uses;
+  for (int i = 0; i < 30; ++i) uses.push_back("use " + std::to_string(i));
+  const report::Palette palette(uses);
+  std::map<std::string, int> seen;
+  for (int i = 0; i < 27; ++i) EXPECT_EQ(++seen[report::hex(palette.colour(uses[static_cast<std::size_t>(i)]))], 1) << i;
+  EXPECT_EQ(palette.letter(uses[0]), "A");
+  EXPECT_EQ(palette.letter(uses[25]), "Z");
+  EXPECT_EQ(palette.letter(uses[26]), "AA");
+}
+
+TEST(ReportParts, TheAxonometryIsOrthonormalAndLooksDown) {
+  const report::View view = report::axonometric_view(150, 33);
+  EXPECT_NEAR(dot(view.right, view.up), 0, 1e-12);
+  EXPECT_NEAR(dot(view.right, view.toward), 0, 1e-12);
+  EXPECT_NEAR(norm(view.up), 1, 1e-12);
+  EXPECT_GT(view.up.z, 0);
+  EXPECT_GT(view.toward.z, 0);
+}
+
+TEST(ReportParts, SectionsOfABoxAreItsPlan) {
+  const Mesh box{{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}},
+                 {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}}};
+  ASSERT_NEAR(enclosed_volume(box), 24, 1e-12);
+  const auto all = [](std::size_t) { return true; };
+  for (const double z : {1.0, 4.0}) {
+    const auto lines = report::section(box, z, all);
+    ASSERT_EQ(lines.size(), 1u) << z;
+    EXPECT_TRUE(lines.front().is_closed);
+  }
+  EXPECT_TRUE(report::section(box, 5, all).empty());
+  const auto normals = report::unit_normals(box);
+  const auto roof = report::outline(box, [&](std::size_t t) { return normals[t].z > 0.5; });
+  ASSERT_EQ(roof.size(), 1u);
+  EXPECT_EQ(roof.front().points.size(), 4u);
+}
+
+TEST(ReportParts, LabelsNeverCoverEachOther) {
+  report::LabelPlacer placer({0, 0, 200, 100}, {});
+  report::Markup svg;
+  std::vector<report::Label> labels(60, {{100, 50}, "A long name", "12 m", "7"});
+  const std::size_t without = placer.write(svg, labels, 60);
+  EXPECT_GT(without, 0u);
+  EXPECT_LT(without, 60u);
+}
+
+}  // namespace
+}  // namespace bl
