@@ -1,0 +1,249 @@
+// The cells of one power diagram hide each other in the order of their sites along the view (Edelsbrunner 1990), so that
+// painting them from the farthest site to the nearest is exact; diagrams among each other go by the middle of their volumes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/exchange/plan_ring.h"
+#include "ui/cli/report/figures.h"
+#include "ui/cli/report/furniture.h"
+#include "ui/cli/report/pictures.h"
+#include "ui/cli/report/solid_drawing.h"
+
+namespace bl::report {
+
+namespace {
+
+constexpr double kWidth = 1000, kMostHeight = 760;
+constexpr double kAzimuth = 150, kElevation = 33;
+
+// Light from the left, behind the eye's shoulder: the convention of architectural drawings, not the sun of a day.
+Vector3 sun_of(const View& view) {
+  const Vector3 forward = cross(view.right, {0, 0, 1}) * 0.32;
+  const Vector3 sun = view.right * -0.62 + forward + Vector3{0, 0, 0.72};
+  return sun / norm(sun);
+}
+
+struct Scenery {
+  std::vector<Point3> content;
+  double ground = 0;
+  Vector3 to_sun;
+};
+
+Point3 shadow_of(const Point3& point, const Scenery& scenery) {
+  return point - scenery.to_sun * (std::max(0.0, point.z - scenery.ground) / scenery.to_sun.z);
+}
+
+Scenery scenery_of(const ReportModel& model, const View& view) {
+  Scenery scenery{{}, 0, sun_of(view)};
+  bool is_first = true;
+  const auto lower = [&](double z) {
+    scenery.ground = is_first ? z : std::min(scenery.ground, z);
+    is_first = false;
+  };
+  for (const SiteRow& site : model.sites)
+    if (site.shape) lower(site.bottom);
+  if (is_first)
+    for (const VolumeRow& volume : model.volumes)
+      if (volume.mesh)
+        for (const Point3& vertex : volume.mesh->vertices) lower(vertex.z);
+  for (const SiteRow& site : model.sites)
+    if (site.shape) scenery.content.insert(scenery.content.end(), site.shape->vertices.begin(), site.shape->vertices.end());
+  for (const VolumeRow& volume : model.volumes)
+    if (volume.mesh)
+      for (const Point3& vertex : volume.mesh->vertices) {
+        scenery.content.push_back(vertex);
+        scenery.content.push_back(shadow_of(vertex, scenery));
+      }
+  return scenery;
+}
+
+std::vector<const VolumeRow*> back_to_front(const ReportModel& model, const View& view) {
+  std::map<std::size_t, std::pair<double, double>> groups;
+  for (const VolumeRow& volume : model.volumes) {
+    auto& [sum, count] = groups[volume.group];
+    sum += dot(volume.position, view.toward);
+    count += 1;
+  }
+  std::vector<std::pair<std::array<double, 3>, const VolumeRow*>> order;
+  for (const VolumeRow& volume : model.volumes)
+    if (volume.mesh) {
+      const auto& [sum, count] = groups[volume.group];
+      order.push_back({{sum / count, static_cast<double>(volume.group), dot(volume.position, view.toward)}, &volume});
+    }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<const VolumeRow*> out;
+  for (const auto& [key, volume] : order) out.push_back(volume);
+  return out;
+}
+
+// The plot with a grid of round metres, so that the eye has a measure for depth too.
+double draw_ground(Markup& svg, const Sheet& sheet, const ReportModel& model) {
+  PathText ground;
+  double low_x = 0, high_x = 0, low_y = 0, high_y = 0, z = 0;
+  bool is_first = true;
+  for (const SiteRow& site : model.sites)
+    for (const Polyline& line : site.ground) {
+      ground.polyline(on_sheet(sheet, line), line.is_closed);
+      for (const Point3& p : line.points) {
+        low_x = is_first ? p.x : std::min(low_x, p.x);
+        high_x = is_first ? p.x : std::max(high_x, p.x);
+        low_y = is_first ? p.y : std::min(low_y, p.y);
+        high_y = is_first ? p.y : std::max(high_y, p.y);
+        z = is_first ? site.bottom : std::min(z, site.bottom);
+        is_first = false;
+      }
+    }
+  if (ground.empty()) return 0;
+  const double step = round_length(std::max(high_x - low_x, high_y - low_y) / 5);
+  svg.open("clipPath", {{"id", "plot"}}).path(ground, {{"clip-rule", "evenodd"}}).close();
+  svg.path(ground, {{"fill", hex(mix(kPaper, {0.78, 0.76, 0.70}, 0.42))}, {"fill-rule", "evenodd"}});
+  PathText grid;
+  for (double x = std::ceil(low_x / step) * step; x < high_x; x += step)
+    grid.polyline({sheet.at({x, low_y, z}), sheet.at({x, high_y, z})}, false);
+  for (double y = std::ceil(low_y / step) * step; y < high_y; y += step)
+    grid.polyline({sheet.at({low_x, y, z}), sheet.at({high_x, y, z})}, false);
+  svg.path(grid, {{"clip-path", "url(#plot)"}, {"fill", "none"}, {"stroke", hex(kPaper)}, {"stroke-width", ".9"}});
+  svg.path(ground, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.3"}, {"stroke-linejoin", "round"}});
+  return step;
+}
+
+void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, const Scenery& scenery) {
+  PathText shadows;
+  for (const VolumeRow& volume : model.volumes) {
+    if (!volume.mesh) continue;
+    Ring cast;
+    for (const Point3& vertex : volume.mesh->vertices) cast.push_back(shadow_of(vertex, scenery));
+    Polyline line{convex_hull(cast), true};
+    for (Point3& p : line.points) p.z = scenery.ground;
+    shadows.polyline(on_sheet(sheet, line), true);
+  }
+  svg.path(shadows, {{"fill", hex(kShade)}, {"fill-opacity", ".16"}, {"fill-rule", "nonzero"}});
+}
+
+// Edges of the boundary: hidden ones go behind the volumes, near ones in front of them.
+void draw_envelope(Markup& svg, const Sheet& sheet, const ReportModel& model, bool near) {
+  PathText path;
+  for (const SiteRow& site : model.sites) {
+    if (!site.shape) continue;
+    const Mesh& mesh = *site.shape;
+    const std::vector<Vector3> normals = unit_normals(mesh);
+    const auto faces_eye = [&](std::uint32_t t) { return dot(normals[t], sheet.view().toward) > 1e-9; };
+    for (const MeshEdge& edge : mesh_edges(mesh)) {
+      const bool is_fold = dot(normals[edge.first], normals[edge.second]) < 0.985;
+      if (is_fold && near == (faces_eye(edge.first) || faces_eye(edge.second)))
+        path.polyline({sheet.at(mesh.vertices[edge.a]), sheet.at(mesh.vertices[edge.b])}, false);
+    }
+  }
+  svg.path(path, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", near ? ".8" : ".6"}, {"stroke-opacity", near ? ".55" : ".4"},
+                  {"stroke-dasharray", near ? "7 3 1.5 3" : "2 3"}});
+}
+
+void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const Palette& palette, const Scenery& scenery, bool has_storeys) {
+  svg.open("g");
+  svg.element("title", std::to_string(volume.number) + ". " + volume.name + (volume.use.empty() ? "" : ", " + volume.use) + ": " +
+                           quantity(volume.floor_area, Unit::square_metre) + " floor area, " + quantity(volume.volume, Unit::cubic_metre));
+  draw_solid(svg, sheet, *volume.mesh, {palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.storey_height : 0});
+  svg.close();
+}
+
+// Where a label can stand on a volume: its roof, or else the middle of whatever of it is not hidden.
+class Anchors {
+ public:
+  Anchors(const Sheet& sheet, const std::vector<const VolumeRow*>& order) : sheet_(sheet), order_(order) {
+    for (const VolumeRow* volume : order) outlines_.push_back(convex_outline(sheet, *volume->mesh));
+  }
+
+  bool find(std::size_t rank, Pixel& anchor) const {
+    const Mesh& mesh = *order_[rank]->mesh;
+    const std::vector<Vector3> normals = unit_normals(mesh);
+    Pixel roof{}, seen{};
+    double roof_area = 0, seen_area = 0;
+    std::vector<std::pair<Pixel, double>> visible;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const double facing = dot(normals[t], sheet_.view().toward);
+      if (facing <= 0) continue;
+      const auto& [a, b, c] = mesh.triangles[t];
+      const Pixel at = sheet_.at((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+      if (is_hidden(rank, at)) continue;
+      const double area = facing * norm(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+      visible.emplace_back(at, area);
+      add(seen, seen_area, at, area);
+      if (normals[t].z > 0.5) add(roof, roof_area, at, area);
+    }
+    if (seen_area <= 0) return false;
+    const bool has_roof = roof_area > 0.25 * seen_area;
+    anchor = has_roof ? Pixel{roof.x / roof_area, roof.y / roof_area} : Pixel{seen.x / seen_area, seen.y / seen_area};
+    if (is_inside(outlines_[rank], anchor) && !is_hidden(rank, anchor)) return true;
+    anchor = std::max_element(visible.begin(), visible.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    return true;
+  }
+
+ private:
+  static void add(Pixel& sum, double& total, Pixel at, double area) {
+    sum = {sum.x + at.x * area, sum.y + at.y * area};
+    total += area;
+  }
+  bool is_hidden(std::size_t rank, Pixel at) const {
+    for (std::size_t nearer = rank + 1; nearer < outlines_.size(); ++nearer)
+      if (is_inside(outlines_[nearer], at)) return true;
+    return false;
+  }
+
+  const Sheet& sheet_;
+  const std::vector<const VolumeRow*>& order_;
+  std::vector<std::vector<Pixel>> outlines_;
+};
+
+// Returns a sentence on what could not be labelled.
+std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<const VolumeRow*>& order, const Palette& palette) {
+  const Anchors anchors(sheet, order);
+  std::vector<std::pair<const VolumeRow*, Label>> found;
+  std::size_t hidden = 0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const VolumeRow& volume = *order[rank];
+    Label label{{}, volume.name, palette.letter(volume.use) + " \xC2\xB7 " + quantity(volume.floor_area, Unit::square_metre), std::to_string(volume.number)};
+    if (anchors.find(rank, label.anchor)) found.emplace_back(&volume, std::move(label));
+    else ++hidden;
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first->volume > b.first->volume; });
+  std::vector<Label> labels;
+  for (auto& [volume, label] : found) labels.push_back(std::move(label));
+  const Box frame{4, 4, sheet.width() - 4, sheet.height() - 44};
+  LabelPlacer placer(frame, {{sheet.width() - 80, 0, sheet.width(), 80}});
+  const std::size_t crowded = placer.write(svg, labels, order.size() > kMostNames ? 0 : labels.size());
+  if (hidden + crowded == 0) return "";
+  return " Without a label: " + counted(hidden, "volume") + " hidden behind others, " + std::to_string(crowded) + " for want of room.";
+}
+
+}  // namespace
+
+Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
+  const View view = axonometric_view(kAzimuth, kElevation);
+  const Scenery scenery = scenery_of(model, view);
+  if (scenery.content.empty())
+    return {empty_picture("axonometry", "Axonometry", "Nothing to draw: there is no boundary, and no volume has a shape."), ""};
+  const Sheet sheet(view, scenery.content, kWidth, kMostHeight, {40, 34, 40, 52});
+  const std::vector<const VolumeRow*> order = back_to_front(model, view);
+  Markup svg;
+  open_picture(svg, sheet.width(), sheet.height(), "axonometry", "Axonometry",
+               "The proposal seen from above and aside: " + counted(order.size(), "volume") + " on the site, coloured and lettered by use.");
+  const double grid = draw_ground(svg, sheet, model);
+  draw_shadows(svg, sheet, model, scenery);
+  draw_envelope(svg, sheet, model, false);
+  const bool has_storeys = order.size() <= kMostStoreys;
+  for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys);
+  draw_envelope(svg, sheet, model, true);
+  const std::string missing = write_labels(svg, sheet, order, palette);
+  draw_scale_bar(svg, sheet.scale(), {24, sheet.height() - 18}, 170);
+  draw_north(svg, view, model.true_north, {sheet.width() - 44, 40}, 26);
+  svg.close();
+  std::string caption = "Axonometry: parallel projection, so equal lengths in one direction are equal everywhere; the bar holds for lines across the sheet.";
+  if (grid > 0) caption += " Ground grid " + readable(grid) + " m; dash-dotted, the boundary.";
+  if (has_storeys && !order.empty()) caption += " Fine lines on the volumes are storey levels.";
+  caption += " Light and shadow are a drawing convention, not a sun study.";
+  return {svg.str(), caption + missing};
+}
+
+}  // namespace bl::report

@@ -1,0 +1,23 @@
+// Numbers as people read them: grouped thousands, sensible digits, units.
+#pragma once
+
+#include <string>
+
+#include "core/base/unit.h"
+
+namespace bl::report {
+
+/// "12 480": grouped by narrow spaces that do not break. Not finite: a dash.
+std::string grouped(double value, int decimals = 0);
+/// As many decimals as the size of the number deserves: "12 480", "84.2", "0.316".
+std::string readable(double value);
+/// `readable` with the unit's printed symbol: "84.2 m²".
+std::string quantity(double value, Unit unit);
+/// A share as a percentage of two or three digits: "0.42 %".
+std::string percent(double share);
+/// The same with its sign, also where it is positive.
+std::string signed_percent(double share);
+/// "1 volume", "3 volumes".
+std::string counted(std::size_t count, const std::string& noun);
+
+}  // namespace bl::report

@@ -1,0 +1,45 @@
+// Lines that a drawing takes from a triangle mesh: outlines, creases, sections.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/mesh.h"
+
+namespace bl::report {
+
+/// Points joined by lines.
+struct Polyline {
+  std::vector<Point3> points;
+  bool is_closed = false;
+};
+
+/// Edges between named points, joined end to end into as few chains as their order gives; every edge is used once.
+struct Chain {
+  std::vector<std::uint64_t> points;
+  bool is_closed = false;
+};
+std::vector<Chain> chain_edges(std::span<const std::pair<std::uint64_t, std::uint64_t>> edges);
+
+/// Unit normals of the triangles; zero where a triangle has no area.
+std::vector<Vector3> unit_normals(const Mesh& mesh);
+
+/// An edge and the triangles beside it; `second` equals `first` where there is only one.
+struct MeshEdge {
+  std::uint32_t a = 0, b = 0;
+  std::uint32_t first = 0, second = 0;
+};
+/// Ascending (a, b) with a < b.
+std::vector<MeshEdge> mesh_edges(const Mesh& mesh);
+
+/// Which triangles count.
+using TriangleFilter = std::function<bool(std::size_t)>;
+/// The lines at height z on the triangles that count; closed where they go all around.
+std::vector<Polyline> section(const Mesh& mesh, double z, const TriangleFilter& counts);
+/// The outline of the triangles that count: edges between them and the others, closed loops in a closed mesh.
+std::vector<Polyline> outline(const Mesh& mesh, const TriangleFilter& counts);
+
+}  // namespace bl::report

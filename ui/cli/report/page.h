@@ -1,0 +1,27 @@
+// The page around the drawings: figures, tables and notes for a designer and her client.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "ui/cli/report/pictures.h"
+
+namespace bl::report {
+
+/// The whole page, one self-contained XHTML document.
+std::string write_page(const ReportModel& model, const ReportData& data, const Palette& palette);
+
+/// Its parts, in the order of the page.
+void write_programme(Markup& page, const ReportModel& model, const Palette& palette);
+void write_volumes(Markup& page, const ReportModel& model, const Palette& palette);
+void write_conflicts(Markup& page, const ReportModel& model);
+void write_problems(Markup& page, const ReportModel& model);
+
+/// The rules of its look, for screens in light and dark and for paper.
+std::string_view page_style();
+/// A swatch with the use's letter and its name.
+void write_use(Markup& page, const std::string& use, const Palette& palette);
+/// What a volume's standing is called in front of people: "met", "off", or its state.
+std::string standing_of(const VolumeRow& volume, double tolerance);
+
+}  // namespace bl::report

@@ -1,0 +1,208 @@
+// The plan: what stands above as tinted outlines, what is cut at eye height as solid shapes, and who is linked to whom.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "ui/cli/report/figures.h"
+#include "ui/cli/report/furniture.h"
+#include "ui/cli/report/link_families.h"
+#include "ui/cli/report/pictures.h"
+#include "ui/cli/report/solid_drawing.h"
+
+namespace bl::report {
+
+namespace {
+
+constexpr double kWidth = 1000, kMostHeight = 900, kFrame = 44;
+constexpr double kEyeHeight = 1.2;  // [m] above the ground
+constexpr double kLegendRow = 17;
+
+std::vector<Point3> content_of(const ReportModel& model) {
+  std::vector<Point3> content;
+  for (const SiteRow& site : model.sites)
+    if (site.shape) content.insert(content.end(), site.shape->vertices.begin(), site.shape->vertices.end());
+  for (const VolumeRow& volume : model.volumes) {
+    if (volume.mesh) content.insert(content.end(), volume.mesh->vertices.begin(), volume.mesh->vertices.end());
+    else content.push_back(volume.position);
+  }
+  return content;
+}
+
+double ground_of(const ReportModel& model) {
+  double ground = 0;
+  bool is_first = true;
+  const auto lower = [&](double z) {
+    ground = is_first ? z : std::min(ground, z);
+    is_first = false;
+  };
+  for (const SiteRow& site : model.sites)
+    if (site.shape) lower(site.bottom);
+  if (is_first)
+    for (const VolumeRow& volume : model.volumes)
+      if (volume.mesh) lower(volume.bottom);
+  return ground;
+}
+
+// Lines of round metres with their figures along the frame, so that positions can be read off.
+double draw_grid(Markup& svg, const Sheet& sheet, double bottom) {
+  const Pixel origin = sheet.at({0, 0, 0});
+  const double step = round_length(sheet.width() / 6 / sheet.scale());
+  const double left = kFrame, right = sheet.width() - kFrame, top = 30;
+  PathText grid;
+  const auto metre_x = [&](double x) { return (x - origin.x) / sheet.scale(); };
+  const auto metre_y = [&](double y) { return (origin.y - y) / sheet.scale(); };
+  Markup figures;
+  for (double k = std::ceil(metre_x(left) / step); k * step <= metre_x(right); k += 1) {
+    const double x = origin.x + k * step * sheet.scale();
+    grid.polyline({{x, top}, {x, bottom}}, false);
+    figures.element("text", readable(k * step), {{"x", pixels(x)}, {"y", pixels(top - 6)}, {"class", "figure"}});
+  }
+  for (double k = std::ceil(metre_y(bottom) / step); k * step <= metre_y(top); k += 1) {
+    const double y = origin.y - k * step * sheet.scale();
+    grid.polyline({{left, y}, {right, y}}, false);
+    figures.element("text", readable(k * step), {{"x", pixels(left - 6)}, {"y", pixels(y + 3.5)}, {"class", "figure end"}});
+  }
+  svg.path(grid, {{"fill", "none"}, {"stroke", "#d9d5ca"}, {"stroke-width", ".7"}});
+  svg.raw(figures.str());
+  return step;
+}
+
+void draw_sites(Markup& svg, const Sheet& sheet, const ReportModel& model) {
+  PathText ground, plan;
+  for (const SiteRow& site : model.sites) {
+    for (const Polyline& line : site.ground) ground.polyline(on_sheet(sheet, line), line.is_closed);
+    for (const Polyline& line : site.plan) plan.polyline(on_sheet(sheet, line), line.is_closed);
+  }
+  svg.path(ground, {{"fill", hex(mix(kPaper, {0.78, 0.76, 0.70}, 0.3))}, {"fill-rule", "evenodd"}});
+  svg.path(plan, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.6"}, {"stroke-dasharray", "9 3 1.5 3"}});
+}
+
+void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, const Palette& palette, double cut) {
+  std::vector<const VolumeRow*> order;
+  for (const VolumeRow& volume : model.volumes)
+    if (volume.mesh) order.push_back(&volume);
+  const auto top_of = [](const VolumeRow* volume) { return volume->bottom + volume->height; };
+  std::stable_sort(order.begin(), order.end(), [&](const VolumeRow* a, const VolumeRow* b) { return top_of(a) < top_of(b); });
+  for (const VolumeRow* volume : order) {
+    const Colour colour = palette.colour(volume->use);
+    PathText cut_path;
+    for (const Polyline& line : section(*volume->mesh, cut, [](std::size_t) { return true; }))
+      cut_path.polyline(on_sheet(sheet, line), line.is_closed);
+    svg.path(cut_path, {{"fill", hex(mix(colour, kShade, 0.12))}, {"fill-rule", "evenodd"}});
+  }
+  for (const VolumeRow* volume : order) {
+    const Colour colour = palette.colour(volume->use);
+    PathText outline_path;
+    outline_path.polyline(convex_outline(sheet, *volume->mesh), true);
+    svg.open("g").element("title", std::to_string(volume->number) + ". " + volume->name + ": " + quantity(volume->bottom, Unit::metre) + " to " +
+                                       quantity(volume->bottom + volume->height, Unit::metre) + " above the origin");
+    svg.path(outline_path, {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
+    svg.close();
+  }
+  for (const VolumeRow* volume : order) {
+    PathText cut_path;
+    for (const Polyline& line : section(*volume->mesh, cut, [](std::size_t) { return true; }))
+      cut_path.polyline(on_sheet(sheet, line), line.is_closed);
+    svg.path(cut_path, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.7"}, {"stroke-linejoin", "round"}});
+  }
+}
+
+void draw_links(Markup& svg, const State& state, const Sheet& sheet, const DrawnLinks& links) {
+  for (const DrawnLink& link : links.lines) {
+    const Pixel a = sheet.at(point_at(state, link.from, "node", "position")), b = sheet.at(point_at(state, link.to, "node", "position"));
+    // Bent to one side, so that links of two families between the same nodes stay apart.
+    const double bend = 0.07 + 0.05 * static_cast<double>(link.family->label.size() % 3);
+    const Pixel middle{(a.x + b.x) / 2 - (b.y - a.y) * bend, (a.y + b.y) / 2 + (b.x - a.x) * bend};
+    const std::string d = "M" + pixels(a.x) + " " + pixels(a.y) + "Q" + pixels(middle.x) + " " + pixels(middle.y) + " " + pixels(b.x) + " " + pixels(b.y);
+    svg.open("path", {{"d", d}, {"fill", "none"}, {"stroke", std::string(link.family->colour)}, {"stroke-width", "1.5"},
+                      {"stroke-dasharray", std::string(link.family->dashes)}, {"stroke-linecap", "butt"}});
+    svg.element("title", link.title).close();
+  }
+}
+
+void draw_positions(Markup& svg, const State& state, const Sheet& sheet, const ReportModel& model, const DrawnLinks& links) {
+  std::set<std::uint32_t> nodes;
+  for (const DrawnLink& link : links.lines) nodes.insert({link.from, link.to});
+  for (const VolumeRow& volume : model.volumes) nodes.insert(volume.node);
+  for (const std::uint32_t node : nodes) {
+    const Pixel at = sheet.at(point_at(state, node, "node", "position"));
+    const auto row = std::find_if(model.volumes.begin(), model.volumes.end(), [&](const VolumeRow& v) { return v.node == node; });
+    const bool has_shape = row != model.volumes.end() && row->mesh != nullptr;
+    // Hollow: nothing stands there.
+    svg.leaf("circle", {{"cx", pixels(at.x)}, {"cy", pixels(at.y)}, {"r", has_shape ? "2.2" : "3.4"}, {"fill", hex(has_shape ? kInk : kPaper)},
+                        {"stroke", hex(has_shape ? kPaper : kInk)}, {"stroke-width", has_shape ? ".8" : "1.4"}});
+  }
+}
+
+void draw_legend(Markup& svg, const Sheet& sheet, const DrawnLinks& links, Pixel at) {
+  double x = at.x;
+  double y = at.y;
+  for (const LinkFamily* family : links.families) {
+    const std::string label(family->label);
+    const double width = 40 + text_width(label, 10) + 18;
+    if (x + width > sheet.width() - 20 && x > at.x) {
+      x = at.x;
+      y += kLegendRow;
+    }
+    PathText sample;
+    sample.polyline({{x, y - 3.5}, {x + 32, y - 3.5}}, false);
+    svg.path(sample, {{"fill", "none"}, {"stroke", std::string(family->colour)}, {"stroke-width", "1.8"}, {"stroke-dasharray", std::string(family->dashes)}});
+    svg.element("text", label, {{"x", pixels(x + 38)}, {"y", pixels(y)}, {"class", "figure start"}});
+    x += width;
+  }
+}
+
+std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model, const Palette& palette, double bottom) {
+  std::vector<Label> labels;
+  for (const VolumeRow* volume : by_size(model)) {
+    Label label{sheet.at(volume->position), volume->name, palette.letter(volume->use), std::to_string(volume->number)};
+    label.second += volume->mesh ? " \xC2\xB7 " + quantity(volume->height, Unit::metre) + " high" : " \xC2\xB7 " + volume->state;
+    // Below the dot of the position, not on it.
+    label.anchor.y += model.volumes.size() > kMostNames ? 8 : 17;
+    labels.push_back(std::move(label));
+  }
+  LabelPlacer placer({kFrame, 30, sheet.width() - 4, bottom}, {{sheet.width() - 70, 30, sheet.width(), 100}});
+  const std::size_t without = placer.write(svg, labels, labels.size() > kMostNames ? 0 : labels.size());
+  return without == 0 ? "" : " " + counted(without, "volume") + " without a label for want of room.";
+}
+
+std::string caption_of(const ReportModel& model, const DrawnLinks& links, double step, double cut) {
+  std::string caption = "Plan: tinted, each volume seen from above, the highest on top; strong tint with heavy lines, the cut " + readable(kEyeHeight) +
+                        " m above the ground (height " + readable(cut) + " m). Dots are positions, grid " + readable(step) + " m.";
+  if (std::any_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& v) { return !v.mesh; }))
+    caption += " Hollow dots are volumes without a shape.";
+  if (!links.families.empty()) caption += " Links of demand are not drawn.";
+  if (!links.left_out.empty()) {
+    caption += " Not drawn, because they join large sets: ";
+    for (std::size_t i = 0; i < links.left_out.size() && i < 6; ++i) caption += (i > 0 ? ", " : "") + links.left_out[i];
+    if (links.left_out.size() > 6) caption += " and " + std::to_string(links.left_out.size() - 6) + " more";
+    caption += ".";
+  }
+  return caption;
+}
+
+}  // namespace
+
+Picture draw_plan(const State& state, const ReportModel& model, const Palette& palette) {
+  const std::vector<Point3> content = content_of(model);
+  if (content.empty()) return {empty_picture("plan", "Plan", "Nothing to draw: there is no boundary and no volume."), ""};
+  const DrawnLinks links = links_to_draw(state);
+  const Sheet sheet(plan_view(), content, kWidth, kMostHeight, {kFrame + 20, 46, kFrame + 20, 30});
+  const double bottom = sheet.height() - 8, cut = ground_of(model) + kEyeHeight;
+  const double height = sheet.height() + 34 + kLegendRow * (links.families.empty() ? 0 : links.families.size() > 4 ? 2 : 1);
+  Markup svg;
+  open_picture(svg, sheet.width(), height, "plan", "Plan", "The site seen from above with all volumes, their positions, and the links between them.");
+  const double step = draw_grid(svg, sheet, bottom);
+  draw_sites(svg, sheet, model);
+  draw_volumes(svg, sheet, model, palette, cut);
+  draw_links(svg, state, sheet, links);
+  draw_positions(svg, state, sheet, model, links);
+  const std::string missing = label_plan(svg, sheet, model, palette, bottom);
+  draw_scale_bar(svg, sheet.scale(), {kFrame, sheet.height() + 18}, 170);
+  draw_legend(svg, sheet, links, {links.families.size() > 4 ? 20.0 : kFrame, sheet.height() + 42});
+  draw_north(svg, plan_view(), model.true_north, {sheet.width() - 38, 64}, 24);
+  svg.close();
+  return {svg.str(), caption_of(model, links, step, cut) + missing};
+}
+
+}  // namespace bl::report

@@ -1,0 +1,32 @@
+// The report of a run: one page for people, a table and a mesh file for programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/graph/state.h"
+
+namespace bl {
+
+/// What one tick was like; collected by whoever runs the scene.
+struct ErrorSample {
+  std::int64_t tick = 0;
+  double worst_error = 0;   ///< share of the demand
+  double mean_error = 0;    ///< share of the demand
+  double largest_move = 0;  ///< [m]
+};
+
+struct ReportData {
+  const State* state = nullptr;
+  std::vector<ErrorSample> history;  ///< ascending tick; may be empty
+  std::string scene_path;            ///< as it was typed
+  std::string outcome;               ///< the last line of the run
+};
+
+/// Writes report.html, volumes.csv and volumes.obj into `directory`, which is made where it is missing.
+/// The files depend on `data` alone: no clock, no locale, no machine.
+Result<void> write_report(const std::string& directory, const ReportData& data);
+
+}  // namespace bl

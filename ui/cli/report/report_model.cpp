@@ -1,0 +1,207 @@
+// Reads volumes, uses, sites and totals from a state; types are known here by the names of their ports only.
+#include "ui/cli/report/report_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/hash.h"
+
+namespace bl::report {
+
+namespace {
+
+template <class T>
+const T* value_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto ref = state.plan->find(node, PortPath{type, port, ""});
+  return ref ? std::get_if<T>(&state.value(*ref)) : nullptr;
+}
+
+constexpr const char* kVolume = "smart_volume";
+
+// Which solver takes care of a node: the first set that it is a member of and that writes its mesh.
+std::size_t group_of(const Plan& plan, std::uint32_t node) {
+  for (std::size_t s = 0; s < plan.sets.size(); ++s) {
+    const SetPlan& set = plan.sets[s];
+    if (!set.writes.empty() && std::binary_search(set.members.begin(), set.members.end(), node)) return s + 1;
+  }
+  return 0;
+}
+
+VolumeRow read_volume(const State& state, std::uint32_t node) {
+  const auto number = [&](const char* port) { return number_at(state, node, kVolume, port); };
+  VolumeRow row;
+  row.node = node;
+  row.id = state.plan->nodes[node].id;
+  row.name = name_at(state, node);
+  row.use = text_at(state, node, kVolume, "use");
+  row.state = text_at(state, node, kVolume, "state");
+  row.reason = text_at(state, node, kVolume, "reason");
+  row.position = point_at(state, node, "node", "position");
+  row.storey_height = number("storey_height");
+  row.demand = number("demand");
+  row.wanted = number_at(state, node, kVolume, "wanted", row.demand);
+  row.volume = number("volume");
+  row.cell_volume = number("cell_volume");
+  row.weight = number("weight");
+  row.floor_area = number("floor_area");
+  row.surface_area = number("surface_area");
+  row.footprint = number("footprint");
+  row.height = number("height");
+  row.bottom = number("bottom");
+  row.mesh = mesh_at(state, node, kVolume, "mesh");
+  if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
+  row.group = group_of(*state.plan, node);
+  return row;
+}
+
+SiteRow read_site(const State& state, std::uint32_t node) {
+  SiteRow site;
+  site.name = name_at(state, node);
+  site.volume = number_at(state, node, "boundary", "volume");
+  site.ground_area = number_at(state, node, "boundary", "ground_area");
+  site.shape = mesh_at(state, node, "boundary", "shape");
+  if (!site.shape || site.shape->triangles.empty()) {
+    site.shape = nullptr;
+    return site;
+  }
+  const std::vector<Vector3> normals = unit_normals(*site.shape);
+  site.ground = outline(*site.shape, [&](std::size_t t) { return normals[t].z < -1e-6; });
+  site.plan = outline(*site.shape, [&](std::size_t t) { return normals[t].z > 1e-6; });
+  site.bottom = site.shape->vertices.front().z;
+  for (const Point3& vertex : site.shape->vertices) site.bottom = std::min(site.bottom, vertex.z);
+  return site;
+}
+
+// A demand link with a use of its own credits its volumes to that row of the programme, whatever their own use says.
+std::map<std::uint32_t, std::string> credited_uses(const Plan& plan) {
+  std::map<std::uint32_t, std::string> credited;
+  for (const LinkPlan& link : plan.links) {
+    const auto record = plan.scene.links.find(link.id);
+    if (record == plan.scene.links.end() || record->second.kind != "demand" || !link.is_enabled) continue;
+    const auto use = record->second.parameters.find("use");
+    if (use == record->second.parameters.end()) continue;
+    const auto* text = std::get_if<std::string>(&use->second);
+    if (text == nullptr || text->empty()) continue;
+    for (const std::uint32_t node : link.nodes[1]) credited.emplace(node, *text);
+  }
+  return credited;
+}
+
+void read_uses(const State& state, ReportModel& model) {
+  std::map<std::string, std::size_t> index;
+  const auto row_of = [&](const std::string& use) -> UseRow& {
+    const auto [found, is_new] = index.emplace(use, model.uses.size());
+    if (is_new) model.uses.push_back({use, 0, false, 0, 0, 0, 0});
+    return model.uses[found->second];
+  };
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
+    const auto* shared = value_at<Shared<Table>>(state, n, "programme", "rows");
+    if (shared == nullptr) continue;
+    const Table& table = **shared;
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      UseRow& row = row_of(table.text(r, "use"));
+      row.is_in_programme = true;
+      row.wanted_floor_area += table.number(r, "floor_area") * std::max(1.0, table.number(r, "count"));
+    }
+  }
+  const auto credited = credited_uses(*state.plan);
+  std::map<std::string, std::vector<const VolumeRow*>> members;
+  for (VolumeRow& volume : model.volumes) {
+    if (const auto other = credited.find(volume.node); other != credited.end()) volume.use = other->second;
+    members[volume.use].push_back(&volume);
+  }
+  for (const auto& [use, volumes] : members) {
+    UseRow& row = row_of(use);
+    for (const VolumeRow* volume : volumes) {
+      ++row.count;
+      row.floor_area += volume->floor_area;
+      row.wanted += volume->wanted;
+      row.volume += volume->volume;
+      if (!row.is_in_programme) row.wanted_floor_area += volume->wanted_floor_area();
+    }
+  }
+}
+
+void add_totals(ReportModel& model) {
+  for (const UseRow& use : model.uses) {
+    model.wanted_floor_area += use.wanted_floor_area;
+    model.floor_area += use.floor_area;
+    model.volume += use.volume;
+    model.wanted += use.wanted;
+  }
+  for (const SiteRow& site : model.sites) {
+    model.plan_area += site.ground_area;
+    model.site_volume += site.volume;
+  }
+  for (const VolumeRow& volume : model.volumes) {
+    if (volume.mesh) ++model.shapes;
+    if (model.worst == nullptr || std::abs(volume.error()) > std::abs(model.worst->error())) model.worst = &volume;
+  }
+}
+
+}  // namespace
+
+double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback) {
+  const auto ref = state.plan->find(node, PortPath{type, port, ""});
+  if (!ref) return fallback;
+  const Value& value = state.value(*ref);
+  const double number = as_number(value);
+  return std::isfinite(number) ? number : fallback;
+}
+
+std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto* text = value_at<std::string>(state, node, type, port);
+  return text ? *text : "";
+}
+
+Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto* point = value_at<Vector3>(state, node, type, port);
+  return point && is_finite(*point) ? *point : Point3{};
+}
+
+MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto* mesh = value_at<MeshPointer>(state, node, type, port);
+  return mesh ? *mesh : nullptr;
+}
+
+bool has_type(const State& state, std::uint32_t node, std::string_view type) {
+  const auto& types = state.plan->nodes[node].types;
+  return std::any_of(types.begin(), types.end(), [&](const TypePlan& t) { return t.definition->id == type; });
+}
+
+std::string name_at(const State& state, std::uint32_t node) {
+  const NodePlan& plan = state.plan->nodes[node];
+  return plan.name.empty() ? plan.id : plan.name;
+}
+
+std::vector<std::string> ReportModel::use_names() const {
+  std::vector<std::string> names;
+  for (const UseRow& row : uses) names.push_back(row.use);
+  return names;
+}
+
+void read_model(const State& state, ReportModel& model) {
+  const Settings& settings = state.plan->settings;
+  model.title = settings.title;
+  model.about = settings.about;
+  model.tolerance = settings.tolerance;
+  model.move_limit = settings.move_limit;
+  model.true_north = settings.true_north;
+  model.tick = state.tick;
+  model.hash = hex_digits(state.hash);
+  model.is_settled = state.is_settled();
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
+    if (has_type(state, n, kVolume)) {
+      model.volumes.push_back(read_volume(state, n));
+      model.volumes.back().number = model.volumes.size();
+    }
+    if (has_type(state, n, "boundary")) model.sites.push_back(read_site(state, n));
+  }
+  read_uses(state, model);
+  add_totals(model);
+  read_conflicts(state, model);
+  read_problems(state, model);
+}
+
+}  // namespace bl::report

@@ -1,0 +1,94 @@
+// What a report says, read from a state by the names of its ports; whatever a scene lacks is left empty.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/graph/state.h"
+#include "ui/cli/report/mesh_lines.h"
+
+namespace bl::report {
+
+/// A SmartVolume, also one that has no shape.
+struct VolumeRow {
+  std::size_t number = 0;  ///< from 1, as in the table and the pictures
+  std::uint32_t node = 0;
+  std::string id, name, use, state, reason;
+  Point3 position;
+  double storey_height = 0;                              ///< [m]
+  double demand = 0, wanted = 0, volume = 0;             ///< [m³]; wanted: the demand inside its limits
+  double cell_volume = 0, weight = 0;                    ///< [m³], [m²]
+  double floor_area = 0, surface_area = 0, footprint = 0;  ///< [m²]
+  double height = 0, bottom = 0;                         ///< [m]
+  MeshPointer mesh;                                      ///< none where there is no shape
+  std::size_t group = 0;                                 ///< volumes of one solver stand together
+
+  double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
+  double wanted_floor_area() const { return storey_height > 0 ? wanted / storey_height : 0; }
+};
+
+/// All volumes of one use, against the programme where one speaks of it.
+struct UseRow {
+  std::string use;
+  std::size_t count = 0;
+  bool is_in_programme = false;
+  double wanted_floor_area = 0, floor_area = 0;  ///< [m²]
+  double wanted = 0, volume = 0;                 ///< [m³]
+};
+
+/// A boundary and the lines that draw it.
+struct SiteRow {
+  std::string name;
+  double volume = 0, ground_area = 0;  ///< [m³], [m²]
+  double bottom = 0;                   ///< [m]
+  MeshPointer shape;
+  std::vector<Polyline> ground, plan;  ///< outline of its underside, and of all of it seen from above
+};
+
+/// A port on which proposals disagree.
+struct ConflictRow {
+  std::string node, port, tension;
+  std::vector<std::string> pulls;
+  double severity = 0;  ///< tension against the size of what is pulled at
+};
+
+struct ProblemRow {
+  std::string place, message;
+};
+
+struct ReportModel {
+  std::string title, about;
+  double tolerance = 0.01, move_limit = 0, true_north = 0;
+  std::int64_t tick = 0;
+  std::string hash;
+  bool is_settled = false;
+  std::vector<VolumeRow> volumes;  ///< ascending id
+  std::vector<UseRow> uses;        ///< in the order of the programme, then by name
+  std::vector<SiteRow> sites;
+  std::vector<ConflictRow> conflicts;  ///< the worst first
+  std::size_t minor_conflicts = 0;     ///< too small to be listed
+  std::vector<ProblemRow> problems;
+  double wanted_floor_area = 0, floor_area = 0, volume = 0, wanted = 0;
+  double plan_area = 0, site_volume = 0;
+  std::size_t shapes = 0;
+  const VolumeRow* worst = nullptr;  ///< the largest error; nothing where there are no volumes
+
+  std::vector<std::string> use_names() const;
+};
+
+/// Everything but conflicts and problems, then those; `worst` points into the model, which is therefore not copied.
+void read_model(const State& state, ReportModel& model);
+void read_conflicts(const State& state, ReportModel& model);
+void read_problems(const State& state, ReportModel& model);
+
+/// Values by name; a fallback where the node has no such port or it holds another kind.
+double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback = 0);
+std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port);
+Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port);
+MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port);
+bool has_type(const State& state, std::uint32_t node, std::string_view type);
+/// The name that people gave, or the id.
+std::string name_at(const State& state, std::uint32_t node);
+
+}  // namespace bl::report
