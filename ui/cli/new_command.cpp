@@ -106,7 +106,7 @@ void print_figures(const NewOptions& o, const PlanBoundary& plan, const ScenePar
              fixed(100 * fill, 1) + " % (demanded volume / boundary volume)");
   if (fill > 1)
     print_error(o.out, {ErrorCode::infeasible, "",
-                        "warning: the demands do not fit into the boundary; they need a height of at least " + fixed(demand / plan_area + 0.05, 1) + " m"});
+                        "warning: the demands do not fit into the boundary; they need a height of at least " + fixed(std::ceil(10 * demand / plan_area) / 10, 1) + " m"});
   else if (fill > kTightFill)
     print_error(o.out, {ErrorCode::infeasible, "", "warning: the boundary will be nearly full; little is left to negotiate"});
 }

@@ -1,0 +1,112 @@
+// `new`: from real files to a scene that settles, and what it refuses.
+#include <gtest/gtest.h>
+
+#include "tests/ui/cli/program.h"
+
+namespace bl::test {
+
+namespace {
+
+constexpr const char* kSquare =
+    R"({"type": "Feature", "properties": {}, "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
+        "geometry": {"type": "Polygon", "coordinates": [[[85000, 446000], [85060, 446000], [85060, 446050], [85000, 446050], [85000, 446000]]]}})";
+constexpr const char* kCrossing =
+    R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
+        "coordinates": [[[85000, 446000], [85060, 446050], [85060, 446000], [85000, 446050], [85000, 446000]]]})";
+constexpr const char* kCorner =
+    R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
+        "coordinates": [[[85000, 446000], [85060, 446000], [85060, 446020], [85020, 446020], [85020, 446050], [85000, 446050], [85000, 446000]]]})";
+constexpr const char* kBrief =
+    "use;floor_area_m2;count;storey_height_m;adjacent_to\nhousing;400;6;3;school\nschool;900;1;3,6;\nshop;300;2;4;housing\n";
+
+class New : public testing::Test {
+ protected:
+  New() {
+    place.write("site.geojson", kSquare);
+    place.write("brief.csv", kBrief);
+  }
+  Outcome make(std::vector<std::string> more = {}, const std::string& boundary = "site.geojson") {
+    std::vector<std::string> arguments{"new", "--boundary", boundary, "--height", "30", "--programme", "brief.csv", "--out", "scene.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return place.run(arguments);
+  }
+  Workplace place;
+};
+
+TEST_F(New, MakesASceneThatSettles) {
+  const Outcome made = make({"--title", "A corner of Delft"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("boundary:  4 corners, 3000.0 m², 30 m high, 90000.0 m³"), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find("programme: 3 uses, 9 volumes, 3900.0 m² floor area, 12840.0 m³"), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find("floor space index 1.30"), std::string::npos) << made.out;
+  const nlohmann::json scene = place.json("scene.json");
+  EXPECT_EQ(scene["settings"]["title"], "A corner of Delft");
+  EXPECT_EQ(scene["settings"]["coordinate_system"], "EPSG:28992");
+  EXPECT_EQ(scene["nodes"].size(), 13u);
+  const Outcome check = place.run({"check", "scene.json"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  const Outcome run = place.run({"run", "scene.json", "--json", "r.json"});
+  EXPECT_EQ(run.code, 0) << run.last_line();
+  const nlohmann::json totals = place.json("r.json")["totals"];
+  EXPECT_NEAR(totals["volume"].get<double>(), 12840, 128);
+  EXPECT_EQ(totals["uses"].size(), 3u);
+}
+
+TEST_F(New, IsTheSameForASeed) {
+  ASSERT_EQ(make({"--seed", "7"}).code, 0);
+  const std::string first = place.text("scene.json");
+  ASSERT_EQ(make({"--seed", "7", "--force"}).code, 0);
+  EXPECT_EQ(place.text("scene.json"), first);
+  ASSERT_EQ(make({"--seed", "8", "--force"}).code, 0);
+  EXPECT_NE(place.text("scene.json"), first);
+}
+
+TEST_F(New, KeepsWhatExists) {
+  place.write("scene.json", "mine");
+  const Outcome outcome = make();
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("scene.json: exists already"), std::string::npos) << outcome.err;
+  EXPECT_EQ(place.text("scene.json"), "mine");
+}
+
+TEST_F(New, RefusesPlansThatItCannotTake) {
+  place.write("crossing.geojson", kCrossing);
+  place.write("corner.geojson", kCorner);
+  const Outcome crossing = make({}, "crossing.geojson");
+  EXPECT_EQ(crossing.code, 2);
+  EXPECT_NE(crossing.err.find("cross"), std::string::npos) << crossing.err;
+  const Outcome corner = make({}, "corner.geojson");
+  EXPECT_EQ(corner.code, 2);
+  EXPECT_NE(corner.err.find("its convex hull would add 600.0 m²"), std::string::npos) << corner.err;
+  EXPECT_FALSE(std::filesystem::exists(place.path("scene.json")));
+  const Outcome hull = make({"--hull"}, "corner.geojson");
+  EXPECT_EQ(hull.code, 0) << hull.err;
+  EXPECT_NE(hull.out.find("of which the hull adds 600.0 m²"), std::string::npos) << hull.out;
+}
+
+TEST_F(New, SaysWhatIsMissingInTheProgramme) {
+  place.write("brief.csv", "use,count\nhousing,3\n");
+  const Outcome outcome = make();
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(outcome.err.starts_with("brief.csv: ")) << outcome.err;
+  EXPECT_NE(outcome.err.find("floor_area"), std::string::npos) << outcome.err;
+}
+
+TEST_F(New, WarnsOfDemandsThatDoNotFit) {
+  place.write("brief.csv", "use,floor_area_m2,storey_height_m\nhousing,40000,3\n");
+  const Outcome outcome = make();
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("warning: the demands do not fit into the boundary; they need a height of at least 40.0 m"), std::string::npos) << outcome.err;
+}
+
+TEST_F(New, RefusesHeightsThatAreNone) {
+  for (const char* height : {"0", "-3", "nan", "inf", "1e300"}) {
+    const Outcome outcome = place.run({"new", "--boundary", "site.geojson", std::string("--height=") + height, "--programme", "brief.csv", "--out", "scene.json"});
+    EXPECT_EQ(outcome.code, 2) << height;
+    EXPECT_NE(outcome.err.find("--height: must be a height in m"), std::string::npos) << outcome.err;
+  }
+}
+
+}  // namespace
+
+}  // namespace bl::test

@@ -1,0 +1,137 @@
+// `run` and `replay`: last lines, exit codes, files, and one result however it is reached.
+#include <gtest/gtest.h>
+
+#include "tests/ui/cli/program.h"
+
+namespace bl::test {
+
+namespace {
+
+TEST(Run, SettlesAndSaysSo) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  const Outcome outcome = place.run({"run", "s.json", "--json", "r.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json result = place.json("r.json");
+  EXPECT_TRUE(result["settled"]);
+  const std::string line = outcome.last_line();
+  EXPECT_TRUE(line.starts_with("settled after " + std::to_string(result["ticks"].get<int>()) + " ticks, worst error ")) << line;
+  EXPECT_TRUE(line.ends_with(" %, hash " + result["hash"].get<std::string>())) << line;
+  EXPECT_EQ(outcome.out.find('\033'), std::string::npos);
+  for (const char* key : {"ticks", "settled", "hash", "volumes", "totals", "tensions", "problems"}) EXPECT_TRUE(result.contains(key)) << key;
+  ASSERT_EQ(result["volumes"].size(), 3u);
+  for (const char* key : {"id", "name", "position", "weight", "demand", "volume", "cell_volume", "floor_area", "surface_area", "state", "reason"})
+    EXPECT_TRUE(result["volumes"][0].contains(key)) << key;
+  EXPECT_EQ(result["volumes"][0]["id"], "east");
+  for (const auto& volume : result["volumes"]) EXPECT_NEAR(volume["volume"].get<double>() / volume["demand"].get<double>(), 1, 0.01);
+}
+
+TEST(Run, TicksEndWithCodeZeroHoweverFar) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  const Outcome outcome = place.run({"run", "s.json", "--ticks", "1"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(outcome.last_line().starts_with("not settled: ")) << outcome.last_line();
+}
+
+TEST(Run, ThreadsGiveTheSameHash) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  EXPECT_EQ(place.run({"run", "s.json", "--ticks", "40", "--threads", "1"}).last_line(), place.run({"run", "s.json", "--ticks", "40", "--threads", "3"}).last_line());
+}
+
+TEST(Run, SavedAndContinuedIsTheSameAsRunThrough) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  place.run({"run", "s.json", "--ticks", "25", "--json", "whole.json"});
+  EXPECT_EQ(place.run({"run", "s.json", "--ticks", "10", "--save", "half.json"}).code, 0);
+  const Outcome rest = place.run({"run", "half.json", "--ticks", "15", "--json", "rest.json"});
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(place.json("rest.json")["hash"], place.json("whole.json")["hash"]);
+  EXPECT_EQ(place.json("rest.json")["ticks"], 25);
+}
+
+TEST(Run, LogIsReplayed) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  const Outcome run = place.run({"run", "s.json", "--ticks", "130", "--log", "run.log", "--set", "east/smart_volume.demand=1500 m3", "--set", "site/node.position=[1, 2, 3]"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Outcome replay = place.run({"replay", "run.log", "--threads", "2"});
+  EXPECT_EQ(replay.code, 0) << replay.err;
+  EXPECT_EQ(replay.last_line(), "agrees with all 3 checks");
+  EXPECT_NE(replay.out.find("2 entries, 130 ticks, hash "), std::string::npos) << replay.out;
+  std::string log = place.text("run.log");
+  const std::size_t at = log.find("\"hash\": \"");
+  ASSERT_NE(at, std::string::npos) << log;
+  log[at + 9] = log[at + 9] == '0' ? '1' : '0';
+  place.write("bad.log", log);
+  const Outcome bad = place.run({"replay", "bad.log"});
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_TRUE(bad.last_line().starts_with("differs from the log first at tick 60")) << bad.out;
+  place.write("cut.log", place.text("run.log").substr(0, place.text("run.log").size() - 20));
+  const Outcome cut = place.run({"replay", "cut.log"});
+  EXPECT_EQ(cut.code, 0) << cut.err;
+  EXPECT_NE(cut.err.find("the last line is incomplete"), std::string::npos) << cut.err;
+}
+
+TEST(Run, SetTakesQuantitiesAndSaysWhatItCannotTake) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  const auto set = [&](const std::string& argument) { return place.run({"run", "s.json", "--ticks", "3", "--json", "r.json", "--set", argument}); };
+  EXPECT_EQ(set("east/smart_volume.storey_height=400 cm").code, 0);
+  EXPECT_EQ(place.json("r.json")["volumes"][0]["storey_height"], 4);
+  EXPECT_EQ(set("east/smart_volume.use=Town hall").code, 0);
+  EXPECT_EQ(place.json("r.json")["volumes"][0]["use"], "Town hall");
+  for (const auto& [argument, said] : {std::pair<const char*, const char*>{"east/smart_volume.demand=12 m2", "m³"}, {"east/smart_volume.demnd=5", "did you mean `demand`?"},
+                                       {"easd/smart_volume.demand=5", "did you mean `east`?"}, {"east.demand=5", "NODE/TYPIFICATION.PORT=VALUE"},
+                                       {"east/smart_volume.demand=-5", "between 0 and"}, {"east/smart_volume.volume=5", "computed"}}) {
+    const Outcome outcome = set(argument);
+    EXPECT_EQ(outcome.code, 2) << argument;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << argument << ": " << outcome.err;
+  }
+}
+
+TEST(Run, DemandsThatDoNotFitAreNamedEarly) {
+  const Workplace place;
+  place.write("s.json", scene_text(volume_text("small", "[8, 0, 8]", "4000") + "," + volume_text("greedy", "[-8, 0, 8]", "60000")));
+  const Outcome outcome = place.run({"run", "s.json", "--json", "r.json"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_TRUE(outcome.last_line().starts_with("not settled: the demands cannot be met: ")) << outcome.last_line();
+  EXPECT_NE(outcome.last_line().find("`greedy`"), std::string::npos) << outcome.last_line();
+  EXPECT_LT(place.json("r.json")["ticks"].get<int>(), 1000) << "nobody waits for what cannot come";
+}
+
+TEST(Run, ReportIsWritten) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  EXPECT_EQ(place.run({"run", "s.json", "--report", "out"}).code, 0);
+  for (const char* file : {"out/report.html", "out/volumes.csv", "out/volumes.obj"}) EXPECT_GT(place.text(file).size(), 100u) << file;
+}
+
+TEST(Run, InterruptWritesWhatIsThere) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  const Outcome outcome = place.shell("timeout --preserve-status -s INT 2 \"$BEHAVIOURLINKS\" run s.json --ticks 1000000000 --log run.log --json r.json --report out");
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  EXPECT_NE(place.text("run.log").find("\"end\""), std::string::npos);
+  EXPECT_GT(place.json("r.json")["ticks"].get<int>(), 0);
+  EXPECT_TRUE(std::filesystem::exists(place.path("out/report.html")));
+}
+
+TEST(Run, FullDiskLeavesTheOldFileWhole) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  place.write("saved.json", "old content\n");
+  // A limit on the size of files stands for the full disk; its signal is ignored, so that writing fails with an error.
+  const Outcome outcome = place.shell("trap '' XFSZ; ulimit -f 1; \"$BEHAVIOURLINKS\" run s.json --ticks 2 --save saved.json");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("the old file is unchanged"), std::string::npos) << outcome.err;
+  EXPECT_EQ(place.text("saved.json"), "old content\n");
+  const Outcome device = place.run({"run", "s.json", "--ticks", "2", "--json", "/dev/full"});
+  EXPECT_EQ(device.code, 2);
+  EXPECT_NE(device.err.find("No space left"), std::string::npos) << device.err;
+}
+
+}  // namespace
+
+}  // namespace bl::test
