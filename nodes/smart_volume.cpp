@@ -22,7 +22,7 @@ struct SmartVolume {
     double error = 1;
     std::string state = "idle", reason = "no solver takes care of it";
     Table neighbours;
-    double last_step = 0;
+    double last_step = 0, last_direction = 0;
     Point3 centroid;
     MeshPointer mesh;
   };
@@ -81,6 +81,8 @@ struct SmartVolume {
         .doc("The volumes that share a face with this one, in ascending id.");
     t.out(&Out::last_step, "last_step").unit(Unit::cubic_metre)
         .doc("The last change of the cube of the radius: what the solver remembers of this volume from tick to tick.");
+    t.out(&Out::last_direction, "last_direction").unit(Unit::cubic_metre)
+        .doc("The step that Newton's method is trying, which the next tick judges.");
   }
 };
 

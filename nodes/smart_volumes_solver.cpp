@@ -1,33 +1,41 @@
 // The SmartVolumes solver: each tick it adapts the weights of its members and gives each its cell of the diagram.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
-#include "core/base/text.h"
+#include "core/base/hash.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/demand_fit.h"
+#include "core/geometry/fit_text.h"
 
 namespace bl {
 namespace {
 
 struct SmartVolumesSolver {
-  enum class Method { feedback };
+  using Method = FitMethod;
+  // What the fit starts from in the next tick (FitState); the parts that belong to one member are kept there.
+  struct Memory {
+    double momentum = 1, residual = -1, share = 1, least_ratio = 0;
+    std::string problem;
+  };
   struct In {
     Selection members{{}, "smart_volume", {}}, boundary{{}, "boundary", {}};
     Method method = Method::feedback;
-    double gain = 0, tolerance = 0.005, momentum = 1;
+    double gain = 0, tolerance = 0.005;
     int steps = 4, tessellation_depth = 1;
+    Memory last;
   };
   struct Member {
     std::string id;
     Point3 position;
-    double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0, last_step = 0;
+    double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0, last_step = 0, last_direction = 0;
   };
   struct Plot { std::string id; Table planes; };
   struct Sets { std::vector<Member> members; std::vector<Plot> plots; };
   struct Reply {
     double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
-    double spherical_area = 0, height = 0, bottom = 0, error = 0, last_step = 0;
+    double spherical_area = 0, height = 0, bottom = 0, error = 0, last_step = 0, last_direction = 0;
     std::string state, reason;
     Table neighbours;
     Point3 centroid;
@@ -35,7 +43,8 @@ struct SmartVolumesSolver {
   };
   struct Out {
     std::int64_t count = 0;
-    double total_demand = 0, total_volume = 0, boundary_volume = 0, fill = 0, largest_error = 0, total_floor_area = 0, momentum = 1;
+    double total_demand = 0, total_volume = 0, boundary_volume = 0, fill = 0, largest_error = 0, total_floor_area = 0;
+    Memory memory;
     std::string worst, message;
     std::vector<Reply> replies;
   };
@@ -46,7 +55,8 @@ struct SmartVolumesSolver {
           "in every tick until each volume has what it wants. A scene may hold several solvers, each with its own members and boundary.");
     t.in(&In::members, "members").doc("The SmartVolumes that this solver takes care of; a SmartVolume belongs to one solver only.");
     t.in(&In::boundary, "boundary").doc("The boundary that is divided. Exactly one node with planes has to result.");
-    t.in(&In::method, "method", {{Method::feedback, "feedback", "Each weight follows the error of its own volume, with acceleration."}})
+    t.in(&In::method, "method", {{Method::feedback, "feedback", "Each weight follows the error of its own volume, with acceleration."},
+                                 {Method::newton, "newton", "All weights together follow the exact response of all volumes; a few steps at any fill."}})
         .doc("How the weights are adapted.");
     t.in(&In::gain, "gain").unit(Unit::per_metre).range(0, 1000).soft(0, 1)
         .doc("Change of weight per missing volume, the same for all, as in 2007; 0 lets each volume find its own from its free surface.");
@@ -64,13 +74,18 @@ struct SmartVolumesSolver {
     t.out(&Out::worst, "worst").doc("Id of the member with the largest error; empty where all volumes are exact.");
     t.out(&Out::total_floor_area, "total_floor_area").unit(Unit::square_metre).doc("Sum of the floor areas of the members.");
     t.out(&Out::message, "message").doc("What cannot be had, by how much, and who goes without; empty where every demand can be met.");
-    t.memory(&Out::momentum, &In::momentum, "momentum").doc("Counter of the acceleration, which the next tick goes on from; 1 is a fresh start.");
+    memory(t, &Memory::momentum, "momentum", "Counter of the acceleration of the feedback; 1 is a fresh start.");
+    memory(t, &Memory::residual, "residual", "How far Newton's last step started from the demands; negative: no step to be judged.");
+    memory(t, &Memory::share, "share", "Share of Newton's full step that was taken last.");
+    memory(t, &Memory::least_ratio, "least_ratio", "Smallest share of a demand that Newton's steps may lead to.");
+    memory(t, &Memory::problem, "problem", "Hash of the problem that the last step belongs to; another problem starts afresh.");
     t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::planes, "boundary.planes");
     auto set = t.set("members", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre).reads(&Member::demand, "smart_volume.demand");
     set.reads(&Member::limit, "smart_volume.demand_limit").reads(&Member::least, "smart_volume.demand_min");
     set.reads(&Member::storey_height, "smart_volume.storey_height").reads(&Member::weight, "smart_volume.weight");
     set.reads(&Member::last_step, "smart_volume.last_step").writes(&Reply::last_step, "smart_volume.last_step");
+    set.reads(&Member::last_direction, "smart_volume.last_direction").writes(&Reply::last_direction, "smart_volume.last_direction");
     set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::error, "smart_volume.error");
     set.writes(&Reply::weight, "smart_volume.weight").writes(&Reply::radius, "smart_volume.radius");
     set.writes(&Reply::volume, "smart_volume.volume").writes(&Reply::cell_volume, "smart_volume.cell_volume");
@@ -81,13 +96,9 @@ struct SmartVolumesSolver {
     set.writes(&Reply::centroid, "smart_volume.centroid").writes(&Reply::neighbours, "smart_volume.neighbours");
   }
 
-  // The geometry speaks of "site 3"; people know the node by its id.
-  static std::string named(std::string text, const std::vector<Member>& members) {
-    const std::size_t at = text.find("site "), begin = at + 5;
-    if (at == std::string::npos) return text;
-    const std::size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
-    const double site = parse_number(text.substr(begin, end - begin)).value_or(1e300);
-    return site < static_cast<double>(members.size()) ? text.replace(at, end - at, "`" + members[static_cast<std::size_t>(site)].id + "`") : text;
+  template <class M>
+  static void memory(TypificationBuilder<SmartVolumesSolver>& t, M Memory::* member, const char* id, const char* doc) {
+    t.memory(&Out::memory, &In::last, member, id).doc(doc);
   }
 
   static Result<ConvexDomain> domain_of(const std::vector<Plot>& plots) {
@@ -111,28 +122,32 @@ struct SmartVolumesSolver {
       if (!(sites[i].weight > 0)) sites[i].weight = 0.5 * initial_weights(domain, sites.subspan(i, 1), wanted.subspan(i, 1)).front();
   }
 
-  static Reply reply_of(const CellMeasure& cell, double wanted, double weight, double last_step, const std::vector<Member>& members) {
+  static Reply reply_of(const CellMeasure& cell, double wanted, double weight, std::span<const std::string> names) {
     Reply reply{wanted, weight, std::sqrt(std::max(0.0, weight)), cell.volume, cell.cell_volume, cell.floor_area, cell.surface_area, cell.footprint,
-                cell.spherical_area, cell.height, cell.bottom, wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0, last_step,
-                std::string(name_of(cell.state)), wanted > 0 ? named(cell.reason, members) : "wants nothing: raise its demand to give it a volume",
+                cell.spherical_area, cell.height, cell.bottom, wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0, 0, 0,
+                std::string(name_of(cell.state)), wanted > 0 ? with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
                 {{"node", "area"}, {}}, cell.centroid, cell.mesh};
     for (const FacetArea& facet : cell.facets)
-      if (facet.kind == FacetArea::Kind::site) reply.neighbours.rows.push_back({members[facet.index].id, facet.area});
+      if (facet.kind == FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
     return reply;
   }
 
-  // Who goes without, and by how much, greatest loss first.
-  static std::string message_of(const Out& out, std::vector<DemandLoss> losses, const std::vector<Member>& members) {
-    std::stable_sort(losses.begin(), losses.end(), [](const auto& a, const auto& b) { return a.demand - a.granted > b.demand - b.granted; });
-    double missing = 0;
-    std::string who;
-    for (std::size_t i = 0; i < losses.size(); ++i) {
-      const double loss = losses[i].demand - losses[i].granted;
-      missing += loss;
-      if (i < 5) who += (i > 0 ? ", `" : "`") + members[losses[i].site].id + "` by " + fixed(loss, 1) + " m³";
+  static FitState last_state(const In& in, const std::vector<Member>& members) {
+    FitState state;
+    state.momentum = std::max(1.0, in.last.momentum);
+    state.problem = std::strtoull(in.last.problem.c_str(), nullptr, 16);
+    state.residual = in.last.residual;
+    state.share = in.last.share;
+    state.least_ratio = in.last.least_ratio;
+    for (const Member& member : members) {
+      state.previous_move.push_back(member.last_step);
+      state.direction.push_back(member.last_direction);
     }
-    if (losses.size() > 5) who += " and " + std::to_string(losses.size() - 5) + " more";
-    return fixed(out.total_demand, 1) + " m³ are wanted, " + fixed(missing, 1) + " m³ more than can be had; short of it fall " + who;
+    return state;
+  }
+
+  static Memory memory_of(const FitState& state) {
+    return {state.momentum, state.residual, state.share, state.least_ratio, hex_digits(state.problem)};
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
@@ -143,22 +158,24 @@ struct SmartVolumesSolver {
     if (sets.members.empty()) return out;
     std::vector<PowerSite> sites;
     std::vector<double> wanted, storey_heights;
-    FitState state;
-    state.momentum = std::max(1.0, in.momentum);
+    std::vector<std::string> names;
     for (const Member& member : sets.members) {
       sites.push_back({member.position, member.weight});
       wanted.push_back(std::max(std::min(member.demand, member.limit), member.least));
       storey_heights.push_back(member.storey_height);
-      state.previous_move.push_back(member.last_step);
+      names.push_back(member.id);
     }
     start_newcomers(*domain, sites, wanted);
-    const auto fit = adapt_weights(*domain, sites, wanted, {}, state, {.gain = in.gain, .steps = in.steps, .tolerance = in.tolerance, .pool = tick.pool});
-    if (!fit) return Error{fit.error().code, "members", named(fit.error().message, sets.members)};
+    const FitOptions options{.method = in.method, .gain = in.gain, .steps = in.steps, .tolerance = in.tolerance, .pool = tick.pool};
+    const auto fit = adapt_weights(*domain, sites, wanted, {}, last_state(in, sets.members), options);
+    if (!fit) return Error{fit.error().code, "members", with_names(fit.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit->weights[i];
     const auto cells = power_cells(*domain, sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
-    if (!cells) return Error{cells.error().code, "members", named(cells.error().message, sets.members)};
+    if (!cells) return Error{cells.error().code, "members", with_names(cells.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      const Reply& reply = out.replies.emplace_back(reply_of((*cells)[i], wanted[i], sites[i].weight, fit->state.previous_move[i], sets.members));
+      Reply& reply = out.replies.emplace_back(reply_of((*cells)[i], wanted[i], sites[i].weight, names));
+      if (!fit->state.previous_move.empty()) reply.last_step = fit->state.previous_move[i];
+      if (!fit->state.direction.empty()) reply.last_direction = fit->state.direction[i];
       out.count += reply.volume > 0 ? 1 : 0;
       out.total_demand += reply.wanted;
       out.total_volume += reply.volume;
@@ -168,8 +185,8 @@ struct SmartVolumesSolver {
       out.worst = sets.members[i].id;
     }
     out.fill = out.total_volume / out.boundary_volume;
-    out.momentum = fit->state.momentum;
-    if (!fit->losses.empty()) out.message = message_of(out, fit->losses, sets.members);
+    out.memory = memory_of(fit->state);
+    out.message = losses_text(fit->losses, out.total_demand, names);
     return out;
   }
 };

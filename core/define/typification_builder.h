@@ -75,12 +75,15 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
     return builder;
   }
 
-  /// An output that the next evaluation sees again in `last`: the own, saved state of a typification. Only for those with sets,
-  /// which are evaluated in every tick.
-  template <class M>
-  PortBuilder<M> memory(M Out::* member, M In::* last, std::string id) {
-    auto builder = out(member, std::move(id));
-    definition_->ports.back().recall = [last](void* in, const Value& value) { static_cast<In*>(in)->*last = Binding<M>::from_value(value); };
+  /// An output that the next evaluation sees again: the own, saved state of a typification. Out and In hold the same struct of
+  /// such members, `kept` and `last`. Only for typifications with sets, which are evaluated in every tick.
+  template <class Memory, class M>
+  PortBuilder<M> memory(Memory Out::* kept, Memory In::* last, M Memory::* member, std::string id) {
+    PortBuilder<M> builder = add_port(definition_->ports, member, std::move(id));
+    PortDefinition& port = definition_->ports.back();
+    port.is_computed = true;
+    port.get = [kept, member](const void* out) { return Binding<M>::to_value(static_cast<const Out*>(out)->*kept.*member); };
+    port.recall = [last, member](void* in, const Value& value) { static_cast<In*>(in)->*last.*member = Binding<M>::from_value(value); };
     return builder;
   }
 

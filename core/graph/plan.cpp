@@ -50,6 +50,8 @@ class Compiler {
     for (std::uint32_t n = 0; n < plan_->nodes.size(); ++n)
       for (std::uint32_t t = 0; t < plan_->nodes[n].types.size(); ++t)
         for (std::uint32_t s = 0; s < plan_->nodes[n].types[t].definition->sets.size(); ++s) plan_->sets.push_back(set_plan(n, t, s));
+    for (const SetPlan& set : plan_->sets)
+      for (const PortRef& ref : set.writes) plan_->nodes[ref.node].types[ref.type].is_served = true;
     return plan_;
   }
 
@@ -61,6 +63,7 @@ class Compiler {
       if (definition == nullptr) continue;
       TypePlan& type = node.types.emplace_back();
       type.definition = definition;
+      type.is_served = static_cast<bool>(definition->evaluate);
       for (const PortDefinition& port : definition->ports) {
         const auto it = values.find(port.id);
         type.is_set.push_back(it != values.end() && it->second != port.default_value);
@@ -178,7 +181,7 @@ class Compiler {
       for (const std::uint32_t node : link.nodes[static_cast<int>(read.end)]) {
         const PortRef ref = *plan_->find(node, actual(definition, read.path, values));
         if (ref.type != PortRef::kNodeId)
-          if (auto kind = check_kind(ref, read.kind, "reads"); !kind) return kind;
+          if (auto kind = check_kind(ref, read.kind, "link reads"); !kind) return kind;
         refs.push_back(ref);
       }
     }
@@ -189,7 +192,7 @@ class Compiler {
         const PortRef ref = *plan_->find(node, actual(definition, write.path, values));
         if (ref.type == PortRef::kNodeId || plan_->port(ref).rule == CombineRule::none)
           return Error{ErrorCode::conflict, "", "`" + plan_->path_text(ref) + "` cannot be changed by links"};
-        if (auto kind = check_kind(ref, write.kind, "proposes"); !kind) return kind;
+        if (auto kind = check_kind(ref, write.kind, "link proposes"); !kind) return kind;
         refs.push_back(ref);
         link.targets.push_back(ref);
       }
@@ -209,7 +212,7 @@ class Compiler {
     const bool is_numeric = found == ValueKind::integer || found == ValueKind::boolean;
     if (found == expected || (expected == ValueKind::number && is_numeric)) return {};
     return Error{ErrorCode::wrong_kind, "",
-                 "the link " + std::string(verb) + " " + std::string(name_of(expected)) + ", but `" + plan_->path_text(ref) + "` holds " +
+                 "the " + std::string(verb) + " " + std::string(name_of(expected)) + ", but `" + plan_->path_text(ref) + "` holds " +
                      std::string(name_of(found))};
   }
 
@@ -228,7 +231,11 @@ class Compiler {
         if (const auto ref = plan_->find(node, path)) refs.push_back(*ref);
         else missing = path.typification + "." + path.port;
       };
-      for (const ReadDefinition& read : definition.reads) look_up(read.path, reads);
+      for (const ReadDefinition& read : definition.reads) {
+        look_up(read.path, reads);
+        if (!missing.empty() || reads.back().type == PortRef::kNodeId) continue;
+        if (auto kind = check_kind(reads.back(), read.kind, "evaluation reads"); !kind) set.error = kind.error().within(place);
+      }
       for (const WriteDefinition& write : definition.writes) look_up(write.path, writes);
       if (missing.empty()) {
         set.members.push_back(node);

@@ -23,6 +23,7 @@ struct TypePlan {
   const TypificationDefinition* definition = nullptr;
   std::vector<Value> set_values;        ///< all ports in order; defaults where nobody has set a value
   std::vector<bool> is_set, is_locked;
+  bool is_served = true;                ///< has an evaluation, its own or that of a set it belongs to; else results are defaults
 };
 
 struct NodePlan {

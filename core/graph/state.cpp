@@ -69,7 +69,8 @@ namespace {
 void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& after, TypeState& fresh, const std::set<std::string>& placed) {
   for (std::size_t p = 0; p < after.definition->ports.size(); ++p) {
     const PortDefinition& port = after.definition->ports[p];
-    const bool is_lasting = port.is_computed || port.rule == CombineRule::sum;
+    // What nobody computes any more goes back to its defaults, which say so.
+    const bool is_lasting = (port.is_computed && after.is_served) || port.rule == CombineRule::sum;
     if (is_lasting && !placed.contains(port.id)) fresh.values[p] = old.values[p];
   }
   fresh.error = old.error;
