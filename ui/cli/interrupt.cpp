@@ -2,14 +2,27 @@
 #include "ui/cli/interrupt.h"
 
 #include <csignal>
+#include <ctime>
+#include <unistd.h>
 
 namespace bl::cli {
 
 namespace {
 
-volatile std::sig_atomic_t received_signal = 0;
+// Launchers tend to send a signal to a program and to its group, so that it arrives twice at once; nobody presses that fast.
+constexpr double kSameRequest = 0.3;    // [s]
 
-void remember(int number) { received_signal = number; }
+volatile std::sig_atomic_t received_signal = 0;
+double received_at = 0;    // read and written by the handler alone
+
+void remember(int number) {
+  struct timespec time {};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  const double seconds = static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  if (received_signal != 0 && seconds - received_at > kSameRequest) ::_exit(128 + number);
+  if (received_signal == 0) received_at = seconds;
+  received_signal = number;
+}
 
 }  // namespace
 
@@ -17,8 +30,10 @@ void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = remember;
   sigemptyset(&action.sa_mask);
-  // Once only: whoever presses Ctrl-C again does not want to wait. Reads and writes go on where they were.
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  // One signal must not interrupt the handling of the other.
+  sigaddset(&action.sa_mask, SIGINT);
+  sigaddset(&action.sa_mask, SIGTERM);
+  action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
