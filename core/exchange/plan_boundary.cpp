@@ -247,7 +247,7 @@ Result<void> read_rings(const GeoPolygon& polygon, const LocalFrame& frame, Plan
   if (!plan.holes.empty())
     plan.notes.push_back(std::to_string(plan.holes.size()) + " holes with " + area_text(plan.outer_area - plan.area) +
                          " are kept beside the outer ring; a solver that takes no holes builds over them.");
-  plan.hull = convex_hull(plan.outer);
+  plan.hull = hull_of_plan(plan.outer);
   plan.hull_area = signed_area(plan.hull);
   plan.is_convex = plan.holes.empty() && depth_below_hull(plan.outer, plan.hull) <= kConvexDepth;
   return {};

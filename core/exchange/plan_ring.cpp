@@ -139,7 +139,7 @@ std::optional<Crossing> find_crossing(std::span<const Point3> a, std::span<const
   });
 }
 
-Ring convex_hull(std::span<const Point3> points) {
+Ring hull_of_plan(std::span<const Point3> points) {
   Ring sorted(points.begin(), points.end());
   for (Point3& point : sorted) point.z = 0;
   std::sort(sorted.begin(), sorted.end(), [](const Point3& a, const Point3& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });

@@ -35,7 +35,7 @@ std::optional<Crossing> find_crossing(std::span<const Point3> a, std::span<const
 
 /// Counter-clockwise convex hull without collinear points, starting at the smallest (x, y).
 /// Andrew's monotone chain (1979).
-Ring convex_hull(std::span<const Point3> points);
+Ring hull_of_plan(std::span<const Point3> points);
 /// The largest distance of a point from the nearest side of the hull [m]: 0 for a convex polygon.
 double depth_below_hull(std::span<const Point3> ring, std::span<const Point3> hull);
 

@@ -163,8 +163,8 @@ TEST(SiteGrid, AgreesWithLookingAtAll) {
 TEST(PlanRing, HandChecks) {
   EXPECT_DOUBLE_EQ(signed_area(kEll), 3600);
   EXPECT_DOUBLE_EQ(perimeter(kSquare), 360);
-  EXPECT_EQ(convex_hull(kEll), (Ring{{0, 0, 0}, {100, 0, 0}, {100, 20, 0}, {20, 100, 0}, {0, 100, 0}}));
-  EXPECT_NEAR(depth_below_hull(kEll, convex_hull(kEll)), 20, 1e-9);
+  EXPECT_EQ(hull_of_plan(kEll), (Ring{{0, 0, 0}, {100, 0, 0}, {100, 20, 0}, {20, 100, 0}, {0, 100, 0}}));
+  EXPECT_NEAR(depth_below_hull(kEll, hull_of_plan(kEll)), 20, 1e-9);
   EXPECT_FALSE(find_self_crossing(kComb));
   EXPECT_TRUE(find_self_crossing(Ring{{0, 0, 0}, {10, 0, 0}, {5, 0, 0}, {5, 5, 0}}));                // doubles back
   EXPECT_TRUE(find_self_crossing(Ring{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {5, 0, 0}, {0, 10, 0}}));  // touches

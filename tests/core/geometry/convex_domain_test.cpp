@@ -159,5 +159,16 @@ TEST(ConvexDomain, MeshesComeBackAsDomains) {
   expect_refused(from_mesh(dented), "not convex");
 }
 
+TEST(ConvexDomain, FourPointsGiveATetrahedronWhicheverWayTheyAreGiven) {
+  std::vector<Point3> corners{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+  for (int swap = 0; swap < 2; ++swap) {
+    const auto hull = convex_hull(corners);
+    ASSERT_TRUE(hull.ok()) << hull.error().text();
+    EXPECT_NEAR(hull->volume, 8.0 / 6, 1e-12);
+    EXPECT_GT(enclosed_volume(to_mesh(*hull)), 0);
+    std::swap(corners[0], corners[3]);
+  }
+}
+
 }  // namespace
 }  // namespace bl::test

@@ -241,7 +241,7 @@ TEST(ReportParts, PathsAreRelativeTenthsThatDoNotDrift) {
   path.move({10, 20});
   for (int i = 1; i <= 3; ++i) path.line({10 + i * 0.14, 20.0 - i});
   path.close();
-  EXPECT_EQ(path.text(), "M10 20l.1-1 .2-1 .1-1z");
+  EXPECT_EQ(path.text(), "m10 20 .1-1 .2-1 .1-1z");
 }
 
 TEST(ReportParts, NumbersReadEasily) {

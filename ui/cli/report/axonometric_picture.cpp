@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/exchange/plan_ring.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/furniture.h"
 #include "ui/cli/report/pictures.h"
@@ -113,11 +112,9 @@ void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   PathText shadows;
   for (const VolumeRow& volume : model.volumes) {
     if (!volume.mesh) continue;
-    Ring cast;
-    for (const Point3& vertex : volume.mesh->vertices) cast.push_back(shadow_of(vertex, scenery));
-    Polyline line{convex_hull(cast), true};
-    for (Point3& p : line.points) p.z = scenery.ground;
-    shadows.polyline(on_sheet(sheet, line), true);
+    std::vector<Pixel> cast;
+    for (const Point3& vertex : volume.mesh->vertices) cast.push_back(sheet.at(shadow_of(vertex, scenery)));
+    shadows.polyline(convex_outline(std::move(cast)), true);
   }
   svg.path(shadows, {{"fill", hex(kShade)}, {"fill-opacity", ".16"}, {"fill-rule", "nonzero"}});
 }

@@ -63,18 +63,18 @@ void PathText::number(std::int64_t tenths, bool after_letter) {
 }
 
 void PathText::step(char letter, std::int64_t x, std::int64_t y) {
-  // Pairs after an `m` are lines, so that only a change of letter needs to be written.
+  // Pairs after an `m` are relative lines (after an `M` absolute ones), so that only a change of letter needs to be written.
   const bool is_new = letter != letter_;
   if (is_new) text_ += letter;
   number(x, is_new);
   number(y, false);
-  letter_ = letter == 'm' || letter == 'M' ? 'l' : letter;
+  letter_ = letter == 'm' ? 'l' : letter;
 }
 
 void PathText::move(Pixel to) {
   const std::int64_t x = std::llround(to.x * 10), y = std::llround(to.y * 10);
-  if (text_.empty()) step('M', x, y);
-  else step('m', x - x_, y - y_);
+  // The first `m` of a path counts from the origin.
+  step('m', x - x_, y - y_);
   x_ = start_x_ = x;
   y_ = start_y_ = y;
 }

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/exchange/plan_ring.h"
-
 namespace bl::report {
 
 namespace {
@@ -160,15 +158,27 @@ void draw_solid(Markup& svg, const Sheet& sheet, const Mesh& mesh, const SolidSt
   solid.draw_edges(svg, ink);
 }
 
-std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh) {
-  Ring ring;
-  for (const Point3& vertex : mesh.vertices) {
-    const Pixel pixel = sheet.at(vertex);
-    ring.push_back({pixel.x, pixel.y, 0});
-  }
+// Andrew's monotone chain (1979).
+std::vector<Pixel> convex_outline(std::vector<Pixel> places) {
+  const auto is_before = [](Pixel a, Pixel b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  std::sort(places.begin(), places.end(), is_before);
   std::vector<Pixel> hull;
-  for (const Point3& corner : convex_hull(ring)) hull.push_back({corner.x, corner.y});
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const Pixel place : places) {
+      while (hull.size() >= first + 2 && !(twice_area(hull[hull.size() - 2], hull.back(), place) > 0)) hull.pop_back();
+      hull.push_back(place);
+    }
+    if (!hull.empty()) hull.pop_back();    // the other side starts with it
+    std::reverse(places.begin(), places.end());
+  }
   return hull;
+}
+
+std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh) {
+  std::vector<Pixel> places;
+  for (const Point3& vertex : mesh.vertices) places.push_back(sheet.at(vertex));
+  return convex_outline(std::move(places));
 }
 
 bool is_inside(const std::vector<Pixel>& outline, Pixel place) {

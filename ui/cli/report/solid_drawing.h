@@ -23,6 +23,8 @@ struct SolidStyle {
 /// Into a group that the caller has opened. Meant for bodies that are nearly convex; others are drawn face by face.
 void draw_solid(Markup& svg, const Sheet& sheet, const Mesh& mesh, const SolidStyle& style);
 
+/// Convex hull of places, without those that lie on its sides.
+std::vector<Pixel> convex_outline(std::vector<Pixel> places);
 /// Convex outline of a mesh on the sheet.
 std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh);
 /// Is the place inside a convex outline?
