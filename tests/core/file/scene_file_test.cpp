@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"no_json", "{\"format\": behaviourlinks}", "line 1, column 12: this is not JSON (no comments, no trailing commas, no NaN)"},
         BadScene{"not_a_number", with_nodes(R"({"id": "a", "position": [NaN, 0, 0]})"),
                  "line 1, column 79: this is not JSON (no comments, no trailing commas, no NaN)"},
-        BadScene{"overflow", with_nodes(R"({"id": "a", "position": [1e999, 0, 0]})"), "line 1, column 77: a number is too large for a double"},
+        BadScene{"overflow", with_nodes(R"({"id": "a", "position": [1e999, 0, 0]})"), "line 1, column 79: a number is too large for a double"},
         BadScene{"far", with_nodes(R"({"id": "a", "position": [1e300, 0, 0]})"),
                  "nodes/a/position: lies farther than 10 000 km from the origin; use local metric coordinates"},
         BadScene{"another_format", R"({"format": "gltf"})",
