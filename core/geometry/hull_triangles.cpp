@@ -32,13 +32,16 @@ bool is_less(const CgalPoint& a, const CgalPoint& b) {
   return a.z() < b.z();
 }
 
-// Does the face of a tetrahedron look at the fourth corner, which is inside?
-bool is_inside_out(const std::vector<CgalPoint>& corners, const std::array<std::size_t, 3>& face) {
-  const std::size_t fourth = 6 - face[0] - face[1] - face[2];
-  return CGAL::orientation(corners[face[0]], corners[face[1]], corners[face[2]], corners[fourth]) == CGAL::POSITIVE;
+// Four points that are not flat: the four faces with the fourth corner on their inner side. The library's own special case of
+// them leaves the orientation open, and for some orders names corners that it does not hand out.
+std::vector<std::array<std::uint32_t, 3>> tetrahedron(const std::vector<CgalPoint>& points) {
+  const bool is_positive = CGAL::orientation(points[0], points[1], points[2], points[3]) == CGAL::POSITIVE;
+  if (is_positive) return {{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}};
+  return {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
 }
 
 std::vector<std::array<std::uint32_t, 3>> triangles_of(const std::vector<CgalPoint>& points) {
+  if (points.size() == 4) return tetrahedron(points);
   std::vector<CgalPoint> corners;
   std::vector<std::array<std::size_t, 3>> faces;
   CGAL::convex_hull_3(points.begin(), points.end(), corners, faces);
@@ -46,12 +49,9 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(const std::vector<CgalPoi
   for (const CgalPoint& corner : corners) {
     index.push_back(static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), corner, is_less) - points.begin()));
   }
-  // The library hands out a single tetrahedron with whatever orientation its points have: looked at, and turned where needed.
-  const bool is_inward = corners.size() == 4 && is_inside_out(corners, faces.front());
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const auto& face : faces) {
     std::array<std::uint32_t, 3> t{index[face[0]], index[face[1]], index[face[2]]};
-    if (is_inward) std::swap(t[1], t[2]);
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     triangles.push_back(t);
   }

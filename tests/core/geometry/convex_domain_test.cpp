@@ -160,14 +160,15 @@ TEST(ConvexDomain, MeshesComeBackAsDomains) {
 }
 
 TEST(ConvexDomain, FourPointsGiveATetrahedronWhicheverWayTheyAreGiven) {
-  std::vector<Point3> corners{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
-  for (int swap = 0; swap < 2; ++swap) {
-    const auto hull = convex_hull(corners);
-    ASSERT_TRUE(hull.ok()) << hull.error().text();
-    EXPECT_NEAR(hull->volume, 8.0 / 6, 1e-12);
-    EXPECT_GT(enclosed_volume(to_mesh(*hull)), 0);
-    std::swap(corners[0], corners[3]);
-  }
+  for (const Point3 fourth : {Point3{0, 0, 2}, Point3{0, 0, -2}, Point3{-3, 1, 2}})
+    for (const int copies : {1, 3}) {
+      std::vector<Point3> corners{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+      for (int i = 0; i < copies; ++i) corners.push_back(fourth);
+      const auto hull = convex_hull(corners);
+      ASSERT_TRUE(hull.ok()) << hull.error().text();
+      EXPECT_NEAR(hull->volume, 8.0 / 6, 1e-12);
+      EXPECT_NEAR(enclosed_volume(to_mesh(*hull)), 8.0 / 6, 1e-12);
+    }
 }
 
 }  // namespace

@@ -11,12 +11,14 @@
 #include "core/base/mesh.h"
 #include "core/file/file_io.h"
 #include "tests/support/world.h"
+#include "ui/cli/report/exact_shape.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/furniture.h"
 #include "ui/cli/report/markup.h"
 #include "ui/cli/report/mesh_lines.h"
 #include "ui/cli/report/palette.h"
 #include "ui/cli/report/projection.h"
+#include "ui/cli/report/solid_drawing.h"
 
 namespace bl {
 namespace {
@@ -143,7 +145,7 @@ TEST(Report, NeedsNothingFromOutside) {
   World world = World::from_text(kBlock);
   world.tick(5);
   const std::string html = write_and_read("alone", data_of(world.state())).html;
-  for (const char* word : {"<script", "<link", "src=", "@import", "href="}) EXPECT_EQ(html.find(word), std::string::npos) << word;
+  for (const char* word : {"<script", "<link", "src=", "@import", "href=\"h", "url(h"}) EXPECT_EQ(html.find(word), std::string::npos) << word;
   // The only addresses are the names of the two languages.
   std::size_t addresses = 0;
   for (std::size_t i = html.find("http"); i != std::string::npos; i = html.find("http", i + 1)) {
@@ -291,6 +293,52 @@ TEST(ReportParts, SectionsOfABoxAreItsPlan) {
   const auto roof = report::outline(box, [&](std::size_t t) { return normals[t].z > 0.5; });
   ASSERT_EQ(roof.size(), 1u);
   EXPECT_EQ(roof.front().points.size(), 4u);
+}
+
+// A ball of radius 5 whose upper part is cut off one metre above its middle, and one side four metres beside it.
+report::ExactShape cut_ball() { return {{10, 0, 0}, 5, {{{0, 0, 1}, 1}, {{1, 0, 0}, 14}}}; }
+
+TEST(ReportParts, FacesOfACutBallAreDiscsLessWhatOtherCutsTake) {
+  const report::ExactShape shape = cut_ball();
+  const report::Corners roof = report::face_of(shape, 0), side = report::face_of(shape, 1);
+  ASSERT_GT(roof.size(), 20u);
+  for (const Point3& p : roof) {
+    EXPECT_NEAR(p.z, 1, 1e-9);
+    EXPECT_LE(p.x, 14 + 1e-9);
+    EXPECT_LE(distance(p, shape.centre), 5 + 1e-9);
+  }
+  for (const Point3& p : side) EXPECT_LE(p.z, 1 + 1e-9);
+  EXPECT_TRUE(report::section_of(shape, 2).empty());
+  EXPECT_TRUE(report::section_of(shape, -5.1).empty());
+  EXPECT_EQ(report::normal_at(shape, {10, 0, 1}), (Vector3{0, 0, 1}));
+  EXPECT_NEAR(report::normal_at(shape, {10, 0, -5}).z, -1, 1e-12);
+}
+
+TEST(ReportParts, ExactShapesHoldTheirMeshes) {
+  World world = World::from_text(kBlock);
+  world.tick(60);
+  for (const char* id : {"home_a", "home_b", "office"}) {
+    const report::ExactShape shape = report::exact_shape(world.state(), world.state().plan->node_index(id));
+    ASSERT_GT(shape.radius, 0) << id;
+    for (const Point3& vertex : world.mesh(id, "smart_volume.mesh")->vertices) {
+      EXPECT_LE(distance(vertex, shape.centre), shape.radius * (1 + 1e-9)) << id;
+      for (const report::Cut& cut : shape.cuts) EXPECT_LE(dot(cut.normal, vertex), cut.offset + 1e-6) << id;
+    }
+  }
+}
+
+TEST(ReportParts, BodiesThatAreNoBallsAreDrawnFromTheirMesh) {
+  const Mesh box{{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}},
+                 {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}}};
+  const report::Sheet sheet(report::axonometric_view(150, 33), box.vertices, 400, 400, {10, 10, 10, 10});
+  report::Markup svg;
+  report::draw_solid(svg, sheet, box, {{0.5, 0.6, 0.7}, {0, 0, 1}, 1, 0, 4});
+  EXPECT_EQ(fault_in(svg.str()), "");
+  // Two shades (roof, and walls that the sun does not reach), the storeys, creases and the outline: triangles of one face are one.
+  std::size_t paths = 0;
+  for (std::size_t i = svg.str().find("<path"); i != std::string::npos; i = svg.str().find("<path", i + 1)) ++paths;
+  EXPECT_EQ(paths, 5u);
+  EXPECT_EQ(report::convex_outline(sheet, box).size(), 6u);
 }
 
 TEST(ReportParts, LabelsNeverCoverEachOther) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/text.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/furniture.h"
 #include "ui/cli/report/pictures.h"
@@ -113,7 +114,8 @@ void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   for (const VolumeRow& volume : model.volumes) {
     if (!volume.mesh) continue;
     std::vector<Pixel> cast;
-    for (const Point3& vertex : volume.mesh->vertices) cast.push_back(sheet.at(shadow_of(vertex, scenery)));
+    const bool is_exact = volume.exact.radius > 0;
+    for (const Point3& point : is_exact ? outline_of(volume.exact, scenery.to_sun) : volume.mesh->vertices) cast.push_back(sheet.at(shadow_of(point, scenery)));
     shadows.polyline(convex_outline(std::move(cast)), true);
   }
   svg.path(shadows, {{"fill", hex(kShade)}, {"fill-opacity", ".16"}, {"fill-rule", "nonzero"}});
@@ -141,7 +143,9 @@ void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const
   svg.open("g");
   svg.element("title", std::to_string(volume.number) + ". " + volume.name + (volume.use.empty() ? "" : ", " + volume.use) + ": " +
                            quantity(volume.floor_area, Unit::square_metre) + " floor area, " + quantity(volume.volume, Unit::cubic_metre));
-  draw_solid(svg, sheet, *volume.mesh, {palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.storey_height : 0});
+  const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.storey_height : 0, volume.bottom, volume.bottom + volume.height};
+  if (volume.exact.radius > 0) draw_ball(svg, sheet, volume.exact, style, "shade-" + palette.letter(volume.use), "ball-" + std::to_string(volume.number));
+  else draw_solid(svg, sheet, *volume.mesh, style);
   svg.close();
 }
 
@@ -149,7 +153,7 @@ void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const
 class Anchors {
  public:
   Anchors(const Sheet& sheet, const std::vector<const VolumeRow*>& order) : sheet_(sheet), order_(order) {
-    for (const VolumeRow* volume : order) outlines_.push_back(convex_outline(sheet, *volume->mesh));
+    for (const VolumeRow* volume : order) outlines_.push_back(convex_outline(sheet, *volume));
   }
 
   bool find(std::size_t rank, Pixel& anchor) const {
@@ -229,6 +233,7 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   const double grid = draw_ground(svg, sheet, model);
   draw_shadows(svg, sheet, model, scenery);
   draw_envelope(svg, sheet, model, false);
+  for (const UseRow& use : model.uses) define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, "shade-" + palette.letter(use.use));
   const bool has_storeys = order.size() <= kMostStoreys;
   for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys);
   draw_envelope(svg, sheet, model, true);
@@ -237,7 +242,7 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   draw_north(svg, view, model.true_north, {sheet.width() - 44, 40}, 26);
   svg.close();
   std::string caption = "Axonometry: parallel projection, so equal lengths in one direction are equal everywhere; the bar holds for lines across the sheet.";
-  if (grid > 0) caption += " Ground grid " + readable(grid) + " m; dash-dotted, the boundary.";
+  if (grid > 0) caption += " Ground grid " + shortest(grid) + " m; dash-dotted, the boundary.";
   if (has_storeys && !order.empty()) caption += " Fine lines on the volumes are storey levels.";
   caption += " Light and shadow are a drawing convention, not a sun study.";
   return {svg.str(), caption + missing};

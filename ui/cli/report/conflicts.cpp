@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/text.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/report_model.h"
 
@@ -30,8 +31,8 @@ std::string direction_of(const Vector3& pull, double true_north) {
 
 std::string pull_text(const State& state, const LinkPlan& link, const Voice& voice) {
   const PortDefinition& port = state.plan->port(voice.target);
-  const std::string who = "`" + link.id + "` (" + (link.definition ? link.definition->label : "unknown kind") + ") ";
-  const std::string loudness = voice.strength == 1 ? "" : ", strength " + readable(voice.strength);
+  const std::string who = link.id + " (" + (link.definition ? link.definition->label : "unknown kind") + ") ";
+  const std::string loudness = voice.strength == 1 ? "" : ", strength " + shortest(voice.strength);
   if (port.rule != CombineRule::sum) {
     if (std::holds_alternative<Vector3>(voice.value)) return who + "wants another place" + loudness;
     return who + "wants " + quantity(as_number(voice.value), port.unit) + loudness;

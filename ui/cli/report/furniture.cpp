@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ui/cli/report/figures.h"
+#include "core/base/text.h"
 #include "ui/cli/report/palette.h"
 
 namespace bl::report {
@@ -115,14 +115,14 @@ double round_length(double most) {
 
 void draw_scale_bar(Markup& svg, double pixels_per_metre, Pixel at, double most_width) {
   const double metres = round_length(most_width / pixels_per_metre), width = metres * pixels_per_metre;
-  svg.open("g", {{"role", "img"}}).element("title", "Scale bar of " + readable(metres) + " m");
+  svg.open("g", {{"role", "img"}}).element("title", "Scale bar of " + shortest(metres) + " m");
   for (int part = 0; part < 4; ++part) {
     const bool is_dark = part % 2 == 0;
     svg.leaf("rect", {{"x", pixels(at.x + width * part / 4)}, {"y", pixels(at.y)}, {"width", pixels(width / 4)}, {"height", "4"},
                       {"fill", hex(is_dark ? kInk : kPaper)}, {"stroke", hex(kInk)}, {"stroke-width", ".7"}});
   }
   for (const double share : {0.0, 0.5, 1.0}) {
-    const std::string figure = readable(metres * share) + (share == 1 ? "\xC2\xA0m" : "");
+    const std::string figure = shortest(metres * share) + (share == 1 ? "\xC2\xA0m" : "");
     svg.element("text", figure, {{"x", pixels(at.x + width * share)}, {"y", pixels(at.y - 5)}, {"class", "figure"}});
   }
   svg.close();

@@ -41,6 +41,12 @@ void met_cell(Markup& page, double volume, double wanted) {
 
 std::string difference(double reached, double wanted) { return wanted > 0 ? signed_percent((reached - wanted) / wanted) : "\xE2\x80\x93"; }
 
+// Caps and other limits lower demands before the solver sees them.
+std::string held_back(const ReportModel& model) {
+  const double held = model.demand - model.wanted;
+  return held > 0.001 * model.demand ? " Limits hold " + quantity(held, Unit::cubic_metre) + " of the demand back." : "";
+}
+
 void volume_row(Markup& page, const VolumeRow& volume, const Palette& palette, double tolerance) {
   const std::string standing = standing_of(volume, tolerance);
   const bool is_good = standing == "met";
@@ -85,7 +91,7 @@ void write_programme(Markup& page, const ReportModel& model, const Palette& pale
     return;
   }
   const bool has_own = std::any_of(model.uses.begin(), model.uses.end(), [](const UseRow& use) { return !use.is_in_programme; });
-  open_table(page, "Programme", "Floor area by use. The bar shows how much of the demanded volume is met." +
+  open_table(page, "Programme", "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(model) +
                                     std::string(has_own ? " Uses with * stand in no programme; their area follows from the demands of their volumes." : ""));
   page.open("thead").open("tr");
   head(page, "Use", "", false);
@@ -104,7 +110,7 @@ void write_programme(Markup& page, const ReportModel& model, const Palette& pale
     number_cell(page, readable(use.floor_area));
     number_cell(page, difference(use.floor_area, use.wanted_floor_area));
     number_cell(page, std::to_string(use.count), use.count == 0 ? "bad" : "");
-    met_cell(page, use.volume, use.wanted);
+    met_cell(page, use.volume, use.demand);
     page.close();
   }
   page.close().open("tfoot").open("tr").element("th", "All uses", {{"scope", "row"}});
@@ -112,7 +118,7 @@ void write_programme(Markup& page, const ReportModel& model, const Palette& pale
   number_cell(page, readable(model.floor_area));
   number_cell(page, difference(model.floor_area, model.wanted_floor_area));
   number_cell(page, std::to_string(model.volumes.size()));
-  met_cell(page, model.volume, model.wanted);
+  met_cell(page, model.volume, model.demand);
   page.close().close().close().close();
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/text.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/furniture.h"
 #include "ui/cli/report/link_families.h"
@@ -43,6 +44,9 @@ double ground_of(const ReportModel& model) {
   return ground;
 }
 
+// Multiples of a round length, without the dust of floating point.
+std::string figure_of(double metres) { return shortest(std::round(metres * 1e6) / 1e6 + 0.0); }
+
 // Lines of round metres with their figures along the frame, so that positions can be read off.
 double draw_grid(Markup& svg, const Sheet& sheet, double bottom) {
   const Pixel origin = sheet.at({0, 0, 0});
@@ -55,12 +59,12 @@ double draw_grid(Markup& svg, const Sheet& sheet, double bottom) {
   for (double k = std::ceil(metre_x(left) / step); k * step <= metre_x(right); k += 1) {
     const double x = origin.x + k * step * sheet.scale();
     grid.polyline({{x, top}, {x, bottom}}, false);
-    figures.element("text", readable(k * step), {{"x", pixels(x)}, {"y", pixels(top - 6)}, {"class", "figure"}});
+    figures.element("text", figure_of(k * step), {{"x", pixels(x)}, {"y", pixels(top - 6)}, {"class", "figure"}});
   }
   for (double k = std::ceil(metre_y(bottom) / step); k * step <= metre_y(top); k += 1) {
     const double y = origin.y - k * step * sheet.scale();
     grid.polyline({{left, y}, {right, y}}, false);
-    figures.element("text", readable(k * step), {{"x", pixels(left - 6)}, {"y", pixels(y + 3.5)}, {"class", "figure end"}});
+    figures.element("text", figure_of(k * step), {{"x", pixels(left - 6)}, {"y", pixels(y + 3.5)}, {"class", "figure end"}});
   }
   svg.path(grid, {{"fill", "none"}, {"stroke", "#d9d5ca"}, {"stroke-width", ".7"}});
   svg.raw(figures.str());
@@ -77,6 +81,16 @@ void draw_sites(Markup& svg, const Sheet& sheet, const ReportModel& model) {
   svg.path(plan, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.6"}, {"stroke-dasharray", "9 3 1.5 3"}});
 }
 
+PathText cut_of(const Sheet& sheet, const VolumeRow& volume, double z) {
+  PathText path;
+  if (volume.exact.radius > 0) {
+    path.polyline(on_sheet(sheet, {section_of(volume.exact, z), true}), true);
+    return path;
+  }
+  for (const Polyline& line : section(*volume.mesh, z, [](std::size_t) { return true; })) path.polyline(on_sheet(sheet, line), line.is_closed);
+  return path;
+}
+
 void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, const Palette& palette, double cut) {
   std::vector<const VolumeRow*> order;
   for (const VolumeRow& volume : model.volumes)
@@ -85,24 +99,20 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   std::stable_sort(order.begin(), order.end(), [&](const VolumeRow* a, const VolumeRow* b) { return top_of(a) < top_of(b); });
   for (const VolumeRow* volume : order) {
     const Colour colour = palette.colour(volume->use);
-    PathText cut_path;
-    for (const Polyline& line : section(*volume->mesh, cut, [](std::size_t) { return true; }))
-      cut_path.polyline(on_sheet(sheet, line), line.is_closed);
+    const PathText cut_path = cut_of(sheet, *volume, cut);
     svg.path(cut_path, {{"fill", hex(mix(colour, kShade, 0.12))}, {"fill-rule", "evenodd"}});
   }
   for (const VolumeRow* volume : order) {
     const Colour colour = palette.colour(volume->use);
     PathText outline_path;
-    outline_path.polyline(convex_outline(sheet, *volume->mesh), true);
+    outline_path.polyline(convex_outline(sheet, *volume), true);
     svg.open("g").element("title", std::to_string(volume->number) + ". " + volume->name + ": " + quantity(volume->bottom, Unit::metre) + " to " +
                                        quantity(volume->bottom + volume->height, Unit::metre) + " above the origin");
     svg.path(outline_path, {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
     svg.close();
   }
   for (const VolumeRow* volume : order) {
-    PathText cut_path;
-    for (const Polyline& line : section(*volume->mesh, cut, [](std::size_t) { return true; }))
-      cut_path.polyline(on_sheet(sheet, line), line.is_closed);
+    const PathText cut_path = cut_of(sheet, *volume, cut);
     svg.path(cut_path, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.7"}, {"stroke-linejoin", "round"}});
   }
 }
@@ -161,14 +171,14 @@ std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model
     label.anchor.y += model.volumes.size() > kMostNames ? 8 : 17;
     labels.push_back(std::move(label));
   }
-  LabelPlacer placer({kFrame, 30, sheet.width() - 4, bottom}, {{sheet.width() - 70, 30, sheet.width(), 100}});
+  LabelPlacer placer({kFrame, 30, sheet.width() - 4, bottom}, {{sheet.width() - 70, 30, sheet.width(), 116}});
   const std::size_t without = placer.write(svg, labels, labels.size() > kMostNames ? 0 : labels.size());
   return without == 0 ? "" : " " + counted(without, "volume") + " without a label for want of room.";
 }
 
 std::string caption_of(const ReportModel& model, const DrawnLinks& links, double step, double cut) {
   std::string caption = "Plan: tinted, each volume seen from above, the highest on top; strong tint with heavy lines, the cut " + readable(kEyeHeight) +
-                        " m above the ground (height " + readable(cut) + " m). Dots are positions, grid " + readable(step) + " m.";
+                        " m above the ground (height " + readable(cut) + " m). Dots are positions, grid " + figure_of(step) + " m.";
   if (std::any_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& v) { return !v.mesh; }))
     caption += " Hollow dots are volumes without a shape.";
   if (!links.families.empty()) caption += " Links of demand are not drawn.";
@@ -200,7 +210,7 @@ Picture draw_plan(const State& state, const ReportModel& model, const Palette& p
   const std::string missing = label_plan(svg, sheet, model, palette, bottom);
   draw_scale_bar(svg, sheet.scale(), {kFrame, sheet.height() + 18}, 170);
   draw_legend(svg, sheet, links, {links.families.size() > 4 ? 20.0 : kFrame, sheet.height() + 42});
-  draw_north(svg, plan_view(), model.true_north, {sheet.width() - 38, 64}, 24);
+  draw_north(svg, plan_view(), model.true_north, {sheet.width() - 36, 82}, 24);
   svg.close();
   return {svg.str(), caption_of(model, links, step, cut) + missing};
 }

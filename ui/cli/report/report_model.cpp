@@ -51,6 +51,7 @@ VolumeRow read_volume(const State& state, std::uint32_t node) {
   row.bottom = number("bottom");
   row.mesh = mesh_at(state, node, kVolume, "mesh");
   if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
+  if (row.mesh) row.exact = exact_shape(state, node);
   row.group = group_of(*state.plan, node);
   return row;
 }
@@ -92,13 +93,13 @@ void read_uses(const State& state, ReportModel& model) {
   std::map<std::string, std::size_t> index;
   const auto row_of = [&](const std::string& use) -> UseRow& {
     const auto [found, is_new] = index.emplace(use, model.uses.size());
-    if (is_new) model.uses.push_back({use, 0, false, 0, 0, 0, 0});
+    if (is_new) model.uses.push_back({use, 0, false, 0, 0, 0, 0, 0});
     return model.uses[found->second];
   };
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
-    const auto* shared = value_at<Shared<Table>>(state, n, "programme", "rows");
-    if (shared == nullptr) continue;
-    const Table& table = **shared;
+    const Table* rows = table_at(state, n, "programme", "rows");
+    if (rows == nullptr) continue;
+    const Table& table = *rows;
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       UseRow& row = row_of(table.text(r, "use"));
       row.is_in_programme = true;
@@ -116,6 +117,7 @@ void read_uses(const State& state, ReportModel& model) {
     for (const VolumeRow* volume : volumes) {
       ++row.count;
       row.floor_area += volume->floor_area;
+      row.demand += volume->demand;
       row.wanted += volume->wanted;
       row.volume += volume->volume;
       if (!row.is_in_programme) row.wanted_floor_area += volume->wanted_floor_area();
@@ -129,6 +131,7 @@ void add_totals(ReportModel& model) {
     model.floor_area += use.floor_area;
     model.volume += use.volume;
     model.wanted += use.wanted;
+    model.demand += use.demand;
   }
   for (const SiteRow& site : model.sites) {
     model.plan_area += site.ground_area;
@@ -158,6 +161,11 @@ std::string text_at(const State& state, std::uint32_t node, const char* type, co
 Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port) {
   const auto* point = value_at<Vector3>(state, node, type, port);
   return point && is_finite(*point) ? *point : Point3{};
+}
+
+const Table* table_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto* table = value_at<Shared<Table>>(state, node, type, port);
+  return table ? &**table : nullptr;
 }
 
 MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port) {

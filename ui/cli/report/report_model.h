@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/graph/state.h"
+#include "ui/cli/report/exact_shape.h"
 #include "ui/cli/report/mesh_lines.h"
 
 namespace bl::report {
@@ -22,6 +23,7 @@ struct VolumeRow {
   double floor_area = 0, surface_area = 0, footprint = 0;  ///< [m²]
   double height = 0, bottom = 0;                         ///< [m]
   MeshPointer mesh;                                      ///< none where there is no shape
+  ExactShape exact;                                      ///< radius 0 where only the mesh is known
   std::size_t group = 0;                                 ///< volumes of one solver stand together
 
   double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
@@ -34,7 +36,7 @@ struct UseRow {
   std::size_t count = 0;
   bool is_in_programme = false;
   double wanted_floor_area = 0, floor_area = 0;  ///< [m²]
-  double wanted = 0, volume = 0;                 ///< [m³]
+  double demand = 0, wanted = 0, volume = 0;     ///< [m³]
 };
 
 /// A boundary and the lines that draw it.
@@ -69,7 +71,7 @@ struct ReportModel {
   std::vector<ConflictRow> conflicts;  ///< the worst first
   std::size_t minor_conflicts = 0;     ///< too small to be listed
   std::vector<ProblemRow> problems;
-  double wanted_floor_area = 0, floor_area = 0, volume = 0, wanted = 0;
+  double wanted_floor_area = 0, floor_area = 0, volume = 0, wanted = 0, demand = 0;
   double plan_area = 0, site_volume = 0;
   std::size_t shapes = 0;
   const VolumeRow* worst = nullptr;  ///< the largest error; nothing where there are no volumes
@@ -86,6 +88,7 @@ void read_problems(const State& state, ReportModel& model);
 double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback = 0);
 std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port);
 Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port);
+const Table* table_at(const State& state, std::uint32_t node, const char* type, const char* port);    ///< nothing where there is none
 MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port);
 bool has_type(const State& state, std::uint32_t node, std::string_view type);
 /// The name that people gave, or the id.

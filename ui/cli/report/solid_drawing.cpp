@@ -23,17 +23,10 @@ bool is_straight(Pixel a, Pixel b, Pixel c) {
 
 double twice_area(Pixel a, Pixel b, Pixel c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-// Daylight: a soft part from the sky and a hard one from the sun, quantised so that faces of one plane stay one face.
-int shade_of(const Vector3& normal, const Vector3& to_sun) {
-  const double sky = 0.5 + 0.5 * normal.z, sun = std::max(0.0, dot(normal, to_sun));
-  return static_cast<int>(std::lround((0.32 * sky + 0.68 * sun) * kShades));
-}
+// Quantised, so that faces of one plane stay one face.
+int shade_of(const Vector3& normal, const Vector3& to_sun) { return static_cast<int>(std::lround(light_on(normal, to_sun) * kShades)); }
 
-std::string shaded(const Colour& colour, int shade) {
-  const double light = static_cast<double>(shade) / kShades;
-  if (light > 0.7) return hex(mix(colour, kWhite, (light - 0.7) * 1.5));
-  return hex(mix(colour, kShade, (0.7 - light) * 0.85));
-}
+std::string shade_colour(const Colour& colour, int shade) { return shaded(colour, static_cast<double>(shade) / kShades); }
 
 // One mesh under one view: what faces the eye, and what of it overlaps.
 class Solid {
@@ -49,13 +42,13 @@ class Solid {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       if (faces_eye(t)) by_shade[shade_of(normals_[t], style.to_sun)].push_back(t);
     if (is_simple()) {
-      for (const auto& [shade, triangles] : by_shade) draw_region(svg, triangles, shaded(style.colour, shade));
+      for (const auto& [shade, triangles] : by_shade) draw_region(svg, triangles, shade_colour(style.colour, shade));
       return;
     }
     for (const auto& [shade, triangles] : by_shade)
       for (const std::uint32_t t : triangles) by_depth.emplace_back(depth_of(t), t);
     std::sort(by_depth.begin(), by_depth.end());
-    for (const auto& [depth, t] : by_depth) draw_region(svg, {t}, shaded(style.colour, shade_of(normals_[t], style.to_sun)));
+    for (const auto& [depth, t] : by_depth) draw_region(svg, {t}, shade_colour(style.colour, shade_of(normals_[t], style.to_sun)));
   }
 
   void draw_storeys(Markup& svg, double storey_height, const std::string& ink) const {
@@ -135,7 +128,23 @@ class Solid {
   std::vector<Pixel> pixels_;
 };
 
+constexpr double kSky = 0.32, kSun = 0.68;
+
 }  // namespace
+
+double light_on(const Vector3& normal, const Vector3& to_sun) {
+  return kSky * (0.5 + 0.5 * normal.z) + kSun * std::max(0.0, dot(normal, to_sun));
+}
+
+Vector3 brightest_normal(const Vector3& to_sun) {
+  const Vector3 sum = to_sun * kSun + Vector3{0, 0, 0.5 * kSky};
+  return sum / norm(sum);
+}
+
+std::string shaded(const Colour& colour, double light) {
+  if (light > 0.7) return hex(mix(colour, kWhite, (light - 0.7) * 1.5));
+  return hex(mix(colour, kShade, (0.7 - light) * 0.85));
+}
 
 std::vector<Pixel> on_sheet(const Sheet& sheet, const Polyline& line) {
   std::vector<Pixel> all, kept;
@@ -178,6 +187,13 @@ std::vector<Pixel> convex_outline(std::vector<Pixel> places) {
 std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh) {
   std::vector<Pixel> places;
   for (const Point3& vertex : mesh.vertices) places.push_back(sheet.at(vertex));
+  return convex_outline(std::move(places));
+}
+
+std::vector<Pixel> convex_outline(const Sheet& sheet, const VolumeRow& volume) {
+  if (!(volume.exact.radius > 0)) return convex_outline(sheet, *volume.mesh);
+  std::vector<Pixel> places;
+  for (const Point3& point : outline_of(volume.exact, sheet.view().toward)) places.push_back(sheet.at(point));
   return convex_outline(std::move(places));
 }
 
