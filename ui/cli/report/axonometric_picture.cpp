@@ -116,7 +116,7 @@ void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, con
     std::vector<Pixel> cast;
     const bool is_exact = volume.exact.radius > 0;
     for (const Point3& point : is_exact ? outline_of(volume.exact, scenery.to_sun) : volume.mesh->vertices) cast.push_back(sheet.at(shadow_of(point, scenery)));
-    shadows.polyline(convex_outline(std::move(cast)), true);
+    shadows.polyline(simplified(convex_outline(std::move(cast)), true), true);
   }
   svg.path(shadows, {{"fill", hex(kShade)}, {"fill-opacity", ".16"}, {"fill-rule", "nonzero"}});
 }
@@ -199,6 +199,7 @@ class Anchors {
 
 // Returns a sentence on what could not be labelled.
 std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<const VolumeRow*>& order, const Palette& palette) {
+  if (order.size() > kMostNumbers) return " Too many volumes for labels: pointing at one shows its number and name.";
   const Anchors anchors(sheet, order);
   std::vector<std::pair<const VolumeRow*, Label>> found;
   std::size_t hidden = 0;
@@ -215,7 +216,10 @@ std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<cons
   LabelPlacer placer(frame, {{sheet.width() - 80, 0, sheet.width(), 80}});
   const std::size_t crowded = placer.write(svg, labels, order.size() > kMostNames ? 0 : labels.size());
   if (hidden + crowded == 0) return "";
-  return " Without a label: " + counted(hidden, "volume") + " hidden behind others, " + std::to_string(crowded) + " for want of room.";
+  std::string text = " Without a label: ";
+  if (hidden > 0) text += counted(hidden, "volume") + " hidden behind others";
+  if (crowded > 0) text += (hidden > 0 ? ", " : "") + counted(crowded, "volume") + " for want of room";
+  return text + ".";
 }
 
 }  // namespace

@@ -81,18 +81,23 @@ void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const S
   std::vector<Pixel> places;
   for (const Point3& p : outline_of(shape, sheet.view().toward)) places.push_back(sheet.at(p));
   PathText outline;
-  outline.polyline(convex_outline(std::move(places)), true);
+  outline.polyline(simplified(convex_outline(std::move(places)), true), true);
   svg.leaf("radialGradient", {{"id", id}, {"href", "#" + stops}, {"gradientUnits", "userSpaceOnUse"}, {"cx", pixels(centre.x)}, {"cy", pixels(centre.y)},
                               {"r", pixels(radius)}, {"fx", pixels(centre.x + focus.x * radius)}, {"fy", pixels(centre.y + focus.y * radius)}});
-  svg.path(outline, {{"fill", "url(#" + id + ")"}});
+  Markup details;
   for (std::size_t k = 0; k < shape.cuts.size(); ++k) {
     if (dot(shape.cuts[k].normal, sheet.view().toward) <= 1e-9) continue;
     PathText face;
     face.polyline(pixels_of(sheet, face_of(shape, k)), true);
-    svg.path(face, {{"fill", shaded(style.colour, light_on(shape.cuts[k].normal, style.to_sun))}, {"stroke", ink}, {"stroke-width", ".6"},
+    details.path(face, {{"fill", shaded(style.colour, light_on(shape.cuts[k].normal, style.to_sun))}, {"stroke", ink}, {"stroke-width", ".6"},
                     {"stroke-opacity", ".7"}, {"stroke-linejoin", "round"}});
   }
-  draw_storeys(svg, sheet, shape, style, ink);
+  draw_storeys(details, sheet, shape, style, ink);
+  if (details.str().empty()) {
+    svg.path(outline, {{"fill", "url(#" + id + ")"}, {"stroke", ink}});
+    return;
+  }
+  svg.path(outline, {{"fill", "url(#" + id + ")"}}).raw(details.str());
   svg.path(outline, {{"fill", "none"}, {"stroke", ink}, {"stroke-width", "1"}, {"stroke-linejoin", "round"}});
 }
 

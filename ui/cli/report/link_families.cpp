@@ -45,7 +45,7 @@ DrawnLinks links_to_draw(const State& state) {
         lines.push_back({family, from, to, link.definition->label + " (" + link.id + (link.is_muted ? ", muted)" : ")")});
       }
     if (pairs > kMostPairs) {
-      drawn.left_out.push_back(link.definition->label + " `" + link.id + "`");
+      drawn.left_out.push_back(link.definition->label + " (" + link.id + ")");
       continue;
     }
     if (!lines.empty()) seen.insert(family);

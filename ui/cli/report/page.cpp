@@ -29,7 +29,7 @@ void write_keys(Markup& page, const ReportModel& model) {
   key(page, "Floor area wanted", quantity(model.wanted_floor_area, Unit::square_metre), "by the programme");
   key(page, "Floor area reached", quantity(model.floor_area, Unit::square_metre), share(model.floor_area, model.wanted_floor_area) + " of what is wanted");
   key(page, "Floor space index", has_site ? grouped(index, 2) : "\xE2\x80\x93", "floor area to plan area");
-  key(page, "Volume", quantity(model.volume, Unit::cubic_metre), share(model.volume, model.wanted) + " of the demand");
+  key(page, "Volume", quantity(model.volume, Unit::cubic_metre), share(model.volume, model.demand) + " of what is asked for");
   key(page, "Fill", share(model.volume, model.site_volume), "of the space inside the boundary");
   key(page, "Volumes", grouped(static_cast<double>(model.volumes.size())),
       model.shapes == model.volumes.size() ? "all have a shape" : std::to_string(model.volumes.size() - model.shapes) + " without a shape");

@@ -46,12 +46,12 @@ ul.plain{list-style:none;margin:0;padding:0}
 footer{color:var(--soft);font-size:13px;padding-top:18px;padding-bottom:50px;margin-top:44px;overflow-wrap:anywhere}
 footer dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 16px;margin:0}
 footer dd{margin:0}
-@media (max-width:760px){dl.keys{grid-template-columns:repeat(2,1fr)}}
+@media screen and (max-width:760px){dl.keys{grid-template-columns:repeat(2,1fr)}}
 @media print{@page{size:A4;margin:14mm}
 :root{color-scheme:light;--ink:#000;--soft:#444;--line:#ccc;--page:#fff;--card:#fff;--good:#0f6b4a;--bad:#9c2f10;--accent:#225599}
-body{font-size:10pt}main,header,footer{max-width:none;padding:0}header{padding-top:0}
+body{font-size:9.5pt}dl.keys dd{font-size:13pt}dl.keys{margin:10pt 0}dl.keys div{padding:6pt 8pt}main,header,footer{max-width:none;padding:0}header{padding-top:0}
 h1{font-size:20pt}h2{font-size:13pt;margin-top:20pt}
-figure,tr,dl.keys,.outcome{break-inside:avoid}h2{break-after:avoid}figure svg{filter:none;max-height:230mm}
+figure,tr,dl.keys,.outcome{break-inside:avoid}h2,caption{break-after:avoid}figure svg{filter:none;max-height:230mm}
 table{font-size:7.6pt}th,td,tbody th{padding:2.5pt 5pt 2.5pt 0}thead{display:table-header-group}tfoot{display:table-row-group}.wide{overflow:visible}
 .bar,.bar span,.swatch,svg{print-color-adjust:exact;-webkit-print-color-adjust:exact}.bar{width:60pt}}
 )";

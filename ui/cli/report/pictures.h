@@ -29,7 +29,7 @@ void open_picture(Markup& svg, double width, double height, const std::string& i
 std::string empty_picture(const std::string& id, const std::string& title, const std::string& sentence);
 /// Volumes by size, the largest first: the order in which labels get their places.
 std::vector<const VolumeRow*> by_size(const ReportModel& model);
-/// Above this many volumes a drawing shows numbers only; above the second, no storey lines.
-inline constexpr std::size_t kMostNames = 40, kMostStoreys = 200;
+/// Above these numbers of volumes a drawing shows numbers instead of names, no storey lines, no numbers.
+inline constexpr std::size_t kMostNames = 40, kMostStoreys = 200, kMostNumbers = 300;
 
 }  // namespace bl::report

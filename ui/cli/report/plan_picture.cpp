@@ -105,7 +105,7 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   for (const VolumeRow* volume : order) {
     const Colour colour = palette.colour(volume->use);
     PathText outline_path;
-    outline_path.polyline(convex_outline(sheet, *volume), true);
+    outline_path.polyline(simplified(convex_outline(sheet, *volume), true), true);
     svg.open("g").element("title", std::to_string(volume->number) + ". " + volume->name + ": " + quantity(volume->bottom, Unit::metre) + " to " +
                                        quantity(volume->bottom + volume->height, Unit::metre) + " above the origin");
     svg.path(outline_path, {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
@@ -163,6 +163,7 @@ void draw_legend(Markup& svg, const Sheet& sheet, const DrawnLinks& links, Pixel
 }
 
 std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model, const Palette& palette, double bottom) {
+  if (model.volumes.size() > kMostNumbers) return " Too many volumes for labels: pointing at one shows its number and name.";
   std::vector<Label> labels;
   for (const VolumeRow* volume : by_size(model)) {
     Label label{sheet.at(volume->position), volume->name, palette.letter(volume->use), std::to_string(volume->number)};

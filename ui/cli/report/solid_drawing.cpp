@@ -147,11 +147,16 @@ std::string shaded(const Colour& colour, double light) {
 }
 
 std::vector<Pixel> on_sheet(const Sheet& sheet, const Polyline& line) {
-  std::vector<Pixel> all, kept;
+  std::vector<Pixel> all;
   for (const Point3& point : line.points) all.push_back(sheet.at(point));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool is_end = i == 0 || (i + 1 == all.size() && !line.is_closed);
-    if (is_end || !is_straight(kept.back(), all[i], all[(i + 1) % all.size()])) kept.push_back(all[i]);
+  return simplified(all, line.is_closed);
+}
+
+std::vector<Pixel> simplified(const std::vector<Pixel>& line, bool is_closed) {
+  std::vector<Pixel> kept;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool is_end = i == 0 || (i + 1 == line.size() && !is_closed);
+    if (is_end || !is_straight(kept.back(), line[i], line[(i + 1) % line.size()])) kept.push_back(line[i]);
   }
   return kept;
 }

@@ -14,7 +14,7 @@
 
 namespace bl::report {
 
-/// Points of a mesh line on the sheet, without those that lie on the line between their neighbours.
+/// Points of a line on the sheet, simplified.
 std::vector<Pixel> on_sheet(const Sheet& sheet, const Polyline& line);
 
 struct SolidStyle {
@@ -39,6 +39,8 @@ void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const S
 /// Into a group that the caller has opened. Meant for bodies that are nearly convex; others are drawn face by face.
 void draw_solid(Markup& svg, const Sheet& sheet, const Mesh& mesh, const SolidStyle& style);
 
+/// The same line with fewer points: none that lies on the line between its neighbours.
+std::vector<Pixel> simplified(const std::vector<Pixel>& line, bool is_closed);
 /// Convex hull of places, without those that lie on its sides.
 std::vector<Pixel> convex_outline(std::vector<Pixel> places);
 /// Convex outline of a mesh on the sheet.
