@@ -21,7 +21,7 @@ struct SmartVolumesSolver {
   };
   struct In {
     Selection members{{}, "smart_volume", {}}, boundary{{}, "boundary", {}};
-    Method method = Method::feedback;
+    Method method = Method::newton;
     double gain = 0, tolerance = 0.005;
     int steps = 4, tessellation_depth = 1;
     Memory last;
@@ -55,7 +55,7 @@ struct SmartVolumesSolver {
           "in every tick until each volume has what it wants. A scene may hold several solvers, each with its own members and boundary.");
     t.in(&In::members, "members").doc("The SmartVolumes that this solver takes care of; a SmartVolume belongs to one solver only.");
     t.in(&In::boundary, "boundary").doc("The boundary that is divided. Exactly one node with planes has to result.");
-    t.in(&In::method, "method", {{Method::feedback, "feedback", "Each weight follows the error of its own volume, with acceleration."},
+    t.in(&In::method, "method", {{Method::feedback, "feedback", "Each weight follows the error of its own volume, as in 2007, with acceleration."},
                                  {Method::newton, "newton", "All weights together follow the exact response of all volumes; a few steps at any fill."}})
         .doc("How the weights are adapted.");
     t.in(&In::gain, "gain").unit(Unit::per_metre).range(0, 1000).soft(0, 1)

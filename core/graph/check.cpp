@@ -32,12 +32,15 @@ void check_node(const Scene& scene, const std::string& id, const NodeRecord& nod
       if (definition != nullptr && definition->kind == ValueKind::port) {
         const auto path = parse_port_path(std::get<std::string>(value));
         if (path && !(path->typification == kBaseNode && path->port == "id"))
-          if (const auto found = registry.port(*path); !found) problems.push_back({true, found.error().within(place)});
+          if (const auto found = registry.port(*path); !found)
+            // A port of an unknown typification may come back with it; a misspelt one of a known typification is a mistake.
+            problems.push_back({found.error().code != ErrorCode::unknown_type, found.error().within(place)});
       }
     }
   }
   for (const std::string& path : node.locked) {
     const auto parsed = parse_port_path(path);
+    if (parsed && node.ghosts.contains(parsed->typification)) continue;    // kept with its ghost
     const bool is_there = parsed && node.types.contains(parsed->typification) && registry.port(*parsed).ok();
     if (!is_there) problems.push_back({true, {ErrorCode::not_found, "nodes/" + id + "/locked", "the node has no port `" + path + "`"}});
   }
@@ -56,7 +59,7 @@ std::vector<Problem> check_scene(const Scene& scene, const Registry& registry) {
   if (has_errors) return problems;
   const auto plan = compile(scene, registry);
   for (const LinkPlan& link : plan->links)
-    if (link.error) problems.push_back({link.error->code == ErrorCode::wrong_unit, *link.error});
+    if (link.error) problems.push_back({false, *link.error});
   for (const SetPlan& set : plan->sets)
     if (set.error) problems.push_back({false, *set.error});
   return problems;

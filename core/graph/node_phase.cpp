@@ -113,18 +113,9 @@ void evaluate_sets(State& next, ThreadPool& pool) {
 }
 
 void commit(State& next) {
-  next.largest_residual = 0;
-  bool is_any_error = false;
-  for (std::size_t n = 0; n < next.nodes.size(); ++n)
-    for (std::size_t t = 0; t < next.nodes[n].types.size(); ++t) {
-      const auto& ports = next.plan->nodes[n].types[t].definition->ports;
-      is_any_error = is_any_error || next.nodes[n].types[t].error.has_value();
-      for (std::size_t p = 0; p < ports.size(); ++p)
-        if (ports[p].is_residual)
-          next.largest_residual = std::max(next.largest_residual, std::abs(as_number(next.nodes[n].types[t].values[p])));
-    }
   const Settings& settings = next.plan->settings;
-  const bool is_calm = !is_any_error && next.largest_residual <= settings.tolerance && next.largest_move <= settings.move_limit &&
+  next.largest_residual = largest_residual_of(next);
+  const bool is_calm = !has_failure(next) && next.largest_residual <= settings.tolerance && next.largest_move <= settings.move_limit &&
                        next.largest_change <= settings.change_limit;
   next.calm = is_calm ? next.calm + 1 : 0;
   next.hash = hash_of(next);

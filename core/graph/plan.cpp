@@ -163,12 +163,15 @@ class Compiler {
     if (!definition.same_units_unless.empty() && std::get<bool>(values[definition.port_index(definition.same_units_unless)])) return {};
     for (const auto& [parameter, other] : definition.same_units) {
       const PortPath from = actual(definition, {"", "", parameter}, values), to = actual(definition, {"", "", other}, values);
-      const Unit a = unit_at(link.nodes[0].front(), from), b = unit_at(link.nodes[1].front(), to);
-      if (!same_dimension(a, b))
-        return Error{ErrorCode::wrong_unit, "",
-                     "`" + from.typification + "." + from.port + "` is in " + std::string(info(a).name) + "s, `" + to.typification + "." + to.port +
-                         "` in " + std::string(info(b).name) + "s" +
-                         (definition.same_units_unless.empty() ? "" : "; give ranges with `" + definition.same_units_unless + "`")};
+      for (const std::uint32_t f : link.nodes[0])
+        for (const std::uint32_t t : link.nodes[1]) {
+          const Unit a = unit_at(f, from), b = unit_at(t, to);
+          if (!same_dimension(a, b))
+            return Error{ErrorCode::wrong_unit, "",
+                         "`" + plan_->nodes[f].id + "." + from.typification + "." + from.port + "` is in " + std::string(info(a).name) + "s, `" +
+                             plan_->nodes[t].id + "." + to.typification + "." + to.port + "` in " + std::string(info(b).name) + "s" +
+                             (definition.same_units_unless.empty() ? "" : "; give ranges with `" + definition.same_units_unless + "`")};
+        }
     }
     return {};
   }

@@ -96,6 +96,7 @@ std::vector<Heard> gather(const State& next) {
 // What a tick changed at one node: what settling looks at.
 struct Unrest {
   double move = 0, change = 0;
+  PortRef restless;
 };
 
 double relative_change(const Value& before, const Value& after) {
@@ -122,7 +123,10 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<c
       } else if (port.rule != CombineRule::none) {
         const Value& before = frozen.nodes[n].types[t].values[p];
         resolve_value(port, type, p, before, voices, state.values[p], tension);
-        unrest.change = std::max(unrest.change, relative_change(before, state.values[p]));
+        if (const double change = relative_change(before, state.values[p]); change > unrest.change) {
+          unrest.change = change;
+          unrest.restless = {n, t, p};
+        }
       } else {
         state.values[p] = type.set_values[p];
       }
@@ -146,7 +150,9 @@ void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
   next.largest_move = next.largest_change = 0;
   for (const Unrest& node : unrest) {
     next.largest_move = std::max(next.largest_move, node.move);
-    next.largest_change = std::max(next.largest_change, node.change);
+    if (node.change <= next.largest_change) continue;
+    next.largest_change = node.change;
+    next.restless = node.restless;
   }
 }
 

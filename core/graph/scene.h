@@ -73,6 +73,7 @@ class SceneEdit {
  public:
   SceneEdit(Scene& scene, const Registry& registry) : scene_(&scene), registry_(&registry) {}
   Scene& scene() { return *scene_; }
+  const Scene& scene() const { return *scene_; }
   const Registry& registry() const { return *registry_; }
   /// A port that accumulates (a position) starts again from its set value after this.
   void place(std::string node, std::string path) { placed_.emplace(std::move(node), std::move(path)); }

@@ -1,6 +1,9 @@
 // Making, carrying over, saving and hashing states.
 #include "core/graph/state.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace bl {
 
 namespace {
@@ -10,6 +13,28 @@ bool is_held(const State& state, const LinkState& link, const Voice& voice) {
 }
 
 }  // namespace
+
+bool has_failure(const State& state) {
+  for (const NodeState& node : state.nodes)
+    for (const TypeState& type : node.types)
+      if (type.error) return true;
+  for (std::size_t l = 0; l < state.links.size(); ++l) {
+    const LinkPlan& plan = state.plan->links[l];
+    if (state.links[l].error && plan.definition != nullptr && plan.is_enabled && !plan.is_muted) return true;
+  }
+  return false;
+}
+
+double largest_residual_of(const State& state) {
+  double largest = 0;
+  for (std::size_t n = 0; n < state.nodes.size(); ++n)
+    for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t) {
+      const auto& ports = state.plan->nodes[n].types[t].definition->ports;
+      for (std::size_t p = 0; p < ports.size(); ++p)
+        if (ports[p].is_residual) largest = std::max(largest, std::abs(as_number(state.nodes[n].types[t].values[p])));
+    }
+  return largest;
+}
 
 std::uint64_t hash_of(const State& state) {
   Hash hash;
@@ -106,10 +131,13 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<s
         carry_type(type, old.nodes[before].types[o], node.types[t], state.nodes[n].types[t], ports);
       }
   }
-  for (std::size_t l = 0; l < state.links.size(); ++l)
-    for (std::size_t o = 0; o < old.plan->links.size(); ++o)
-      if (old.plan->links[o].id == state.plan->links[l].id && old.plan->links[o].definition == state.plan->links[l].definition)
-        carry_link(old, o, *state.plan, state.links[l]);
+  // Both lists ascend by id: one walk along both.
+  for (std::size_t l = 0, o = 0; l < state.links.size(); ++l) {
+    const LinkPlan& link = state.plan->links[l];
+    while (o < old.plan->links.size() && old.plan->links[o].id < link.id) ++o;
+    if (o < old.plan->links.size() && old.plan->links[o].id == link.id && old.plan->links[o].definition == link.definition)
+      carry_link(old, o, *state.plan, state.links[l]);
+  }
   state.hash = hash_of(state);
   return state;
 }
@@ -142,6 +170,7 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
       state.links[l].voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
     }
   }
+  state.largest_residual = largest_residual_of(state);
   state.hash = hash_of(state);
   return state;
 }

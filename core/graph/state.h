@@ -44,6 +44,7 @@ struct State {
   std::int64_t calm = 0;                 ///< ticks in a row in which nothing much moved and all demands were met
   double largest_move = 0;               ///< [m] of this tick
   double largest_change = 0;             ///< of this tick, of any number that links choose, as a share of itself
+  PortRef restless;                      ///< who has that change
   double largest_residual = 0;           ///< over all residual ports
   std::uint64_t hash = 0;
 
@@ -52,6 +53,11 @@ struct State {
     return ref.type == PortRef::kNodeId ? plan->nodes[ref.node].id_value : nodes[ref.node].types[ref.type].values[ref.port];
   }
 };
+
+/// The largest value of all ports that are residuals.
+double largest_residual_of(const State& state);
+/// Does a node fail, or a link that should run? Links of unknown kinds are kept and hinder nobody.
+bool has_failure(const State& state);
 
 /// The hash of everything that the next tick depends on: values, held proposals, the calm count, the tick.
 std::uint64_t hash_of(const State& state);

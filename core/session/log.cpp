@@ -10,11 +10,12 @@ namespace bl {
 namespace {
 
 constexpr int kLogVersion = 1;
+constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 
 Result<std::int64_t> number_in(const Json& line, const char* key, bool is_required) {
   const auto it = line.find(key);
   if (it == line.end() && !is_required) return std::int64_t{0};
-  if (it == line.end() || !it->is_number_integer() || *it < 0) return Error{ErrorCode::missing, key, "expects a whole number from 0"};
+  if (it == line.end() || !it->is_number_integer() || *it < 0 || *it > kLargestNumber) return Error{ErrorCode::missing, key, "expects a whole number from 0 to 2^53"};
   return it->get<std::int64_t>();
 }
 
@@ -99,13 +100,15 @@ Result<LogFile> read_log(std::string_view text, const Registry& registry) {
     const std::string_view content = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     const std::string place = "line " + std::to_string(++number);
+    if (number == 1 && content.find("behaviourlinks-log") == std::string_view::npos)
+      return Error{ErrorCode::parse, place, "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
     if (content.empty()) continue;
     auto line = parse_json(content);
     if (!line && end == std::string_view::npos && number > 1) {
       log.is_cut_off = true;
       break;
     }
-    if (!line) return line.error().within(place);
+    if (!line) return Error{line.error().code, place, line.error().message};
     if (number == 1) {
       if (!line->is_object() || line->value("format", Json()) != "behaviourlinks-log" || !line->contains("scene"))
         return Error{ErrorCode::parse, place, "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};

@@ -34,11 +34,18 @@ Result<std::unique_ptr<Session>> Session::start(const Registry& registry, const 
 }
 
 Result<void> Session::apply_entry(LogEntry entry) {
+  // A gesture is one author's, and goes on only while it is that author's last; others may act in between.
+  if (const auto owner = gesture_authors_.find(entry.gesture); owner != gesture_authors_.end()) {
+    const auto& stack = entry.undoes != 0 ? redo_[entry.author] : undo_[entry.author];
+    if (owner->second != entry.author || stack.empty() || stack.back() != entry.gesture)
+      return Error{ErrorCode::conflict, "gesture", "the gesture " + std::to_string(entry.gesture) + " is closed or somebody else's"};
+  }
   SceneEdit edit(scene_, *registry_);
   auto inverse = bl::apply(edit, entry.command);
   if (!inverse) return inverse.error();
   placed_.insert(edit.placed().begin(), edit.placed().end());
   is_changed_ = true;
+  gesture_authors_[entry.gesture] = entry.author;
   auto& commands = inverses_[entry.gesture];
   commands.insert(commands.begin(), inverse->begin(), inverse->end());
   last_gesture_ = std::max(last_gesture_, entry.gesture);
@@ -118,6 +125,7 @@ Result<ReplayReport> replay(const LogFile& log, const Registry& registry, int th
   auto session = Session::start(registry, reading.scene, reading.state ? &*reading.state : nullptr, threads);
   if (!session) return session.error();
   ReplayReport report;
+  compare(log, *(*session)->state(), report);
   std::int64_t last = (*session)->state()->tick;
   for (const LogEntry& entry : log.entries) last = std::max(last, entry.tick);
   for (const LogCheck& check : log.checks) last = std::max(last, check.tick);

@@ -56,6 +56,7 @@ class Session {
   bool is_changed_ = false;
   std::vector<LogEntry> log_;
   std::map<std::int64_t, std::vector<Command>> inverses_;            ///< by gesture, in the order to apply
+  std::map<std::int64_t, std::string> gesture_authors_;
   std::map<std::string, std::vector<std::int64_t>> undo_, redo_;    ///< gestures by author
   std::int64_t last_gesture_ = 0;
   std::function<void(const LogEntry&)> listener_;

@@ -22,6 +22,22 @@ Result<Value> argument_value(const TypeDefinition& type, const std::string& port
   return value_from_json(*port, *value, place);
 }
 
+Result<void> check_references(const SceneEdit& edit, const TypeDefinition& type, const PortValues& values, const std::string& self,
+                              const std::string& place) {
+  for (const auto& [id, value] : values) {
+    const PortDefinition* port = type.find_port(id);
+    if (const auto* selection = std::get_if<Shared<Selection>>(&value))
+      for (const std::string& node : (*selection)->ids)
+        if (node != self && !edit.scene().nodes.contains(node))
+          return Error{ErrorCode::not_found, place + "/" + id, "there is no node `" + node + "`" + did_you_mean(node, keys_of(edit.scene().nodes))};
+    if (port == nullptr || port->kind != ValueKind::port) continue;
+    const auto path = parse_port_path(std::get<std::string>(value));
+    if (!path || (path->typification == kBaseNode && path->port == "id")) continue;
+    if (const auto found = edit.registry().port(*path); !found) return found.error().within(place + "/" + id);
+  }
+  return {};
+}
+
 void assign(PortValues& values, const PortDefinition& port, const Value& value) {
   if (value == port.default_value) values.erase(port.id);
   else values[port.id] = value;

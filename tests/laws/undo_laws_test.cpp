@@ -106,6 +106,26 @@ TEST(UndoLaws, AGestureIsOneStep) {
   EXPECT_EQ(std::get<Vector3>(world.session().scene().nodes.at("b").types.at("node").at("position")).x, 5);
 }
 
+TEST(UndoLaws, AGestureBelongsToOneAuthorAndEndsWhenUndone) {
+  World world = World::from_text(kScene);
+  const std::int64_t drag = world.session().new_gesture();
+  const auto move = [&](const char* author) { return world.session().submit(command<SetPort>({"b", {"node.position"}, {"[1, 0, 0]"}}), author, drag); };
+  ASSERT_TRUE(move("anna").ok());
+  ASSERT_EQ(world.submit(command<RenameNode>({"a", "by Ben"}), "ben"), "");
+  EXPECT_TRUE(move("anna").ok());
+  EXPECT_EQ(move("ben").error().text(), "gesture: the gesture 1 is closed or somebody else's");
+  ASSERT_TRUE(world.session().undo("anna").ok());
+  EXPECT_FALSE(move("anna").ok());
+}
+
+TEST(UndoLaws, CommandsRefuseWhatAFileWouldBeRefusedFor) {
+  World world = World::from_text(kScene);
+  EXPECT_EQ(world.submit(command<SetPort>({"c", {"statistics.port"}, {"\"foo.bar\""}})), "nodes/c/statistics/port: unknown typification `foo`");
+  EXPECT_EQ(world.submit(command<AddNode>({"z", {R"({"locked": ["foo.bar"]})"}})), "nodes/z/locked: the node has no port `foo.bar`");
+  EXPECT_EQ(world.submit(command<Batch>({{"[]"}})), "commands: an empty batch changes nothing");
+  EXPECT_TRUE(read_scene(write_scene(world.session().scene(), full_registry()), full_registry()).is_usable());
+}
+
 TEST(UndoLaws, WhatCannotBeUndoneSaysWhyAndChangesNothing) {
   World world = World::from_text(kScene);
   ASSERT_EQ(world.submit(command<RenameNode>({"b", "by Anna"}), "anna"), "");

@@ -48,8 +48,12 @@ TEST(MapValue, UnitsMustAgreeUnlessRescaled) {
   rescaled.tick();
   EXPECT_EQ(rescaled.number("b", "smart_volume.storey_height"), 3);
   const SceneReading mixed = read_scene(nodes + R"("smart_volume.storey_height"}}]})", full_registry());
-  ASSERT_FALSE(mixed.is_usable());
-  EXPECT_EQ(mixed.first_error().code, ErrorCode::wrong_unit);
+  ASSERT_EQ(mixed.problems.size(), 1u);
+  EXPECT_EQ(mixed.problems[0].error.code, ErrorCode::wrong_unit);
+  World idle = World::from_text(nodes + R"("smart_volume.storey_height"}}]})");
+  idle.tick();
+  EXPECT_EQ(idle.link_error("l"), mixed.problems[0].error.text());
+  EXPECT_EQ(idle.number("b", "smart_volume.storey_height"), 3.2);
 }
 
 TEST(MapValue, SceneFollowsTheSliders) {

@@ -193,7 +193,7 @@ TEST(SmartVolumesSolver, TwoSolversDivideTwoPlots) {
 }
 
 TEST(SmartVolumesSolver, MomentumIsSavedAndTheSameTicksFollow) {
-  const std::string text = with_solver(kPlan, crowd(20, 24000, 0.9, 5), R"("steps": 1)");
+  const std::string text = with_solver(kPlan, crowd(20, 24000, 0.9, 5), R"("method": "feedback", "steps": 1)");
   World world = World::from_text(text);
   world.tick(7);
   const SavedState saved = save(world.state());
@@ -206,6 +206,27 @@ TEST(SmartVolumesSolver, MomentumIsSavedAndTheSameTicksFollow) {
     world.tick();
     again.tick();
     ASSERT_EQ(world.state().hash, again.state().hash) << "tick " << i;
+  }
+}
+
+TEST(SmartVolumesSolver, NewtonsStateIsSavedAndTheSameTicksFollow) {
+  World world = World::from_text(with_solver(kPlan, crowd(20, 24000, 0.95, 5), R"("steps": 1, "tolerance": 1e-9)"));
+  world.tick(3);
+  const SavedState saved = save(world.state());
+  ASSERT_TRUE(saved.nodes.at("solver").contains("smart_volumes_solver.problem"));
+  World again = World::from_text(write_scene(world.session().scene(), full_registry(), &saved));
+  for (int i = 0; i < 10; ++i) {
+    world.tick();
+    again.tick();
+    ASSERT_EQ(world.state().hash, again.state().hash) << "tick " << i;
+  }
+}
+
+TEST(SmartVolumesSolver, APointFarOutsideDoesNotDrownTheOthers) {
+  for (const double x : {150.0, 400.0}) {
+    World world = World::from_text(with_solver(kPlan, crowd(12, 24000, 0.5, 3)));
+    ASSERT_EQ(world.submit(command<SetPort>({"v100", {"node.position"}, {"[" + std::to_string(x) + ", 0, 5]"}})), "");
+    EXPECT_TRUE(world.settle(600)) << x;
   }
 }
 

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -147,7 +148,7 @@ int run_program(int count, char** arguments) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
   if (count > 1 && arguments[1][0] != '-' && std::find(names.begin(), names.end(), arguments[1]) == names.end()) {
-    complain("there is no command `" + std::string(arguments[1]) + "`" + did_you_mean(arguments[1], names) + " `behaviourlinks --help` lists all.");
+    complain("there is no command `" + std::string(arguments[1]) + "`" + did_you_mean(arguments[1], names) + "; `behaviourlinks --help` lists all.");
     return kBadInput;
   }
   try {
@@ -176,8 +177,13 @@ int run_program(int count, char** arguments) {
 }  // namespace bl::cli
 
 int main(int count, char** arguments) {
+  // A limit on the size of files shall be an error of the write, which is told and cleaned up after, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return bl::cli::run_program(count, arguments);
+    const int code = bl::cli::run_program(count, arguments);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    bl::cli::complain("what was to be printed could not be written: the disk is full, or nobody reads it.");
+    return bl::cli::kBadInput;
   } catch (const std::bad_alloc&) {
     bl::cli::complain("memory ran out.");
   } catch (const std::exception& error) {

@@ -12,13 +12,6 @@ namespace {
 
 constexpr long long kPatience = 40, kLongPatience = 400;
 
-bool has_node_error(const State& state) {
-  for (const NodeState& node : state.nodes)
-    for (const TypeState& type : node.types)
-      if (type.error) return true;
-  return false;
-}
-
 struct Mover {
   std::string id;
   double distance = 0;    // [m] in the last tick
@@ -44,6 +37,18 @@ std::string of_worst(const VolumeRow& worst) {
   return text;
 }
 
+// A demand that no boundary could hold, even where a cap hides it from the solver.
+std::string of_greedy(const State& state) {
+  double room = 0;
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
+    if (const auto ref = state.plan->find(n, PortPath{"boundary", "volume", ""})) room += as_number(state.value(*ref));
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
+    if (const auto ref = state.plan->find(n, PortPath{"smart_volume", "demand", ""}))
+      if (const double demand = as_number(state.value(*ref)); demand > room)
+        return "; `" + state.plan->nodes[n].id + "` alone asks for " + fixed(demand, 1) + " m³, more than the " + fixed(room, 1) + " m³ inside the boundary";
+  return "";
+}
+
 }  // namespace
 
 bool SettleWatch::is_hopeless(const State& state) {
@@ -54,7 +59,7 @@ bool SettleWatch::is_hopeless(const State& state) {
   if (!is_calm || is_better || state.calm > 0) idle_ = 0;
   else ++idle_;
   if (idle_ >= kLongPatience) return true;
-  return idle_ >= kPatience && (!solver_message(state).empty() || has_node_error(state));
+  return idle_ >= kPatience && (!solver_message(state).empty() || has_failure(state));
 }
 
 std::string why_not_settled(const State& state, const State* before) {
@@ -62,17 +67,21 @@ std::string why_not_settled(const State& state, const State* before) {
   const std::vector<VolumeRow> volumes = volumes_of(state);
   const auto worst = std::max_element(volumes.begin(), volumes.end(), [](const VolumeRow& a, const VolumeRow& b) { return a.error < b.error; });
   const Settings& settings = state.plan->settings;
-  if (has_node_error(state)) {
+  if (has_failure(state)) {
     const Error problem = problems_of(state).front();
     return problem.text() + (worst != volumes.end() && worst->error > settings.tolerance ? "; " + of_worst(*worst) : "");
   }
-  if (worst != volumes.end() && worst->error > settings.tolerance) return of_worst(*worst);
+  if (worst != volumes.end() && worst->error > settings.tolerance) return of_worst(*worst) + of_greedy(state);
   if (state.largest_residual > settings.tolerance) return "an error of " + fixed(100 * state.largest_residual, 2) + " % is left";
   if (state.largest_move > settings.move_limit) {
     const Mover mover = fastest(state, before);
     const std::string who = mover.id.empty() ? "a node" : "`" + mover.id + "`";
     return who + " still moves by " + fixed(state.largest_move, 3) + " m per tick, the limit is " + shortest(settings.move_limit) + " m";
   }
+  if (state.largest_change > settings.change_limit)
+    return "`" + state.plan->nodes[state.restless.node].id + "`: `" + state.plan->path_text(state.restless) + "` still changes by " +
+           fixed(100 * state.largest_change, 2) + " % per tick, the limit is " + shortest(100 * settings.change_limit) + " %" +
+           of_greedy(state);
   return "all demands are met, and " + std::to_string(state.calm) + " of " + std::to_string(settings.calm_ticks) + " calm ticks have passed";
 }
 

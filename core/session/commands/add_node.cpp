@@ -19,11 +19,14 @@ Inverse AddNode::apply(SceneEdit& edit, const In& in) {
   auto node = node_from_json(*json, edit.registry(), "nodes/" + in.id);
   if (!node) return node.error();
   for (const auto& [type, values] : node->types)
-    for (const auto& [port, value] : values)
-      if (const auto* selection = std::get_if<Shared<Selection>>(&value); selection && !(*selection)->is_query())
-        for (const std::string& id : (*selection)->ids)
-          if (id != in.id && !edit.scene().nodes.contains(id))
-            return Error{ErrorCode::not_found, "nodes/" + in.id + "/" + type + "/" + port, "there is no node `" + id + "`"};
+    if (auto known = check_references(edit, *edit.registry().typification(type), values, in.id, "nodes/" + in.id + "/" + type); !known)
+      return known.error();
+  for (const std::string& path : node->locked) {
+    const auto parsed = parse_port_path(path);
+    const bool is_there = parsed && (node->ghosts.contains(parsed->typification) ||
+                                     (node->types.contains(parsed->typification) && edit.registry().port(*parsed).ok()));
+    if (!is_there) return Error{ErrorCode::not_found, "nodes/" + in.id + "/locked", "the node has no port `" + path + "`"};
+  }
   edit.scene().nodes.emplace(in.id, std::move(*node));
   return std::vector{command<RemoveNode>({in.id})};
 }

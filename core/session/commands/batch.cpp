@@ -15,6 +15,7 @@ Inverse Batch::apply(SceneEdit& edit, const In& in) {
   auto list = parse_json(in.commands.text);
   if (!list) return list.error().within("commands");
   if (!list->is_array()) return Error{ErrorCode::wrong_kind, "commands", "expects a list of commands"};
+  if (list->empty()) return Error{ErrorCode::missing, "commands", "an empty batch changes nothing"};
   std::vector<Command> inverse;
   for (std::size_t i = 0; i < list->size(); ++i) {
     auto step = command_from_json(edit.registry(), (*list)[i], "commands/" + std::to_string(i));

@@ -19,6 +19,7 @@ Inverse SetLinkParameter::apply(SceneEdit& edit, const In& in) {
   auto value = argument_value(*kind, in.parameter, in.value, place);
   if (!value) return value.error();
   const PortDefinition& port = *kind->find_port(in.parameter);
+  if (auto known = check_references(edit, *kind, {{port.id, *value}}, "", "links/" + in.id); !known) return known.error();
   std::vector inverse{command<SetLinkParameter>({in.id, in.parameter, current_value((*link)->parameters, port)})};
   assign((*link)->parameters, port, *value);
   return inverse;

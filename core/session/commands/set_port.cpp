@@ -16,8 +16,8 @@ Inverse SetPort::apply(SceneEdit& edit, const In& in) {
   const std::string path = site->type->id + "." + site->port->id, place = "nodes/" + in.node + "/" + site->type->id + "/" + site->port->id;
   auto value = argument_value(*site->type, site->port->id, in.value, place);
   if (!value) return value.error();
-  if (const auto* selection = std::get_if<Shared<Selection>>(&*value); selection && !(*selection)->is_empty())
-    if (auto check = check_selection(edit.scene(), **selection, place); !check) return check.error();
+  if (auto known = check_references(edit, *site->type, {{site->port->id, *value}}, "", "nodes/" + in.node + "/" + site->type->id); !known)
+    return known.error();
   PortValues& values = site->node->types.at(site->type->id);
   std::vector inverse{command<SetPort>({in.node, {path}, current_value(values, *site->port)})};
   assign(values, *site->port, *value);

@@ -27,9 +27,7 @@ Inverse Typify::apply(SceneEdit& edit, const In& in) {
   if (!json) return json.error().within(place);
   auto values = ports_from_json(*type, *json, place);
   if (!values) return values.error();
-  for (const auto& [port, value] : *values)
-    if (const auto* selection = std::get_if<Shared<Selection>>(&value); selection && !(*selection)->is_empty())
-      if (auto check = check_selection(edit.scene(), **selection, place + "/" + port); !check) return check.error();
+  if (auto known = check_references(edit, *type, *values, "", place); !known) return known.error();
   (*node)->types.emplace(type->id, std::move(*values));
   return std::vector{command<Untypify>({in.node, type->id})};
 }
