@@ -129,6 +129,9 @@ double polygon_area_vector(const Clipper& cell, const ClippedFace& face, Vector3
   return std::max(0.0, 0.5 * doubled);
 }
 
+// Shapes below this share of their cell are a touch, not a volume.
+constexpr double kTouchingShare = 1e-14;
+
 // The ball holds the whole polyhedron.
 void measure_unwrapped(const Clipper& cell, double cell_volume, const Point3& cell_centroid, ShapeMeasure& out) {
   out.volume = cell_volume;
@@ -172,6 +175,12 @@ void measure_shape(const Clipper& cell, double squared_radius, double cell_volum
   out.is_empty = facets == 0 && sphere == 0;
   if (out.is_empty) return;
   out.volume = std::clamp((cones + radius * sphere) / 3, 0.0, cell_volume);
+  // A ball that touches its cell from outside: what is left is rounding, and has no inside that a mesh could be wrapped around.
+  if (out.volume <= kTouchingShare * cell_volume) {
+    out.volume = out.spherical_area = 0;
+    out.is_empty = true;
+    return;
+  }
   // The spherical part's first moment follows from the area vectors: those of a closed surface add up to nothing.
   moment -= (squared_radius / 4) * area_vector;
   out.point_inside = facets > 0 ? mean / facets : Point3{};

@@ -218,5 +218,20 @@ TEST(PowerCells, LatticeCellsAreExactCubes) {
   }
 }
 
+TEST(PowerCells, ABallThatOnlyTouchesItsCellHasNoShape) {
+  const auto cube = extrude(std::vector<Point3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 0, 1);
+  CellOptions options;
+  options.tessellation_depth = 1;
+  for (const double more : {0.0, 1e-16, 4e-16, 1e-9}) {
+    const auto cells = power_cells(*cube, std::vector<PowerSite>{{{2, 0.5, 0.5}, (1 + more) * (1 + more)}}, options);
+    ASSERT_TRUE(cells.ok());
+    const CellMeasure& cell = cells->front();
+    EXPECT_EQ(cell.mesh != nullptr, cell.volume > 0) << more;
+    if (cell.mesh) {
+      EXPECT_LE(enclosed_volume(*cell.mesh), cell.volume + 1e-6) << more;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bl::test
