@@ -20,7 +20,7 @@ struct SmartVolume {
     double floor_area = 0, surface_area = 0, footprint = 0, spherical_area = 0;
     double height = 0, bottom = 0;
     double error = 1;
-    std::string state = "idle", reason = "no solver takes care of it";
+    std::string state = "idle", reason = "no solver takes care of it, or its solver fails";
     Table neighbours;
     double last_step = 0, last_direction = 0;
     Point3 centroid;

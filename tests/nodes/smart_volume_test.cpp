@@ -17,7 +17,7 @@ TEST(SmartVolume, IsIdleWithoutASolver) {
   World world = World::from_text(one_node("smart_volume", ""));
   world.tick();
   EXPECT_EQ(world.text("it", "smart_volume.state"), "idle");
-  EXPECT_EQ(world.text("it", "smart_volume.reason"), "no solver takes care of it");
+  EXPECT_EQ(world.text("it", "smart_volume.reason"), "no solver takes care of it, or its solver fails");
   EXPECT_EQ(world.number("it", "smart_volume.error"), 1);
   EXPECT_FALSE(world.settle(20));
 }

@@ -35,7 +35,9 @@ class Run {
     const bool is_saved = finish();
     if (!is_saved) return kBadInput;
     if (is_interrupted()) return interrupt_exit_code();
-    return options_.ticks < 0 && !session_->state()->is_settled() ? kNotMet : kDone;
+    if (options_.ticks >= 0 || session_->state()->is_settled()) return kDone;
+    // A node that cannot be evaluated (a plan that crosses itself) is bad input; demands that cannot be met are not.
+    return has_node_error(*session_->state()) ? kBadInput : kNotMet;
   }
 
  private:

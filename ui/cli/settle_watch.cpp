@@ -51,6 +51,13 @@ std::string of_greedy(const State& state) {
 
 }  // namespace
 
+bool has_node_error(const State& state) {
+  for (const NodeState& node : state.nodes)
+    for (const TypeState& type : node.types)
+      if (type.error) return true;
+  return false;
+}
+
 bool SettleWatch::is_hopeless(const State& state) {
   const bool is_calm = state.largest_move <= state.plan->settings.move_limit;
   const bool is_better = best_error_ < 0 || state.largest_residual < 0.99 * best_error_;

@@ -21,6 +21,9 @@ class SettleWatch {
   long long idle_ = 0;
 };
 
+/// Does a node fail to be evaluated? Its data are at fault, not the demands.
+bool has_node_error(const State& state);
+
 /// Why a state is not settled, as the end of the sentence "not settled: ...". `before`: the state of the tick before, or null.
 std::string why_not_settled(const State& state, const State* before);
 

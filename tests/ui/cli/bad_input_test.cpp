@@ -72,7 +72,7 @@ TEST(BadInput, BoundariesThatAreNone) {
     EXPECT_NE(check.err.find("s.json: nodes/site/boundary/"), std::string::npos) << check.err;
     EXPECT_NE(check.err.find(said), std::string::npos) << check.err;
     const Outcome run = place.run({"run", "s.json"});
-    EXPECT_EQ(run.code, 3) << boundary;
+    EXPECT_EQ(run.code, 2) << boundary;
     EXPECT_NE(run.last_line().find(said), std::string::npos) << run.last_line();
   }
 }
