@@ -58,7 +58,8 @@ class Reader {
     if (!file.is_object() || file.value("format", Json()) != "behaviourlinks")
       return fail({ErrorCode::parse, "format", "this is not a scene: a scene starts with {\"format\": \"behaviourlinks\", \"version\": 1, ...}"});
     const auto version = file.find("version");
-    if (version == file.end() || !version->is_number_integer()) return fail({ErrorCode::missing, "version", "the version number is missing"});
+    if (version == file.end()) return fail({ErrorCode::missing, "version", "the version number is missing"});
+    if (!version->is_number_integer()) return fail({ErrorCode::wrong_kind, "version", "expects a whole number, found " + version->dump()});
     if (*version > kSceneVersion)
       return fail({ErrorCode::version, "version",
                    "the file has version " + version->dump() + ", this program reads up to " + std::to_string(kSceneVersion) + "; get a newer program"});

@@ -169,7 +169,12 @@ TEST_F(TickTest, AFailingLinkKeepsItsLastGoodValueAndSaysSo) {
   EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 40);
   ASSERT_TRUE(simulation_.state()->links[0].error.has_value());
   EXPECT_EQ(simulation_.state()->links[0].error->text(), "links/l1/value: does not want to");
+  for (int i = 0; i < 20; ++i) simulation_.step();
   EXPECT_FALSE(simulation_.state()->is_settled());
+  scene_.links["l1"].is_enabled = false;
+  start();
+  for (int i = 0; i < 20; ++i) simulation_.step();
+  EXPECT_TRUE(simulation_.state()->is_settled());
 }
 
 TEST_F(TickTest, AFailingNodeKeepsItsLastGoodValue) {
