@@ -51,7 +51,8 @@ struct Adjacency {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     const Vector3 between = ends.to - ends.from;
-    const double length = norm(between), missing = in.area - ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area");
+    const double length = norm(between),
+                 missing = in.area - ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area");
     if (!(missing > 0) || !(length > 1e-9)) return Out{};
     // The clear distance, and a way that grows with the missing area. A facet grows by about one and a half times its distance
     // for each metre that the volumes come nearer, so that a small area calls for a short way only.

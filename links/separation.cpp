@@ -53,7 +53,8 @@ struct Separation {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     const Vector3 between = ends.to - ends.from;
-    const double length = norm(between), radii = ends.from_radius + ends.to_radius, area = ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area");
+    const double length = norm(between), radii = ends.from_radius + ends.to_radius,
+                 area = ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area");
     const bool is_together = length <= 1e-9;
     double way = 0;
     // The facet of two equal balls shrinks by pi/2 · distance for each metre; a little more makes it vanish.

@@ -26,11 +26,16 @@ struct Control {
     t.id("control").label("Control");
     t.doc("A number that people set by a slider or a switch, and that links carry to other nodes.");
     t.in(&In::value, "value").unit_from("unit").doc("What people have set. No link changes it.");
-    t.in(&In::unit, "unit").doc("Unit of the value as a symbol, such as `m`, `m2`, `m3`, `deg`, `s` or `EUR`; empty for a plain number.");
+    t.in(&In::unit, "unit")
+        .doc("Unit of the value as a symbol, such as `m`, `m2`, `m3`, `deg`, `s` or `EUR`; empty for a plain number.");
     t.in(&In::minimum, "minimum").unit_from("unit").doc("Lower end of the slider.");
     t.in(&In::maximum, "maximum").unit_from("unit").doc("Upper end of the slider; above the lower end.");
-    t.in(&In::step, "step").unit_from("unit").min(0).doc("Distance of the notches, counted from the lower end; 0 for a slider without notches.");
-    t.in(&In::is_switch, "is_switch").doc("Makes it a switch: the output is 1 where the value is 0.5 or more, and 0 elsewhere; range and step do not count.");
+    t.in(&In::step, "step")
+        .unit_from("unit")
+        .min(0)
+        .doc("Distance of the notches, counted from the lower end; 0 for a slider without notches.");
+    t.in(&In::is_switch, "is_switch")
+        .doc("Makes it a switch: the output is 1 where the value is 0.5 or more, and 0 elsewhere; range and step do not count.");
     t.out(&Out::output, "output").unit_from("unit").doc("The value inside the range, at the nearest notch.");
   }
 
@@ -43,7 +48,8 @@ struct Control {
     }
     if (found->scale == 1) return {};
     const std::string base(info(found->unit).symbol);
-    return Error{ErrorCode::wrong_unit, "unit", "values are not kept in `" + symbol + "`: write `" + base + "`, and the numbers in it"};
+    return Error{ErrorCode::wrong_unit, "unit",
+                 "values are not kept in `" + symbol + "`: write `" + base + "`, and the numbers in it"};
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) {
@@ -55,7 +61,8 @@ struct Control {
                    "the maximum (" + shortest(in.maximum) + ") has to lie above the minimum (" + shortest(in.minimum) + ")"};
     if (in.step > range)
       return Error{ErrorCode::out_of_range, "step",
-                   "the step (" + shortest(in.step) + ") is larger than the range (" + shortest(range) + "): make it smaller, or 0 for none"};
+                   "the step (" + shortest(in.step) + ") is larger than the range (" + shortest(range) +
+                       "): make it smaller, or 0 for none"};
     const double value = std::clamp(in.value, in.minimum, in.maximum);
     if (!(in.step > 0)) return Out{value};
     // The last notch may lie below the maximum; the margin keeps a range that is a whole number of steps up to rounding.

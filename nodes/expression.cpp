@@ -27,19 +27,29 @@ struct Expression {
     double a = 0, b = 0, c = 0, d = 0;
     std::string a_unit, b_unit, c_unit, d_unit, unit;
   };
-  struct Out { double result = 0; };
+  struct Out {
+    double result = 0;
+  };
   static constexpr std::array kValues = {&In::a, &In::b, &In::c, &In::d};
   static constexpr std::array kUnits = {&In::a_unit, &In::b_unit, &In::c_unit, &In::d_unit, &In::unit};
 
   static void declare(TypificationBuilder<Expression>& t) {
     t.id("expression").label("Expression");
-    t.doc("Computes one number from up to four. Units are checked: lengths add to lengths only, and a plain number in the formula "
-          "becomes a quantity by its unit, as in `a + 3*m`. Sines and the like take radians: write `sin(a/deg*_pi/180)`.");
-    t.in(&In::formula, "formula").doc("At most 500 characters: a b c d, + - * / ^, comparisons, `x ? y : z`, sqrt, abs, min, max, sum, avg, exp, ln, sin, ...");
+    t.doc(
+        "Computes one number from up to four. Units are checked: lengths add to lengths only, and a plain number in the formula "
+        "becomes a quantity by its unit, as in `a + 3*m`. Sines and the like take radians: write `sin(a/deg*_pi/180)`.");
+    t.in(&In::formula, "formula")
+        .doc(
+            "At most 500 characters: a b c d, + - * / ^, comparisons, `x ? y : z`, sqrt, abs, min, max, sum, avg, exp, ln, sin, "
+            "...");
     for (std::size_t i = 0; i < kInputs.size(); ++i) {
       const std::string name = kInputs[i], unit = name + "_unit";
-      t.in(kValues[i], name).unit_from(unit).combine(CombineRule::blend).doc("The number `" + name + "`, set by people or proposed by links.");
-      t.in(kUnits[i], unit).doc("Unit of `" + name + "` as a symbol, such as `m`, `m2`, `m3` or `EUR`; empty for a plain number.");
+      t.in(kValues[i], name)
+          .unit_from(unit)
+          .combine(CombineRule::blend)
+          .doc("The number `" + name + "`, set by people or proposed by links.");
+      t.in(kUnits[i], unit)
+          .doc("Unit of `" + name + "` as a symbol, such as `m`, `m2`, `m3` or `EUR`; empty for a plain number.");
     }
     t.in(&In::unit, "unit").doc("Unit of the result as a symbol; empty for a plain number.");
     t.out(&Out::result, "result").unit_from("unit").doc("What the formula gives.");
@@ -49,9 +59,12 @@ struct Expression {
     std::vector<std::string> known;
     for (const UnitInfo& row : unit_table()) known.emplace_back(row.symbol);
     const UnitInfo* row = find_unit(symbol);
-    if (row == nullptr) return Error{ErrorCode::wrong_unit, port, "`" + symbol + "` is no unit that is known" + did_you_mean(symbol, known)};
+    if (row == nullptr)
+      return Error{ErrorCode::wrong_unit, port, "`" + symbol + "` is no unit that is known" + did_you_mean(symbol, known)};
     if (row->scale == 1) return row->dimension;
-    return Error{ErrorCode::wrong_unit, port, "values are not kept in `" + symbol + "`: write `" + std::string(info(row->unit).symbol) + "`, and the numbers in it"};
+    return Error{
+        ErrorCode::wrong_unit, port,
+        "values are not kept in `" + symbol + "`: write `" + std::string(info(row->unit).symbol) + "`, and the numbers in it"};
   }
 
   // The parser with its variables: the inputs, and the symbols of units as quantities of one unit each.
@@ -65,33 +78,34 @@ struct Expression {
         quantities_[symbol] = {row.scale, row.scale, row.dimension};
       }
       for (auto& [name, quantity] : quantities_) parser_.DefineVar(name, &quantity.scaled);
-      parser_.DefineConst("_pi", 3.141592653589793);    // the parser's own have twelve digits
+      parser_.DefineConst("_pi", 3.141592653589793);  // the parser's own have twelve digits
       parser_.DefineConst("_e", 2.718281828459045);
     }
-    Formula(const Formula&) = delete;    // the parser points into quantities_
+    Formula(const Formula&) = delete;  // the parser points into quantities_
 
     Result<void> read(const std::string& text) {
       const auto refuse = [](const std::string& sentence) { return Error{ErrorCode::parse, "formula", sentence}; };
       if (text.find_first_not_of(' ') == std::string::npos) return refuse("the formula is empty: write one, such as `a + b`");
-      if (std::ssize(text) > kLongest) return refuse("the formula has " + std::to_string(text.size()) + " characters: shorten it to " + std::to_string(kLongest));
+      if (std::ssize(text) > kLongest)
+        return refuse("the formula has " + std::to_string(text.size()) + " characters: shorten it to " +
+                      std::to_string(kLongest));
       for (std::size_t i = text.find('='); i != std::string::npos; i = text.find('=', i + 1)) {
         if (i + 1 < text.size() && text[i + 1] == '=') ++i;
         else if (i == 0 || (text[i - 1] != '<' && text[i - 1] != '>' && text[i - 1] != '!'))
-          return refuse("a formula changes nothing, so the `=` at character " + std::to_string(i + 1) + " has no place; compare with `==`");
+          return refuse("a formula changes nothing, so the `=` at character " + std::to_string(i + 1) +
+                        " has no place; compare with `==`");
       }
       try {
         parser_.SetExpr(text);
         int results = 0;
         parser_.Eval(results);
         if (results != 1) return refuse("a formula gives one number: take away the comma outside of brackets");
-      } catch (const mu::ParserError& problem) {
-        return refuse(sentence(problem));
-      }
+      } catch (const mu::ParserError& problem) { return refuse(sentence(problem)); }
       return {};
     }
     void set(std::size_t input, double value) { quantities_[kInputs[input]].value = value; }
     // The value with every quantity multiplied by 64 to the power that it has in `base`; nullptr: as it is.
-    double value(std::int8_t Dimension::* base) {
+    double value(std::int8_t Dimension::*base) {
       for (auto& [name, quantity] : quantities_)
         quantity.scaled = base == nullptr ? quantity.value : std::ldexp(quantity.value, kScaleBits * (quantity.dimension.*base));
       return parser_.Eval();
@@ -105,17 +119,26 @@ struct Expression {
       for (const auto& [name, function] : parser_.GetFunDef()) names.push_back(name);
       switch (problem.GetCode()) {
         case mu::ecUNASSIGNABLE_TOKEN:
-          if (parser_.GetFunDef().contains(token)) return "the function `" + token + "`" + where + " needs its arguments in brackets";
+          if (parser_.GetFunDef().contains(token))
+            return "the function `" + token + "`" + where + " needs its arguments in brackets";
           return "`" + token + "`" + where + " is no name or sign that is known" + did_you_mean(token, names);
-        case mu::ecUNEXPECTED_EOF: case mu::ecMISSING_PARENS: return "the formula ends too early: complete it, and close its brackets";
+        case mu::ecUNEXPECTED_EOF:
+        case mu::ecMISSING_PARENS: return "the formula ends too early: complete it, and close its brackets";
         case mu::ecUNEXPECTED_OPERATOR: return "the sign `" + token + "`" + where + " needs a value before it";
-        case mu::ecUNEXPECTED_VAL: case mu::ecUNEXPECTED_VAR: case mu::ecUNEXPECTED_FUN: return "`" + token + "`" + where + " follows another value: put a sign such as `*` between the two";
-        case mu::ecTOO_FEW_PARAMS: case mu::ecTOO_MANY_PARAMS: return "the function `" + token + "` takes another number of arguments";
+        case mu::ecUNEXPECTED_VAL:
+        case mu::ecUNEXPECTED_VAR:
+        case mu::ecUNEXPECTED_FUN:
+          return "`" + token + "`" + where + " follows another value: put a sign such as `*` between the two";
+        case mu::ecTOO_FEW_PARAMS:
+        case mu::ecTOO_MANY_PARAMS: return "the function `" + token + "` takes another number of arguments";
         default: return "the formula cannot be read" + where + ": check its signs, brackets and commas";
       }
     }
 
-    struct Quantity { double value = 0, scaled = 0; Dimension dimension; };
+    struct Quantity {
+      double value = 0, scaled = 0;
+      Dimension dimension;
+    };
     std::map<std::string, Quantity> quantities_;
     mu::Parser parser_;
   };
@@ -123,7 +146,7 @@ struct Expression {
   // The power p with which the formula follows one base of units: rescaling the base by 64 rescales the result by 64^p.
   static Result<int> power_of(Formula& formula, std::size_t base, int expected) {
     Random random(7, base);
-    std::vector<std::pair<double, double>> pairs;    // as it is, rescaled; the first is where the inputs stand
+    std::vector<std::pair<double, double>> pairs;  // as it is, rescaled; the first is where the inputs stand
     for (int s = 0; s <= kSamples; ++s) {
       const double plain = formula.value(nullptr), scaled = formula.value(kBases[base]);
       if (std::isfinite(plain) && std::isfinite(scaled)) pairs.emplace_back(plain, scaled);
@@ -132,7 +155,9 @@ struct Expression {
         formula.set(i, s % 2 == 0 || random.uniform() < 0.5 ? size : -size);
       }
     }
-    if (pairs.empty()) return Error{ErrorCode::not_finite, "formula", "no numbers that were tried give a finite result: guard divisions and roots"};
+    if (pairs.empty())
+      return Error{ErrorCode::not_finite, "formula",
+                   "no numbers that were tried give a finite result: guard divisions and roots"};
     const auto fits = [&](int power) {
       return std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
         const double wanted = std::ldexp(pair.first, kScaleBits * power);
@@ -143,7 +168,8 @@ struct Expression {
     for (int power = -kLargestPower; power <= kLargestPower; ++power)
       if (fits(power)) return power;
     return Error{ErrorCode::wrong_unit, "formula",
-                 std::string("quantities of different units are added or compared: give plain numbers a unit, as in `3*") + kBaseNames[base] + "`"};
+                 std::string("quantities of different units are added or compared: give plain numbers a unit, as in `3*") +
+                     kBaseNames[base] + "`"};
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) {
@@ -162,15 +188,18 @@ struct Expression {
       const auto power = power_of(formula, b, dimensions[4].*kBases[b]);
       if (!power) return power.error();
       is_right = is_right && *power == dimensions[4].*kBases[b];
-      if (*power != 0) found += (found.empty() ? "" : "·") + std::string(kBaseNames[b]) + (*power == 1 ? "" : std::to_string(*power));
+      if (*power != 0)
+        found += (found.empty() ? "" : "·") + std::string(kBaseNames[b]) + (*power == 1 ? "" : std::to_string(*power));
     }
     if (!is_right)
-      return Error{ErrorCode::wrong_unit, "unit", "the formula gives " + (found.empty() ? "a plain number" : "`" + found + "`") + ", but the result is to be " +
-                                                      (in.unit.empty() ? "a plain number" : "in `" + in.unit + "`") + ": change the formula or the unit"};
+      return Error{ErrorCode::wrong_unit, "unit",
+                   "the formula gives " + (found.empty() ? "a plain number" : "`" + found + "`") + ", but the result is to be " +
+                       (in.unit.empty() ? "a plain number" : "in `" + in.unit + "`") + ": change the formula or the unit"};
     for (std::size_t i = 0; i < kInputs.size(); ++i) formula.set(i, in.*kValues[i]);
     const double result = formula.value(nullptr);
     if (std::isfinite(result)) return Out{result};
-    return Error{ErrorCode::not_finite, "formula", "the formula gives no finite number: guard divisions and roots, as in `b > 0 ? a/b : 0`"};
+    return Error{ErrorCode::not_finite, "formula",
+                 "the formula gives no finite number: guard divisions and roots, as in `b > 0 ? a/b : 0`"};
   }
 };
 

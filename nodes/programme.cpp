@@ -22,22 +22,54 @@ struct Programme {
 
   static void declare(TypificationBuilder<Programme>& t) {
     t.id("programme").label("Programme");
-    t.doc("A brief as a table: one row for each use, with the floor area of one item and the number of items. "
-          "It holds the demands; links deal them out to SmartVolumes of the same use.");
+    t.doc(
+        "A brief as a table: one row for each use, with the floor area of one item and the number of items. "
+        "It holds the demands; links deal them out to SmartVolumes of the same use.");
     const std::string area = "Floor area of one item";
     t.in(&In::rows, "rows")
-        .column({.id = "use", .is_text = true, .is_required = true, .default_value = std::string(), .doc = "What the row is about, such as `housing`."})
-        .column({.id = "floor_area", .is_required = true, .unit = Unit::square_metre, .minimum = 0, .maximum = 1e8, .doc = area + " that is aimed at."})
-        .column({.id = "floor_area_min", .unit = Unit::square_metre, .minimum = 0, .maximum = 1e8, .doc = area + " that is insisted on; 0 means that there is none."})
-        .column({.id = "floor_area_max", .unit = Unit::square_metre, .minimum = 0, .maximum = 1e8, .doc = area + " that is not exceeded; 0 means that there is none."})
-        .column({.id = "storey_height", .unit = Unit::metre, .default_value = 3.2, .minimum = 1, .maximum = 50, .doc = "Height from floor to floor."})
-        .column({.id = "count", .unit = Unit::count, .default_value = 1.0, .minimum = 1, .maximum = 1e6, .doc = "Number of items, a whole number."})
+        .column({.id = "use",
+                 .is_text = true,
+                 .is_required = true,
+                 .default_value = std::string(),
+                 .doc = "What the row is about, such as `housing`."})
+        .column({.id = "floor_area",
+                 .is_required = true,
+                 .unit = Unit::square_metre,
+                 .minimum = 0,
+                 .maximum = 1e8,
+                 .doc = area + " that is aimed at."})
+        .column({.id = "floor_area_min",
+                 .unit = Unit::square_metre,
+                 .minimum = 0,
+                 .maximum = 1e8,
+                 .doc = area + " that is insisted on; 0 means that there is none."})
+        .column({.id = "floor_area_max",
+                 .unit = Unit::square_metre,
+                 .minimum = 0,
+                 .maximum = 1e8,
+                 .doc = area + " that is not exceeded; 0 means that there is none."})
+        .column({.id = "storey_height",
+                 .unit = Unit::metre,
+                 .default_value = 3.2,
+                 .minimum = 1,
+                 .maximum = 50,
+                 .doc = "Height from floor to floor."})
+        .column({.id = "count",
+                 .unit = Unit::count,
+                 .default_value = 1.0,
+                 .minimum = 1,
+                 .maximum = 1e6,
+                 .doc = "Number of items, a whole number."})
         .column({.id = "note", .is_text = true, .default_value = std::string(), .doc = "A remark for people."})
         .doc("The uses that are wanted; each use stands in one row.");
-    t.out(&Out::total_floor_area, "total_floor_area").unit(Unit::square_metre).doc("Floor area that is aimed at, of all rows and items.");
-    t.out(&Out::total_floor_area_min, "total_floor_area_min").unit(Unit::square_metre)
+    t.out(&Out::total_floor_area, "total_floor_area")
+        .unit(Unit::square_metre)
+        .doc("Floor area that is aimed at, of all rows and items.");
+    t.out(&Out::total_floor_area_min, "total_floor_area_min")
+        .unit(Unit::square_metre)
         .doc("Floor area that is insisted on, of all rows and items; a row without a minimum adds nothing.");
-    t.out(&Out::total_volume, "total_volume").unit(Unit::cubic_metre)
+    t.out(&Out::total_volume, "total_volume")
+        .unit(Unit::cubic_metre)
         .doc("Volume that the floor area aimed at takes: area times storey height, of all rows and items.");
     t.out(&Out::items, "items").unit(Unit::count).doc("Number of items of all rows.");
     t.out(&Out::uses, "uses").unit(Unit::count).doc("Number of uses, which is the number of rows.");
@@ -45,18 +77,23 @@ struct Programme {
 
   // An empty sentence where the row is sound; otherwise `column` is where the fault stands.
   static std::string fault_of(const Table& rows, std::size_t row, std::string& column) {
-    const double area = rows.number(row, "floor_area"), least = rows.number(row, "floor_area_min"), most = rows.number(row, "floor_area_max");
+    const double area = rows.number(row, "floor_area"), least = rows.number(row, "floor_area_min"),
+                 most = rows.number(row, "floor_area_max");
     column = "use";
     if (rows.text(row, "use").empty()) return "is empty: name the use";
     column = "floor_area";
     if (!(area > 0)) return "must be more than 0 m², found " + shortest(area);
     column = "floor_area_min";
-    if (least > area) return "is " + shortest(least) + " m², more than the floor area aimed at (" + shortest(area) + " m²): lower it";
+    if (least > area)
+      return "is " + shortest(least) + " m², more than the floor area aimed at (" + shortest(area) + " m²): lower it";
     column = "floor_area_max";
-    if (most > 0 && most < area) return "is " + shortest(most) + " m², less than the floor area aimed at (" + shortest(area) + " m²): raise it, or write 0 for none";
+    if (most > 0 && most < area)
+      return "is " + shortest(most) + " m², less than the floor area aimed at (" + shortest(area) +
+             " m²): raise it, or write 0 for none";
     column = "count";
     const double count = rows.number(row, "count");
-    if (!(count >= 1) || std::floor(count) != count) return "must be a whole number of items, at least 1, found " + shortest(count);
+    if (!(count >= 1) || std::floor(count) != count)
+      return "must be a whole number of items, at least 1, found " + shortest(count);
     return {};
   }
 
@@ -71,7 +108,8 @@ struct Programme {
         return Error{ErrorCode::out_of_range, place + column, (column == "use" ? "the use " : "the value ") + fault};
       const std::string& use = rows.text(row, "use");
       if (!seen.insert(use).second)
-        return Error{ErrorCode::duplicate, place + "use", "the use `" + use + "` stands in an earlier row too: put both into one row, or name one otherwise"};
+        return Error{ErrorCode::duplicate, place + "use",
+                     "the use `" + use + "` stands in an earlier row too: put both into one row, or name one otherwise"};
       const double count = rows.number(row, "count"), area = rows.number(row, "floor_area") * count;
       out.total_floor_area += area;
       out.total_floor_area_min += rows.number(row, "floor_area_min") * count;

@@ -29,8 +29,9 @@ struct SmartVolume {
 
   static void declare(TypificationBuilder<SmartVolume>& t) {
     t.id("smart_volume").label("SmartVolume");
-    t.doc("A volume that wants a certain amount of space around its position. A SmartVolumes solver gives it a cell of the "
-          "bounded power diagram, shrink-wrapped onto a ball, and adapts its weight until the cell has the wanted volume.");
+    t.doc(
+        "A volume that wants a certain amount of space around its position. A SmartVolumes solver gives it a cell of the "
+        "bounded power diagram, shrink-wrapped onto a ball, and adapts its weight until the cell has the wanted volume.");
     declare_settings(t);
     declare_shape(t);
     declare_standing(t);
@@ -38,50 +39,79 @@ struct SmartVolume {
 
   static void declare_settings(TypificationBuilder<SmartVolume>& t) {
     t.in(&In::use, "use").doc("What the volume is for, such as `housing`; a programme addresses volumes by it.");
-    t.in(&In::demand, "demand").unit(Unit::cubic_metre).range(0, 1e9).soft(0, 20000).combine(CombineRule::blend)
+    t.in(&In::demand, "demand")
+        .unit(Unit::cubic_metre)
+        .range(0, 1e9)
+        .soft(0, 20000)
+        .combine(CombineRule::blend)
         .doc("The volume that is asked for. Links propose to it, and their proposals are blended with what people set.");
-    t.in(&In::demand_limit, "demand_limit").unit(Unit::cubic_metre).range(0, 1e9).soft(0, 20000).combine(CombineRule::min)
+    t.in(&In::demand_limit, "demand_limit")
+        .unit(Unit::cubic_metre)
+        .range(0, 1e9)
+        .soft(0, 20000)
+        .combine(CombineRule::min)
         .doc("The most that the volume may ask for. Caps of a set propose here, and the lowest of them holds.");
-    t.in(&In::demand_min, "demand_min").unit(Unit::cubic_metre).range(0, 1e9).soft(0, 20000).combine(CombineRule::max)
+    t.in(&In::demand_min, "demand_min")
+        .unit(Unit::cubic_metre)
+        .range(0, 1e9)
+        .soft(0, 20000)
+        .combine(CombineRule::max)
         .doc("What the brief insists on: no cap brings the wanted volume below it.");
-    t.in(&In::storey_height, "storey_height").unit(Unit::metre).range(1, 50).soft(2.4, 6).combine(CombineRule::blend)
+    t.in(&In::storey_height, "storey_height")
+        .unit(Unit::metre)
+        .range(1, 50)
+        .soft(2.4, 6)
+        .combine(CombineRule::blend)
         .doc("Height from floor to floor, by which the floor area is counted.");
   }
 
   static void declare_shape(TypificationBuilder<SmartVolume>& t) {
-    t.out(&Out::wanted, "wanted").unit(Unit::cubic_metre)
+    t.out(&Out::wanted, "wanted")
+        .unit(Unit::cubic_metre)
         .doc("What the solver aims at: the demand, no more than its limit, and no less than its minimum.");
-    t.out(&Out::weight, "weight").unit(Unit::square_metre)
+    t.out(&Out::weight, "weight")
+        .unit(Unit::square_metre)
         .doc("The weight in the power diagram: the square of the radius. The solver adapts it.");
     t.out(&Out::radius, "radius").unit(Unit::metre).doc("Radius of the ball that the cell is shrink-wrapped onto.");
     t.out(&Out::volume, "volume").unit(Unit::cubic_metre).doc("Volume of the shape: the part of the cell inside the ball.");
-    t.out(&Out::cell_volume, "cell_volume").unit(Unit::cubic_metre)
+    t.out(&Out::cell_volume, "cell_volume")
+        .unit(Unit::cubic_metre)
         .doc("Volume of the cell before the shrink-wrap; the cells of all volumes fill the boundary.");
-    t.out(&Out::floor_area, "floor_area").unit(Unit::square_metre)
+    t.out(&Out::floor_area, "floor_area")
+        .unit(Unit::square_metre)
         .doc("Sum of the horizontal sections of the shape at the middle of each storey.");
     t.out(&Out::surface_area, "surface_area").unit(Unit::square_metre).doc("Area of the whole surface of the shape.");
     t.out(&Out::footprint, "footprint").unit(Unit::square_metre).doc("Area that the shape covers in plan, seen from above.");
-    t.out(&Out::spherical_area, "spherical_area").unit(Unit::square_metre)
+    t.out(&Out::spherical_area, "spherical_area")
+        .unit(Unit::square_metre)
         .doc("The part of the surface that lies on the ball and so borders neither a neighbour nor the boundary.");
     t.out(&Out::height, "height").unit(Unit::metre).doc("Height of the shape from its lowest to its highest point.");
     t.out(&Out::bottom, "bottom").unit(Unit::metre).doc("Height of the lowest point of the shape above the origin.");
-    t.out(&Out::centroid, "centroid").unit(Unit::metre).doc("Centre of gravity of the shape; the node's position where the shape is empty.");
+    t.out(&Out::centroid, "centroid")
+        .unit(Unit::metre)
+        .doc("Centre of gravity of the shape; the node's position where the shape is empty.");
     t.out(&Out::mesh, "mesh").doc("The shape as a triangle mesh, for the eye and for export.");
   }
 
   static void declare_standing(TypificationBuilder<SmartVolume>& t) {
-    t.out(&Out::error, "error").unit(Unit::ratio).residual()
+    t.out(&Out::error, "error")
+        .unit(Unit::ratio)
+        .residual()
         .doc("How far the volume is from the wanted one, as a share of the wanted one.");
     t.out(&Out::state, "state")
-        .doc("What became of the volume: `alive`, `hidden`, `outside`, `coincident` or `starved`; `idle` before a solver has seen it.");
+        .doc(
+            "What became of the volume: `alive`, `hidden`, `outside`, `coincident` or `starved`; `idle` before a solver has seen "
+            "it.");
     t.out(&Out::reason, "reason").doc("Why the volume is not alive, as a sentence; empty where it is.");
     t.out(&Out::neighbours, "neighbours")
         .column({.id = "node", .is_text = true, .default_value = std::string(), .doc = "Id of the volume on the other side."})
         .column({.id = "area", .unit = Unit::square_metre, .doc = "Area of the shared face, inside both balls."})
         .doc("The volumes that share a face with this one, in ascending id.");
-    t.out(&Out::last_step, "last_step").unit(Unit::cubic_metre)
+    t.out(&Out::last_step, "last_step")
+        .unit(Unit::cubic_metre)
         .doc("The last change of the cube of the radius: what the solver remembers of this volume from tick to tick.");
-    t.out(&Out::last_direction, "last_direction").unit(Unit::cubic_metre)
+    t.out(&Out::last_direction, "last_direction")
+        .unit(Unit::cubic_metre)
         .doc("The step that Newton's method is trying, which the next tick judges.");
   }
 };

@@ -31,8 +31,14 @@ struct SmartVolumesSolver {
     Point3 position;
     double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0, last_step = 0, last_direction = 0;
   };
-  struct Plot { std::string id; Table planes; };
-  struct Sets { std::vector<Member> members; std::vector<Plot> plots; };
+  struct Plot {
+    std::string id;
+    Table planes;
+  };
+  struct Sets {
+    std::vector<Member> members;
+    std::vector<Plot> plots;
+  };
   struct Reply {
     double wanted = 0, weight = 0, radius = 0, volume = 0, cell_volume = 0, floor_area = 0, surface_area = 0, footprint = 0;
     double spherical_area = 0, height = 0, bottom = 0, error = 0, last_step = 0, last_direction = 0;
@@ -51,19 +57,35 @@ struct SmartVolumesSolver {
 
   static void declare(TypificationBuilder<SmartVolumesSolver>& t) {
     t.id("smart_volumes_solver").label("SmartVolumes solver");
-    t.doc("Divides a boundary among SmartVolumes: a bounded power diagram, shrink-wrapped onto balls, whose weights are adapted "
-          "in every tick until each volume has what it wants. A scene may hold several solvers, each with its own members and boundary.");
-    t.in(&In::members, "members").doc("The SmartVolumes that this solver takes care of; a SmartVolume belongs to one solver only.");
+    t.doc(
+        "Divides a boundary among SmartVolumes: a bounded power diagram, shrink-wrapped onto balls, whose weights are adapted "
+        "in every tick until each volume has what it wants. A scene may hold several solvers, each with its own members and "
+        "boundary.");
+    t.in(&In::members, "members")
+        .doc("The SmartVolumes that this solver takes care of; a SmartVolume belongs to one solver only.");
     t.in(&In::boundary, "boundary").doc("The boundary that is divided. Exactly one node with planes has to result.");
-    t.in(&In::method, "method", {{Method::feedback, "feedback", "Each weight follows the error of its own volume, as in 2007, with acceleration."},
-                                 {Method::newton, "newton", "All weights together follow the exact response of all volumes; a few steps at any fill."}})
+    t.in(&In::method, "method",
+         {{Method::feedback, "feedback", "Each weight follows the error of its own volume, as in 2007, with acceleration."},
+          {Method::newton, "newton", "All weights together follow the exact response of all volumes; a few steps at any fill."}})
         .doc("How the weights are adapted.");
-    t.in(&In::gain, "gain").unit(Unit::per_metre).range(0, 1000).soft(0, 1)
-        .doc("Change of weight per missing volume, the same for all, as in 2007; 0 lets each volume find its own from its free surface.");
-    t.in(&In::steps, "steps").range(1, 50).soft(1, 20).doc("Steps of adaptation in one tick: more steps settle in fewer, slower ticks.");
-    t.in(&In::tolerance, "tolerance").unit(Unit::ratio).range(1e-9, 1).soft(0.001, 0.1)
+    t.in(&In::gain, "gain")
+        .unit(Unit::per_metre)
+        .range(0, 1000)
+        .soft(0, 1)
+        .doc(
+            "Change of weight per missing volume, the same for all, as in 2007; 0 lets each volume find its own from its free "
+            "surface.");
+    t.in(&In::steps, "steps")
+        .range(1, 50)
+        .soft(1, 20)
+        .doc("Steps of adaptation in one tick: more steps settle in fewer, slower ticks.");
+    t.in(&In::tolerance, "tolerance")
+        .unit(Unit::ratio)
+        .range(1e-9, 1)
+        .soft(0.001, 0.1)
         .doc("The weights rest while every volume is within this share of what it wants.");
-    t.in(&In::tessellation_depth, "tessellation_depth").range(0, 4)
+    t.in(&In::tessellation_depth, "tessellation_depth")
+        .range(0, 4)
         .doc("Fineness of the meshes: each face is split in four so many times. It changes no measure.");
     t.out(&Out::count, "count").unit(Unit::count).doc("Number of members that have a volume.");
     t.out(&Out::total_demand, "total_demand").unit(Unit::cubic_metre).doc("Sum of what the members want.");
@@ -73,41 +95,52 @@ struct SmartVolumesSolver {
     t.out(&Out::largest_error, "largest_error").unit(Unit::ratio).doc("Largest error of a member, as a share of what it wants.");
     t.out(&Out::worst, "worst").doc("Id of the member with the largest error; empty where all volumes are exact.");
     t.out(&Out::total_floor_area, "total_floor_area").unit(Unit::square_metre).doc("Sum of the floor areas of the members.");
-    t.out(&Out::message, "message").doc("What cannot be had, by how much, and who goes without; empty where every demand can be met.");
+    t.out(&Out::message, "message")
+        .doc("What cannot be had, by how much, and who goes without; empty where every demand can be met.");
     memory(t, &Memory::momentum, "momentum", "Counter of the acceleration of the feedback; 1 is a fresh start.");
-    memory(t, &Memory::residual, "residual", "How far Newton's last step started from the demands; negative: no step to be judged.");
+    memory(t, &Memory::residual, "residual",
+           "How far Newton's last step started from the demands; negative: no step to be judged.");
     memory(t, &Memory::share, "share", "Share of Newton's full step that was taken last.");
     memory(t, &Memory::least_ratio, "least_ratio", "Smallest share of a demand that Newton's steps may lead to.");
     memory(t, &Memory::problem, "problem", "Hash of the problem that the last step belongs to; another problem starts afresh.");
     t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::planes, "boundary.planes");
     auto set = t.set("members", &Sets::members, &Out::replies);
-    set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre).reads(&Member::demand, "smart_volume.demand");
+    set.reads(&Member::id, "node.id")
+        .reads(&Member::position, "node.position", Unit::metre)
+        .reads(&Member::demand, "smart_volume.demand");
     set.reads(&Member::limit, "smart_volume.demand_limit").reads(&Member::least, "smart_volume.demand_min");
     set.reads(&Member::storey_height, "smart_volume.storey_height").reads(&Member::weight, "smart_volume.weight");
     set.reads(&Member::last_step, "smart_volume.last_step").writes(&Reply::last_step, "smart_volume.last_step");
-    set.reads(&Member::last_direction, "smart_volume.last_direction").writes(&Reply::last_direction, "smart_volume.last_direction");
+    set.reads(&Member::last_direction, "smart_volume.last_direction")
+        .writes(&Reply::last_direction, "smart_volume.last_direction");
     set.writes(&Reply::wanted, "smart_volume.wanted").writes(&Reply::error, "smart_volume.error");
     set.writes(&Reply::weight, "smart_volume.weight").writes(&Reply::radius, "smart_volume.radius");
     set.writes(&Reply::volume, "smart_volume.volume").writes(&Reply::cell_volume, "smart_volume.cell_volume");
     set.writes(&Reply::floor_area, "smart_volume.floor_area").writes(&Reply::footprint, "smart_volume.footprint");
     set.writes(&Reply::surface_area, "smart_volume.surface_area").writes(&Reply::spherical_area, "smart_volume.spherical_area");
-    set.writes(&Reply::height, "smart_volume.height").writes(&Reply::bottom, "smart_volume.bottom").writes(&Reply::mesh, "smart_volume.mesh");
+    set.writes(&Reply::height, "smart_volume.height")
+        .writes(&Reply::bottom, "smart_volume.bottom")
+        .writes(&Reply::mesh, "smart_volume.mesh");
     set.writes(&Reply::state, "smart_volume.state").writes(&Reply::reason, "smart_volume.reason");
     set.writes(&Reply::centroid, "smart_volume.centroid").writes(&Reply::neighbours, "smart_volume.neighbours");
   }
 
   template <class M>
-  static void memory(TypificationBuilder<SmartVolumesSolver>& t, M Memory::* member, const char* id, const char* doc) {
+  static void memory(TypificationBuilder<SmartVolumesSolver>& t, M Memory::*member, const char* id, const char* doc) {
     t.memory(&Out::memory, &In::last, member, id).doc(doc);
   }
 
   static Result<ConvexDomain> domain_of(const std::vector<Plot>& plots) {
-    if (plots.empty()) return Error{ErrorCode::missing, "boundary", "a boundary is needed and none was found: add one, or choose one here"};
+    if (plots.empty())
+      return Error{ErrorCode::missing, "boundary", "a boundary is needed and none was found: add one, or choose one here"};
     std::string found;
     for (const Plot& plot : plots) found += (found.empty() ? "`" : ", `") + plot.id + "`";
-    if (plots.size() > 1) return Error{ErrorCode::conflict, "boundary", std::to_string(plots.size()) + " boundaries were found (" + found + "): choose one of them here"};
+    if (plots.size() > 1)
+      return Error{ErrorCode::conflict, "boundary",
+                   std::to_string(plots.size()) + " boundaries were found (" + found + "): choose one of them here"};
     const Table& table = plots.front().planes;
-    if (table.rows.empty()) return Error{ErrorCode::missing, "boundary", "the boundary " + found + " has no shape: see its own error"};
+    if (table.rows.empty())
+      return Error{ErrorCode::missing, "boundary", "the boundary " + found + " has no shape: see its own error"};
     std::vector<Plane> planes;
     for (std::size_t r = 0; r < table.rows.size(); ++r)
       planes.push_back({{table.number(r, "x"), table.number(r, "y"), table.number(r, "z")}, table.number(r, "offset")});
@@ -119,14 +152,30 @@ struct SmartVolumesSolver {
   static void start_newcomers(const ConvexDomain& domain, std::span<PowerSite> sites, std::span<const double> wanted) {
     if (std::none_of(sites.begin(), sites.end(), [](const PowerSite& s) { return s.weight > 0; })) return;
     for (std::size_t i = 0; i < sites.size(); ++i)
-      if (!(sites[i].weight > 0)) sites[i].weight = 0.5 * initial_weights(domain, sites.subspan(i, 1), wanted.subspan(i, 1)).front();
+      if (!(sites[i].weight > 0))
+        sites[i].weight = 0.5 * initial_weights(domain, sites.subspan(i, 1), wanted.subspan(i, 1)).front();
   }
 
   static Reply reply_of(const CellMeasure& cell, double wanted, double weight, std::span<const std::string> names) {
-    Reply reply{wanted, weight, std::sqrt(std::max(0.0, weight)), cell.volume, cell.cell_volume, cell.floor_area, cell.surface_area, cell.footprint,
-                cell.spherical_area, cell.height, cell.bottom, wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0, 0, 0,
-                std::string(name_of(cell.state)), wanted > 0 ? with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
-                {{"node", "area"}, {}}, cell.centroid, cell.mesh};
+    Reply reply{wanted,
+                weight,
+                std::sqrt(std::max(0.0, weight)),
+                cell.volume,
+                cell.cell_volume,
+                cell.floor_area,
+                cell.surface_area,
+                cell.footprint,
+                cell.spherical_area,
+                cell.height,
+                cell.bottom,
+                wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0,
+                0,
+                0,
+                std::string(name_of(cell.state)),
+                wanted > 0 ? with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
+                {{"node", "area"}, {}},
+                cell.centroid,
+                cell.mesh};
     for (const FacetArea& facet : cell.facets)
       if (facet.kind == FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
     return reply;
@@ -166,11 +215,13 @@ struct SmartVolumesSolver {
       names.push_back(member.id);
     }
     start_newcomers(*domain, sites, wanted);
-    const FitOptions options{.method = in.method, .gain = in.gain, .steps = in.steps, .tolerance = in.tolerance, .pool = tick.pool};
+    const FitOptions options{
+        .method = in.method, .gain = in.gain, .steps = in.steps, .tolerance = in.tolerance, .pool = tick.pool};
     const auto fit = adapt_weights(*domain, sites, wanted, {}, last_state(in, sets.members), options);
     if (!fit) return Error{fit.error().code, "members", with_names(fit.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit->weights[i];
-    const auto cells = power_cells(*domain, sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
+    const auto cells = power_cells(
+        *domain, sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
     if (!cells) return Error{cells.error().code, "members", with_names(cells.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) {
       Reply& reply = out.replies.emplace_back(reply_of((*cells)[i], wanted[i], sites[i].weight, names));

@@ -13,19 +13,25 @@ namespace bl {
 /// Folds values into 64 bits in the order given. Mixing as in the finaliser of SplitMix64 (Steele et al. 2014).
 class Hash {
  public:
-  void add(std::uint64_t word) {
-    state_ = mix(state_ ^ (word + 0x9e3779b97f4a7c15ull + (state_ << 6) + (state_ >> 2)));
-  }
+  void add(std::uint64_t word) { state_ = mix(state_ ^ (word + 0x9e3779b97f4a7c15ull + (state_ << 6) + (state_ >> 2))); }
   /// The bits of the number; both zeros hash alike, because they compare equal.
   void add(double number) { add(std::bit_cast<std::uint64_t>(number == 0 ? 0.0 : number)); }
-  void add(const Vector3& v) { add(v.x); add(v.y); add(v.z); }
+  void add(const Vector3& v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+  }
   void add(std::string_view text) {
     add(static_cast<std::uint64_t>(text.size()));
     std::uint64_t word = 0;
     int filled = 0;
     for (const char c : text) {
       word |= static_cast<std::uint64_t>(static_cast<unsigned char>(c)) << (8 * filled);
-      if (++filled == 8) { add(word); word = 0; filled = 0; }
+      if (++filled == 8) {
+        add(word);
+        word = 0;
+        filled = 0;
+      }
     }
     if (filled > 0) add(word);
   }
@@ -40,7 +46,7 @@ class Hash {
   }
 
  private:
-  std::uint64_t state_ = 0x243f6a8885a308d3ull;    // digits of pi: any fixed start does
+  std::uint64_t state_ = 0x243f6a8885a308d3ull;  // digits of pi: any fixed start does
 };
 
 /// Sixteen lower-case hexadecimal digits of a hash.

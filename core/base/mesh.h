@@ -12,8 +12,8 @@ namespace bl {
 
 /// Triangles over shared vertices. Closed meshes are oriented outward (counter-clockwise seen from outside).
 struct Mesh {
-  std::vector<Point3> vertices;                          ///< [m]
-  std::vector<std::array<std::uint32_t, 3>> triangles;   ///< indices into `vertices`
+  std::vector<Point3> vertices;                         ///< [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
   bool operator==(const Mesh&) const = default;
 };
 

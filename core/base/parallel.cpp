@@ -30,9 +30,7 @@ struct ThreadPool::Shared {
       std::exception_ptr caught;
       try {
         (*current)(begin, end);
-      } catch (...) {
-        caught = std::current_exception();
-      }
+      } catch (...) { caught = std::current_exception(); }
       lock.lock();
       --running;
       if (caught && !failure) failure = caught;
@@ -66,8 +64,7 @@ ThreadPool::~ThreadPool() {
   for (auto& worker : shared_->workers) worker.join();
 }
 
-void ThreadPool::for_each_chunk(std::size_t count, std::size_t grain,
-                                const std::function<void(std::size_t, std::size_t)>& body) {
+void ThreadPool::for_each_chunk(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   grain = std::max<std::size_t>(1, grain);
   if (!shared_ || count <= grain) {
     for (std::size_t begin = 0; begin < count; begin += grain) body(begin, std::min(count, begin + grain));

@@ -9,8 +9,8 @@ namespace bl {
 
 namespace {
 
-constexpr Dimension kNone{}, kLength{1}, kArea{2}, kVolume{3}, kPerLength{-1}, kTime{0, 1}, kAngle{0, 0, 1},
-    kSpeed{1, -1}, kRate{0, -1}, kMoney{0, 0, 0, 1};
+constexpr Dimension kNone{}, kLength{1}, kArea{2}, kVolume{3}, kPerLength{-1}, kTime{0, 1}, kAngle{0, 0, 1}, kSpeed{1, -1},
+    kRate{0, -1}, kMoney{0, 0, 0, 1};
 
 constexpr std::array kTable = {
     UnitInfo{Unit::none, "", "", "number", kNone, 1},

@@ -17,16 +17,29 @@ struct Dimension {
 };
 
 /// The units that declarations use; each is the SI unit of its dimension, or a plain number.
-enum class Unit { none, ratio, count, metre, square_metre, cubic_metre, per_metre, degree, second, metre_per_second, per_hour, euro };
+enum class Unit {
+  none,
+  ratio,
+  count,
+  metre,
+  square_metre,
+  cubic_metre,
+  per_metre,
+  degree,
+  second,
+  metre_per_second,
+  per_hour,
+  euro
+};
 
 /// One row of the unit table.
 struct UnitInfo {
-  Unit unit;                  ///< the SI unit that values are kept in
-  std::string_view symbol;    ///< as typed and shown: "m2", "ha", "min"
-  std::string_view pretty;    ///< as printed to people: "m²"
-  std::string_view name;      ///< "square metre"
+  Unit unit;                ///< the SI unit that values are kept in
+  std::string_view symbol;  ///< as typed and shown: "m2", "ha", "min"
+  std::string_view pretty;  ///< as printed to people: "m²"
+  std::string_view name;    ///< "square metre"
   Dimension dimension;
-  double scale;               ///< value in SI = scale · value in this unit
+  double scale;  ///< value in SI = scale · value in this unit
 };
 
 /// All units and their everyday multiples (ha, cm, min, ...); the first row of a Unit is the unit itself.

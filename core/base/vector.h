@@ -9,9 +9,24 @@ struct Vector3 {
   double x = 0, y = 0, z = 0;
   bool operator==(const Vector3&) const = default;
 
-  constexpr Vector3& operator+=(const Vector3& b) { x += b.x; y += b.y; z += b.z; return *this; }
-  constexpr Vector3& operator-=(const Vector3& b) { x -= b.x; y -= b.y; z -= b.z; return *this; }
-  constexpr Vector3& operator*=(double s) { x *= s; y *= s; z *= s; return *this; }
+  constexpr Vector3& operator+=(const Vector3& b) {
+    x += b.x;
+    y += b.y;
+    z += b.z;
+    return *this;
+  }
+  constexpr Vector3& operator-=(const Vector3& b) {
+    x -= b.x;
+    y -= b.y;
+    z -= b.z;
+    return *this;
+  }
+  constexpr Vector3& operator*=(double s) {
+    x *= s;
+    y *= s;
+    z *= s;
+    return *this;
+  }
 };
 
 /// A position; the same three numbers as a Vector3, named apart where reading is helped by it.

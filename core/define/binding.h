@@ -55,15 +55,24 @@ struct SharedBinding {
   }
 };
 
-template <> struct Binding<bool> : DirectBinding<bool, ValueKind::boolean> {};
-template <> struct Binding<std::string> : DirectBinding<std::string, ValueKind::text> {};
-template <> struct Binding<Vector3> : DirectBinding<Vector3, ValueKind::point> {};
-template <> struct Binding<MeshPointer> : DirectBinding<MeshPointer, ValueKind::mesh> {};
-template <> struct Binding<std::vector<Point3>> : SharedBinding<std::vector<Point3>, ValueKind::points> {};
-template <> struct Binding<std::vector<std::string>> : SharedBinding<std::vector<std::string>, ValueKind::texts> {};
-template <> struct Binding<Selection> : SharedBinding<Selection, ValueKind::selection> {};
-template <> struct Binding<Table> : SharedBinding<Table, ValueKind::table> {};
-template <> struct Binding<Shared<Table>> : DirectBinding<Shared<Table>, ValueKind::table> {};
+template <>
+struct Binding<bool> : DirectBinding<bool, ValueKind::boolean> {};
+template <>
+struct Binding<std::string> : DirectBinding<std::string, ValueKind::text> {};
+template <>
+struct Binding<Vector3> : DirectBinding<Vector3, ValueKind::point> {};
+template <>
+struct Binding<MeshPointer> : DirectBinding<MeshPointer, ValueKind::mesh> {};
+template <>
+struct Binding<std::vector<Point3>> : SharedBinding<std::vector<Point3>, ValueKind::points> {};
+template <>
+struct Binding<std::vector<std::string>> : SharedBinding<std::vector<std::string>, ValueKind::texts> {};
+template <>
+struct Binding<Selection> : SharedBinding<Selection, ValueKind::selection> {};
+template <>
+struct Binding<Table> : SharedBinding<Table, ValueKind::table> {};
+template <>
+struct Binding<Shared<Table>> : DirectBinding<Shared<Table>, ValueKind::table> {};
 
 /// Whole numbers and truth values read as numbers, so that links may read any numeric port into a double.
 template <>
@@ -99,10 +108,12 @@ template <class T>
 concept ChoiceMember = std::is_enum_v<T>;
 
 template <class T>
-concept NumericMember = std::same_as<T, double> || (std::signed_integral<T> && !std::same_as<T, bool>);
+concept NumericMember = std::same_as<T, double> ||(std::signed_integral<T> && !std::same_as<T, bool>);
 
-template <class T> struct is_optional_type : std::false_type {};
-template <class T> struct is_optional_type<std::optional<T>> : std::true_type {};
+template <class T>
+struct is_optional_type : std::false_type {};
+template <class T>
+struct is_optional_type<std::optional<T>> : std::true_type {};
 
 /// A member that an evaluation may leave without a value: then it proposes or replies nothing.
 template <class T>
@@ -115,19 +126,25 @@ std::optional<Value> offered(const T& member) {
   }
 }
 
-template <class T> struct offered_type { using type = T; };
-template <class T> struct offered_type<std::optional<T>> { using type = T; };
+template <class T>
+struct offered_type {
+  using type = T;
+};
+template <class T>
+struct offered_type<std::optional<T>> {
+  using type = T;
+};
 
 /// A read of one node's value into `member`, or of a whole end's into an All.
 template <class Owner, class M>
-void bind_read(ReadDefinition& read, M Owner::* member) {
+void bind_read(ReadDefinition& read, M Owner::*member) {
   read.kind = Binding<M>::kKind;
   read.assign = [member](void* owner, std::span<const Value* const> values) {
     static_cast<Owner*>(owner)->*member = Binding<M>::from_value(*values.front());
   };
 }
 template <class Owner, class M>
-void bind_read(ReadDefinition& read, All<M> Owner::* member) {
+void bind_read(ReadDefinition& read, All<M> Owner::*member) {
   read.kind = Binding<M>::kKind;
   read.is_whole = true;
   read.assign = [member](void* owner, std::span<const Value* const> values) {
@@ -139,14 +156,14 @@ void bind_read(ReadDefinition& read, All<M> Owner::* member) {
 
 /// A write of one node's value from `member`, or of a whole end's from an All (missing entries propose nothing).
 template <class Owner, class M>
-void bind_write(WriteDefinition& write, M Owner::* member) {
+void bind_write(WriteDefinition& write, M Owner::*member) {
   write.kind = Binding<typename offered_type<M>::type>::kKind;
   write.extract = [member](const void* owner, std::span<std::optional<Value>> values) {
     values.front() = offered(static_cast<const Owner*>(owner)->*member);
   };
 }
 template <class Owner, class M>
-void bind_write(WriteDefinition& write, All<M> Owner::* member) {
+void bind_write(WriteDefinition& write, All<M> Owner::*member) {
   write.kind = Binding<typename offered_type<M>::type>::kKind;
   write.is_whole = true;
   write.extract = [member](const void* owner, std::span<std::optional<Value>> values) {

@@ -49,12 +49,14 @@ void port_table(std::string& page, const TypeDefinition& type, bool is_computed,
   bool is_open = false;
   for (const PortDefinition& port : type.ports) {
     if (port.is_computed != is_computed) continue;
-    if (!is_open) page += "## " + title + "\n\n| id | kind | unit | " + (is_computed ? "" : "default | range | links | ") + "meaning |\n" +
-                          (is_computed ? "|---|---|---|---|\n" : "|---|---|---|---|---|---|---|\n");
+    if (!is_open)
+      page += "## " + title + "\n\n| id | kind | unit | " + (is_computed ? "" : "default | range | links | ") + "meaning |\n" +
+              (is_computed ? "|---|---|---|---|\n" : "|---|---|---|---|---|---|---|\n");
     is_open = true;
     page += "| `" + port.id + "` | " + std::string(name_of(port.kind)) + " | " + unit_of(port) + " | ";
     if (!is_computed)
-      page += cell(default_of(port)) + " | " + range_of(port) + " | " + (port.rule == CombineRule::none ? "" : std::string(name_of(port.rule))) + " | ";
+      page += cell(default_of(port)) + " | " + range_of(port) + " | " +
+              (port.rule == CombineRule::none ? "" : std::string(name_of(port.rule))) + " | ";
     page += cell(port.doc) + " |\n";
   }
   if (is_open) page += "\n";
@@ -63,7 +65,8 @@ void port_table(std::string& page, const TypeDefinition& type, bool is_computed,
     if (!port.columns.empty()) page += "Columns of `" + port.id + "`:\n\n";
     for (const ColumnDefinition& column : port.columns) {
       const std::string unit(info(column.unit).pretty);
-      page += "- `" + column.id + "`" + (unit.empty() ? "" : " [" + unit + "]") + (column.is_required ? " (required)" : "") + ": " + column.doc + "\n";
+      page += "- `" + column.id + "`" + (unit.empty() ? "" : " [" + unit + "]") + (column.is_required ? " (required)" : "") +
+              ": " + column.doc + "\n";
     }
     if (!port.columns.empty()) page += "\n";
     for (const ChoiceDefinition& choice : port.choices) page += "- `" + port.id + "` = `" + choice.id + "`: " + choice.doc + "\n";
@@ -81,8 +84,10 @@ std::string path_text(const PortPath& path) {
 
 // Does the link read or change a port of this typification at this end? Derived, so that nobody keeps a second list.
 bool needs(const LinkDefinition& kind, End end, const std::string& typification) {
-  return std::any_of(kind.reads.begin(), kind.reads.end(), [&](const LinkRead& r) { return r.end == end && r.path.typification == typification; }) ||
-         std::any_of(kind.proposes.begin(), kind.proposes.end(), [&](const LinkWrite& w) { return w.end == end && w.path.typification == typification; });
+  return std::any_of(kind.reads.begin(), kind.reads.end(),
+                     [&](const LinkRead& r) { return r.end == end && r.path.typification == typification; }) ||
+         std::any_of(kind.proposes.begin(), kind.proposes.end(),
+                     [&](const LinkWrite& w) { return w.end == end && w.path.typification == typification; });
 }
 
 }  // namespace
@@ -122,7 +127,8 @@ std::string catalogue_page(const LinkDefinition& kind, const Registry& registry)
         proposes += (proposes.empty() ? "" : ", ") + path_text(write.path);
         if (const auto port = registry.port(write.path)) proposes += " (" + std::string(name_of((*port)->rule)) + ")";
       }
-    page += "| " + std::string(name_of(end)) + (kind.is_whole(end) ? " (the whole set at once)" : "") + " | " + reads + " | " + proposes + " |\n";
+    page += "| " + std::string(name_of(end)) + (kind.is_whole(end) ? " (the whole set at once)" : "") + " | " + reads + " | " +
+            proposes + " |\n";
   }
   return page + "\n";
 }

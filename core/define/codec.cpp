@@ -39,7 +39,8 @@ Error wrong_kind(const PortDefinition& port, const Json& json, const std::string
                   "s; convert it and write the plain number"};
   }
   return {ErrorCode::wrong_kind, place,
-          "expects " + std::string(name_of(port.kind)) + (port.kind == ValueKind::number ? in_unit(port.unit) : "") + ", found " + shown(json)};
+          "expects " + std::string(name_of(port.kind)) + (port.kind == ValueKind::number ? in_unit(port.unit) : "") + ", found " +
+              shown(json)};
 }
 
 Result<Vector3> vector_from_json(const Json& json, const std::string& place) {
@@ -99,7 +100,8 @@ Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& js
   table.columns = column_ids(port);
   for (std::size_t r = 0; r < json.size(); ++r) {
     const std::string row_place = place + "/" + std::to_string(r);
-    if (!json[r].is_object()) return Error{ErrorCode::wrong_kind, row_place, "expects a row {\"column\": value, ...}, found " + shown(json[r])};
+    if (!json[r].is_object())
+      return Error{ErrorCode::wrong_kind, row_place, "expects a row {\"column\": value, ...}, found " + shown(json[r])};
     if (auto keys = check_keys(json[r], table.columns, row_place); !keys) return keys.error();
     auto& row = table.rows.emplace_back();
     for (const ColumnDefinition& column : port.columns) {
@@ -189,7 +191,8 @@ Result<Selection> selection_from_json(const Json& json, const std::string& place
       (key == "tag" ? selection.tag : selection.typification) = text.get<std::string>();
     }
   } else {
-    return Error{ErrorCode::wrong_kind, place, "expects " + std::string(name_of(ValueKind::selection)) + ", found " + shown(json)};
+    return Error{ErrorCode::wrong_kind, place,
+                 "expects " + std::string(name_of(ValueKind::selection)) + ", found " + shown(json)};
   }
   return selection;
 }
@@ -197,7 +200,8 @@ Result<Selection> selection_from_json(const Json& json, const std::string& place
 Result<void> check_keys(const Json& json, const std::vector<std::string>& known, const std::string& place) {
   for (const auto& [key, value] : json.items())
     if (std::find(known.begin(), known.end(), key) == known.end())
-      return Error{ErrorCode::unknown_field, place.empty() ? key : place + "/" + key, "unknown field `" + key + "`" + did_you_mean(key, known)};
+      return Error{ErrorCode::unknown_field, place.empty() ? key : place + "/" + key,
+                   "unknown field `" + key + "`" + did_you_mean(key, known)};
   return {};
 }
 
@@ -261,9 +265,10 @@ Result<void> check_value(const PortDefinition& port, const Value& value, const s
       return Error{ErrorCode::out_of_range, place, "must be between -1e15 and 1e15, found " + shortest(number)};
     if (number < port.hard_minimum || number > port.hard_maximum) {
       const std::string unit(info(port.unit).pretty.empty() ? "" : " " + std::string(info(port.unit).pretty));
-      std::string range = std::isinf(port.hard_maximum)   ? "at least " + shortest(port.hard_minimum)
-                          : std::isinf(port.hard_minimum) ? "at most " + shortest(port.hard_maximum)
-                                                          : "between " + shortest(port.hard_minimum) + " and " + shortest(port.hard_maximum);
+      std::string range = std::isinf(port.hard_maximum) ? "at least " + shortest(port.hard_minimum)
+                          : std::isinf(port.hard_minimum)
+                              ? "at most " + shortest(port.hard_maximum)
+                              : "between " + shortest(port.hard_minimum) + " and " + shortest(port.hard_maximum);
       return Error{ErrorCode::out_of_range, place, "must be " + range + unit + ", found " + shortest(number)};
     }
   }
@@ -278,7 +283,8 @@ Result<void> check_value(const PortDefinition& port, const Value& value, const s
     }
   }
   if (port.kind == ValueKind::port && !parse_port_path(std::get<std::string>(value)) && !std::get<std::string>(value).empty())
-    return Error{ErrorCode::wrong_kind, place, "expects a port written `typification.port`, found `" + std::get<std::string>(value) + "`"};
+    return Error{ErrorCode::wrong_kind, place,
+                 "expects a port written `typification.port`, found `" + std::get<std::string>(value) + "`"};
   return {};
 }
 
@@ -323,7 +329,8 @@ Json command_to_json(const Registry& registry, const Command& command) {
   Json json = Json::object();
   json["command"] = command.id;
   if (const CommandDefinition* definition = registry.command(command.id))
-    if (Json arguments = ports_to_json(*definition, command.arguments); !arguments.empty()) json["arguments"] = std::move(arguments);
+    if (Json arguments = ports_to_json(*definition, command.arguments); !arguments.empty())
+      json["arguments"] = std::move(arguments);
   return json;
 }
 
@@ -335,8 +342,10 @@ Result<Command> command_from_json(const Registry& registry, const Json& json, co
   const CommandDefinition* definition = registry.command(name->get_ref<const std::string&>());
   if (definition == nullptr)
     return Error{ErrorCode::unknown_type, place,
-                 "unknown command `" + name->get<std::string>() + "`" + did_you_mean(name->get<std::string>(), keys_of(registry.commands()))};
-  auto arguments = ports_from_json(*definition, json.value("arguments", Json::object()), place.empty() ? "arguments" : place + "/arguments");
+                 "unknown command `" + name->get<std::string>() + "`" +
+                     did_you_mean(name->get<std::string>(), keys_of(registry.commands()))};
+  auto arguments =
+      ports_from_json(*definition, json.value("arguments", Json::object()), place.empty() ? "arguments" : place + "/arguments");
   if (!arguments) return arguments.error();
   return Command{definition->id, std::move(*arguments)};
 }

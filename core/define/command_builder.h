@@ -33,7 +33,9 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
   using In = typename T::In;
 
   template <class M>
-  PortBuilder<M> argument(M In::* member, std::string id) { return add_port(definition_->ports, member, std::move(id)); }
+  PortBuilder<M> argument(M In::*member, std::string id) {
+    return add_port(definition_->ports, member, std::move(id));
+  }
 
   static CommandDefinition build() {
     CommandDefinition definition;
@@ -53,7 +55,8 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
     static const CommandDefinition kDefinition = build();
     Command command{kDefinition.id, {}};
     for (const PortDefinition& port : kDefinition.ports)
-      if (Value value = port.get(&in); port.is_required || value != port.default_value) command.arguments[port.id] = std::move(value);
+      if (Value value = port.get(&in); port.is_required || value != port.default_value)
+        command.arguments[port.id] = std::move(value);
     return command;
   }
 };

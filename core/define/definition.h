@@ -20,7 +20,7 @@ namespace bl {
 /// What an evaluation may know of the moment: the tick's number and the pool to compute with. No clock, no order.
 struct Tick {
   std::int64_t index = 0;
-  ThreadPool* pool = nullptr;    ///< only set evaluations (solvers) may use it; nullptr means one thread
+  ThreadPool* pool = nullptr;  ///< only set evaluations (solvers) may use it; nullptr means one thread
 };
 
 /// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; the others choose a value.
@@ -47,20 +47,20 @@ struct PortDefinition {
   std::string id, doc;
   ValueKind kind = ValueKind::number;
   Unit unit = Unit::none;
-  std::string unit_from;              ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
-  bool is_computed = false;           ///< written by evaluations only; never set by people or links
-  bool is_required = false;           ///< has no usable default (ids in commands)
-  bool is_residual = false;           ///< a scene is settled when every residual is within its tolerance
+  std::string unit_from;     ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
+  bool is_computed = false;  ///< written by evaluations only; never set by people or links
+  bool is_required = false;  ///< has no usable default (ids in commands)
+  bool is_residual = false;  ///< a scene is settled when every residual is within its tolerance
   CombineRule rule = CombineRule::none;
-  double step_limit = std::numeric_limits<double>::infinity();    ///< largest change in one tick
+  double step_limit = std::numeric_limits<double>::infinity();  ///< largest change in one tick
   Value default_value = 0.0;
   double hard_minimum = -std::numeric_limits<double>::infinity(), hard_maximum = std::numeric_limits<double>::infinity();
   std::optional<double> soft_minimum, soft_maximum;
   std::vector<ChoiceDefinition> choices;
   std::vector<ColumnDefinition> columns;
-  std::function<Value(const void*)> get;                 ///< reads the bound member of its struct
-  std::function<void(void*, const Value&)> set;          ///< writes it
-  std::function<void(void*, const Value&)> recall;       ///< of a computed port: gives its last value to the settings struct
+  std::function<Value(const void*)> get;            ///< reads the bound member of its struct
+  std::function<void(void*, const Value&)> set;     ///< writes it
+  std::function<void(void*, const Value&)> recall;  ///< of a computed port: gives its last value to the settings struct
 };
 
 /// `typification.port`, or the parameter that chooses it when `chosen_by` is set.
@@ -75,8 +75,8 @@ std::optional<PortPath> parse_port_path(std::string_view text);
 struct ReadDefinition {
   PortPath path;
   ValueKind kind = ValueKind::number;
-  std::optional<Unit> unit;                                         ///< empty: any unit
-  bool is_whole = false;                                            ///< gets the values of all nodes of its end at once
+  std::optional<Unit> unit;  ///< empty: any unit
+  bool is_whole = false;     ///< gets the values of all nodes of its end at once
   std::function<void(void*, std::span<const Value* const>)> assign;
 };
 
@@ -91,7 +91,7 @@ struct WriteDefinition {
 
 /// The set of nodes that a typification evaluates together: which input port selects it, what is read and written back.
 struct SetDefinition {
-  std::string selection;              ///< id of the selecting input port
+  std::string selection;  ///< id of the selecting input port
   std::vector<ReadDefinition> reads;
   std::vector<WriteDefinition> writes;
 };
@@ -100,7 +100,7 @@ struct SetDefinition {
 struct SetValues {
   std::size_t members = 0;
   std::vector<Value> reads;
-  std::vector<std::optional<Value>> writes;    ///< filled by the evaluation, same layout
+  std::vector<std::optional<Value>> writes;  ///< filled by the evaluation, same layout
 };
 
 /// Changes values saved under an older revision; the JSON text in and out is the object of port values.
@@ -115,10 +115,10 @@ struct TypeDefinition {
   int revision = 1;
   std::vector<std::string> aliases;
   std::vector<UpgradeDefinition> upgrades;
-  std::vector<PortDefinition> ports;       ///< settings first, computed ports after them
+  std::vector<PortDefinition> ports;  ///< settings first, computed ports after them
 
   const PortDefinition* find_port(std::string_view port) const;
-  std::size_t port_index(std::string_view port) const;    ///< ports.size() where there is none
+  std::size_t port_index(std::string_view port) const;  ///< ports.size() where there is none
 };
 
 /// A role of a node. `evaluate` is empty for roles whose computed ports are written by a solver.
@@ -150,8 +150,8 @@ struct LinkWrites {
 struct LinkDefinition : TypeDefinition {
   std::vector<LinkRead> reads;
   std::vector<LinkWrite> proposes;
-  std::vector<std::pair<std::string, std::string>> same_units;    ///< pairs of port parameters whose units must agree
-  std::string same_units_unless;                                  ///< a boolean parameter that lifts that rule
+  std::vector<std::pair<std::string, std::string>> same_units;  ///< pairs of port parameters whose units must agree
+  std::string same_units_unless;                                ///< a boolean parameter that lifts that rule
   /// Parameters as the struct that the evaluation takes; made once per change of the link.
   std::function<std::shared_ptr<const void>(std::span<const Value>)> instantiate;
   std::function<Result<void>(const void* parameters, const LinkReads&, LinkWrites&, const Tick&)> evaluate;

@@ -80,7 +80,9 @@ Result<Json> parse_json(std::string_view text) {
     return value;
   } catch (const Json::parse_error& e) {
     const std::size_t byte = static_cast<std::size_t>(e.byte);
-    if (byte > text.size()) return Error{ErrorCode::parse, place_of(text, text.size() + 1), "the text ends in the middle of a JSON value; the file is cut off"};
+    if (byte > text.size())
+      return Error{ErrorCode::parse, place_of(text, text.size() + 1),
+                   "the text ends in the middle of a JSON value; the file is cut off"};
     return Error{ErrorCode::parse, place_of(text, byte), "this is not JSON (no comments, no trailing commas, no NaN)"};
   } catch (const Json::out_of_range& e) {
     // The library's message quotes the number; the first place where it stands is where it was met.
@@ -88,10 +90,9 @@ Result<Json> parse_json(std::string_view text) {
     const std::size_t open = what.find('\''), close = what.rfind('\'');
     const std::string_view number = close > open ? what.substr(open + 1, close - open - 1) : std::string_view();
     const std::size_t at = number.empty() ? std::string_view::npos : text.find(number);
-    return Error{ErrorCode::not_finite, at == std::string_view::npos ? "" : place_of(text, at + 1), "a number is too large for a double"};
-  } catch (const std::exception&) {
-    return Error{ErrorCode::parse, "", "this is not JSON text in UTF-8"};
-  }
+    return Error{ErrorCode::not_finite, at == std::string_view::npos ? "" : place_of(text, at + 1),
+                 "a number is too large for a double"};
+  } catch (const std::exception&) { return Error{ErrorCode::parse, "", "this is not JSON text in UTF-8"}; }
 }
 
 namespace {

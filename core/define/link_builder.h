@@ -20,15 +20,17 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   using Out = typename T::Out;
 
   template <class M>
-  PortBuilder<M> param(M In::* member, std::string id) { return add_port(definition_->ports, member, std::move(id)); }
+  PortBuilder<M> param(M In::*member, std::string id) {
+    return add_port(definition_->ports, member, std::move(id));
+  }
   template <ChoiceMember E>
-  PortBuilder<E> param(E In::* member, std::string id, std::vector<Choice<E>> choices) {
+  PortBuilder<E> param(E In::*member, std::string id, std::vector<Choice<E>> choices) {
     return add_choice(definition_->ports, member, std::move(id), std::move(choices));
   }
 
   /// Reads `path` ("typification.port", or "node.id") of the end into `member`; `unit` is what the code expects there.
   template <class M>
-  LinkBuilder& reads(M Ends::* member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
+  LinkBuilder& reads(M Ends::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     LinkRead& read = definition_->reads.emplace_back();
     read.end = end;
     read.path = parse_port_path(path).value();
@@ -38,7 +40,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   }
   /// Reads the port that people chose in `parameter`.
   template <class M>
-  LinkBuilder& reads_chosen(M Ends::* member, End end, std::string parameter) {
+  LinkBuilder& reads_chosen(M Ends::*member, End end, std::string parameter) {
     LinkRead& read = definition_->reads.emplace_back();
     read.end = end;
     read.path.chosen_by = std::move(parameter);
@@ -46,7 +48,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     return *this;
   }
   template <class M>
-  LinkBuilder& proposes(M Out::* member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
+  LinkBuilder& proposes(M Out::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     LinkWrite& write = definition_->proposes.emplace_back();
     write.end = end;
     write.path = parse_port_path(path).value();
@@ -55,7 +57,7 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     return *this;
   }
   template <class M>
-  LinkBuilder& proposes_chosen(M Out::* member, End end, std::string parameter) {
+  LinkBuilder& proposes_chosen(M Out::*member, End end, std::string parameter) {
     LinkWrite& write = definition_->proposes.emplace_back();
     write.end = end;
     write.path.chosen_by = std::move(parameter);

@@ -22,17 +22,32 @@ class PortBuilder {
  public:
   explicit PortBuilder(PortDefinition& port) : port_(&port) {}
 
-  PortBuilder& doc(std::string text) { port_->doc = std::move(text); return *this; }
-  PortBuilder& required() { port_->is_required = true; return *this; }
+  PortBuilder& doc(std::string text) {
+    port_->doc = std::move(text);
+    return *this;
+  }
+  PortBuilder& required() {
+    port_->is_required = true;
+    return *this;
+  }
 
   PortBuilder& unit(Unit unit) requires NumericMember<M> || std::same_as<M, Vector3> || std::same_as<M, std::vector<Point3>> {
     port_->unit = unit;
     return *this;
   }
   /// The unit is named by another port of the same declaration: a unit symbol in a text, or a port whose unit it is.
-  PortBuilder& unit_from(std::string port) requires std::same_as<M, double> { port_->unit_from = std::move(port); return *this; }
-  PortBuilder& min(double hard) requires NumericMember<M> { port_->hard_minimum = hard; return *this; }
-  PortBuilder& max(double hard) requires NumericMember<M> { port_->hard_maximum = hard; return *this; }
+  PortBuilder& unit_from(std::string port) requires std::same_as<M, double> {
+    port_->unit_from = std::move(port);
+    return *this;
+  }
+  PortBuilder& min(double hard) requires NumericMember<M> {
+    port_->hard_minimum = hard;
+    return *this;
+  }
+  PortBuilder& max(double hard) requires NumericMember<M> {
+    port_->hard_maximum = hard;
+    return *this;
+  }
   PortBuilder& range(double low, double high) requires NumericMember<M> { return min(low).max(high); }
   /// What a slider spans; people may type values outside it, up to the hard range.
   PortBuilder& soft(double low, double high) requires NumericMember<M> {
@@ -49,7 +64,10 @@ class PortBuilder {
     port_->step_limit = limit;
     return *this;
   }
-  PortBuilder& residual() requires std::same_as<M, double> { port_->is_residual = true; return *this; }
+  PortBuilder& residual() requires std::same_as<M, double> {
+    port_->is_residual = true;
+    return *this;
+  }
   PortBuilder& column(ColumnDefinition column) requires std::same_as<M, Table> || std::same_as<M, Shared<Table>> {
     port_->columns.push_back(std::move(column));
     return *this;
@@ -61,7 +79,7 @@ class PortBuilder {
 
 /// Binds `member` of Owner as a new port; the default is what a fresh Owner holds.
 template <class Owner, class M>
-PortBuilder<M> add_port(std::vector<PortDefinition>& ports, M Owner::* member, std::string id) {
+PortBuilder<M> add_port(std::vector<PortDefinition>& ports, M Owner::*member, std::string id) {
   PortDefinition& port = ports.emplace_back();
   port.id = std::move(id);
   port.kind = Binding<M>::kKind;
@@ -73,7 +91,7 @@ PortBuilder<M> add_port(std::vector<PortDefinition>& ports, M Owner::* member, s
 
 /// Binds an enumeration: files and values hold the text of the choice, the struct the enumerator.
 template <class Owner, ChoiceMember E>
-PortBuilder<E> add_choice(std::vector<PortDefinition>& ports, E Owner::* member, std::string id, std::vector<Choice<E>> choices) {
+PortBuilder<E> add_choice(std::vector<PortDefinition>& ports, E Owner::*member, std::string id, std::vector<Choice<E>> choices) {
   PortDefinition& port = ports.emplace_back();
   port.id = std::move(id);
   port.kind = ValueKind::choice;
@@ -100,10 +118,22 @@ class TypeBuilder {
   explicit TypeBuilder(Definition& definition) : definition_(&definition) {}
 
   /// The id in files. Never changes once released: a renamed type keeps its old ids as aliases.
-  TypeBuilder& id(std::string text) { definition_->id = std::move(text); return *this; }
-  TypeBuilder& label(std::string text) { definition_->label = std::move(text); return *this; }
-  TypeBuilder& doc(std::string text) { definition_->doc = std::move(text); return *this; }
-  TypeBuilder& alias(std::string old_id) { definition_->aliases.push_back(std::move(old_id)); return *this; }
+  TypeBuilder& id(std::string text) {
+    definition_->id = std::move(text);
+    return *this;
+  }
+  TypeBuilder& label(std::string text) {
+    definition_->label = std::move(text);
+    return *this;
+  }
+  TypeBuilder& doc(std::string text) {
+    definition_->doc = std::move(text);
+    return *this;
+  }
+  TypeBuilder& alias(std::string old_id) {
+    definition_->aliases.push_back(std::move(old_id));
+    return *this;
+  }
   /// Raises the revision by one; `upgrade` turns the JSON object of the revision before into the new one.
   TypeBuilder& upgrade(std::string what, std::function<Result<std::string>(const std::string&)> change) {
     definition_->upgrades.push_back({definition_->revision++, std::move(what), std::move(change)});

@@ -16,7 +16,8 @@ void insert(std::map<std::string, Definition, std::less<>>& types, std::map<std:
             Definition definition) {
   const std::string id = definition.id;
   bool is_new = !aliases.contains(id);
-  for (const std::string& alias : definition.aliases) is_new = aliases.emplace(alias, id).second && !types.contains(alias) && is_new;
+  for (const std::string& alias : definition.aliases)
+    is_new = aliases.emplace(alias, id).second && !types.contains(alias) && is_new;
   is_new = types.emplace(id, std::move(definition)).second && is_new;
   if (is_new) return;
   std::fprintf(stderr, "behaviourlinks: two types declare the id or alias of `%s`\n", id.c_str());
@@ -37,7 +38,9 @@ void Registry::add(TypificationDefinition definition) { insert(typifications_, t
 void Registry::add(LinkDefinition definition) { insert(links_, link_aliases_, std::move(definition)); }
 void Registry::add(CommandDefinition definition) { insert(commands_, command_aliases_, std::move(definition)); }
 
-const TypificationDefinition* Registry::typification(std::string_view id) const { return find(typifications_, typification_aliases_, id); }
+const TypificationDefinition* Registry::typification(std::string_view id) const {
+  return find(typifications_, typification_aliases_, id);
+}
 const LinkDefinition* Registry::link(std::string_view id) const { return find(links_, link_aliases_, id); }
 const CommandDefinition* Registry::command(std::string_view id) const { return find(commands_, command_aliases_, id); }
 
@@ -69,7 +72,10 @@ struct BaseNode {
 
   static void declare(TypificationBuilder<BaseNode>& t) {
     t.id(std::string(kBaseNode)).label("Node").doc("What every node is: an entity with a place and tags.");
-    t.in(&In::position, "position").unit(Unit::metre).combine(CombineRule::sum).step_limit(5)
+    t.in(&In::position, "position")
+        .unit(Unit::metre)
+        .combine(CombineRule::sum)
+        .step_limit(5)
         .doc("Where the node stands. Links move it by at most 5 m in a tick.");
     t.in(&In::tags, "tags").doc("Words to group nodes by; links and statistics can address all nodes with a tag.");
   }

@@ -61,9 +61,15 @@ const Registry& full_registry();
 }  // namespace bl
 
 /// Each closes a file of its folder: makes the type known under the file's stem.
-#define BL_TYPIFICATION(stem, Type) \
-  namespace bl { void register_typification_##stem(Registry& registry) { registry.add(TypificationBuilder<Type>::build()); } }
-#define BL_LINK(stem, Type) \
-  namespace bl { void register_link_##stem(Registry& registry) { registry.add(LinkBuilder<Type>::build()); } }
-#define BL_COMMAND(stem, Type) \
-  namespace bl { void register_command_##stem(Registry& registry) { registry.add(CommandBuilder<Type>::build()); } }
+#define BL_TYPIFICATION(stem, Type)                                                                           \
+  namespace bl {                                                                                              \
+  void register_typification_##stem(Registry& registry) { registry.add(TypificationBuilder<Type>::build()); } \
+  }
+#define BL_LINK(stem, Type)                                                                   \
+  namespace bl {                                                                              \
+  void register_link_##stem(Registry& registry) { registry.add(LinkBuilder<Type>::build()); } \
+  }
+#define BL_COMMAND(stem, Type)                                                                      \
+  namespace bl {                                                                                    \
+  void register_command_##stem(Registry& registry) { registry.add(CommandBuilder<Type>::build()); } \
+  }

@@ -25,9 +25,10 @@ Json text_schema() { return {{"type", "string"}}; }
 
 Json selection_schema(bool may_be_empty) {
   Json list = {{"type", "array"}, {"items", text_schema()}};
-  Json query = {{"type", "object"},
-                {"properties", {{"typification", {{"type", "string"}, {"minLength", 1}}}, {"tag", {{"type", "string"}, {"minLength", 1}}}}},
-                {"additionalProperties", false}};
+  Json query = {
+      {"type", "object"},
+      {"properties", {{"typification", {{"type", "string"}, {"minLength", 1}}}, {"tag", {{"type", "string"}, {"minLength", 1}}}}},
+      {"additionalProperties", false}};
   if (!may_be_empty) {
     list["minItems"] = 1;
     query["minProperties"] = 1;
@@ -82,7 +83,11 @@ Json settings_properties(const TypeDefinition& type) {
 }
 
 Json values_schema(const TypeDefinition& type) {
-  return {{"title", type.label}, {"description", type.doc}, {"type", "object"}, {"properties", settings_properties(type)}, {"additionalProperties", false}};
+  return {{"title", type.label},
+          {"description", type.doc},
+          {"type", "object"},
+          {"properties", settings_properties(type)},
+          {"additionalProperties", false}};
 }
 
 Json id_schema() { return {{"type", "string"}, {"pattern", "^[a-z0-9][a-z0-9_.#-]{0,63}$"}}; }
@@ -117,12 +122,21 @@ Json link_schema(const Registry& registry) {
                      {"then", {{"properties", {{"parameters", {{"$ref", "#/$defs/link." + id}}}}}}}});
   }
   const Json full = {{"properties",
-                      {{"id", true}, {"kind", true}, {"from", selection_schema(false)}, {"to", selection_schema(false)},
-                       {"strength", number_schema(0, 1)}, {"enabled", {{"type", "boolean"}}}, {"muted", {{"type", "boolean"}}}, {"parameters", true}}},
+                      {{"id", true},
+                       {"kind", true},
+                       {"from", selection_schema(false)},
+                       {"to", selection_schema(false)},
+                       {"strength", number_schema(0, 1)},
+                       {"enabled", {{"type", "boolean"}}},
+                       {"muted", {{"type", "boolean"}}},
+                       {"parameters", true}}},
                      {"required", {"from", "to"}},
                      {"additionalProperties", false}};
   cases.push_back({{"if", {{"properties", {{"kind", {{"enum", known}}}}}, {"required", {"kind"}}}}, {"then", full}});
-  return {{"type", "object"}, {"properties", {{"id", id_schema()}, {"kind", text_schema()}}}, {"required", {"id", "kind"}}, {"allOf", cases}};
+  return {{"type", "object"},
+          {"properties", {{"id", id_schema()}, {"kind", text_schema()}}},
+          {"required", {"id", "kind"}},
+          {"allOf", cases}};
 }
 
 }  // namespace
@@ -147,15 +161,14 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
   const Json state = {{"type", "object"},
                       {"properties", {{"tick", tick}, {"calm", tick}, {"nodes", objects}, {"held", objects}}},
                       {"additionalProperties", false}};
-  const Json properties = {
-      {"format", {{"const", "behaviourlinks"}}},
-      {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},
-      {"revisions", {{"type", "object"}, {"additionalProperties", {{"type", "integer"}, {"minimum", 1}}}}},
-      {"settings", values_schema(settings)},
-      {"nodes", {{"type", "array"}, {"items", node_schema(registry)}}},
-      {"links", {{"type", "array"}, {"items", link_schema(registry)}}},
-      {"state", state},
-      {"view", object}};
+  const Json properties = {{"format", {{"const", "behaviourlinks"}}},
+                           {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},
+                           {"revisions", {{"type", "object"}, {"additionalProperties", {{"type", "integer"}, {"minimum", 1}}}}},
+                           {"settings", values_schema(settings)},
+                           {"nodes", {{"type", "array"}, {"items", node_schema(registry)}}},
+                           {"links", {{"type", "array"}, {"items", link_schema(registry)}}},
+                           {"state", state},
+                           {"view", object}};
   return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
           {"title", "BehaviourLinks scene"},
           {"type", "object"},

@@ -15,7 +15,7 @@ class SetBuilder {
   explicit SetBuilder(SetDefinition& set) : set_(&set) {}
 
   template <class M>
-  SetBuilder& reads(M Member::* member, std::string_view path, std::optional<Unit> unit = std::nullopt) {
+  SetBuilder& reads(M Member::*member, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     ReadDefinition& read = set_->reads.emplace_back();
     read.path = parse_port_path(path).value();
     read.unit = unit;
@@ -24,14 +24,14 @@ class SetBuilder {
   }
   /// Reads the port that people chose in the parameter `parameter`.
   template <class M>
-  SetBuilder& reads_chosen(M Member::* member, std::string parameter) {
+  SetBuilder& reads_chosen(M Member::*member, std::string parameter) {
     ReadDefinition& read = set_->reads.emplace_back();
     read.path.chosen_by = std::move(parameter);
     bind_read(read, member);
     return *this;
   }
   template <class M>
-  SetBuilder& writes(M Reply::* member, std::string_view path) {
+  SetBuilder& writes(M Reply::*member, std::string_view path) {
     WriteDefinition& write = set_->writes.emplace_back();
     write.path = parse_port_path(path).value();
     bind_write(write, member);
@@ -56,20 +56,22 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   using Out = typename T::Out;
 
   template <class M>
-  PortBuilder<M> in(M In::* member, std::string id) { return add_port(definition_->ports, member, std::move(id)); }
+  PortBuilder<M> in(M In::*member, std::string id) {
+    return add_port(definition_->ports, member, std::move(id));
+  }
   template <ChoiceMember E>
-  PortBuilder<E> in(E In::* member, std::string id, std::vector<Choice<E>> choices) {
+  PortBuilder<E> in(E In::*member, std::string id, std::vector<Choice<E>> choices) {
     return add_choice(definition_->ports, member, std::move(id), std::move(choices));
   }
   /// Declare all settings before the first output.
   template <class M>
-  PortBuilder<M> out(M Out::* member, std::string id) {
+  PortBuilder<M> out(M Out::*member, std::string id) {
     auto builder = add_port(definition_->ports, member, std::move(id));
     definition_->ports.back().is_computed = true;
     return builder;
   }
   template <ChoiceMember E>
-  PortBuilder<E> out(E Out::* member, std::string id, std::vector<Choice<E>> choices) {
+  PortBuilder<E> out(E Out::*member, std::string id, std::vector<Choice<E>> choices) {
     auto builder = add_choice(definition_->ports, member, std::move(id), std::move(choices));
     definition_->ports.back().is_computed = true;
     return builder;
@@ -78,25 +80,28 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   /// An output that the next evaluation sees again: the own, saved state of a typification. Out and In hold the same struct of
   /// such members, `kept` and `last`. Only for typifications with sets, which are evaluated in every tick.
   template <class Memory, class M>
-  PortBuilder<M> memory(Memory Out::* kept, Memory In::* last, M Memory::* member, std::string id) {
+  PortBuilder<M> memory(Memory Out::*kept, Memory In::*last, M Memory::*member, std::string id) {
     PortBuilder<M> builder = add_port(definition_->ports, member, std::move(id));
     PortDefinition& port = definition_->ports.back();
     port.is_computed = true;
     port.get = [kept, member](const void* out) { return Binding<M>::to_value(static_cast<const Out*>(out)->*kept.*member); };
-    port.recall = [last, member](void* in, const Value& value) { static_cast<In*>(in)->*last.*member = Binding<M>::from_value(value); };
+    port.recall = [last, member](void* in, const Value& value) {
+      static_cast<In*>(in)->*last.*member = Binding<M>::from_value(value);
+    };
     return builder;
   }
 
   /// The nodes that the selection port `selection` names are read into `members`, in ascending node id.
   template <class Sets, class Member>
-  SetBuilder<Sets, Out, Member, NoReply> set(std::string selection, std::vector<Member> Sets::* members) {
+  SetBuilder<Sets, Out, Member, NoReply> set(std::string selection, std::vector<Member> Sets::*members) {
     SetDefinition& set = add_set<Sets>(std::move(selection), members);
     replies_.emplace_back([](const Out&, const SetDefinition&, SetValues&) {});
     return SetBuilder<Sets, Out, Member, NoReply>(set);
   }
   /// The same, and `replies` (one for each member, same order) is written back to them.
   template <class Sets, class Member, class Reply>
-  SetBuilder<Sets, Out, Member, Reply> set(std::string selection, std::vector<Member> Sets::* members, std::vector<Reply> Out::* replies) {
+  SetBuilder<Sets, Out, Member, Reply> set(std::string selection, std::vector<Member> Sets::*members,
+                                           std::vector<Reply> Out::*replies) {
     SetDefinition& set = add_set<Sets>(std::move(selection), members);
     replies_.emplace_back([replies](const Out& out, const SetDefinition& definition, SetValues& values) {
       const std::size_t count = definition.writes.size();
@@ -117,7 +122,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
 
  private:
   template <class Sets, class Member>
-  SetDefinition& add_set(std::string selection, std::vector<Member> Sets::* members) {
+  SetDefinition& add_set(std::string selection, std::vector<Member> Sets::*members) {
     definition_->sets.push_back({std::move(selection), {}, {}});
     loaders_.emplace_back([members](void* sets, const SetDefinition& definition, const SetValues& values) {
       auto& list = static_cast<Sets*>(sets)->*members;

@@ -19,7 +19,7 @@ template <class T>
 class Shared {
  public:
   Shared() : content_(empty()) {}
-  Shared(T content) : content_(std::make_shared<const T>(std::move(content))) {}    // NOLINT: implicit on purpose
+  Shared(T content) : content_(std::make_shared<const T>(std::move(content))) {}  // NOLINT: implicit on purpose
   const T& operator*() const { return *content_; }
   const T* operator->() const { return content_.get(); }
   bool operator==(const Shared& other) const { return content_ == other.content_ || *content_ == *other.content_; }

@@ -1,11 +1,11 @@
 // Files through the POSIX calls, whose errors can be told apart.
 #include "core/file/file_io.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
 
 namespace bl {
 
@@ -20,12 +20,18 @@ Error io_error(const std::string& path, const std::string& what) {
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { if (number_ >= 0) ::close(number_); }
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
   bool is_open() const { return number_ >= 0; }
-  int release_and_close() { const int n = number_; number_ = -1; return ::close(n); }
+  int release_and_close() {
+    const int n = number_;
+    number_ = -1;
+    return ::close(n);
+  }
 
  private:
   int number_;

@@ -60,7 +60,8 @@ Json node_to_json(const NodeRecord& node, const Registry& registry) {
 
 Result<NodeRecord> node_from_json(const Json& json, const Registry& registry, const std::string& place) {
   if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects a node {\"id\": ..., \"types\": {...}}"};
-  if (auto keys = check_keys(json, joined({"id", "name", "types", "locked"}, port_ids(base_node(registry))), place); !keys) return keys.error();
+  if (auto keys = check_keys(json, joined({"id", "name", "types", "locked"}, port_ids(base_node(registry))), place); !keys)
+    return keys.error();
   NodeRecord node;
   if (const auto name = json.find("name"); name != json.end()) {
     if (!name->is_string()) return Error{ErrorCode::wrong_kind, place + "/name", "expects a text"};
@@ -93,7 +94,8 @@ Json link_to_json(const LinkRecord& link, const Registry& registry) {
   if (link.strength != 1) json["strength"] = link.strength;
   if (!link.is_enabled) json["enabled"] = false;
   if (link.is_muted) json["muted"] = true;
-  if (Json parameters = ports_to_json(*registry.link(link.kind), link.parameters); !parameters.empty()) json["parameters"] = std::move(parameters);
+  if (Json parameters = ports_to_json(*registry.link(link.kind), link.parameters); !parameters.empty())
+    json["parameters"] = std::move(parameters);
   return json;
 }
 
@@ -124,7 +126,8 @@ Result<void> read_link_options(const Json& json, const std::string& place, LinkR
 }  // namespace
 
 Result<LinkRecord> link_from_json(const Json& json, const Registry& registry, const std::string& place) {
-  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects a link {\"id\": ..., \"kind\": ..., \"from\": ..., \"to\": ...}"};
+  if (!json.is_object())
+    return Error{ErrorCode::wrong_kind, place, "expects a link {\"id\": ..., \"kind\": ..., \"from\": ..., \"to\": ...}"};
   const auto kind = json.find("kind");
   if (kind == json.end() || !kind->is_string()) return Error{ErrorCode::missing, place, "`kind` is missing"};
   LinkRecord link;
@@ -137,7 +140,8 @@ Result<LinkRecord> link_from_json(const Json& json, const Registry& registry, co
     return link;
   }
   link.kind = definition->id;
-  if (auto keys = check_keys(json, {"id", "kind", "from", "to", "strength", "enabled", "muted", "parameters"}, place); !keys) return keys.error();
+  if (auto keys = check_keys(json, {"id", "kind", "from", "to", "strength", "enabled", "muted", "parameters"}, place); !keys)
+    return keys.error();
   for (const End end : {End::from, End::to}) {
     const std::string name(name_of(end));
     const auto it = json.find(name);

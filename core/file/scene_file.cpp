@@ -23,7 +23,8 @@ namespace {
 // Brings the values of one type, saved under an older revision, to the current one.
 Result<void> upgrade_values(const TypeDefinition& type, std::int64_t revision, Json& values, const std::string& place) {
   if (revision > type.revision)
-    return Error{ErrorCode::version, place, "`" + type.id + "` was saved by a newer version of the program (revision " + std::to_string(revision) + ")"};
+    return Error{ErrorCode::version, place,
+                 "`" + type.id + "` was saved by a newer version of the program (revision " + std::to_string(revision) + ")"};
   for (const UpgradeDefinition& step : type.upgrades) {
     if (step.from_revision < revision) continue;
     auto text = step.upgrade(write_json_line(values));
@@ -56,20 +57,26 @@ class Reader {
 
   void read(Json& file) {
     if (!file.is_object() || file.value("format", Json()) != "behaviourlinks")
-      return fail({ErrorCode::parse, "format", "this is not a scene: a scene starts with {\"format\": \"behaviourlinks\", \"version\": 1, ...}"});
+      return fail({ErrorCode::parse, "format",
+                   "this is not a scene: a scene starts with {\"format\": \"behaviourlinks\", \"version\": 1, ...}"});
     const auto version = file.find("version");
     if (version == file.end()) return fail({ErrorCode::missing, "version", "the version number is missing"});
-    if (!version->is_number_integer()) return fail({ErrorCode::wrong_kind, "version", "expects a whole number, found " + version->dump()});
+    if (!version->is_number_integer())
+      return fail({ErrorCode::wrong_kind, "version", "expects a whole number, found " + version->dump()});
     if (*version > kSceneVersion)
       return fail({ErrorCode::version, "version",
-                   "the file has version " + version->dump() + ", this program reads up to " + std::to_string(kSceneVersion) + "; get a newer program"});
+                   "the file has version " + version->dump() + ", this program reads up to " + std::to_string(kSceneVersion) +
+                       "; get a newer program"});
     if (*version < 1) return fail({ErrorCode::version, "version", "there is no version " + version->dump()});
     note(check_keys(file, {"format", "version", "revisions", "settings", "nodes", "links", "state", "view"}, ""));
     read_revisions(file);
     if (const auto it = file.find("settings"); it != file.end())
-      if (auto settings = ports_from_json(settings_type(), *it, "settings"); note(settings)) reading_.scene.settings = std::move(*settings);
-    read_records(file, "nodes", [this](Json& json, const std::string& id, const std::string& place) { read_node(json, id, place); });
-    read_records(file, "links", [this](Json& json, const std::string& id, const std::string& place) { read_link(json, id, place); });
+      if (auto settings = ports_from_json(settings_type(), *it, "settings"); note(settings))
+        reading_.scene.settings = std::move(*settings);
+    read_records(file, "nodes",
+                 [this](Json& json, const std::string& id, const std::string& place) { read_node(json, id, place); });
+    read_records(file, "links",
+                 [this](Json& json, const std::string& id, const std::string& place) { read_link(json, id, place); });
     if (const auto it = file.find("view"); it != file.end()) {
       if (it->is_object()) reading_.scene.view = write_json_line(*it);
       else fail({ErrorCode::wrong_kind, "view", "expects an object"});
@@ -106,13 +113,15 @@ class Reader {
         continue;
       }
       const std::string id = record["id"].get<std::string>();
-      if (!is_identifier(id)) fail({ErrorCode::wrong_kind, number + "/id", "`" + id.substr(0, 80) + "` is no id: use 1 to 64 of a-z 0-9 _ - . #"});
+      if (!is_identifier(id))
+        fail({ErrorCode::wrong_kind, number + "/id", "`" + id.substr(0, 80) + "` is no id: use 1 to 64 of a-z 0-9 _ - . #"});
       else read_one((*list)[i], id, key + "/" + id);
     }
   }
 
   void read_node(Json& json, const std::string& id, const std::string& place) {
-    if (reading_.scene.nodes.contains(id)) return fail({ErrorCode::duplicate, place, "two nodes have the id `" + id + "`; ids must be unique"});
+    if (reading_.scene.nodes.contains(id))
+      return fail({ErrorCode::duplicate, place, "two nodes have the id `" + id + "`; ids must be unique"});
     if (const auto types = json.find("types"); types != json.end() && types->is_object())
       for (auto& [type_id, values] : types->items())
         if (const TypificationDefinition* type = registry_.typification(type_id))
@@ -121,10 +130,12 @@ class Reader {
   }
 
   void read_link(Json& json, const std::string& id, const std::string& place) {
-    if (reading_.scene.links.contains(id)) return fail({ErrorCode::duplicate, place, "two links have the id `" + id + "`; ids must be unique"});
+    if (reading_.scene.links.contains(id))
+      return fail({ErrorCode::duplicate, place, "two links have the id `" + id + "`; ids must be unique"});
     if (const auto kind = json.find("kind"); kind != json.end() && kind->is_string())
       if (const LinkDefinition* type = registry_.link(kind->get_ref<const std::string&>()); type && json.contains("parameters"))
-        if (!note(upgrade_values(*type, revision_of(kind->get<std::string>()), json["parameters"], place + "/parameters"))) return;
+        if (!note(upgrade_values(*type, revision_of(kind->get<std::string>()), json["parameters"], place + "/parameters")))
+          return;
     if (auto link = link_from_json(json, registry_, place); note(link)) reading_.scene.links.emplace(id, std::move(*link));
   }
 
@@ -212,7 +223,8 @@ Json state_to_json(const SavedState& state, const Registry& registry) {
   for (const auto& [node, values] : state.nodes)
     for (const auto& [path, value] : values) nodes[node][path] = value_to_json(value, port_of(path));
   for (const auto& [link, voices] : state.held)
-    for (const auto& [target, voice] : voices) json["held"][link][target.first + "/" + target.second] = value_to_json(voice.value, port_of(target.second));
+    for (const auto& [target, voice] : voices)
+      json["held"][link][target.first + "/" + target.second] = value_to_json(voice.value, port_of(target.second));
   return json;
 }
 

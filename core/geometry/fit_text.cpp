@@ -20,7 +20,8 @@ std::string losses_text(std::span<const DemandLoss> losses, double total_demand,
   constexpr std::size_t kNamed = 5;
   if (losses.empty()) return "";
   std::vector<DemandLoss> sorted(losses.begin(), losses.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.demand - a.granted > b.demand - b.granted; });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.demand - a.granted > b.demand - b.granted; });
   double missing = 0;
   std::string who;
   for (std::size_t i = 0; i < sorted.size(); ++i) {

@@ -13,7 +13,8 @@ std::size_t plain_triangulation(std::span<const PowerSite> sites) {
   using Triangulation = CGAL::Regular_triangulation_3<Kernel>;
   std::vector<Triangulation::Weighted_point> points;
   points.reserve(sites.size());
-  for (const PowerSite& site : sites) points.emplace_back(Triangulation::Bare_point(site.position.x, site.position.y, site.position.z), site.weight);
+  for (const PowerSite& site : sites)
+    points.emplace_back(Triangulation::Bare_point(site.position.x, site.position.y, site.position.z), site.weight);
   const Triangulation triangulation(points.begin(), points.end());
   return triangulation.number_of_vertices();
 }

@@ -8,26 +8,33 @@ namespace bl {
 
 namespace {
 
-void check_selection(const Scene& scene, const Selection& selection, const std::string& place, const Registry& registry, std::vector<Problem>& problems) {
+void check_selection(const Scene& scene, const Selection& selection, const std::string& place, const Registry& registry,
+                     std::vector<Problem>& problems) {
   for (const std::string& id : selection.ids)
     if (!scene.nodes.contains(id))
-      problems.push_back({true, {ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene.nodes))}});
+      problems.push_back(
+          {true, {ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene.nodes))}});
   if (!selection.typification.empty() && registry.typification(selection.typification) == nullptr)
-    problems.push_back({false, {ErrorCode::unknown_type, place, "unknown typification `" + selection.typification + "`" +
-                                    did_you_mean(selection.typification, keys_of(registry.typifications()))}});
+    problems.push_back({false,
+                        {ErrorCode::unknown_type, place,
+                         "unknown typification `" + selection.typification + "`" +
+                             did_you_mean(selection.typification, keys_of(registry.typifications()))}});
 }
 
-void check_node(const Scene& scene, const std::string& id, const NodeRecord& node, const Registry& registry, std::vector<Problem>& problems) {
+void check_node(const Scene& scene, const std::string& id, const NodeRecord& node, const Registry& registry,
+                std::vector<Problem>& problems) {
   for (const auto& [type_id, text] : node.ghosts)
-    problems.push_back({false, {ErrorCode::unknown_type, "nodes/" + id + "/" + type_id,
-                                "unknown typification `" + type_id + "`: kept as it is and saved back, not run" +
-                                    did_you_mean(type_id, keys_of(registry.typifications()))}});
+    problems.push_back({false,
+                        {ErrorCode::unknown_type, "nodes/" + id + "/" + type_id,
+                         "unknown typification `" + type_id + "`: kept as it is and saved back, not run" +
+                             did_you_mean(type_id, keys_of(registry.typifications()))}});
   for (const auto& [type_id, values] : node.types) {
     const TypificationDefinition* type = registry.typification(type_id);
     if (type == nullptr) continue;
     for (const auto& [port, value] : values) {
       const std::string place = "nodes/" + id + "/" + type_id + "/" + port;
-      if (const auto* selection = std::get_if<Shared<Selection>>(&value)) check_selection(scene, **selection, place, registry, problems);
+      if (const auto* selection = std::get_if<Shared<Selection>>(&value))
+        check_selection(scene, **selection, place, registry, problems);
       const PortDefinition* definition = type->find_port(port);
       if (definition != nullptr && definition->kind == ValueKind::port) {
         const auto path = parse_port_path(std::get<std::string>(value));
@@ -40,9 +47,10 @@ void check_node(const Scene& scene, const std::string& id, const NodeRecord& nod
   }
   for (const std::string& path : node.locked) {
     const auto parsed = parse_port_path(path);
-    if (parsed && node.ghosts.contains(parsed->typification)) continue;    // kept with its ghost
+    if (parsed && node.ghosts.contains(parsed->typification)) continue;  // kept with its ghost
     const bool is_there = parsed && node.types.contains(parsed->typification) && registry.port(*parsed).ok();
-    if (!is_there) problems.push_back({true, {ErrorCode::not_found, "nodes/" + id + "/locked", "the node has no port `" + path + "`"}});
+    if (!is_there)
+      problems.push_back({true, {ErrorCode::not_found, "nodes/" + id + "/locked", "the node has no port `" + path + "`"}});
   }
 }
 

@@ -90,8 +90,9 @@ class LinkRun {
         if (!value) continue;
         const std::uint32_t target = plan_.writes[w][first + i];
         if (!is_finite(*value))
-          return Error{ErrorCode::not_finite, "", "proposed a value that is not a finite number for `" +
-                                                      frozen_.plan->nodes[plan_.targets[target].node].id + "`"};
+          return Error{
+              ErrorCode::not_finite, "",
+              "proposed a value that is not a finite number for `" + frozen_.plan->nodes[plan_.targets[target].node].id + "`"};
         collected_[target].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
       }
     }

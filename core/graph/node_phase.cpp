@@ -19,10 +19,12 @@ std::string place_of(const State& state, std::size_t n, std::size_t t) {
 }
 
 // Takes over what an evaluation wrote, or keeps the last good values and the error.
-void accept(const TypificationDefinition& definition, TypeState& state, std::vector<Value>&& values, Result<void> done, const std::string& place) {
+void accept(const TypificationDefinition& definition, TypeState& state, std::vector<Value>&& values, Result<void> done,
+            const std::string& place) {
   for (std::size_t p = 0; done && p < values.size(); ++p)
     if (definition.ports[p].is_computed && !is_finite(values[p]))
-      done = Error{ErrorCode::not_finite, definition.ports[p].id, "came out as a number that is not finite; the last good values are kept"};
+      done = Error{ErrorCode::not_finite, definition.ports[p].id,
+                   "came out as a number that is not finite; the last good values are kept"};
   if (!done) {
     state.error = done.error().within(place);
     state.is_evaluated = false;
@@ -83,7 +85,9 @@ void evaluate_type_sets(State& next, std::span<const SetPlan> plans, ThreadPool&
       auto& value = sets[s].writes[w];
       if (!value) continue;
       if (is_finite(*value)) replies.push_back({plans[s].writes[w], std::move(*value), &plans[s]});
-      else state.error = Error{ErrorCode::not_finite, place_of(next, n, t), "wrote a number that is not finite to a member; it keeps its last good value"};
+      else
+        state.error = Error{ErrorCode::not_finite, place_of(next, n, t),
+                            "wrote a number that is not finite to a member; it keeps its last good value"};
     }
 }
 
@@ -115,8 +119,8 @@ void evaluate_sets(State& next, ThreadPool& pool) {
 void commit(State& next) {
   const Settings& settings = next.plan->settings;
   next.largest_residual = largest_residual_of(next);
-  const bool is_calm = !has_failure(next) && next.largest_residual <= settings.tolerance && next.largest_move <= settings.move_limit &&
-                       next.largest_change <= settings.change_limit;
+  const bool is_calm = !has_failure(next) && next.largest_residual <= settings.tolerance &&
+                       next.largest_move <= settings.move_limit && next.largest_change <= settings.change_limit;
   next.calm = is_calm ? next.calm + 1 : 0;
   next.hash = hash_of(next);
 }

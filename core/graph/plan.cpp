@@ -8,7 +8,8 @@
 namespace bl {
 
 std::uint32_t Plan::node_index(std::string_view id) const {
-  const auto it = std::lower_bound(nodes.begin(), nodes.end(), id, [](const NodePlan& node, std::string_view key) { return node.id < key; });
+  const auto it =
+      std::lower_bound(nodes.begin(), nodes.end(), id, [](const NodePlan& node, std::string_view key) { return node.id < key; });
   return static_cast<std::uint32_t>(it != nodes.end() && it->id == id ? it - nodes.begin() : nodes.end() - nodes.begin());
 }
 
@@ -49,7 +50,8 @@ class Compiler {
     }
     for (std::uint32_t n = 0; n < plan_->nodes.size(); ++n)
       for (std::uint32_t t = 0; t < plan_->nodes[n].types.size(); ++t)
-        for (std::uint32_t s = 0; s < plan_->nodes[n].types[t].definition->sets.size(); ++s) plan_->sets.push_back(set_plan(n, t, s));
+        for (std::uint32_t s = 0; s < plan_->nodes[n].types[t].definition->sets.size(); ++s)
+          plan_->sets.push_back(set_plan(n, t, s));
     for (const SetPlan& set : plan_->sets)
       for (const PortRef& ref : set.writes) plan_->nodes[ref.node].types[ref.type].is_served = true;
     return plan_;
@@ -80,7 +82,8 @@ class Compiler {
     link.is_muted = record.is_muted;
     link.strength = record.strength;
     if (link.definition == nullptr) {
-      link.error = Error{ErrorCode::unknown_type, "links/" + link.id, "unknown link kind `" + record.kind + "`: kept as it is, not run"};
+      link.error =
+          Error{ErrorCode::unknown_type, "links/" + link.id, "unknown link kind `" + record.kind + "`: kept as it is, not run"};
       return;
     }
     std::vector<Value> values;
@@ -102,7 +105,8 @@ class Compiler {
   }
 
   // Every path of the declaration at this end, with parameters put in for chosen ones.
-  std::vector<std::pair<PortPath, const std::optional<Unit>*>> paths(const LinkDefinition& definition, End end, std::span<const Value> values) const {
+  std::vector<std::pair<PortPath, const std::optional<Unit>*>> paths(const LinkDefinition& definition, End end,
+                                                                     std::span<const Value> values) const {
     std::vector<std::pair<PortPath, const std::optional<Unit>*>> list;
     for (const LinkRead& read : definition.reads)
       if (read.end == end) list.emplace_back(actual(definition, read.path, values), &read.unit);
@@ -118,21 +122,25 @@ class Compiler {
   }
 
   // The nodes of an end that have all the ports. A query leaves out those that lack one; a named node must have them.
-  Result<std::vector<std::uint32_t>> end_nodes(const LinkPlan& link, const LinkRecord& record, End end, std::span<const Value> values) const {
+  Result<std::vector<std::uint32_t>> end_nodes(const LinkPlan& link, const LinkRecord& record, End end,
+                                               std::span<const Value> values) const {
     const Selection& selection = end == End::from ? record.from : record.to;
     const auto wanted = paths(*link.definition, end, values);
     std::vector<std::uint32_t> nodes;
     for (const std::string& id : resolve(plan_->scene, registry_, selection)) {
       const std::uint32_t node = plan_->node_index(id);
-      const auto missing = std::find_if(wanted.begin(), wanted.end(), [&](const auto& path) { return !plan_->find(node, path.first); });
+      const auto missing =
+          std::find_if(wanted.begin(), wanted.end(), [&](const auto& path) { return !plan_->find(node, path.first); });
       if (missing == wanted.end()) {
         nodes.push_back(node);
         if (auto unit = check_units(node, wanted); !unit) return unit.error().within(name_of(end));
       } else if (!selection.is_query()) {
         const PortPath& path = missing->first;
-        if (path.typification.empty()) return Error{ErrorCode::missing, "", "choose the port that `" + link.definition->id + "` works on"};
+        if (path.typification.empty())
+          return Error{ErrorCode::missing, "", "choose the port that `" + link.definition->id + "` works on"};
         return Error{ErrorCode::conflict, std::string(name_of(end)),
-                     "the node `" + id + "` has no `" + path.typification + "." + path.port + "`, which `" + link.definition->id + "` needs"};
+                     "the node `" + id + "` has no `" + path.typification + "." + path.port + "`, which `" + link.definition->id +
+                         "` needs"};
       }
     }
     if (nodes.empty())
@@ -146,8 +154,8 @@ class Compiler {
       const Unit found = unit_at(node, path);
       if (!same_dimension(found, **unit))
         return Error{ErrorCode::wrong_unit, "",
-                     "`" + plan_->nodes[node].id + "." + path.typification + "." + path.port + "` is in " + std::string(info(found).name) +
-                         "s, the link works in " + std::string(info(**unit).name) + "s"};
+                     "`" + plan_->nodes[node].id + "." + path.typification + "." + path.port + "` is in " +
+                         std::string(info(found).name) + "s, the link works in " + std::string(info(**unit).name) + "s"};
     }
     return {};
   }
@@ -155,22 +163,26 @@ class Compiler {
   Unit unit_at(std::uint32_t node, const PortPath& path) const {
     const auto ref = plan_->find(node, path);
     if (!ref || ref->type == PortRef::kNodeId) return Unit::none;
-    return unit_of(registry_, plan_->scene.nodes.at(plan_->nodes[node].id), *plan_->nodes[node].types[ref->type].definition, plan_->port(*ref));
+    return unit_of(registry_, plan_->scene.nodes.at(plan_->nodes[node].id), *plan_->nodes[node].types[ref->type].definition,
+                   plan_->port(*ref));
   }
 
   Result<void> check_same_units(const LinkPlan& link, std::span<const Value> values) const {
     const LinkDefinition& definition = *link.definition;
-    if (!definition.same_units_unless.empty() && std::get<bool>(values[definition.port_index(definition.same_units_unless)])) return {};
+    if (!definition.same_units_unless.empty() && std::get<bool>(values[definition.port_index(definition.same_units_unless)]))
+      return {};
     for (const auto& [parameter, other] : definition.same_units) {
       const PortPath from = actual(definition, {"", "", parameter}, values), to = actual(definition, {"", "", other}, values);
       for (const std::uint32_t f : link.nodes[0])
         for (const std::uint32_t t : link.nodes[1]) {
           const Unit a = unit_at(f, from), b = unit_at(t, to);
           if (!same_dimension(a, b))
-            return Error{ErrorCode::wrong_unit, "",
-                         "`" + plan_->nodes[f].id + "." + from.typification + "." + from.port + "` is in " + std::string(info(a).name) + "s, `" +
-                             plan_->nodes[t].id + "." + to.typification + "." + to.port + "` in " + std::string(info(b).name) + "s" +
-                             (definition.same_units_unless.empty() ? "" : "; give ranges with `" + definition.same_units_unless + "`")};
+            return Error{
+                ErrorCode::wrong_unit, "",
+                "`" + plan_->nodes[f].id + "." + from.typification + "." + from.port + "` is in " + std::string(info(a).name) +
+                    "s, `" + plan_->nodes[t].id + "." + to.typification + "." + to.port + "` in " + std::string(info(b).name) +
+                    "s" +
+                    (definition.same_units_unless.empty() ? "" : "; give ranges with `" + definition.same_units_unless + "`")};
         }
     }
     return {};
@@ -205,7 +217,8 @@ class Compiler {
     for (const auto& refs : write_refs) {
       auto& indices = link.writes.emplace_back();
       for (const PortRef& ref : refs)
-        indices.push_back(static_cast<std::uint32_t>(std::lower_bound(link.targets.begin(), link.targets.end(), ref) - link.targets.begin()));
+        indices.push_back(
+            static_cast<std::uint32_t>(std::lower_bound(link.targets.begin(), link.targets.end(), ref) - link.targets.begin()));
     }
     return {};
   }
@@ -215,8 +228,8 @@ class Compiler {
     const bool is_numeric = found == ValueKind::integer || found == ValueKind::boolean;
     if (found == expected || (expected == ValueKind::number && is_numeric)) return {};
     return Error{ErrorCode::wrong_kind, "",
-                 "the " + std::string(verb) + " " + std::string(name_of(expected)) + ", but `" + plan_->path_text(ref) + "` holds " +
-                     std::string(name_of(found))};
+                 "the " + std::string(verb) + " " + std::string(name_of(expected)) + ", but `" + plan_->path_text(ref) +
+                     "` holds " + std::string(name_of(found))};
   }
 
   SetPlan set_plan(std::uint32_t n, std::uint32_t t, std::uint32_t s) const {

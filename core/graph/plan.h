@@ -21,44 +21,44 @@ struct PortRef {
 
 struct TypePlan {
   const TypificationDefinition* definition = nullptr;
-  std::vector<Value> set_values;        ///< all ports in order; defaults where nobody has set a value
+  std::vector<Value> set_values;  ///< all ports in order; defaults where nobody has set a value
   std::vector<bool> is_set, is_locked;
-  bool is_served = true;                ///< has an evaluation, its own or that of a set it belongs to; else results are defaults
+  bool is_served = true;  ///< has an evaluation, its own or that of a set it belongs to; else results are defaults
 };
 
 struct NodePlan {
   std::string id, name;
   Value id_value;
-  std::vector<TypePlan> types;          ///< ascending typification id
+  std::vector<TypePlan> types;  ///< ascending typification id
 };
 
 struct LinkPlan {
   std::string id;
-  const LinkDefinition* definition = nullptr;    ///< nullptr for ghosts
+  const LinkDefinition* definition = nullptr;  ///< nullptr for ghosts
   bool is_enabled = true, is_muted = false;
   double strength = 1;
   std::shared_ptr<const void> parameters;
-  std::vector<std::uint32_t> nodes[2];           ///< node indices of the ends, ascending
-  bool is_symmetric = false;                     ///< both ends are the same nodes: each unordered pair once
-  std::vector<std::vector<PortRef>> reads;       ///< per declared read: one for each node of its end
-  std::vector<PortRef> targets;                  ///< distinct ports proposed to, ascending
-  std::vector<std::vector<std::uint32_t>> writes;    ///< per declared proposal: index into `targets` for each node of its end
-  std::optional<Error> error;                    ///< why the link cannot run
+  std::vector<std::uint32_t> nodes[2];             ///< node indices of the ends, ascending
+  bool is_symmetric = false;                       ///< both ends are the same nodes: each unordered pair once
+  std::vector<std::vector<PortRef>> reads;         ///< per declared read: one for each node of its end
+  std::vector<PortRef> targets;                    ///< distinct ports proposed to, ascending
+  std::vector<std::vector<std::uint32_t>> writes;  ///< per declared proposal: index into `targets` for each node of its end
+  std::optional<Error> error;                      ///< why the link cannot run
 };
 
 struct SetPlan {
   std::uint32_t node = 0, type = 0, set = 0;
   std::vector<std::uint32_t> members;
-  std::vector<PortRef> reads, writes;            ///< row by row, as in SetValues
+  std::vector<PortRef> reads, writes;  ///< row by row, as in SetValues
   std::optional<Error> error;
 };
 
 struct Plan {
-  Scene scene;                          ///< as compiled; what the definitions and ids refer to
+  Scene scene;  ///< as compiled; what the definitions and ids refer to
   Settings settings;
-  std::vector<NodePlan> nodes;          ///< ascending id
-  std::vector<LinkPlan> links;          ///< ascending id
-  std::vector<SetPlan> sets;            ///< ascending node id, then typification, then set
+  std::vector<NodePlan> nodes;  ///< ascending id
+  std::vector<LinkPlan> links;  ///< ascending id
+  std::vector<SetPlan> sets;    ///< ascending node id, then typification, then set
 
   /// Index of a node, or nodes.size().
   std::uint32_t node_index(std::string_view id) const;

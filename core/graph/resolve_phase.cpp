@@ -16,7 +16,8 @@ struct Heard {
 double clamped(const PortDefinition& port, double value) { return std::clamp(value, port.hard_minimum, port.hard_maximum); }
 
 // Changes add up: next = now + sum of strength · change, no longer than the step limit.
-void resolve_sum(const PortDefinition& port, bool is_locked, std::span<const Heard> heard, Value& value, double& tension, double& move) {
+void resolve_sum(const PortDefinition& port, bool is_locked, std::span<const Heard> heard, Value& value, double& tension,
+                 double& move) {
   Vector3 sum;
   double number = 0, loudness = 0;
   for (const Heard& h : heard) {
@@ -63,15 +64,16 @@ Vector3 blended(const Value& set, bool is_set, std::span<const Heard> heard) {
   return weight > 0 ? sum / weight : base;
 }
 
-void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t p, const Value& before, std::span<const Heard> heard, Value& value,
-                   double& tension) {
+void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t p, const Value& before,
+                   std::span<const Heard> heard, Value& value, double& tension) {
   const bool is_set = type.is_set[p];
   if (port.kind == ValueKind::point) {
     const Vector3 old = std::get<Vector3>(before);
     Vector3 step = blended(type.set_values[p], is_set, heard) - old;
     if (const double length = norm(step); length > port.step_limit) step *= port.step_limit / length;
     value = type.is_locked[p] ? type.set_values[p] : Value(old + step);
-    for (const Heard& h : heard) tension += h.voice->strength * distance(std::get<Vector3>(h.voice->value), std::get<Vector3>(value));
+    for (const Heard& h : heard)
+      tension += h.voice->strength * distance(std::get<Vector3>(h.voice->value), std::get<Vector3>(value));
     return;
   }
   const double old = as_number(before);
@@ -145,7 +147,8 @@ void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
   std::vector<Unrest> unrest(next.nodes.size());
   pool.for_each_chunk(next.nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      resolve_node(frozen, next, static_cast<std::uint32_t>(n), std::span(heard).subspan(start[n], start[n + 1] - start[n]), unrest[n]);
+      resolve_node(frozen, next, static_cast<std::uint32_t>(n), std::span(heard).subspan(start[n], start[n + 1] - start[n]),
+                   unrest[n]);
   });
   next.largest_move = next.largest_change = 0;
   for (const Unrest& node : unrest) {

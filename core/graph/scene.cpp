@@ -18,19 +18,37 @@ TypeDefinition declare_settings() {
   auto port = [&](auto member, const char* id) { return add_port(type.ports, member, id); };
   port(&Settings::title, "title").doc("The name of the project, shown on reports.");
   port(&Settings::about, "about").doc("What the scene is for, in a few sentences.");
-  port(&Settings::tolerance, "tolerance").unit(Unit::ratio).range(1e-9, 1).soft(0.001, 0.1)
+  port(&Settings::tolerance, "tolerance")
+      .unit(Unit::ratio)
+      .range(1e-9, 1)
+      .soft(0.001, 0.1)
       .doc("Settled means that every demand is met within this share of itself.");
-  port(&Settings::move_limit, "move_limit").unit(Unit::metre).min(0).soft(0, 1)
+  port(&Settings::move_limit, "move_limit")
+      .unit(Unit::metre)
+      .min(0)
+      .soft(0, 1)
       .doc("Settled means that no link moves a node by more than this in a tick.");
-  port(&Settings::change_limit, "change_limit").unit(Unit::ratio).min(0).soft(0.0001, 0.1)
+  port(&Settings::change_limit, "change_limit")
+      .unit(Unit::ratio)
+      .min(0)
+      .soft(0.0001, 0.1)
       .doc("Settled means that no link changes a value by more than this share of it in a tick.");
   port(&Settings::calm_ticks, "calm_ticks").range(1, 1000).soft(1, 50).doc("Settled means calm for this many ticks in a row.");
-  port(&Settings::coordinate_system, "coordinate_system").doc("Where the plan came from: a CRS such as EPSG:28992; empty for a free place.");
+  port(&Settings::coordinate_system, "coordinate_system")
+      .doc("Where the plan came from: a CRS such as EPSG:28992; empty for a free place.");
   port(&Settings::origin_x, "origin_x").doc("First coordinate of the local origin in that system, in its own unit.");
   port(&Settings::origin_y, "origin_y").doc("Second coordinate of the local origin in that system, in its own unit.");
-  port(&Settings::latitude, "latitude").unit(Unit::degree).range(-90, 90).doc("Latitude of the local origin (WGS84), north positive.");
-  port(&Settings::longitude, "longitude").unit(Unit::degree).range(-180, 180).doc("Longitude of the local origin (WGS84), east positive.");
-  port(&Settings::true_north, "true_north").unit(Unit::degree).range(-360, 360)
+  port(&Settings::latitude, "latitude")
+      .unit(Unit::degree)
+      .range(-90, 90)
+      .doc("Latitude of the local origin (WGS84), north positive.");
+  port(&Settings::longitude, "longitude")
+      .unit(Unit::degree)
+      .range(-180, 180)
+      .doc("Longitude of the local origin (WGS84), east positive.");
+  port(&Settings::true_north, "true_north")
+      .unit(Unit::degree)
+      .range(-360, 360)
       .doc("Direction of true north, measured clockwise from the y axis.");
   return type;
 }

@@ -18,20 +18,20 @@ using PortValues = std::map<std::string, Value>;
 
 struct NodeRecord {
   std::string name;
-  std::map<std::string, PortValues> types;          ///< by typification id; every node has `node`
-  std::map<std::string, std::string> ghosts;        ///< unknown typifications: their JSON as it stood in the file
-  std::set<std::string> locked;                     ///< "typification.port": links cannot change these
+  std::map<std::string, PortValues> types;    ///< by typification id; every node has `node`
+  std::map<std::string, std::string> ghosts;  ///< unknown typifications: their JSON as it stood in the file
+  std::set<std::string> locked;               ///< "typification.port": links cannot change these
   bool operator==(const NodeRecord&) const = default;
 };
 
 struct LinkRecord {
   std::string kind;
   Selection from, to;
-  bool is_enabled = true;      ///< off: not evaluated at all
-  bool is_muted = false;       ///< on: evaluated and shown, but its proposals do not count
-  double strength = 1;         ///< [ratio] 0 to 1: how loud its voice is
+  bool is_enabled = true;  ///< off: not evaluated at all
+  bool is_muted = false;   ///< on: evaluated and shown, but its proposals do not count
+  double strength = 1;     ///< [ratio] 0 to 1: how loud its voice is
   PortValues parameters;
-  std::string ghost;           ///< of an unknown kind: the whole link's JSON as it stood in the file
+  std::string ghost;  ///< of an unknown kind: the whole link's JSON as it stood in the file
   bool operator==(const LinkRecord&) const = default;
 };
 
@@ -53,7 +53,7 @@ struct Scene {
   PortValues settings;
   std::map<std::string, NodeRecord> nodes;
   std::map<std::string, LinkRecord> links;
-  std::string view;            ///< JSON of canvas layout and cameras; never read by the tick
+  std::string view;  ///< JSON of canvas layout and cameras; never read by the tick
   bool operator==(const Scene&) const = default;
 };
 

@@ -72,7 +72,8 @@ SavedState save(const State& state) {
   for (std::size_t l = 0; l < state.links.size(); ++l)
     for (const Voice& voice : state.links[l].voices)
       if (is_held(state, state.links[l], voice))
-        saved.held[state.plan->links[l].id].push_back({{state.plan->nodes[voice.target.node].id, state.plan->path_text(voice.target)}, voice});
+        saved.held[state.plan->links[l].id].push_back(
+            {{state.plan->nodes[voice.target.node].id, state.plan->path_text(voice.target)}, voice});
   return saved;
 }
 
@@ -91,7 +92,8 @@ State initial_state(std::shared_ptr<const Plan> plan) {
 
 namespace {
 
-void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& after, TypeState& fresh, const std::set<std::string>& placed) {
+void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& after, TypeState& fresh,
+                const std::set<std::string>& placed) {
   for (std::size_t p = 0; p < after.definition->ports.size(); ++p) {
     const PortDefinition& port = after.definition->ports[p];
     // What nobody computes any more goes back to its defaults, which say so.
@@ -148,7 +150,8 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
   state.calm = saved.calm;
   auto find = [&](const std::string& node_id, const std::string& text) -> Result<PortRef> {
     const std::uint32_t node = state.plan->node_index(node_id);
-    if (node == state.plan->nodes.size()) return Error{ErrorCode::not_found, "state/nodes/" + node_id, "there is no node `" + node_id + "`"};
+    if (node == state.plan->nodes.size())
+      return Error{ErrorCode::not_found, "state/nodes/" + node_id, "there is no node `" + node_id + "`"};
     const auto path = parse_port_path(text);
     if (path)
       if (const auto ref = state.plan->find(node, *path)) return *ref;

@@ -13,10 +13,10 @@
 namespace bl {
 
 struct TypeState {
-  std::vector<Value> values;             ///< effective and computed values, in the order of the declaration
-  std::vector<double> tension;           ///< per port, in its unit: how far the proposals disagree with the effective value
-  std::optional<Error> error;            ///< the last evaluation failed; values are the last good ones
-  bool is_evaluated = false;             ///< the computed values follow from the settings beside them
+  std::vector<Value> values;    ///< effective and computed values, in the order of the declaration
+  std::vector<double> tension;  ///< per port, in its unit: how far the proposals disagree with the effective value
+  std::optional<Error> error;   ///< the last evaluation failed; values are the last good ones
+  bool is_evaluated = false;    ///< the computed values follow from the settings beside them
 };
 
 struct NodeState {
@@ -26,26 +26,26 @@ struct NodeState {
 /// What one link says about one port in this tick, all of its pairs together.
 struct Voice {
   PortRef target;
-  Value value;                           ///< a change for `sum` ports, a wanted value for the others
-  double magnitude = 0;                  ///< for `sum` ports: the mean length of the changes that its pairs want
+  Value value;           ///< a change for `sum` ports, a wanted value for the others
+  double magnitude = 0;  ///< for `sum` ports: the mean length of the changes that its pairs want
   double strength = 1;
 };
 
 struct LinkState {
-  std::vector<Voice> voices;             ///< ascending target
-  std::optional<Error> error;            ///< why it did not run; value proposals of the last good tick are kept
+  std::vector<Voice> voices;   ///< ascending target
+  std::optional<Error> error;  ///< why it did not run; value proposals of the last good tick are kept
 };
 
 struct State {
   std::int64_t tick = 0;
   std::shared_ptr<const Plan> plan;
-  std::vector<NodeState> nodes;          ///< as plan->nodes
-  std::vector<LinkState> links;          ///< as plan->links
-  std::int64_t calm = 0;                 ///< ticks in a row in which nothing much moved and all demands were met
-  double largest_move = 0;               ///< [m] of this tick
-  double largest_change = 0;             ///< of this tick, of any number that links choose, as a share of itself
-  PortRef restless;                      ///< who has that change
-  double largest_residual = 0;           ///< over all residual ports
+  std::vector<NodeState> nodes;  ///< as plan->nodes
+  std::vector<LinkState> links;  ///< as plan->links
+  std::int64_t calm = 0;         ///< ticks in a row in which nothing much moved and all demands were met
+  double largest_move = 0;       ///< [m] of this tick
+  double largest_change = 0;     ///< of this tick, of any number that links choose, as a share of itself
+  PortRef restless;              ///< who has that change
+  double largest_residual = 0;   ///< over all residual ports
   std::uint64_t hash = 0;
 
   bool is_settled() const { return calm >= plan->settings.calm_ticks; }
@@ -66,7 +66,8 @@ std::uint64_t hash_of(const State& state);
 struct SavedState {
   std::int64_t tick = 0, calm = 0;
   std::map<std::string, std::map<std::string, Value>> nodes;
-  std::map<std::string, std::vector<std::pair<std::pair<std::string, std::string>, Voice>>> held;    ///< by link: (node, path), voice
+  std::map<std::string, std::vector<std::pair<std::pair<std::string, std::string>, Voice>>>
+      held;  ///< by link: (node, path), voice
 };
 SavedState save(const State& state);
 

@@ -14,94 +14,143 @@ using Inverse = Result<std::vector<Command>>;
 // Each command is declared and applied in commands/<id>.cpp. `apply` returns the commands that undo it, in the order to apply.
 
 struct AddNode {
-  struct In { std::string id; JsonText node; };
+  struct In {
+    std::string id;
+    JsonText node;
+  };
   static void declare(CommandBuilder<AddNode>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct RemoveNode {
-  struct In { std::string id; };
+  struct In {
+    std::string id;
+  };
   static void declare(CommandBuilder<RemoveNode>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct RenameNode {
-  struct In { std::string id, name; };
+  struct In {
+    std::string id, name;
+  };
   static void declare(CommandBuilder<RenameNode>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct Typify {
-  struct In { std::string node, typification; JsonText values; };
+  struct In {
+    std::string node, typification;
+    JsonText values;
+  };
   static void declare(CommandBuilder<Typify>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct Untypify {
-  struct In { std::string node, typification; };
+  struct In {
+    std::string node, typification;
+  };
   static void declare(CommandBuilder<Untypify>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct SetPort {
-  struct In { std::string node; PortChoice port; JsonText value{"null"}; };
+  struct In {
+    std::string node;
+    PortChoice port;
+    JsonText value{"null"};
+  };
   static void declare(CommandBuilder<SetPort>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct LockPort {
-  struct In { std::string node; PortChoice port; };
+  struct In {
+    std::string node;
+    PortChoice port;
+  };
   static void declare(CommandBuilder<LockPort>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct UnlockPort {
-  struct In { std::string node; PortChoice port; };
+  struct In {
+    std::string node;
+    PortChoice port;
+  };
   static void declare(CommandBuilder<UnlockPort>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct AddLink {
-  struct In { std::string id; JsonText link; };
+  struct In {
+    std::string id;
+    JsonText link;
+  };
   static void declare(CommandBuilder<AddLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct RemoveLink {
-  struct In { std::string id; };
+  struct In {
+    std::string id;
+  };
   static void declare(CommandBuilder<RemoveLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct SetLinkEnds {
-  struct In { std::string id; Selection from, to; };
+  struct In {
+    std::string id;
+    Selection from, to;
+  };
   static void declare(CommandBuilder<SetLinkEnds>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct SetLinkParameter {
-  struct In { std::string id, parameter; JsonText value{"null"}; };
+  struct In {
+    std::string id, parameter;
+    JsonText value{"null"};
+  };
   static void declare(CommandBuilder<SetLinkParameter>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct SetLinkStrength {
-  struct In { std::string id; double strength = 1; };
+  struct In {
+    std::string id;
+    double strength = 1;
+  };
   static void declare(CommandBuilder<SetLinkStrength>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct EnableLink {
-  struct In { std::string id; bool enabled = true; };
+  struct In {
+    std::string id;
+    bool enabled = true;
+  };
   static void declare(CommandBuilder<EnableLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct MuteLink {
-  struct In { std::string id; bool muted = true; };
+  struct In {
+    std::string id;
+    bool muted = true;
+  };
   static void declare(CommandBuilder<MuteLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct SetSetting {
-  struct In { std::string setting; JsonText value{"null"}; };
+  struct In {
+    std::string setting;
+    JsonText value{"null"};
+  };
   static void declare(CommandBuilder<SetSetting>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct Batch {
-  struct In { JsonText commands{"[]"}; };
+  struct In {
+    JsonText commands{"[]"};
+  };
   static void declare(CommandBuilder<Batch>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 
 /// The arguments as a command, such as command<RemoveNode>({.id = "tower"}).
 template <class T>
-Command command(const typename T::In& in) { return CommandBuilder<T>::command(in); }
+Command command(const typename T::In& in) {
+  return CommandBuilder<T>::command(in);
+}
 
 /// Applies one command; on an error the scene is unchanged. Returns the commands that undo it, in the order to apply.
 Inverse apply(SceneEdit& edit, const Command& command);

@@ -15,16 +15,20 @@ constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 Result<std::int64_t> number_in(const Json& line, const char* key, bool is_required) {
   const auto it = line.find(key);
   if (it == line.end() && !is_required) return std::int64_t{0};
-  if (it == line.end() || !it->is_number_integer() || *it < 0 || *it > kLargestNumber) return Error{ErrorCode::missing, key, "expects a whole number from 0 to 2^53"};
+  if (it == line.end() || !it->is_number_integer() || *it < 0 || *it > kLargestNumber)
+    return Error{ErrorCode::missing, key, "expects a whole number from 0 to 2^53"};
   return it->get<std::int64_t>();
 }
 
 Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
-  if (auto keys = check_keys(line, {"seq", "tick", "author", "gesture", "undoes", "redoes", "command", "arguments"}, ""); !keys) return keys.error();
+  if (auto keys = check_keys(line, {"seq", "tick", "author", "gesture", "undoes", "redoes", "command", "arguments"}, ""); !keys)
+    return keys.error();
   LogEntry entry;
-  for (const auto& [key, target, is_required] :
-       {std::tuple<const char*, std::int64_t*, bool>{"seq", &entry.seq, true}, {"tick", &entry.tick, true}, {"gesture", &entry.gesture, true},
-        {"undoes", &entry.undoes, false}, {"redoes", &entry.redoes, false}}) {
+  for (const auto& [key, target, is_required] : {std::tuple<const char*, std::int64_t*, bool>{"seq", &entry.seq, true},
+                                                 {"tick", &entry.tick, true},
+                                                 {"gesture", &entry.gesture, true},
+                                                 {"undoes", &entry.undoes, false},
+                                                 {"redoes", &entry.redoes, false}}) {
     auto number = number_in(line, key, is_required);
     if (!number) return number.error();
     *target = *number;
@@ -41,9 +45,11 @@ Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
 }
 
 Result<LogCheck> check_from_json(const Json& json, bool is_end) {
-  auto tick = json.is_object() ? number_in(json, "tick", true) : Result<std::int64_t>(Error{ErrorCode::parse, "", "expects {\"tick\", \"hash\"}"});
+  auto tick = json.is_object() ? number_in(json, "tick", true)
+                               : Result<std::int64_t>(Error{ErrorCode::parse, "", "expects {\"tick\", \"hash\"}"});
   if (!tick) return tick.error();
-  if (!json.contains("hash") || !json["hash"].is_string()) return Error{ErrorCode::missing, "hash", "expects 16 hexadecimal digits"};
+  if (!json.contains("hash") || !json["hash"].is_string())
+    return Error{ErrorCode::missing, "hash", "expects 16 hexadecimal digits"};
   return LogCheck{*tick, json["hash"].get<std::string>(), is_end};
 }
 
@@ -101,7 +107,8 @@ Result<LogFile> read_log(std::string_view text, const Registry& registry) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     const std::string place = "line " + std::to_string(++number);
     if (number == 1 && content.find("behaviourlinks-log") == std::string_view::npos)
-      return Error{ErrorCode::parse, place, "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
+      return Error{ErrorCode::parse, place,
+                   "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
     if (content.empty()) continue;
     auto line = parse_json(content);
     if (!line && end == std::string_view::npos && number > 1) {
@@ -111,7 +118,8 @@ Result<LogFile> read_log(std::string_view text, const Registry& registry) {
     if (!line) return Error{line.error().code, place, line.error().message};
     if (number == 1) {
       if (!line->is_object() || line->value("format", Json()) != "behaviourlinks-log" || !line->contains("scene"))
-        return Error{ErrorCode::parse, place, "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
+        return Error{ErrorCode::parse, place,
+                     "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
       if (line->value("version", Json()) != kLogVersion)
         return Error{ErrorCode::version, place, "this program reads logs of version " + std::to_string(kLogVersion)};
       log.scene = write_json((*line)["scene"]) + "\n";

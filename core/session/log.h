@@ -17,7 +17,7 @@ struct LogEntry {
   std::int64_t seq = 0, tick = 0, gesture = 0;
   std::string author;
   Command command;
-  std::int64_t undoes = 0, redoes = 0;    ///< the gesture that this entry takes back or brings back; 0: none
+  std::int64_t undoes = 0, redoes = 0;  ///< the gesture that this entry takes back or brings back; 0: none
 };
 
 /// A hash that was reached at a tick; replay must reach it too.
@@ -29,10 +29,10 @@ struct LogCheck {
 
 /// What a log file holds: JSON lines, the first with the scene it starts from.
 struct LogFile {
-  std::string scene;                      ///< text of the scene file
+  std::string scene;  ///< text of the scene file
   std::vector<LogEntry> entries;
   std::vector<LogCheck> checks;
-  bool is_cut_off = false;                ///< the last line was incomplete, as after a crash; it is left out
+  bool is_cut_off = false;  ///< the last line was incomplete, as after a crash; it is left out
 };
 
 std::string log_header(std::string_view scene_text);

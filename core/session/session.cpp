@@ -10,7 +10,8 @@ namespace bl {
 Inverse apply(SceneEdit& edit, const Command& command) {
   const CommandDefinition* definition = edit.registry().command(command.id);
   if (definition == nullptr)
-    return Error{ErrorCode::unknown_type, "", "unknown command `" + command.id + "`" + did_you_mean(command.id, keys_of(edit.registry().commands()))};
+    return Error{ErrorCode::unknown_type, "",
+                 "unknown command `" + command.id + "`" + did_you_mean(command.id, keys_of(edit.registry().commands()))};
   std::vector<Value> values;
   for (const PortDefinition& port : definition->ports) {
     const auto it = command.arguments.find(port.id);
@@ -26,7 +27,8 @@ Session::Session(const Registry& registry, const Scene& scene, int threads, doub
   simulation_.set_scene(scene_);
 }
 
-Result<std::unique_ptr<Session>> Session::start(const Registry& registry, const Scene& scene, const SavedState* state, int threads, double (*now)()) {
+Result<std::unique_ptr<Session>> Session::start(const Registry& registry, const Scene& scene, const SavedState* state,
+                                                int threads, double (*now)()) {
   std::unique_ptr<Session> session(new Session(registry, scene, threads, now));
   if (state != nullptr)
     if (auto restored = session->simulation_.restore_state(*state); !restored) return restored.error();
@@ -38,7 +40,8 @@ Result<void> Session::apply_entry(LogEntry entry) {
   if (const auto owner = gesture_authors_.find(entry.gesture); owner != gesture_authors_.end()) {
     const auto& stack = entry.undoes != 0 ? redo_[entry.author] : undo_[entry.author];
     if (owner->second != entry.author || stack.empty() || stack.back() != entry.gesture)
-      return Error{ErrorCode::conflict, "gesture", "the gesture " + std::to_string(entry.gesture) + " is closed or somebody else's"};
+      return Error{ErrorCode::conflict, "gesture",
+                   "the gesture " + std::to_string(entry.gesture) + " is closed or somebody else's"};
   }
   SceneEdit edit(scene_, *registry_);
   auto inverse = bl::apply(edit, entry.command);
@@ -75,9 +78,11 @@ Result<void> Session::submit(const Command& command, const std::string& author, 
   return apply_entry({0, 0, gesture == 0 ? last_gesture_ + 1 : gesture, author, command, 0, 0});
 }
 
-Result<void> Session::take_back(const std::string& author, std::map<std::string, std::vector<std::int64_t>>& stack, bool is_undo) {
+Result<void> Session::take_back(const std::string& author, std::map<std::string, std::vector<std::int64_t>>& stack,
+                                bool is_undo) {
   if (stack[author].empty())
-    return Error{ErrorCode::not_found, "", is_undo ? "there is nothing to undo for " + author : "there is nothing to redo for " + author};
+    return Error{ErrorCode::not_found, "",
+                 is_undo ? "there is nothing to undo for " + author : "there is nothing to redo for " + author};
   const std::int64_t gesture = stack[author].back();
   const std::vector<Command> commands = inverses_[gesture];
   // Tried on a copy first: what somebody else removed meanwhile must not leave half of an undo behind.

@@ -20,8 +20,8 @@ namespace bl {
 class Session {
  public:
   /// Starts from a scene, and from its saved state where there is one.
-  static Result<std::unique_ptr<Session>> start(const Registry& registry, const Scene& scene, const SavedState* state, int threads,
-                                                double (*now)() = nullptr);
+  static Result<std::unique_ptr<Session>> start(const Registry& registry, const Scene& scene, const SavedState* state,
+                                                int threads, double (*now)() = nullptr);
 
   /// Applies a command now and logs it for the coming tick; on an error nothing changes. Commands of one gesture of an author
   /// (such as a drag) are undone together; gesture 0 makes a new one.
@@ -55,9 +55,9 @@ class Session {
   std::set<std::pair<std::string, std::string>> placed_;
   bool is_changed_ = false;
   std::vector<LogEntry> log_;
-  std::map<std::int64_t, std::vector<Command>> inverses_;            ///< by gesture, in the order to apply
+  std::map<std::int64_t, std::vector<Command>> inverses_;  ///< by gesture, in the order to apply
   std::map<std::int64_t, std::string> gesture_authors_;
-  std::map<std::string, std::vector<std::int64_t>> undo_, redo_;    ///< gestures by author
+  std::map<std::string, std::vector<std::int64_t>> undo_, redo_;  ///< gestures by author
   std::int64_t last_gesture_ = 0;
   std::function<void(const LogEntry&)> listener_;
 };

@@ -13,8 +13,8 @@ JsonText as_json_text(const Value& value, const PortDefinition& port);
 /// A setting of a type from a JSON argument; `null` stands for the default.
 Result<Value> argument_value(const TypeDefinition& type, const std::string& port, const JsonText& json, const std::string& place);
 /// Do the nodes and ports that values name exist? `self` is the node that is being added, if any.
-Result<void> check_references(const SceneEdit& edit, const TypeDefinition& type, const PortValues& values, const std::string& self,
-                              const std::string& place);
+Result<void> check_references(const SceneEdit& edit, const TypeDefinition& type, const PortValues& values,
+                              const std::string& self, const std::string& place);
 /// Sets a value, or takes it away where it is the default.
 void assign(PortValues& values, const PortDefinition& port, const Value& value);
 /// The current value of a port as a command argument.

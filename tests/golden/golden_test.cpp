@@ -29,7 +29,8 @@ std::string trace_of(const std::string& scene) {
     world.tick();
     if (tick != 1 && tick != 2 && tick != 5 && tick % 10 != 0) continue;
     const State& state = world.state();
-    trace += std::to_string(state.tick) + " " + shortest(state.largest_residual) + " " + shortest(state.largest_move) + " " + hex_digits(state.hash) + "\n";
+    trace += std::to_string(state.tick) + " " + shortest(state.largest_residual) + " " + shortest(state.largest_move) + " " +
+             hex_digits(state.hash) + "\n";
   }
   return trace;
 }

@@ -237,7 +237,9 @@ std::vector<Finding> check_form(std::string_view path, std::string_view text) {
 
 int line_limit(std::string_view path) {
   // The solver binds thirty ports of its own and of its members; half of the file is that list.
-  if (path == "nodes/smart_volumes_solver.cpp") return 230;
+  if (path == "nodes/smart_volumes_solver.cpp") return 260;
+  // The expression holds the parser's adapter and the check of units, until a second type needs them.
+  if (path == "nodes/expression.cpp") return 220;
   return path.starts_with("nodes/") || path.starts_with("links/") ? 180 : 450;
 }
 

@@ -53,9 +53,11 @@ Scene rebuilt(const Scene& scene, std::uint64_t seed) {
   for (const auto& [id, node] : scene.nodes) {
     for (const auto& [type, values] : node.types)
       if (type != kBaseNode)
-        roles.push_back(command<Typify>({id, type, {write_json_line(ports_to_json(*full_registry().typification(type), values))}}));
+        roles.push_back(
+            command<Typify>({id, type, {write_json_line(ports_to_json(*full_registry().typification(type), values))}}));
   }
-  for (const auto& [id, link] : scene.links) links.push_back(command<AddLink>({id, {write_json_line(link_to_json(link, full_registry()))}}));
+  for (const auto& [id, link] : scene.links)
+    links.push_back(command<AddLink>({id, {write_json_line(link_to_json(link, full_registry()))}}));
   Scene fresh;
   fresh.settings = scene.settings;
   fresh.view = scene.view;
@@ -76,7 +78,7 @@ Scene rebuilt(const Scene& scene, std::uint64_t seed) {
 
 TEST_P(SceneLaws, TheOrderOfCreationDoesNotMatter) {
   const SceneReading reading = read_scene(project_file(GetParam()), full_registry());
-  if (reading.state) return;    // a scene in mid-run starts from its state, not from its creation
+  if (reading.state) return;  // a scene in mid-run starts from its state, not from its creation
   const std::uint64_t straight = hash_after(write_scene(reading.scene, full_registry()), kTicks, 1);
   for (const std::uint64_t seed : {1u, 2u}) {
     const Scene shuffled = rebuilt(reading.scene, seed);
@@ -136,7 +138,9 @@ Command random_command(const Scene& scene, Random& random, int number) {
     case 9: return command<Typify>({pick(scene.nodes), "control", {R"({"value": 3})"}});
     case 10: return command<SetSetting>({"title", {"\"" + number_text + "\""}});
     case 11: return command<Untypify>({pick(scene.nodes), "smart_volume"});
-    default: return command<AddNode>({fresh, {R"({"position": [)" + number_text + R"(, 8, 6], "types": {"smart_volume": {"demand": 900}}})"}});
+    default:
+      return command<AddNode>(
+          {fresh, {R"({"position": [)" + number_text + R"(, 8, 6], "types": {"smart_volume": {"demand": 900}}})"}});
   }
 }
 
@@ -164,7 +168,8 @@ TEST_P(SceneLaws, UndoingEverythingGivesTheScenesBytesAndReplayTheSameHash) {
     ASSERT_TRUE(undone.ok()) << undone.error().text();
   }
   EXPECT_EQ(hash_of(world.session().scene()), scene_hash);
-  EXPECT_EQ(write_scene(world.session().scene(), full_registry()), write_scene(read_scene(text, full_registry()).scene, full_registry()));
+  EXPECT_EQ(write_scene(world.session().scene(), full_registry()),
+            write_scene(read_scene(text, full_registry()).scene, full_registry()));
   world.tick(2);
   std::string log = log_header(text);
   for (const LogEntry& entry : world.session().log()) log += log_line(entry, full_registry());

@@ -17,8 +17,22 @@ namespace {
 
 // Values that are wrong nearly everywhere, right somewhere.
 Json odd_value(Random& random) {
-  static const std::vector<Json> kOdd = {nullptr, true, 0, -1, 3.5, 1e14, "", "housing", "a.b", Json::array(), Json::object(),
-                                         Json::array({1, 2, 3}), Json::array({"a", "b"}), {{"tag", "x"}}, {{"typification", ""}}, {{"surprise", 1}}};
+  static const std::vector<Json> kOdd = {nullptr,
+                                         true,
+                                         0,
+                                         -1,
+                                         3.5,
+                                         1e14,
+                                         "",
+                                         "housing",
+                                         "a.b",
+                                         Json::array(),
+                                         Json::object(),
+                                         Json::array({1, 2, 3}),
+                                         Json::array({"a", "b"}),
+                                         {{"tag", "x"}},
+                                         {{"typification", ""}},
+                                         {{"surprise", 1}}};
   return kOdd[random.below(kOdd.size())];
 }
 
@@ -39,7 +53,9 @@ void mutate(Json& json, Random& random) {
 }
 
 // What a schema cannot know: the rest of the scene, and other revisions of types.
-bool needs_the_scene(ErrorCode code) { return code == ErrorCode::duplicate || code == ErrorCode::not_found || code == ErrorCode::version; }
+bool needs_the_scene(ErrorCode code) {
+  return code == ErrorCode::duplicate || code == ErrorCode::not_found || code == ErrorCode::version;
+}
 
 TEST(SchemaLaws, TheSchemaAcceptsWhatTheReaderAccepts) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("bl_schema_" + std::to_string(::getpid()));
@@ -65,13 +81,15 @@ TEST(SchemaLaws, TheSchemaAcceptsWhatTheReaderAccepts) {
     }
   }
   ASSERT_TRUE(write_file(documents, lines).ok());
-  const std::string command = "/usr/bin/python3 '" + std::string(BL_SOURCE_DIR) + "/tests/laws/schema_check.py' '" + schema + "' '" + documents + "'";
+  const std::string command =
+      "/usr/bin/python3 '" + std::string(BL_SOURCE_DIR) + "/tests/laws/schema_check.py' '" + schema + "' '" + documents + "'";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);
   char verdict[64];
   std::size_t at = 0, accepted = 0;
   std::vector<std::string> all;
-  for (std::size_t begin = 0; begin < lines.size(); begin = lines.find('\n', begin) + 1) all.push_back(lines.substr(begin, lines.find('\n', begin) - begin));
+  for (std::size_t begin = 0; begin < lines.size(); begin = lines.find('\n', begin) + 1)
+    all.push_back(lines.substr(begin, lines.find('\n', begin) - begin));
   for (; std::fgets(verdict, sizeof verdict, pipe) != nullptr && at < expected.size(); ++at) {
     const bool is_valid = std::string_view(verdict) == "valid\n";
     accepted += is_valid ? 1 : 0;

@@ -36,8 +36,10 @@ TEST(TypeLaws, EveryTypeAndPortIsDocumented) {
     for (const PortDefinition& port : type.ports) {
       EXPECT_TRUE(is_identifier(port.id)) << type.id << "." << port.id;
       EXPECT_TRUE(ends_a_sentence(port.doc)) << type.id << "." << port.id << ": " << port.doc;
-      for (const ChoiceDefinition& choice : port.choices) EXPECT_TRUE(ends_a_sentence(choice.doc)) << type.id << "." << port.id << "=" << choice.id;
-      for (const ColumnDefinition& column : port.columns) EXPECT_TRUE(ends_a_sentence(column.doc)) << type.id << "." << port.id << "/" << column.id;
+      for (const ChoiceDefinition& choice : port.choices)
+        EXPECT_TRUE(ends_a_sentence(choice.doc)) << type.id << "." << port.id << "=" << choice.id;
+      for (const ColumnDefinition& column : port.columns)
+        EXPECT_TRUE(ends_a_sentence(column.doc)) << type.id << "." << port.id << "/" << column.id;
     }
   });
 }
@@ -50,9 +52,7 @@ TEST(TypeLaws, PortIdsAreUniqueAndSettingsComeFirst) {
       EXPECT_TRUE(ids.insert(port.id).second) << type.id << "." << port.id;
       EXPECT_TRUE(port.is_computed || !is_computed) << type.id << "." << port.id << " is a setting behind a result";
       is_computed = port.is_computed;
-      if (!port.unit_from.empty()) {
-        EXPECT_NE(type.find_port(port.unit_from), nullptr) << type.id << "." << port.id;
-      }
+      if (!port.unit_from.empty()) { EXPECT_NE(type.find_port(port.unit_from), nullptr) << type.id << "." << port.id; }
     }
   });
 }
@@ -64,16 +64,11 @@ TEST(TypeLaws, DefaultsAndSoftRangesLieInsideHardRanges) {
         const auto good = check_value(port, port.default_value, type.id + "." + port.id);
         EXPECT_TRUE(good.ok()) << good.error().text();
       }
-      EXPECT_LE(port.soft_minimum.value_or(port.hard_minimum), port.soft_maximum.value_or(port.hard_maximum)) << type.id << "." << port.id;
-      if (port.soft_minimum) {
-        EXPECT_GE(*port.soft_minimum, port.hard_minimum) << type.id << "." << port.id;
-      }
-      if (port.soft_maximum) {
-        EXPECT_LE(*port.soft_maximum, port.hard_maximum) << type.id << "." << port.id;
-      }
-      if (port.rule != CombineRule::none) {
-        EXPECT_TRUE(is_proposable(port.kind)) << type.id << "." << port.id;
-      }
+      EXPECT_LE(port.soft_minimum.value_or(port.hard_minimum), port.soft_maximum.value_or(port.hard_maximum))
+          << type.id << "." << port.id;
+      if (port.soft_minimum) { EXPECT_GE(*port.soft_minimum, port.hard_minimum) << type.id << "." << port.id; }
+      if (port.soft_maximum) { EXPECT_LE(*port.soft_maximum, port.hard_maximum) << type.id << "." << port.id; }
+      if (port.rule != CombineRule::none) { EXPECT_TRUE(is_proposable(port.kind)) << type.id << "." << port.id; }
     }
   });
 }
@@ -90,9 +85,7 @@ TEST(TypeLaws, LinksReadAndProposePortsThatExistWithTheUnitTheyExpect) {
       const auto port = full_registry().port(path);
       ASSERT_TRUE(port.ok()) << name << ": " << port.error().text();
       EXPECT_EQ((*port)->kind, expected) << name << " " << path.port;
-      if (is_proposal) {
-        EXPECT_NE((*port)->rule, CombineRule::none) << name << " " << path.port;
-      }
+      if (is_proposal) { EXPECT_NE((*port)->rule, CombineRule::none) << name << " " << path.port; }
       // Numbers without a fixed unit at the port may be read as they are; all others must be named with their unit.
       if ((*port)->unit_from.empty() && (*port)->unit != Unit::none && expected == ValueKind::number) {
         ASSERT_TRUE(unit.has_value()) << name << " does not say in which unit it takes " << path.typification << "." << path.port;
@@ -154,7 +147,8 @@ TEST(TypeLaws, TypificationsEvaluateRandomInputToFiniteValuesOrAnError) {
     Random random(11, id.size());
     for (int i = 0; i < 300; ++i) {
       std::vector<Value> values;
-      for (const PortDefinition& port : type.ports) values.push_back(port.is_computed || i == 0 ? port.default_value : random_value(port, random));
+      for (const PortDefinition& port : type.ports)
+        values.push_back(port.is_computed || i == 0 ? port.default_value : random_value(port, random));
       const auto first = evaluate(type, values), second = evaluate(type, values);
       ASSERT_EQ(first.ok(), second.ok()) << id;
       if (!first) {
@@ -185,7 +179,8 @@ TEST(TypeLaws, LinksEvaluateRandomInputToFiniteProposalsOrAnError) {
     Random random(13, id.size());
     for (int i = 0; i < 300; ++i) {
       std::vector<Value> parameters;
-      for (const PortDefinition& port : kind.ports) parameters.push_back(i < 20 ? port.default_value : random_value(port, random));
+      for (const PortDefinition& port : kind.ports)
+        parameters.push_back(i < 20 ? port.default_value : random_value(port, random));
       const auto in = kind.instantiate(parameters);
       LinkTrial trial;
       trial.storage.reserve(kind.reads.size() * 3);
@@ -217,9 +212,7 @@ TEST(TypeLaws, LinksEvaluateRandomInputToFiniteProposalsOrAnError) {
       }
       for (const auto& values : proposals)
         for (const auto& value : values)
-          if (value) {
-            EXPECT_TRUE(is_finite(*value)) << id;
-          }
+          if (value) { EXPECT_TRUE(is_finite(*value)) << id; }
     }
   }
 }

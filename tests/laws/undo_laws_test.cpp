@@ -18,26 +18,28 @@ constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "no
   {"id": "n", "kind": "unheard_of", "from": "nowhere", "to": 7}]})";
 
 std::vector<Command> every_command() {
-  return {command<AddNode>({"z", {R"({"name": "Z", "types": {"smart_volume": {"demand": 5}}})"}}),
-          command<RemoveNode>({"a"}),
-          command<RemoveNode>({"b"}),
-          command<RenameNode>({"a", "Anna"}),
-          command<Typify>({"b", "control", {R"({"value": 4})"}}),
-          command<Untypify>({"a", "smart_volume"}),
-          command<SetPort>({"a", {"smart_volume.demand"}, {"1234.5"}}),
-          command<SetPort>({"c", {"statistics.nodes"}, {R"({"tag": "x"})"}}),
-          command<LockPort>({"b", {"node.position"}}),
-          command<UnlockPort>({"a", {"node.position"}}),
-          command<AddLink>({"o", {R"({"kind": "attract", "from": "a", "to": {"typification": "smart_volume"}})"}}),
-          command<RemoveLink>({"m"}),
-          command<RemoveLink>({"n"}),
-          command<SetLinkEnds>({"l", Selection{{"b"}, "", ""}, Selection{{}, "", "x"}}),
-          command<SetLinkParameter>({"l", full_registry().link("keep_distance")->ports.front().id, {"7"}}),
-          command<SetLinkStrength>({"m", 0.25}),
-          command<EnableLink>({"l", false}),
-          command<MuteLink>({"l", true}),
-          command<SetSetting>({"tolerance", {"0.02"}}),
-          command<Batch>({{R"([{"command": "rename_node", "arguments": {"id": "a", "name": "B"}}, {"command": "remove_node", "arguments": {"id": "b"}}])"}})};
+  return {
+      command<AddNode>({"z", {R"({"name": "Z", "types": {"smart_volume": {"demand": 5}}})"}}),
+      command<RemoveNode>({"a"}),
+      command<RemoveNode>({"b"}),
+      command<RenameNode>({"a", "Anna"}),
+      command<Typify>({"b", "control", {R"({"value": 4})"}}),
+      command<Untypify>({"a", "smart_volume"}),
+      command<SetPort>({"a", {"smart_volume.demand"}, {"1234.5"}}),
+      command<SetPort>({"c", {"statistics.nodes"}, {R"({"tag": "x"})"}}),
+      command<LockPort>({"b", {"node.position"}}),
+      command<UnlockPort>({"a", {"node.position"}}),
+      command<AddLink>({"o", {R"({"kind": "attract", "from": "a", "to": {"typification": "smart_volume"}})"}}),
+      command<RemoveLink>({"m"}),
+      command<RemoveLink>({"n"}),
+      command<SetLinkEnds>({"l", Selection{{"b"}, "", ""}, Selection{{}, "", "x"}}),
+      command<SetLinkParameter>({"l", full_registry().link("keep_distance")->ports.front().id, {"7"}}),
+      command<SetLinkStrength>({"m", 0.25}),
+      command<EnableLink>({"l", false}),
+      command<MuteLink>({"l", true}),
+      command<SetSetting>({"tolerance", {"0.02"}}),
+      command<Batch>(
+          {{R"([{"command": "rename_node", "arguments": {"id": "a", "name": "B"}}, {"command": "remove_node", "arguments": {"id": "b"}}])"}})};
 }
 
 TEST(UndoLaws, EveryCommandIsTaken) {
@@ -98,7 +100,9 @@ TEST(UndoLaws, AGestureIsOneStep) {
   World world = World::from_text(kScene);
   const std::int64_t drag = world.session().new_gesture();
   for (int i = 1; i <= 5; ++i)
-    ASSERT_TRUE(world.session().submit(command<SetPort>({"b", {"node.position"}, {"[" + std::to_string(i) + ", 0, 0]"}}), "anna", drag).ok());
+    ASSERT_TRUE(world.session()
+                    .submit(command<SetPort>({"b", {"node.position"}, {"[" + std::to_string(i) + ", 0, 0]"}}), "anna", drag)
+                    .ok());
   EXPECT_EQ(std::get<Vector3>(world.session().scene().nodes.at("b").types.at("node").at("position")).x, 5);
   ASSERT_TRUE(world.session().undo("anna").ok());
   EXPECT_FALSE(world.session().scene().nodes.at("b").types.at("node").contains("position"));
@@ -109,7 +113,9 @@ TEST(UndoLaws, AGestureIsOneStep) {
 TEST(UndoLaws, AGestureBelongsToOneAuthorAndEndsWhenUndone) {
   World world = World::from_text(kScene);
   const std::int64_t drag = world.session().new_gesture();
-  const auto move = [&](const char* author) { return world.session().submit(command<SetPort>({"b", {"node.position"}, {"[1, 0, 0]"}}), author, drag); };
+  const auto move = [&](const char* author) {
+    return world.session().submit(command<SetPort>({"b", {"node.position"}, {"[1, 0, 0]"}}), author, drag);
+  };
   ASSERT_TRUE(move("anna").ok());
   ASSERT_EQ(world.submit(command<RenameNode>({"a", "by Ben"}), "ben"), "");
   EXPECT_TRUE(move("anna").ok());
@@ -120,8 +126,10 @@ TEST(UndoLaws, AGestureBelongsToOneAuthorAndEndsWhenUndone) {
 
 TEST(UndoLaws, CommandsRefuseWhatAFileWouldBeRefusedFor) {
   World world = World::from_text(kScene);
-  EXPECT_EQ(world.submit(command<SetPort>({"c", {"statistics.port"}, {"\"foo.bar\""}})), "nodes/c/statistics/port: unknown typification `foo`");
-  EXPECT_EQ(world.submit(command<AddNode>({"z", {R"({"locked": ["foo.bar"]})"}})), "nodes/z/locked: the node has no port `foo.bar`");
+  EXPECT_EQ(world.submit(command<SetPort>({"c", {"statistics.port"}, {"\"foo.bar\""}})),
+            "nodes/c/statistics/port: unknown typification `foo`");
+  EXPECT_EQ(world.submit(command<AddNode>({"z", {R"({"locked": ["foo.bar"]})"}})),
+            "nodes/z/locked: the node has no port `foo.bar`");
   EXPECT_EQ(world.submit(command<Batch>({{"[]"}})), "commands: an empty batch changes nothing");
   EXPECT_TRUE(read_scene(write_scene(world.session().scene(), full_registry()), full_registry()).is_usable());
 }
@@ -133,7 +141,8 @@ TEST(UndoLaws, WhatCannotBeUndoneSaysWhyAndChangesNothing) {
   const std::uint64_t before = hash_of(world.session().scene());
   const auto undone = world.session().undo("anna");
   ASSERT_FALSE(undone.ok());
-  EXPECT_EQ(undone.error().message, "cannot be undone because the scene has changed since: there is no node `b`, did you mean `a`?");
+  EXPECT_EQ(undone.error().message,
+            "cannot be undone because the scene has changed since: there is no node `b`, did you mean `a`?");
   EXPECT_EQ(hash_of(world.session().scene()), before);
 }
 

@@ -14,7 +14,8 @@ std::string error_of(const std::string& ports) {
 }
 
 TEST(Boundary, PlanIsDrawnUpToItsHeight) {
-  World world = World::from_text(one_node("boundary", R"("form": "plan", "plan": [[0,0,7],[10,0,7],[10,20,7],[0,20,7]], "bottom": 2, "height": 5)"));
+  World world = World::from_text(
+      one_node("boundary", R"("form": "plan", "plan": [[0,0,7],[10,0,7],[10,20,7],[0,20,7]], "bottom": 2, "height": 5)"));
   world.tick();
   EXPECT_EQ(world.node_error("it", "boundary"), "");
   EXPECT_NEAR(world.number("it", "boundary.volume"), 1000, 1e-9);
@@ -55,7 +56,8 @@ TEST(Boundary, AFreshOneIsUsable) {
 
 TEST(Boundary, RefusesWhatHasNoVolume) {
   EXPECT_EQ(error_of(R"("points": [[0,0,0],[1,0,0],[0,1,0]])"),
-            "nodes/it/boundary/points: a boundary needs at least 4 points that are not in one plane; 3 given, 3 of them at different places");
+            "nodes/it/boundary/points: a boundary needs at least 4 points that are not in one plane; 3 given, 3 of them at "
+            "different places");
   EXPECT_EQ(error_of(R"("points": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[2,2,0]])"),
             "nodes/it/boundary/points: all boundary points lie in one plane: add a point above or below it");
   EXPECT_EQ(error_of(R"("form": "plan", "plan": [[0,0,0],[1,0,0]])"),

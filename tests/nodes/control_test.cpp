@@ -46,9 +46,12 @@ TEST(Control, ASwitchIsOnOrOff) {
 }
 
 TEST(Control, RefusesRangesThatCannotBe) {
-  EXPECT_EQ(error_of(R"("minimum": 5, "maximum": 2)"), "nodes/it/control/maximum: the maximum (2) has to lie above the minimum (5)");
-  EXPECT_EQ(error_of(R"("minimum": 2, "maximum": 2)"), "nodes/it/control/maximum: the maximum (2) has to lie above the minimum (2)");
-  EXPECT_EQ(error_of(R"("step": 101)"), "nodes/it/control/step: the step (101) is larger than the range (100): make it smaller, or 0 for none");
+  EXPECT_EQ(error_of(R"("minimum": 5, "maximum": 2)"),
+            "nodes/it/control/maximum: the maximum (2) has to lie above the minimum (5)");
+  EXPECT_EQ(error_of(R"("minimum": 2, "maximum": 2)"),
+            "nodes/it/control/maximum: the maximum (2) has to lie above the minimum (2)");
+  EXPECT_EQ(error_of(R"("step": 101)"),
+            "nodes/it/control/step: the step (101) is larger than the range (100): make it smaller, or 0 for none");
 }
 
 TEST(Control, KnowsItsUnits) {

@@ -10,7 +10,8 @@ namespace bl {
 namespace {
 
 World ticked(const std::string& formula, const std::string& ports) {
-  World world = World::from_text(one_node("expression", R"("formula": ")" + formula + "\"" + (ports.empty() ? "" : ", " + ports)));
+  World world =
+      World::from_text(one_node("expression", R"("formula": ")" + formula + "\"" + (ports.empty() ? "" : ", " + ports)));
   world.tick();
   return world;
 }
@@ -19,10 +20,13 @@ double result_of(const std::string& formula, const std::string& ports = "") {
   EXPECT_EQ(world.node_error("it", "expression"), "") << formula;
   return world.number("it", "expression.result");
 }
-std::string error_of(const std::string& formula, const std::string& ports = "") { return ticked(formula, ports).node_error("it", "expression"); }
+std::string error_of(const std::string& formula, const std::string& ports = "") {
+  return ticked(formula, ports).node_error("it", "expression");
+}
 
 constexpr const char* kPlace = "nodes/it/expression/formula: ";
-constexpr const char* kMixed = "nodes/it/expression/formula: quantities of different units are added or compared: give plain numbers a unit, as in `3*m`";
+constexpr const char* kMixed =
+    "nodes/it/expression/formula: quantities of different units are added or compared: give plain numbers a unit, as in `3*m`";
 
 TEST(Expression, ComputesPlainNumbers) {
   EXPECT_EQ(result_of("a*b + c/d", R"("a": 2, "b": 3, "c": 8, "d": 4)"), 8);
@@ -59,11 +63,14 @@ TEST(Expression, UnitsThatDoNotFit) {
   EXPECT_EQ(error_of("a * b", metres + R"("unit": "m2")"),
             "nodes/it/expression/unit: the formula gives `m3`, but the result is to be in `m2`: change the formula or the unit");
   EXPECT_EQ(error_of("a / b", metres + R"("unit": "")"),
-            "nodes/it/expression/unit: the formula gives `m-1`, but the result is to be a plain number: change the formula or the unit");
-  EXPECT_EQ(error_of("a / s^2", metres + R"("unit": "m")"),
-            "nodes/it/expression/unit: the formula gives `m·s-2`, but the result is to be in `m`: change the formula or the unit");
+            "nodes/it/expression/unit: the formula gives `m-1`, but the result is to be a plain number: change the formula or "
+            "the unit");
+  EXPECT_EQ(
+      error_of("a / s^2", metres + R"("unit": "m")"),
+      "nodes/it/expression/unit: the formula gives `m·s-2`, but the result is to be in `m`: change the formula or the unit");
   EXPECT_EQ(error_of("5", R"("unit": "EUR")"),
-            "nodes/it/expression/unit: the formula gives a plain number, but the result is to be in `EUR`: change the formula or the unit");
+            "nodes/it/expression/unit: the formula gives a plain number, but the result is to be in `EUR`: change the formula or "
+            "the unit");
   EXPECT_EQ(error_of("a", R"("a_unit": "meter")"), "nodes/it/expression/a_unit: `meter` is no unit that is known");
   EXPECT_EQ(error_of("a", R"("a_unit": "km", "unit": "m")"),
             "nodes/it/expression/a_unit: values are not kept in `km`: write `m`, and the numbers in it");
@@ -82,7 +89,8 @@ TEST(Expression, SaysWhatIsWrongWithAFormula) {
   EXPECT_EQ(error_of("sqrt"), place + "the function `sqrt` at character 1 needs its arguments in brackets");
   EXPECT_EQ(error_of("sqrt(a, b)"), place + "the function `sqrt` takes another number of arguments");
   EXPECT_EQ(error_of("a = 3"), place + "a formula changes nothing, so the `=` at character 3 has no place; compare with `==`");
-  EXPECT_EQ(error_of("(b=3) + b"), place + "a formula changes nothing, so the `=` at character 3 has no place; compare with `==`");
+  EXPECT_EQ(error_of("(b=3) + b"),
+            place + "a formula changes nothing, so the `=` at character 3 has no place; compare with `==`");
   EXPECT_EQ(error_of("a, b"), place + "a formula gives one number: take away the comma outside of brackets");
   EXPECT_EQ(error_of("a ? b"), place + "the formula cannot be read: check its signs, brackets and commas");
   EXPECT_EQ(error_of("a)"), place + "the formula cannot be read at character 2: check its signs, brackets and commas");
@@ -90,16 +98,20 @@ TEST(Expression, SaysWhatIsWrongWithAFormula) {
 }
 
 TEST(Expression, AResultHasToBeFinite) {
-  const std::string sentence = std::string(kPlace) + "the formula gives no finite number: guard divisions and roots, as in `b > 0 ? a/b : 0`";
+  const std::string sentence =
+      std::string(kPlace) + "the formula gives no finite number: guard divisions and roots, as in `b > 0 ? a/b : 0`";
   EXPECT_EQ(error_of("a/b", R"("a": 1)"), sentence);
   EXPECT_EQ(error_of("sqrt(a)", R"("a": -1)"), sentence);
-  EXPECT_EQ(error_of("ln(-a^2 - 1)"), std::string(kPlace) + "no numbers that were tried give a finite result: guard divisions and roots");
+  EXPECT_EQ(error_of("ln(-a^2 - 1)"),
+            std::string(kPlace) + "no numbers that were tried give a finite result: guard divisions and roots");
   EXPECT_EQ(result_of("b > 0 ? a/b : 0", R"("a": 1)"), 0);
 }
 
 TEST(Expression, OddTextNeverCrashes) {
-  for (const char* text : {"a=", "==", "=", "<=>", "?:", "a?:", "a?b:c?d", "((((((", "))))", ",,,", "sum()", "sum(,)", "max(a,,b)", "_", "_pi(", "1e", "1e400",
-                           "0x10", "-", "--a", "!a", "a^^b", "a\\tb", "²", "a*²", "\\u0001", "a;b", "min", "m(", "(a)(b)", "1 2", "a&&", "||a", "\\\"a\\\""}) {
+  for (const char* text :
+       {"a=",        "==",      "=",    "<=>", "?:",    "a?:",    "a?b:c?d", "((((((", "))))", ",,,",      "sum()", "sum(,)",
+        "max(a,,b)", "_",       "_pi(", "1e",  "1e400", "0x10",   "-",       "--a",    "!a",   "a^^b",     "a\\tb", "²",
+        "a*²",       "\\u0001", "a;b",  "min", "m(",    "(a)(b)", "1 2",     "a&&",    "||a",  "\\\"a\\\""}) {
     const World world = ticked(text, "");
     const std::string error = world.node_error("it", "expression");
     if (error.empty()) EXPECT_TRUE(std::isfinite(world.number("it", "expression.result"))) << text;

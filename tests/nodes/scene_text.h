@@ -16,7 +16,8 @@ inline std::string one_node(const std::string& typification, const std::string& 
 }
 
 /// A node with a position and one typification.
-inline std::string node_text(const std::string& id, const std::string& position, const std::string& typification, const std::string& ports = "") {
+inline std::string node_text(const std::string& id, const std::string& position, const std::string& typification,
+                             const std::string& ports = "") {
   return R"({"id": ")" + id + R"(", "position": )" + position + R"(, "types": {")" + typification + R"(": {)" + ports + "}}}";
 }
 

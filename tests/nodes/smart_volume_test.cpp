@@ -10,7 +10,8 @@
 namespace bl {
 namespace {
 
-constexpr const char* kPlot = R"({"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[-50,-50,0],[50,-50,0],[50,50,0],[-50,50,0]], "bottom": -50, "height": 100}}})";
+constexpr const char* kPlot =
+    R"({"id": "plot", "types": {"boundary": {"form": "plan", "plan": [[-50,-50,0],[50,-50,0],[50,50,0],[-50,50,0]], "bottom": -50, "height": 100}}})";
 constexpr const char* kSolver = R"({"id": "solver", "types": {"smart_volumes_solver": {}}})";
 
 TEST(SmartVolume, IsIdleWithoutASolver) {
@@ -23,8 +24,9 @@ TEST(SmartVolume, IsIdleWithoutASolver) {
 }
 
 TEST(SmartVolume, AloneItIsABall) {
-  const double volume = 4000 * std::numbers::pi / 3;    // radius 10 m
-  World world = World::from_text(scene_text(std::string(kPlot) + "," + kSolver + "," +
+  const double volume = 4000 * std::numbers::pi / 3;  // radius 10 m
+  World world = World::from_text(scene_text(
+      std::string(kPlot) + "," + kSolver + "," +
       node_text("v", "[1, 2, 3]", "smart_volume", "\"demand\": " + std::to_string(volume) + ", \"storey_height\": 4")));
   ASSERT_TRUE(world.settle());
   EXPECT_EQ(world.text("v", "smart_volume.state"), "alive");
@@ -53,7 +55,8 @@ TEST(SmartVolume, AloneItIsABall) {
 
 TEST(SmartVolume, WantsItsDemandWithinLimitAndMinimum) {
   const auto wanted = [](const std::string& ports) {
-    World world = World::from_text(scene_text(std::string(kPlot) + "," + kSolver + "," + node_text("v", "[0, 0, 0]", "smart_volume", ports)));
+    World world = World::from_text(
+        scene_text(std::string(kPlot) + "," + kSolver + "," + node_text("v", "[0, 0, 0]", "smart_volume", ports)));
     world.tick();
     return world.number("v", "smart_volume.wanted");
   };
@@ -64,8 +67,9 @@ TEST(SmartVolume, WantsItsDemandWithinLimitAndMinimum) {
 }
 
 TEST(SmartVolume, WithoutADemandItSaysSoAndIsNoError) {
-  World world = World::from_text(scene_text(std::string(kPlot) + "," + kSolver + "," + node_text("v", "[0, 0, 0]", "smart_volume", R"("demand": 0)") +
-                                            "," + node_text("w", "[9, 0, 0]", "smart_volume")));
+  World world = World::from_text(scene_text(std::string(kPlot) + "," + kSolver + "," +
+                                            node_text("v", "[0, 0, 0]", "smart_volume", R"("demand": 0)") + "," +
+                                            node_text("w", "[9, 0, 0]", "smart_volume")));
   ASSERT_TRUE(world.settle());
   EXPECT_EQ(world.number("v", "smart_volume.volume"), 0);
   EXPECT_EQ(world.number("v", "smart_volume.error"), 0);
@@ -74,8 +78,9 @@ TEST(SmartVolume, WithoutADemandItSaysSoAndIsNoError) {
 }
 
 TEST(SmartVolume, NeighboursShareOneFace) {
-  World world = World::from_text(scene_text(std::string(kPlot) + "," + kSolver + "," + node_text("a", "[-4, 0, 0]", "smart_volume") + "," +
-                                            node_text("b", "[4, 0, 0]", "smart_volume") + "," + node_text("far", "[40, 40, 40]", "smart_volume")));
+  World world = World::from_text(
+      scene_text(std::string(kPlot) + "," + kSolver + "," + node_text("a", "[-4, 0, 0]", "smart_volume") + "," +
+                 node_text("b", "[4, 0, 0]", "smart_volume") + "," + node_text("far", "[40, 40, 40]", "smart_volume")));
   ASSERT_TRUE(world.settle());
   const Table& of_a = world.table("a", "smart_volume.neighbours");
   const Table& of_b = world.table("b", "smart_volume.neighbours");

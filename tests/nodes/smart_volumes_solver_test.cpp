@@ -11,14 +11,14 @@
 namespace bl {
 namespace {
 
-constexpr const char* kPlan = R"("form": "plan", "plan": [[0,0,0],[40,0,0],[40,30,0],[0,30,0]], "height": 20)";    // 24 000 m³
+constexpr const char* kPlan = R"("form": "plan", "plan": [[0,0,0],[40,0,0],[40,30,0],[0,30,0]], "height": 20)";  // 24 000 m³
 constexpr const char* kHull = R"("points": [[0,0,0],[50,0,0],[50,40,0],[0,40,0],[5,5,18],[45,5,18],[45,35,18],[5,35,18]])";
 
 std::string point_text(double x, double y, double z) { return "[" + shortest(x) + ", " + shortest(y) + ", " + shortest(z) + "]"; }
 
 std::string with_solver(const std::string& boundary, const std::string& nodes, const std::string& settings = "") {
-  return scene_text(node_text("plot", "[0, 0, 0]", "boundary", boundary) + "," + node_text("solver", "[0, 0, 0]", "smart_volumes_solver", settings) +
-                    (nodes.empty() ? "" : "," + nodes));
+  return scene_text(node_text("plot", "[0, 0, 0]", "boundary", boundary) + "," +
+                    node_text("solver", "[0, 0, 0]", "smart_volumes_solver", settings) + (nodes.empty() ? "" : "," + nodes));
 }
 
 // `count` volumes at random places in the box, with demands over a factor of six that fill `share` of `room`.
@@ -34,8 +34,8 @@ std::string crowd(int count, double room, double share, std::uint64_t seed) {
   }
   std::string text;
   for (int i = 0; i < count; ++i)
-    text += (i > 0 ? "," : "") + node_text("v" + std::to_string(100 + i), point_text(places[i].x, places[i].y, places[i].z), "smart_volume",
-                                           "\"demand\": " + shortest(demands[i] / sum * share * room));
+    text += (i > 0 ? "," : "") + node_text("v" + std::to_string(100 + i), point_text(places[i].x, places[i].y, places[i].z),
+                                           "smart_volume", "\"demand\": " + shortest(demands[i] / sum * share * room));
   return text;
 }
 
@@ -51,7 +51,9 @@ void expect_met(World& world, int count, double room, double share) {
   for (int i = 0; i < count; ++i) {
     const std::string id = "v" + std::to_string(100 + i);
     EXPECT_LE(world.number(id, "smart_volume.error"), 0.01) << id;
-    EXPECT_NEAR(world.number(id, "smart_volume.volume"), world.number(id, "smart_volume.demand"), 0.01 * world.number(id, "smart_volume.demand")) << id;
+    EXPECT_NEAR(world.number(id, "smart_volume.volume"), world.number(id, "smart_volume.demand"),
+                0.01 * world.number(id, "smart_volume.demand"))
+        << id;
     sum += world.number(id, "smart_volume.volume");
   }
   EXPECT_NEAR(world.number("solver", "smart_volumes_solver.total_volume"), sum, 1e-9 * sum);
@@ -78,8 +80,11 @@ TEST_P(SolverCrowd, MeetsItsDemandsInAHull) {
   expect_met(world, count, room, share);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, SolverCrowd, ::testing::Values(Case{5, 0.4}, Case{5, 0.8}, Case{20, 0.6}, Case{60, 0.3}, Case{60, 0.7}, Case{60, 0.9}),
-                         [](const auto& test) { return std::to_string(test.param.count) + "At" + std::to_string(static_cast<int>(100 * test.param.share)); });
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, SolverCrowd, ::testing::Values(Case{5, 0.4}, Case{5, 0.8}, Case{20, 0.6}, Case{60, 0.3}, Case{60, 0.7}, Case{60, 0.9}),
+    [](const auto& test) {
+      return std::to_string(test.param.count) + "At" + std::to_string(static_cast<int>(100 * test.param.share));
+    });
 
 TEST(SmartVolumesSolver, SaysWhatCannotBeHadAndWhoLosesIt) {
   const std::string nodes = node_text("a", "[10, 15, 10]", "smart_volume", R"("demand": 20000)") + "," +
@@ -100,8 +105,8 @@ TEST(SmartVolumesSolver, SaysWhatCannotBeHadAndWhoLosesIt) {
 }
 
 TEST(SmartVolumesSolver, CoincidentVolumesAreNamed) {
-  const std::string nodes = node_text("a", "[10, 15, 10]", "smart_volume") + "," + node_text("b", "[10, 15, 10]", "smart_volume") + "," +
-                            node_text("c", "[30, 15, 10]", "smart_volume");
+  const std::string nodes = node_text("a", "[10, 15, 10]", "smart_volume") + "," +
+                            node_text("b", "[10, 15, 10]", "smart_volume") + "," + node_text("c", "[30, 15, 10]", "smart_volume");
   World world = World::from_text(with_solver(kPlan, nodes));
   world.tick(30);
   EXPECT_EQ(world.node_error("solver", "smart_volumes_solver"), "");
@@ -111,7 +116,8 @@ TEST(SmartVolumesSolver, CoincidentVolumesAreNamed) {
   EXPECT_EQ(world.text("b", "smart_volume.reason"), "lies at the position of `a`, which is heavier or comes first");
   EXPECT_EQ(world.number("b", "smart_volume.error"), 1);
   EXPECT_EQ(world.text("solver", "smart_volumes_solver.worst"), "b");
-  EXPECT_EQ(world.text("solver", "smart_volumes_solver.message"), "3000.0 m³ are wanted, 1000.0 m³ more than can be had; short of it fall `b` by 1000.0 m³");
+  EXPECT_EQ(world.text("solver", "smart_volumes_solver.message"),
+            "3000.0 m³ are wanted, 1000.0 m³ more than can be had; short of it fall `b` by 1000.0 m³");
   world.tick();
   EXPECT_EQ(world.text("a", "smart_volume.state"), "alive");
   // Moved apart, both live.
@@ -133,7 +139,9 @@ TEST(SmartVolumesSolver, AVolumeOutsideIsSeenAsSuch) {
 TEST(SmartVolumesSolver, ANewcomerFindsItsPlaceAmongSettledOnes) {
   World world = World::from_text(with_solver(kPlan, crowd(12, 24000, 0.7, 3)));
   ASSERT_TRUE(world.settle(200));
-  EXPECT_EQ(world.submit(command<AddNode>({.id = "v200", .node = {R"({"position": [21, 16, 9], "types": {"smart_volume": {"demand": 1500}}})"}})), "");
+  EXPECT_EQ(world.submit(command<AddNode>(
+                {.id = "v200", .node = {R"({"position": [21, 16, 9], "types": {"smart_volume": {"demand": 1500}}})"}})),
+            "");
   world.tick();
   EXPECT_FALSE(world.state().is_settled());
   ASSERT_TRUE(world.settle(200));
@@ -147,7 +155,8 @@ TEST(SmartVolumesSolver, AConstantGainWorksAsIn2007) {
 }
 
 TEST(SmartVolumesSolver, NeedsExactlyOneBoundaryWithAShape) {
-  const std::string volume = node_text("v", "[10, 15, 10]", "smart_volume"), solver = node_text("solver", "[0, 0, 0]", "smart_volumes_solver");
+  const std::string volume = node_text("v", "[10, 15, 10]", "smart_volume"),
+                    solver = node_text("solver", "[0, 0, 0]", "smart_volumes_solver");
   World none = World::from_text(scene_text(solver + "," + volume));
   none.tick();
   EXPECT_EQ(none.node_error("solver", "smart_volumes_solver"),
@@ -156,7 +165,8 @@ TEST(SmartVolumesSolver, NeedsExactlyOneBoundaryWithAShape) {
   two.tick();
   EXPECT_EQ(two.node_error("solver", "smart_volumes_solver"),
             "nodes/solver/smart_volumes_solver/boundary: 2 boundaries were found (`plot`, `second`): choose one of them here");
-  World chosen = World::from_text(with_solver(kPlan, volume + "," + node_text("second", "[0, 0, 0]", "boundary", kPlan), R"("boundary": "plot")"));
+  World chosen = World::from_text(
+      with_solver(kPlan, volume + "," + node_text("second", "[0, 0, 0]", "boundary", kPlan), R"("boundary": "plot")"));
   EXPECT_TRUE(chosen.settle(100));
   World flat = World::from_text(with_solver(R"("form": "plan", "plan": [[0,0,0],[1,0,0],[2,0,0]])", volume));
   flat.tick();
@@ -177,16 +187,17 @@ TEST(SmartVolumesSolver, RefusesABoundaryOfTooManyStoreys) {
   World world = World::from_text(with_solver(tall, node_text("a", "[10, 15, 10]", "smart_volume", R"("storey_height": 2)")));
   world.tick();
   EXPECT_EQ(world.node_error("solver", "smart_volumes_solver"),
-            "nodes/solver/smart_volumes_solver/members: a storey height has to be positive, and the boundary no higher than 10000 storeys");
+            "nodes/solver/smart_volumes_solver/members: a storey height has to be positive, and the boundary no higher than "
+            "10000 storeys");
 }
 
 TEST(SmartVolumesSolver, TwoSolversDivideTwoPlots) {
   const std::string far = R"("form": "plan", "plan": [[100,0,0],[140,0,0],[140,30,0],[100,30,0]], "height": 20)";
-  World world = World::from_text(scene_text(
-      node_text("east", "[0, 0, 0]", "boundary", far) + "," + node_text("west", "[0, 0, 0]", "boundary", kPlan) + "," +
-      node_text("solver_east", "[0, 0, 0]", "smart_volumes_solver", R"("members": ["e"], "boundary": "east")") + "," +
-      node_text("solver_west", "[0, 0, 0]", "smart_volumes_solver", R"("members": ["w"], "boundary": "west")") + "," +
-      node_text("e", "[120, 15, 10]", "smart_volume") + "," + node_text("w", "[20, 15, 10]", "smart_volume")));
+  World world = World::from_text(
+      scene_text(node_text("east", "[0, 0, 0]", "boundary", far) + "," + node_text("west", "[0, 0, 0]", "boundary", kPlan) + "," +
+                 node_text("solver_east", "[0, 0, 0]", "smart_volumes_solver", R"("members": ["e"], "boundary": "east")") + "," +
+                 node_text("solver_west", "[0, 0, 0]", "smart_volumes_solver", R"("members": ["w"], "boundary": "west")") + "," +
+                 node_text("e", "[120, 15, 10]", "smart_volume") + "," + node_text("w", "[20, 15, 10]", "smart_volume")));
   ASSERT_TRUE(world.settle(100));
   EXPECT_NEAR(world.number("solver_east", "smart_volumes_solver.total_volume"), 1000, 10);
   EXPECT_NEAR(world.number("solver_west", "smart_volumes_solver.total_volume"), 1000, 10);

@@ -10,9 +10,11 @@ namespace bl {
 namespace {
 
 std::string volumes_and(const std::string& statistics) {
-  return scene_text(R"({"id": "a", "tags": ["x"], "types": {"smart_volume": {"demand": 2}}}, {"id": "b", "types": {"smart_volume": {"demand": 4}}},
+  return scene_text(
+      R"({"id": "a", "tags": ["x"], "types": {"smart_volume": {"demand": 2}}}, {"id": "b", "types": {"smart_volume": {"demand": 4}}},
                        {"id": "c", "tags": ["x"], "types": {"smart_volume": {"demand": 9}}}, {"id": "plain", "tags": ["x"], "types": {}},
-                       {"id": "it", "types": {"statistics": {)" + statistics + "}}}");
+                       {"id": "it", "types": {"statistics": {)" +
+      statistics + "}}}");
 }
 
 TEST(Statistics, SumMeanExtremesAndSpread) {
@@ -52,7 +54,8 @@ TEST(Statistics, AnEmptySetCountsAsNothing) {
 TEST(Statistics, APortHasToBeChosen) {
   World world = World::from_text(volumes_and(R"("port": "")"));
   world.tick();
-  EXPECT_EQ(world.node_error("it", "statistics"), "nodes/it/statistics/port: choose the port to look at, such as `smart_volume.volume`");
+  EXPECT_EQ(world.node_error("it", "statistics"),
+            "nodes/it/statistics/port: choose the port to look at, such as `smart_volume.volume`");
 }
 
 TEST(Statistics, UnitsAreThoseOfThePort) {
@@ -64,7 +67,8 @@ TEST(Statistics, UnitsAreThoseOfThePort) {
 }
 
 TEST(Statistics, WholeNumbersAndSwitchesCountAsNumbers) {
-  World world = World::from_text(scene_text(R"({"id": "a", "types": {"control": {"is_switch": true}}}, {"id": "b", "types": {"control": {}}},
+  World world = World::from_text(
+      scene_text(R"({"id": "a", "types": {"control": {"is_switch": true}}}, {"id": "b", "types": {"control": {}}},
       {"id": "it", "types": {"statistics": {"nodes": {"typification": "control"}, "port": "control.is_switch"}}})"));
   world.tick();
   EXPECT_EQ(world.number("it", "statistics.mean"), 0.5);

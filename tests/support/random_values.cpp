@@ -16,7 +16,9 @@ double random_number(double low, double high, std::optional<double> soft_low, st
     case 1: return high;
     case 2: return random.uniform(low, high);
     case 3: return std::clamp(0.0, low, high);
-    default: return std::clamp(random.uniform(soft_low.value_or(std::max(low, -100.0)), soft_high.value_or(std::min(high, 100.0))), low, high);
+    default:
+      return std::clamp(random.uniform(soft_low.value_or(std::max(low, -100.0)), soft_high.value_or(std::min(high, 100.0))), low,
+                        high);
   }
 }
 
@@ -48,8 +50,10 @@ Value random_value(const PortDefinition& port, Random& random) {
   switch (port.kind) {
     case ValueKind::boolean: return random.below(2) == 1;
     case ValueKind::integer:
-      return static_cast<std::int64_t>(random_number(port.hard_minimum, port.hard_maximum, port.soft_minimum, port.soft_maximum, random));
-    case ValueKind::number: return random_number(port.hard_minimum, port.hard_maximum, port.soft_minimum, port.soft_maximum, random);
+      return static_cast<std::int64_t>(
+          random_number(port.hard_minimum, port.hard_maximum, port.soft_minimum, port.soft_maximum, random));
+    case ValueKind::number:
+      return random_number(port.hard_minimum, port.hard_maximum, port.soft_minimum, port.soft_maximum, random);
     case ValueKind::choice: return port.choices[random.below(port.choices.size())].id;
     case ValueKind::port: return std::string(random.below(2) == 0 ? "smart_volume.volume" : "node.position");
     case ValueKind::json: return std::string("{}");

@@ -26,7 +26,9 @@ PortRef find(const State& state, std::string_view node, std::string_view path) {
 
 }  // namespace
 
-const Value& value_in(const State& state, std::string_view node, std::string_view path) { return state.value(find(state, node, path)); }
+const Value& value_in(const State& state, std::string_view node, std::string_view path) {
+  return state.value(find(state, node, path));
+}
 
 std::string project_file(std::string_view path_from_root) {
   auto text = read_file(std::string(BL_SOURCE_DIR) + "/" + std::string(path_from_root));
@@ -56,10 +58,18 @@ bool World::settle(int most) {
 }
 
 double World::number(std::string_view node, std::string_view path) const { return as_number(value_in(state(), node, path)); }
-Vector3 World::point(std::string_view node, std::string_view path) const { return std::get<Vector3>(value_in(state(), node, path)); }
-std::string World::text(std::string_view node, std::string_view path) const { return std::get<std::string>(value_in(state(), node, path)); }
-const Table& World::table(std::string_view node, std::string_view path) const { return *std::get<Shared<Table>>(value_in(state(), node, path)); }
-MeshPointer World::mesh(std::string_view node, std::string_view path) const { return std::get<MeshPointer>(value_in(state(), node, path)); }
+Vector3 World::point(std::string_view node, std::string_view path) const {
+  return std::get<Vector3>(value_in(state(), node, path));
+}
+std::string World::text(std::string_view node, std::string_view path) const {
+  return std::get<std::string>(value_in(state(), node, path));
+}
+const Table& World::table(std::string_view node, std::string_view path) const {
+  return *std::get<Shared<Table>>(value_in(state(), node, path));
+}
+MeshPointer World::mesh(std::string_view node, std::string_view path) const {
+  return std::get<MeshPointer>(value_in(state(), node, path));
+}
 
 double World::tension(std::string_view node, std::string_view path) const {
   const PortRef ref = find(state(), node, path);

@@ -35,9 +35,9 @@ struct Row {
   std::string name, hash;
   std::size_t sites = 0;
   int threads = 1;
-  double seconds = 0;    // of one tick
-  PhaseTimes phases;     // of one tick
-  double triangulation = 0, cells = 0, volumes = 0;    // seconds of the solver's tick, dealt out (README.md)
+  double seconds = 0;                                // of one tick
+  PhaseTimes phases;                                 // of one tick
+  double triangulation = 0, cells = 0, volumes = 0;  // seconds of the solver's tick, dealt out (README.md)
   std::optional<double> yardstick, voropp;
 };
 
@@ -71,10 +71,11 @@ std::optional<ConvexDomain> domain_of(const State& state) {
     const auto ref = state.plan->find(n, *path);
     const auto* table = ref ? std::get_if<Shared<Table>>(&state.value(*ref)) : nullptr;
     if (table == nullptr) continue;
-    if (found) return std::nullopt;    // several plots: there is no one domain to measure
+    if (found) return std::nullopt;  // several plots: there is no one domain to measure
     std::vector<Plane> planes;
     for (std::size_t r = 0; r < (*table)->rows.size(); ++r)
-      planes.push_back({{(*table)->number(r, "x"), (*table)->number(r, "y"), (*table)->number(r, "z")}, (*table)->number(r, "offset")});
+      planes.push_back(
+          {{(*table)->number(r, "x"), (*table)->number(r, "y"), (*table)->number(r, "z")}, (*table)->number(r, "offset")});
     auto domain = from_planes(planes);
     if (!domain) return std::nullopt;
     found = std::move(*domain);
@@ -112,7 +113,9 @@ void take_apart(const State& state, int repeat, Row& row) {
   row.cells = row.phases.solve - row.triangulation - row.volumes;
 }
 
-std::array<double, 5> phases_of(const PhaseTimes& times) { return {times.links, times.resolve, times.nodes, times.solve, times.commit}; }
+std::array<double, 5> phases_of(const PhaseTimes& times) {
+  return {times.links, times.resolve, times.nodes, times.solve, times.commit};
+}
 
 Result<Row> measured(const BenchCase& bench, int threads, const BenchOptions& options, Progress& progress) {
   Row row;
@@ -124,13 +127,14 @@ Result<Row> measured(const BenchCase& bench, int threads, const BenchOptions& op
   for (int r = 0; r < options.repeat && !is_interrupted(); ++r) {
     auto session = Session::start(full_registry(), bench.scene, bench.state ? &*bench.state : nullptr, threads, now);
     if (!session) return session.error();
-    (*session)->tick();    // the first one compiles, and finds all volumes without a weight
+    (*session)->tick();  // the first one compiles, and finds all volumes without a weight
     // The phases are added up from the start of the session; what the measured ticks took is the difference.
     const std::array<double, 5> before = phases_of((*session)->times());
     const double began = now();
     for (int t = 0; t < options.ticks && !is_interrupted(); ++t) {
       (*session)->tick();
-      progress.show(bench.name + ", " + counted(static_cast<std::size_t>(threads), "thread") + ", run " + std::to_string(r + 1) + ", tick " + std::to_string(t + 1));
+      progress.show(bench.name + ", " + counted(static_cast<std::size_t>(threads), "thread") + ", run " + std::to_string(r + 1) +
+                    ", tick " + std::to_string(t + 1));
     }
     totals.push_back((now() - began) / options.ticks);
     const std::array<double, 5> after = phases_of((*session)->times());
@@ -150,20 +154,45 @@ double microseconds_per_cell(const Row& row) { return row.sites == 0 ? 0 : row.s
 
 std::vector<std::string> cells_of(const Row& row) {
   const auto share = [&](double seconds) { return row.seconds > 0 ? fixed(100 * seconds / row.seconds, 0) : "0"; };
-  const auto milliseconds = [](const std::optional<double>& seconds) { return seconds ? fixed(1000 * *seconds, 3) : std::string("-"); };
+  const auto milliseconds = [](const std::optional<double>& seconds) {
+    return seconds ? fixed(1000 * *seconds, 3) : std::string("-");
+  };
   const double accounted = row.triangulation + row.cells + row.volumes + row.phases.links + row.phases.resolve;
-  return {row.name, std::to_string(row.sites), std::to_string(row.threads), fixed(1000 * row.seconds, 3), share(row.triangulation), share(row.cells),
-          share(row.volumes), share(row.phases.links), share(row.phases.resolve), share(std::max(0.0, row.seconds - accounted)),
-          fixed(microseconds_per_cell(row), 2), milliseconds(row.yardstick), milliseconds(row.voropp), row.hash};
+  return {row.name,
+          std::to_string(row.sites),
+          std::to_string(row.threads),
+          fixed(1000 * row.seconds, 3),
+          share(row.triangulation),
+          share(row.cells),
+          share(row.volumes),
+          share(row.phases.links),
+          share(row.phases.resolve),
+          share(std::max(0.0, row.seconds - accounted)),
+          fixed(microseconds_per_cell(row), 2),
+          milliseconds(row.yardstick),
+          milliseconds(row.voropp),
+          row.hash};
 }
 
 Json row_json(const Row& row) {
   const auto or_null = [](const std::optional<double>& seconds) { return seconds ? Json(*seconds) : Json(nullptr); };
-  return {{"case", row.name}, {"sites", row.sites}, {"threads", row.threads}, {"seconds", row.seconds},
-          {"microseconds_per_cell", microseconds_per_cell(row)}, {"yardstick_seconds", or_null(row.yardstick)},
-          {"voropp_seconds", or_null(row.voropp)}, {"hash", row.hash},
-          {"phases", {{"triangulation", row.triangulation}, {"cells", row.cells}, {"volumes", row.volumes}, {"links", row.phases.links},
-                      {"resolve", row.phases.resolve}, {"nodes", row.phases.nodes}, {"solve", row.phases.solve}, {"commit", row.phases.commit}}}};
+  return {{"case", row.name},
+          {"sites", row.sites},
+          {"threads", row.threads},
+          {"seconds", row.seconds},
+          {"microseconds_per_cell", microseconds_per_cell(row)},
+          {"yardstick_seconds", or_null(row.yardstick)},
+          {"voropp_seconds", or_null(row.voropp)},
+          {"hash", row.hash},
+          {"phases",
+           {{"triangulation", row.triangulation},
+            {"cells", row.cells},
+            {"volumes", row.volumes},
+            {"links", row.phases.links},
+            {"resolve", row.phases.resolve},
+            {"nodes", row.phases.nodes},
+            {"solve", row.phases.solve},
+            {"commit", row.phases.commit}}}};
 }
 
 std::optional<std::vector<BenchCase>> cases_of(const BenchOptions& options) {
@@ -192,8 +221,20 @@ int bench_command(const BenchOptions& options) {
   const auto cases = cases_of(options);
   if (!cases) return kBadInput;
   catch_interrupts();
-  TextTable table({{"case"}, {"sites", true}, {"threads", true}, {"ms/tick", true}, {"triangulation %", true}, {"cells %", true}, {"volumes %", true},
-                   {"links %", true}, {"resolve %", true}, {"rest %", true}, {"µs/cell", true}, {"yardstick ms", true}, {"Voro++ ms", true}, {"hash"}});
+  TextTable table({{"case"},
+                   {"sites", true},
+                   {"threads", true},
+                   {"ms/tick", true},
+                   {"triangulation %", true},
+                   {"cells %", true},
+                   {"volumes %", true},
+                   {"links %", true},
+                   {"resolve %", true},
+                   {"rest %", true},
+                   {"µs/cell", true},
+                   {"yardstick ms", true},
+                   {"Voro++ ms", true},
+                   {"hash"}});
   Json rows = Json::array();
   {
     Progress progress;
@@ -211,7 +252,9 @@ int bench_command(const BenchOptions& options) {
       }
   }
   table.print();
-  print_line("yardstick: CGAL's plain regular triangulation of the same sites, once; Voro++: all radical cells in the box around the boundary, once");
+  print_line(
+      "yardstick: CGAL's plain regular triangulation of the same sites, once; Voro++: all radical cells in the box around the "
+      "boundary, once");
   if (!options.json.empty())
     if (auto written = write_file(options.json, write_json(rows) + "\n"); !written) {
       print_error(options.json, written.error());

@@ -25,7 +25,8 @@ struct CellCase {
 std::string slash(const std::string& place, const std::string& key) { return place.empty() ? key : place + "/" + key; }
 
 Result<double> number_at(const Json& json, const std::string& place) {
-  if (!json.is_number()) return Error{ErrorCode::wrong_kind, place, "expects a finite number, found " + write_json_line(json).substr(0, 60)};
+  if (!json.is_number())
+    return Error{ErrorCode::wrong_kind, place, "expects a finite number, found " + write_json_line(json).substr(0, 60)};
   return json.get<double>();
 }
 
@@ -59,9 +60,11 @@ Result<std::vector<Point3>> points_at(const Json& list, const std::string& place
 }
 
 Result<ConvexDomain> domain_at(const Json& json, const std::string& place, bool& is_made_of_vertices) {
-  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"planes\": [[a, b, c, d], ...]} or {\"vertices\": [[x, y, z], ...]}"};
+  if (!json.is_object())
+    return Error{ErrorCode::wrong_kind, place, "expects {\"planes\": [[a, b, c, d], ...]} or {\"vertices\": [[x, y, z], ...]}"};
   is_made_of_vertices = !json.contains("planes");
-  if (is_made_of_vertices && !json.contains("vertices")) return Error{ErrorCode::missing, place, "expects `planes` or `vertices`"};
+  if (is_made_of_vertices && !json.contains("vertices"))
+    return Error{ErrorCode::missing, place, "expects `planes` or `vertices`"};
   const char* key = is_made_of_vertices ? "vertices" : "planes";
   const std::string here = slash(place, key);
   const auto list = list_at(json, key, place);
@@ -85,7 +88,8 @@ Result<ConvexDomain> domain_at(const Json& json, const std::string& place, bool&
 }
 
 Result<CellCase> case_at(const Json& json, const std::string& place) {
-  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"boundary\": ..., \"sites\": [...], \"weights\": [...]}"};
+  if (!json.is_object())
+    return Error{ErrorCode::wrong_kind, place, "expects {\"boundary\": ..., \"sites\": [...], \"weights\": [...]}"};
   const auto boundary = json.find("boundary");
   if (boundary == json.end()) return Error{ErrorCode::missing, slash(place, "boundary"), "`boundary` is missing"};
   CellCase result;
@@ -112,9 +116,14 @@ Json cell_json(const CellMeasure& cell) {
   Json facets = Json::object();
   for (const FacetArea& facet : cell.facets)
     facets[(facet.kind == FacetArea::Kind::plane ? "plane:" : "site:") + std::to_string(facet.index)] = facet.area;
-  return {{"volume", cell.volume}, {"cell_volume", cell.cell_volume}, {"surface_area", cell.surface_area}, {"spherical_area", cell.spherical_area},
-          {"facet_areas", std::move(facets)}, {"centroid", {cell.centroid.x, cell.centroid.y, cell.centroid.z}},
-          {"state", std::string(name_of(cell.state))}, {"reason", cell.reason}};
+  return {{"volume", cell.volume},
+          {"cell_volume", cell.cell_volume},
+          {"surface_area", cell.surface_area},
+          {"spherical_area", cell.spherical_area},
+          {"facet_areas", std::move(facets)},
+          {"centroid", {cell.centroid.x, cell.centroid.y, cell.centroid.z}},
+          {"state", std::string(name_of(cell.state))},
+          {"reason", cell.reason}};
 }
 
 Result<Json> solved(const CellCase& input, const std::string& place, ThreadPool& pool) {
@@ -128,7 +137,8 @@ Result<Json> solved(const CellCase& input, const std::string& place, ThreadPool&
   for (const CellMeasure& cell : *cells) result["cells"].push_back(cell_json(cell));
   if (input.is_made_of_vertices) {
     result["planes"] = Json::array();
-    for (const Plane& plane : input.domain.planes) result["planes"].push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.offset});
+    for (const Plane& plane : input.domain.planes)
+      result["planes"].push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.offset});
   }
   return result;
 }

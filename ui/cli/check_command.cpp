@@ -38,8 +38,10 @@ void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
   }
   for (const VolumeRow& row : volumes_of(state))
     if (row.state == "coincident" || row.state == "outside" || row.state == "idle")
-      problems.push_back({false, {ErrorCode::geometry, "nodes/" + row.id, "is " + row.state + (row.reason.empty() ? "" : ": " + row.reason)}});
-  if (const std::string message = solver_message(state); !message.empty()) problems.push_back({false, {ErrorCode::infeasible, "", message}});
+      problems.push_back(
+          {false, {ErrorCode::geometry, "nodes/" + row.id, "is " + row.state + (row.reason.empty() ? "" : ": " + row.reason)}});
+  if (const std::string message = solver_message(state); !message.empty())
+    problems.push_back({false, {ErrorCode::infeasible, "", message}});
 }
 
 Checked check_file(const std::string& file, bool is_writing) {
@@ -70,9 +72,15 @@ Json checked_json(const std::string& file, const Checked& checked) {
   for (const bool is_error : {true, false})
     for (const Problem& problem : checked.problems)
       if (problem.is_error == is_error)
-        problems.push_back({{"severity", is_error ? "error" : "warning"}, {"code", std::string(name_of(problem.error.code))},
-                            {"place", problem.error.place}, {"message", problem.error.message}});
-  return {{"file", file}, {"ok", checked.errors() == 0}, {"nodes", checked.nodes}, {"links", checked.links}, {"problems", std::move(problems)}};
+        problems.push_back({{"severity", is_error ? "error" : "warning"},
+                            {"code", std::string(name_of(problem.error.code))},
+                            {"place", problem.error.place},
+                            {"message", problem.error.message}});
+  return {{"file", file},
+          {"ok", checked.errors() == 0},
+          {"nodes", checked.nodes},
+          {"links", checked.links},
+          {"problems", std::move(problems)}};
 }
 
 }  // namespace
@@ -88,11 +96,14 @@ int check_command(const CheckOptions& options) {
     const std::string prefix = options.scenes.size() > 1 ? file + ": " : "";
     is_all_well &= errors == 0;
     if (errors > 0) {
-      print_line(coloured(prefix + "not ok: " + counted(errors, "error") + (warnings > 0 ? ", " + counted(warnings, "warning") : ""), Colour::red));
+      print_line(
+          coloured(prefix + "not ok: " + counted(errors, "error") + (warnings > 0 ? ", " + counted(warnings, "warning") : ""),
+                   Colour::red));
       continue;
     }
     print_line(coloured(prefix + "ok: " + counted(checked.nodes, "node") + ", " + counted(checked.links, "link") +
-                            (warnings > 0 ? ", " + counted(warnings, "warning") : "") + (checked.is_rewritten ? "; rewritten" : ""),
+                            (warnings > 0 ? ", " + counted(warnings, "warning") : "") +
+                            (checked.is_rewritten ? "; rewritten" : ""),
                         Colour::green));
   }
   if (!options.json.empty())

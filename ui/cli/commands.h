@@ -13,9 +13,9 @@ inline constexpr int kDone = 0, kBadInput = 2, kNotMet = 3, kInterrupted = 130;
 
 struct RunOptions {
   std::string scene;
-  long long ticks = -1;          ///< -1: run until settled
-  bool is_settling = false;      ///< said in words; it is the default where no ticks are given
-  long long max_ticks = 2000;    ///< of a run until settled
+  long long ticks = -1;        ///< -1: run until settled
+  bool is_settling = false;    ///< said in words; it is the default where no ticks are given
+  long long max_ticks = 2000;  ///< of a run until settled
   int threads = 1;
   std::string log, report, json, save;
   std::vector<std::string> set;
@@ -37,9 +37,9 @@ int replay_command(const ReplayOptions& options);
 
 struct NewOptions {
   std::string boundary, programme, out, feature, crs, title;
-  double height = 0;            ///< [m]
-  double storey_height = 3.2;   ///< [m]
-  double margin = 1;            ///< [m]
+  double height = 0;           ///< [m]
+  double storey_height = 3.2;  ///< [m]
+  double margin = 1;           ///< [m]
   std::uint64_t seed = 1;
   bool use_hull = false, is_forced = false;
   std::vector<std::string> columns;

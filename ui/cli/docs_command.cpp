@@ -1,8 +1,8 @@
 // `docs`: catalogue pages of typifications, link kinds and commands, from their declarations.
+#include <sys/stat.h>
 #include <cerrno>
 #include <cstring>
 #include <optional>
-#include <sys/stat.h>
 
 #include "core/base/text.h"
 #include "core/define/catalogue.h"
@@ -58,13 +58,15 @@ Result<void> make_folder(const std::string& path) {
   if (::mkdir(path.c_str(), 0777) == 0) return {};
   struct stat status {};
   if (errno == EEXIST && ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) return {};
-  return Error{ErrorCode::io, path, errno == EEXIST ? "is a file, not a folder" : std::string("cannot be made: ") + std::strerror(errno)};
+  return Error{ErrorCode::io, path,
+               errno == EEXIST ? "is a file, not a folder" : std::string("cannot be made: ") + std::strerror(errno)};
 }
 
 Result<std::size_t> write_pages(const std::string& folder) {
   const Registry& registry = full_registry();
   std::vector<std::pair<std::string, std::string>> files{{"README.md", catalogue_index(registry)}};
-  for (const auto& [id, type] : registry.typifications()) files.emplace_back("nodes/" + id + ".md", catalogue_page(type, registry));
+  for (const auto& [id, type] : registry.typifications())
+    files.emplace_back("nodes/" + id + ".md", catalogue_page(type, registry));
   for (const auto& [id, kind] : registry.links()) files.emplace_back("links/" + id + ".md", catalogue_page(kind, registry));
   for (const auto& [id, command] : registry.commands()) files.emplace_back("commands/" + id + ".md", catalogue_page(command));
   for (const char* part : {"", "/nodes", "/links", "/commands"})
@@ -89,7 +91,8 @@ int docs_command(const DocsOptions& options) {
   if (options.is_list || options.type.empty()) return print_list();
   const auto page = page_of(options.type);
   if (!page) {
-    complain("there is no type `" + options.type + "`" + did_you_mean(options.type, all_ids()) + " `behaviourlinks docs --list` names all.");
+    complain("there is no type `" + options.type + "`" + did_you_mean(options.type, all_ids()) +
+             " `behaviourlinks docs --list` names all.");
     return kBadInput;
   }
   print_line(*page);

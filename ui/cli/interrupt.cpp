@@ -1,19 +1,19 @@
 // The handler of the two signals that ask a program to end.
 #include "ui/cli/interrupt.h"
 
+#include <unistd.h>
 #include <csignal>
 #include <ctime>
-#include <unistd.h>
 
 namespace bl::cli {
 
 namespace {
 
 // Launchers tend to send a signal to a program and to its group, so that it arrives twice at once; nobody presses that fast.
-constexpr double kSameRequest = 0.3;    // [s]
+constexpr double kSameRequest = 0.3;  // [s]
 
 volatile std::sig_atomic_t received_signal = 0;
-double received_at = 0;    // read and written by the handler alone
+double received_at = 0;  // read and written by the handler alone
 
 void remember(int number) {
   struct timespec time {};

@@ -36,10 +36,16 @@ void add_threads(CLI::App& command, int& threads) {
 void declare_run(CLI::App& app, RunOptions& o) {
   CLI::App& c = *app.add_subcommand("run", "Runs a scene until it settles, and shows what every volume got.");
   c.add_option("scene", o.scene, "The scene file.")->type_name("SCENE")->required();
-  auto* ticks = c.add_option("--ticks", o.ticks, "Runs so many ticks, settled or not.")->type_name("N")->check(CLI::Range(0ll, 1000000000ll));
-  c.add_flag("--settle", o.is_settling, "Runs until the scene settles (this is the default); exit code 3 where it does not.")->excludes(ticks);
-  c.add_option("--max-ticks", o.max_ticks, "Gives up settling after so many ticks. Default: 2000.")->type_name("N")->check(CLI::Range(1ll, 1000000000ll));
-  c.add_option("--set", o.set, "Sets a value before the first tick, as often as needed; VALUE is JSON or a quantity such as \"12 m\".")
+  auto* ticks = c.add_option("--ticks", o.ticks, "Runs so many ticks, settled or not.")
+                    ->type_name("N")
+                    ->check(CLI::Range(0ll, 1000000000ll));
+  c.add_flag("--settle", o.is_settling, "Runs until the scene settles (this is the default); exit code 3 where it does not.")
+      ->excludes(ticks);
+  c.add_option("--max-ticks", o.max_ticks, "Gives up settling after so many ticks. Default: 2000.")
+      ->type_name("N")
+      ->check(CLI::Range(1ll, 1000000000ll));
+  c.add_option("--set", o.set,
+               "Sets a value before the first tick, as often as needed; VALUE is JSON or a quantity such as \"12 m\".")
       ->type_name("NODE/TYPIFICATION.PORT=VALUE")
       ->expected(1)
       ->take_all();
@@ -48,26 +54,34 @@ void declare_run(CLI::App& app, RunOptions& o) {
   c.add_option("--report", o.report, "Writes report.html, volumes.csv and volumes.obj into a folder.")->type_name("DIR");
   c.add_option("--json", o.json, "Writes all figures as JSON, lengths in m, areas in m2, volumes in m3.")->type_name("FILE");
   c.add_option("--save", o.save, "Saves the scene with its running state, to continue later.")->type_name("FILE");
-  c.footer("Example:\n  behaviourlinks run scenes/start/quarter.json --set site/boundary.height=\"60 m\" --report proposal\n\n"
-           "Exit codes: 0 settled, or all ticks done; 2 bad input; 3 not settled; 130 stopped by Ctrl-C, with everything written.");
+  c.footer(
+      "Example:\n  behaviourlinks run scenes/start/quarter.json --set site/boundary.height=\"60 m\" --report proposal\n\n"
+      "Exit codes: 0 settled, or all ticks done; 2 bad input; 3 not settled; 130 stopped by Ctrl-C, with everything written.");
 }
 
 void declare_new(CLI::App& app, NewOptions& o) {
   CLI::App& c = *app.add_subcommand("new", "Makes a scene from a plan boundary and a programme of demands.");
-  c.add_option("--boundary", o.boundary, "Plan polygon as GeoJSON, in WGS84 or in a CRS in metres.")->type_name("FILE")->required();
+  c.add_option("--boundary", o.boundary, "Plan polygon as GeoJSON, in WGS84 or in a CRS in metres.")
+      ->type_name("FILE")
+      ->required();
   c.add_option("--height", o.height, "Height of the boundary above the ground, in m.")->type_name("METRES")->required();
-  c.add_option("--programme", o.programme, "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, ...")->type_name("FILE")->required();
+  c.add_option("--programme", o.programme, "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, ...")
+      ->type_name("FILE")
+      ->required();
   c.add_option("--out", o.out, "The scene file to write.")->type_name("FILE")->required();
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
   c.add_option("--title", o.title, "Name of the project. Default: the name of the programme's file.")->type_name("TEXT");
-  c.add_option("--feature", o.feature, "Which polygon: its index from 0, or PROPERTY=VALUE. Default: the only or largest one.")->type_name("WHICH");
+  c.add_option("--feature", o.feature, "Which polygon: its index from 0, or PROPERTY=VALUE. Default: the only or largest one.")
+      ->type_name("WHICH");
   c.add_option("--crs", o.crs, "CRS of the boundary in place of what the file says, such as EPSG:28992.")->type_name("CRS");
   c.add_flag("--hull", o.use_hull, "Takes the convex hull of a plan that is not convex.");
-  c.add_option("--column", o.columns, "Names a column that is called otherwise in the table, as often as needed: use=\"Room name\".")
+  c.add_option("--column", o.columns,
+               "Names a column that is called otherwise in the table, as often as needed: use=\"Room name\".")
       ->type_name("OURS=HEADER")
       ->expected(1)
       ->take_all();
-  c.add_option("--storey-height", o.storey_height, "Storey height of rows that give none, in m. Default: 3.2.")->type_name("METRES");
+  c.add_option("--storey-height", o.storey_height, "Storey height of rows that give none, in m. Default: 3.2.")
+      ->type_name("METRES");
   c.add_option("--margin", o.margin, "How far inside the boundary the positions stay, in m. Default: 1.")->type_name("METRES");
   c.add_option("--seed", o.seed, "Seed of the first positions. Default: 1.")->type_name("N");
   c.footer("Example:\n  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json");
@@ -85,15 +99,19 @@ void declare_replay(CLI::App& app, ReplayOptions& o) {
   CLI::App& c = *app.add_subcommand("replay", "Runs a log again and compares every hash in it.");
   c.add_option("log", o.log, "The log, as `run --log` wrote it.")->type_name("LOG")->required();
   add_threads(c, o.threads);
-  c.footer("Example:\n  behaviourlinks run scene.json --log run.log && behaviourlinks replay run.log --threads 2\n\n"
-           "Exit codes: 0 all hashes agree; 2 bad input; 3 a hash differs.");
+  c.footer(
+      "Example:\n  behaviourlinks run scene.json --log run.log && behaviourlinks replay run.log --threads 2\n\n"
+      "Exit codes: 0 all hashes agree; 2 bad input; 3 a hash differs.");
 }
 
 void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
   CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds and commands, from their declarations.");
   auto* type = d.add_option("type", docs.type, "Shows the page of this type.")->type_name("TYPE");
   auto* list = d.add_flag("--list", docs.is_list, "Lists all types, one line each (this is the default).");
-  d.add_option("--out", docs.out, "Writes all pages as Markdown into a folder.")->type_name("DIR")->excludes(type)->excludes(list);
+  d.add_option("--out", docs.out, "Writes all pages as Markdown into a folder.")
+      ->type_name("DIR")
+      ->excludes(type)
+      ->excludes(list);
   d.footer("Example:\n  behaviourlinks docs keep_distance");
   CLI::App& s = *app.add_subcommand("schema", "Prints the JSON Schema (2020-12) of scene files.");
   s.add_option("--out", schema.out, "Writes it to a file.")->type_name("FILE");
@@ -118,12 +136,20 @@ void declare_cells(CLI::App& app, CellsOptions& o) {
 void declare_bench(CLI::App& app, BenchOptions& o) {
   CLI::App& c = *app.add_subcommand("bench", "Measures ticks per second and where the time goes.");
   c.add_option("scenes", o.scenes, "Scenes to measure.")->type_name("SCENE");
-  c.add_option("--sites", o.sites, "Random volumes in a box, half full; several numbers give several rows.")->type_name("N")->check(CLI::Range(1, 10000000));
-  c.add_option("--threads", o.threads, "Threads; several numbers give several rows. Default: 1.")->type_name("K")->check(CLI::Range(1, kMostThreads));
-  c.add_option("--repeat", o.repeat, "Measures so often and takes the median. Default: 3.")->type_name("R")->check(CLI::Range(1, 1000));
+  c.add_option("--sites", o.sites, "Random volumes in a box, half full; several numbers give several rows.")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000000));
+  c.add_option("--threads", o.threads, "Threads; several numbers give several rows. Default: 1.")
+      ->type_name("K")
+      ->check(CLI::Range(1, kMostThreads));
+  c.add_option("--repeat", o.repeat, "Measures so often and takes the median. Default: 3.")
+      ->type_name("R")
+      ->check(CLI::Range(1, 1000));
   c.add_option("--ticks", o.ticks, "Ticks of one measurement. Default: 20.")->type_name("N")->check(CLI::Range(1, 1000000));
   c.add_option("--json", o.json, "Writes the rows as JSON, times in seconds.")->type_name("FILE");
-  c.footer("Without scenes and --sites: 100 and 1000 random volumes.\n\nExample:\n  behaviourlinks bench --sites 100 1000 --threads 1 2");
+  c.footer(
+      "Without scenes and --sites: 100 and 1000 random volumes.\n\nExample:\n  behaviourlinks bench --sites 100 1000 --threads 1 "
+      "2");
 }
 
 int run_program(int count, char** arguments) {
@@ -148,7 +174,8 @@ int run_program(int count, char** arguments) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
   if (count > 1 && arguments[1][0] != '-' && std::find(names.begin(), names.end(), arguments[1]) == names.end()) {
-    complain("there is no command `" + std::string(arguments[1]) + "`" + did_you_mean(arguments[1], names) + "; `behaviourlinks --help` lists all.");
+    complain("there is no command `" + std::string(arguments[1]) + "`" + did_you_mean(arguments[1], names) +
+             "; `behaviourlinks --help` lists all.");
     return kBadInput;
   }
   try {
@@ -184,9 +211,7 @@ int main(int count, char** arguments) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     bl::cli::complain("what was to be printed could not be written: the disk is full, or nobody reads it.");
     return bl::cli::kBadInput;
-  } catch (const std::bad_alloc&) {
-    bl::cli::complain("memory ran out.");
-  } catch (const std::exception& error) {
+  } catch (const std::bad_alloc&) { bl::cli::complain("memory ran out."); } catch (const std::exception& error) {
     bl::cli::complain(std::string("this is a defect of the program, please report it: ") + error.what());
   }
   return 1;

@@ -1,7 +1,7 @@
 // `new`: from a plan boundary and a programme to a scene that can run.
+#include <sys/stat.h>
 #include <cmath>
 #include <optional>
-#include <sys/stat.h>
 
 #include "core/base/text.h"
 #include "core/file/file_io.h"
@@ -15,7 +15,7 @@ namespace bl::cli {
 
 namespace {
 
-constexpr double kLargestHeight = 10000;    // [m]
+constexpr double kLargestHeight = 10000;  // [m]
 constexpr double kTightFill = 0.9;
 
 bool refuse(const std::string& place, const std::string& sentence) {
@@ -26,12 +26,15 @@ bool refuse(const std::string& place, const std::string& sentence) {
 bool is_sound(const NewOptions& o) {
   bool is_well = true;
   if (!(o.height > 0) || !(o.height <= kLargestHeight))
-    is_well = refuse("--height", "must be a height in m, more than 0 and at most " + shortest(kLargestHeight) + ", found " + shortest(o.height));
+    is_well = refuse("--height", "must be a height in m, more than 0 and at most " + shortest(kLargestHeight) + ", found " +
+                                     shortest(o.height));
   if (!(o.storey_height >= 1) || !(o.storey_height <= 50))
     is_well = refuse("--storey-height", "must be between 1 and 50 m, found " + shortest(o.storey_height));
-  if (!(o.margin >= 0) || !std::isfinite(o.margin)) is_well = refuse("--margin", "must be 0 m or more, found " + shortest(o.margin));
+  if (!(o.margin >= 0) || !std::isfinite(o.margin))
+    is_well = refuse("--margin", "must be 0 m or more, found " + shortest(o.margin));
   struct stat status {};
-  if (!o.is_forced && ::stat(o.out.c_str(), &status) == 0) is_well = refuse(o.out, "exists already; choose another name, or replace it with --force");
+  if (!o.is_forced && ::stat(o.out.c_str(), &status) == 0)
+    is_well = refuse(o.out, "exists already; choose another name, or replace it with --force");
   return is_well;
 }
 
@@ -56,9 +59,11 @@ std::optional<PlanBoundary> load_plan(const NewOptions& o) {
   for (const std::string& note : plan->notes) print_line("note: " + o.boundary + ": " + note);
   if (!plan->is_convex && !o.use_hull) {
     const double added = convex_hull_plan(*plan).added_area;
-    print_error(o.boundary, {ErrorCode::geometry, plan->place,
-                             "the plan (" + fixed(plan->area, 1) + " m²) is not convex, and the solver takes convex plans only; its convex hull would add " +
-                                 fixed(added, 1) + " m² (" + fixed(100 * added / plan->area, 1) + " %): take it with --hull, or draw another plan"});
+    print_error(o.boundary,
+                {ErrorCode::geometry, plan->place,
+                 "the plan (" + fixed(plan->area, 1) +
+                     " m²) is not convex, and the solver takes convex plans only; its convex hull would add " + fixed(added, 1) +
+                     " m² (" + fixed(100 * added / plan->area, 1) + " %): take it with --hull, or draw another plan"});
     return std::nullopt;
   }
   return std::move(*plan);
@@ -97,16 +102,18 @@ void print_figures(const NewOptions& o, const PlanBoundary& plan, const ScenePar
   for (const NewVolume& volume : volumes_of(parts.programme)) demand += volume.demand;
   const double space = plan_area * parts.height, fill = demand / space;
   const std::string added = plan.is_convex ? "" : ", of which the hull adds " + fixed(plan_area - plan.area, 1) + " m²";
-  print_line("boundary:  " + counted(parts.plan.size(), "corner") + ", " + fixed(plan_area, 1) + " m²" + added + ", " + shortest(parts.height) +
-             " m high, " + fixed(space, 1) + " m³");
-  print_line("place:     latitude " + fixed(plan.reference.latitude, 6) + "°, longitude " + fixed(plan.reference.longitude, 6) + "°, from " + plan.source_crs);
-  print_line("programme: " + counted(parts.programme.rows.size(), "use") + ", " + counted(parts.programme.items, "volume") + ", " +
-             fixed(parts.programme.floor_area, 1) + " m² floor area, " + fixed(demand, 1) + " m³");
-  print_line("density:   floor space index " + fixed(parts.programme.floor_area / plan_area, 2) + " (floor area / plan area), fill " +
-             fixed(100 * fill, 1) + " % (demanded volume / boundary volume)");
+  print_line("boundary:  " + counted(parts.plan.size(), "corner") + ", " + fixed(plan_area, 1) + " m²" + added + ", " +
+             shortest(parts.height) + " m high, " + fixed(space, 1) + " m³");
+  print_line("place:     latitude " + fixed(plan.reference.latitude, 6) + "°, longitude " + fixed(plan.reference.longitude, 6) +
+             "°, from " + plan.source_crs);
+  print_line("programme: " + counted(parts.programme.rows.size(), "use") + ", " + counted(parts.programme.items, "volume") +
+             ", " + fixed(parts.programme.floor_area, 1) + " m² floor area, " + fixed(demand, 1) + " m³");
+  print_line("density:   floor space index " + fixed(parts.programme.floor_area / plan_area, 2) +
+             " (floor area / plan area), fill " + fixed(100 * fill, 1) + " % (demanded volume / boundary volume)");
   if (fill > 1)
     print_error(o.out, {ErrorCode::infeasible, "",
-                        "warning: the demands do not fit into the boundary; they need a height of at least " + fixed(std::ceil(10 * demand / plan_area) / 10, 1) + " m"});
+                        "warning: the demands do not fit into the boundary; they need a height of at least " +
+                            fixed(std::ceil(10 * demand / plan_area) / 10, 1) + " m"});
   else if (fill > kTightFill)
     print_error(o.out, {ErrorCode::infeasible, "", "warning: the boundary will be nearly full; little is left to negotiate"});
 }

@@ -63,9 +63,13 @@ class Builder {
     node(kSite, {{"name", "Site"}, {"types", {{"boundary", {{"form", "plan"}, {"plan", plan}, {"height", parts_.height}}}}}});
     Json rows = Json::array();
     for (const ProgrammeRow& row : parts_.programme.rows)
-      rows.push_back({{"use", row.use}, {"floor_area", row.floor_area}, {"floor_area_min", row.floor_area_min.value_or(0)},
-                      {"floor_area_max", row.floor_area_max.value_or(0)}, {"storey_height", row.storey_height},
-                      {"count", static_cast<double>(row.count)}, {"note", row.name == row.use ? "" : row.name}});
+      rows.push_back({{"use", row.use},
+                      {"floor_area", row.floor_area},
+                      {"floor_area_min", row.floor_area_min.value_or(0)},
+                      {"floor_area_max", row.floor_area_max.value_or(0)},
+                      {"storey_height", row.storey_height},
+                      {"count", static_cast<double>(row.count)},
+                      {"note", row.name == row.use ? "" : row.name}});
     node(kProgramme, {{"name", "Programme"}, {"types", {{"programme", {{"rows", rows}}}}}});
     node(kSolver, {{"name", "Solver"}, {"types", {{"smart_volumes_solver", Json::object()}}}});
     node(kTotal, {{"name", "Total floor area"}, {"types", {{"statistics", {{"port", "smart_volume.floor_area"}}}}}});
@@ -76,7 +80,9 @@ class Builder {
     Json tags = Json::array({row.use});
     for (const std::string& tag : row.tags)
       if (tag != row.use) tags.push_back(tag);
-    node(volume.id, {{"name", volume.name}, {"position", {volume.position.x, volume.position.y, volume.position.z}}, {"tags", tags},
+    node(volume.id, {{"name", volume.name},
+                     {"position", {volume.position.x, volume.position.y, volume.position.z}},
+                     {"tags", tags},
                      {"types", {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}}}}}});
   }
 
@@ -97,10 +103,15 @@ class Builder {
     // The one item of a use and all of another are named by their use, so that later items of that use take part too.
     const std::string& hub_use = parts_.programme.rows[hub.row].use;
     const std::string& partner_use = parts_.programme.rows[volumes[contact.partners.front()].row].use;
-    const bool is_whole = contact.partners.size() == static_cast<std::size_t>(parts_.programme.rows[volumes[contact.partners.front()].row].count) &&
-                          parts_.programme.rows[hub.row].count == 1;
-    const std::string id = fresh_id("near_" + (is_whole ? to_identifier(hub_use) : hub.id).substr(0, 24) + "_" + to_identifier(partner_use).substr(0, 24), link_ids_);
-    link(id, {{"kind", "adjacency"}, {"from", is_whole ? Json{{"tag", hub_use}} : Json(hub.id)}, {"to", is_whole ? Json{{"tag", partner_use}} : partners},
+    const bool is_whole =
+        contact.partners.size() == static_cast<std::size_t>(parts_.programme.rows[volumes[contact.partners.front()].row].count) &&
+        parts_.programme.rows[hub.row].count == 1;
+    const std::string id = fresh_id(
+        "near_" + (is_whole ? to_identifier(hub_use) : hub.id).substr(0, 24) + "_" + to_identifier(partner_use).substr(0, 24),
+        link_ids_);
+    link(id, {{"kind", "adjacency"},
+              {"from", is_whole ? Json{{"tag", hub_use}} : Json(hub.id)},
+              {"to", is_whole ? Json{{"tag", partner_use}} : partners},
               {"parameters", {{"area", std::max(0.1, std::floor(area * 10) / 10)}}}});
   }
 
@@ -123,7 +134,11 @@ std::vector<NewVolume> volumes_of(const ProgrammeImport& programme) {
     const auto count = static_cast<std::size_t>(row.count);
     for (std::size_t i = 1; i <= count; ++i) {
       const std::string suffix = count > 1 ? "_" + numbered(i, count) : "", number = count > 1 ? " " + std::to_string(i) : "";
-      volumes.push_back({fresh_id(to_identifier(row.use).substr(0, 48) + suffix, taken), row.name + number, r, row.floor_area * row.storey_height, {}});
+      volumes.push_back({fresh_id(to_identifier(row.use).substr(0, 48) + suffix, taken),
+                         row.name + number,
+                         r,
+                         row.floor_area * row.storey_height,
+                         {}});
     }
   }
   return volumes;

@@ -13,7 +13,7 @@ namespace bl::cli {
 
 namespace {
 
-constexpr double kSpacing = 10;    // [m]
+constexpr double kSpacing = 10;  // [m]
 constexpr double kFill = 0.5;
 
 std::string padded(int number, int count) {
@@ -31,7 +31,9 @@ Result<Scene> random_scene(int count, const Registry& registry) {
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += shares.emplace_back(random.uniform(0.25, 1.75));
   Json commands = Json::array();
-  const auto add = [&](const std::string& id, const Json& node) { commands.push_back(command_to_json(registry, command<AddNode>({id, {write_json_line(node)}}))); };
+  const auto add = [&](const std::string& id, const Json& node) {
+    commands.push_back(command_to_json(registry, command<AddNode>({id, {write_json_line(node)}})));
+  };
   const Json plan = {{0.0, 0.0, 0.0}, {side, 0.0, 0.0}, {side, side, 0.0}, {0.0, side, 0.0}};
   add("box", {{"types", {{"boundary", {{"form", "plan"}, {"plan", plan}, {"height", side}}}}}});
   add("solver", {{"types", {{"smart_volumes_solver", Json::object()}}}});

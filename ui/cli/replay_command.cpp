@@ -18,17 +18,18 @@ int replay_command(const ReplayOptions& options) {
     print_error(options.log, log.error());
     return kBadInput;
   }
-  if (log->is_cut_off) print_error(options.log, {ErrorCode::parse, "", "warning: the last line is incomplete, as after a crash; it is left out"});
+  if (log->is_cut_off)
+    print_error(options.log, {ErrorCode::parse, "", "warning: the last line is incomplete, as after a crash; it is left out"});
   const auto report = replay(*log, full_registry(), options.threads);
   if (!report) {
     print_error(options.log, report.error());
     return kBadInput;
   }
-  print_line(std::to_string(report->entries) + (report->entries == 1 ? " entry" : " entries") + ", " + std::to_string(report->ticks) +
-             " ticks, hash " + report->hash);
+  print_line(std::to_string(report->entries) + (report->entries == 1 ? " entry" : " entries") + ", " +
+             std::to_string(report->ticks) + " ticks, hash " + report->hash);
   if (report->first_mismatch) {
-    print_line(coloured("differs from the log first at tick " + std::to_string(report->first_mismatch->tick) + ": the log has the hash " +
-                            report->first_mismatch->hash,
+    print_line(coloured("differs from the log first at tick " + std::to_string(report->first_mismatch->tick) +
+                            ": the log has the hash " + report->first_mismatch->hash,
                         Colour::red));
     return kNotMet;
   }

@@ -49,7 +49,8 @@ class Run {
   // Writing over the scene that is read, or twice over one file, loses something.
   bool check_outputs() {
     namespace fs = std::filesystem;
-    const std::vector<std::pair<std::string, std::string>> outputs{{"--log", options_.log}, {"--json", options_.json}, {"--save", options_.save}};
+    const std::vector<std::pair<std::string, std::string>> outputs{
+        {"--log", options_.log}, {"--json", options_.json}, {"--save", options_.save}};
     std::error_code none;
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       const auto& [name, file] = outputs[i];
@@ -60,7 +61,8 @@ class Run {
         if (!outputs[j].second.empty() && fs::weakly_canonical(file, none) == fs::weakly_canonical(outputs[j].second, none))
           return fail(name, {ErrorCode::conflict, file, "is written by " + outputs[j].first + " already; choose another file"});
       const fs::path folder = fs::path(file).parent_path();
-      if (!folder.empty() && !fs::is_directory(folder, none)) return fail(name, {ErrorCode::io, file, "cannot be written: there is no folder " + folder.string()});
+      if (!folder.empty() && !fs::is_directory(folder, none))
+        return fail(name, {ErrorCode::io, file, "cannot be written: there is no folder " + folder.string()});
     }
     return true;
   }
@@ -109,8 +111,8 @@ class Run {
       record(*state);
       if (state->tick % kTicksPerCheck == 0) log_.write(log_line(LogCheck{state->tick, hex_digits(state->hash), false}));
       if (progress.is_due())
-        progress.show("tick " + std::to_string(state->tick) + ", largest error " + fixed(100 * state->largest_residual, 2) + " %, largest move " +
-                      fixed(state->largest_move, 3) + " m");
+        progress.show("tick " + std::to_string(state->tick) + ", largest error " + fixed(100 * state->largest_residual, 2) +
+                      " %, largest move " + fixed(state->largest_move, 3) + " m");
       if (!is_settling) continue;
       if (state->is_settled() || watch.is_hopeless(*state)) return;
     }
@@ -119,8 +121,8 @@ class Run {
   std::string outcome(const Survey& survey) const {
     const State& state = *session_->state();
     if (state.is_settled())
-      return "settled after " + std::to_string(state.tick) + " ticks, worst error " + fixed(100 * survey.worst_error, 3) + " %, hash " +
-             hex_digits(state.hash);
+      return "settled after " + std::to_string(state.tick) + " ticks, worst error " + fixed(100 * survey.worst_error, 3) +
+             " %, hash " + hex_digits(state.hash);
     const std::string stopped = is_interrupted() ? "stopped at tick " + std::to_string(state.tick) + "; " : "";
     return "not settled: " + stopped + why_not_settled(state, before_.get());
   }
@@ -141,8 +143,10 @@ class Run {
       const SavedState saved = save(*state);
       is_saved &= write(options_.save, write_file(options_.save, write_scene(session_->scene(), full_registry(), &saved)));
     }
-    if (!options_.json.empty()) is_saved &= write(options_.json, write_file(options_.json, write_json(survey_json(survey, *state, last_line)) + "\n"));
-    if (!options_.report.empty()) is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
+    if (!options_.json.empty())
+      is_saved &= write(options_.json, write_file(options_.json, write_json(survey_json(survey, *state, last_line)) + "\n"));
+    if (!options_.report.empty())
+      is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, *state);
     print_line(coloured(last_line, state->is_settled() ? Colour::green : Colour::red));
     return is_saved;

@@ -20,12 +20,21 @@ std::string percent(double share, int decimals = 2) { return fixed(100 * share, 
 
 void print_volumes(const Survey& survey, double tolerance) {
   if (survey.volumes.empty()) return print_line("There are no SmartVolumes in this scene.");
-  TextTable table({{"volume"}, {"use"}, {"demand m³", true}, {"volume m³", true}, {"error %", true}, {"floor m²", true}, {"surface m²", true}, {"state"}});
+  TextTable table({{"volume"},
+                   {"use"},
+                   {"demand m³", true},
+                   {"volume m³", true},
+                   {"error %", true},
+                   {"floor m²", true},
+                   {"surface m²", true},
+                   {"state"}});
   for (const VolumeRow& row : survey.volumes) {
     const std::string name = row.name.empty() || row.name == row.id ? row.id : row.id + " (" + row.name + ")";
     const std::string state = row.reason.empty() ? row.state : row.state + ": " + row.reason;
     const Colour colour = row.state != "alive" ? Colour::red : row.error > tolerance ? Colour::yellow : Colour::plain;
-    table.add({name, row.use, fixed(row.demand, 1), fixed(row.volume, 1), percent(row.error), fixed(row.floor_area, 1), fixed(row.surface_area, 1), state}, colour);
+    table.add({name, row.use, fixed(row.demand, 1), fixed(row.volume, 1), percent(row.error), fixed(row.floor_area, 1),
+               fixed(row.surface_area, 1), state},
+              colour);
   }
   table.print();
 }
@@ -33,11 +42,18 @@ void print_volumes(const Survey& survey, double tolerance) {
 void print_totals(const Survey& survey) {
   if (survey.volumes.empty() && survey.uses.empty()) return;
   print_line();
-  TextTable table({{"use"}, {"volumes", true}, {"wanted floor m²", true}, {"floor m²", true}, {"difference %", true}, {"demand m³", true}, {"volume m³", true}});
+  TextTable table({{"use"},
+                   {"volumes", true},
+                   {"wanted floor m²", true},
+                   {"floor m²", true},
+                   {"difference %", true},
+                   {"demand m³", true},
+                   {"volume m³", true}});
   const auto add = [&](const UseRow& use) {
     const std::string difference = use.wanted_floor_area > 0 ? percent(use.floor_area / use.wanted_floor_area - 1, 1) : "";
-    table.add({use.use.empty() ? "(none)" : use.use, std::to_string(use.volumes), use.is_in_programme ? fixed(use.wanted_floor_area, 1) : "no row",
-               fixed(use.floor_area, 1), difference, fixed(use.demand, 1), fixed(use.volume, 1)});
+    table.add({use.use.empty() ? "(none)" : use.use, std::to_string(use.volumes),
+               use.is_in_programme ? fixed(use.wanted_floor_area, 1) : "no row", fixed(use.floor_area, 1), difference,
+               fixed(use.demand, 1), fixed(use.volume, 1)});
   };
   for (const UseRow& use : survey.uses) add(use);
   if (survey.uses.size() > 1) {
@@ -47,15 +63,17 @@ void print_totals(const Survey& survey) {
   table.print();
   for (const SolverRow& solver : survey.solvers)
     if (solver.boundary_volume > 0)
-      print_line(solver.id + ": " + fixed(solver.total_volume, 1) + " of " + fixed(solver.total_demand, 1) + " m³ in a boundary of " +
-                 fixed(solver.boundary_volume, 1) + " m³ (" + percent(solver.total_volume / solver.boundary_volume, 1) + " % full)");
+      print_line(solver.id + ": " + fixed(solver.total_volume, 1) + " of " + fixed(solver.total_demand, 1) +
+                 " m³ in a boundary of " + fixed(solver.boundary_volume, 1) + " m³ (" +
+                 percent(solver.total_volume / solver.boundary_volume, 1) + " % full)");
   for (const SolverRow& solver : survey.solvers)
     if (!solver.message.empty()) print_line(coloured(solver.id + ": " + solver.message, Colour::red));
 }
 
 std::string amount(const Value& value, const std::string& unit) {
   const std::string suffix = unit.empty() ? "" : " " + unit;
-  if (const auto* v = std::get_if<Vector3>(&value)) return "(" + fixed(v->x, 3) + ", " + fixed(v->y, 3) + ", " + fixed(v->z, 3) + ")" + suffix;
+  if (const auto* v = std::get_if<Vector3>(&value))
+    return "(" + fixed(v->x, 3) + ", " + fixed(v->y, 3) + ", " + fixed(v->z, 3) + ")" + suffix;
   return fixed(as_number(value), 3) + suffix;
 }
 
@@ -69,7 +87,8 @@ void print_tensions(const Survey& survey) {
     for (std::size_t p = 0; p < std::min(kShownPulls, row.pulls.size()); ++p)
       pulls += (p > 0 ? ", " : "") + row.pulls[p].link + " " + amount(row.pulls[p].value, row.unit);
     if (row.pulls.size() > kShownPulls) pulls += " and " + std::to_string(row.pulls.size() - kShownPulls) + " more";
-    table.add({row.node, row.port, fixed(row.tension, 3) + (row.unit.empty() ? "" : " " + row.unit), pulls.empty() ? "the value that is set" : pulls});
+    table.add({row.node, row.port, fixed(row.tension, 3) + (row.unit.empty() ? "" : " " + row.unit),
+               pulls.empty() ? "the value that is set" : pulls});
   }
   table.print();
   if (survey.tensions.size() > kShownTensions)
@@ -92,17 +111,36 @@ namespace {
 Json point_json(const Vector3& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json volume_json(const VolumeRow& row) {
-  return {{"id", row.id}, {"name", row.name}, {"use", row.use}, {"position", point_json(row.position)}, {"weight", row.weight},
-          {"demand", row.demand}, {"volume", row.volume}, {"error", row.error}, {"cell_volume", row.cell_volume},
-          {"floor_area", row.floor_area}, {"surface_area", row.surface_area}, {"spherical_area", row.spherical_area},
-          {"footprint", row.footprint}, {"storey_height", row.storey_height}, {"height", row.height}, {"bottom", row.bottom},
-          {"state", row.state}, {"reason", row.reason}};
+  return {{"id", row.id},
+          {"name", row.name},
+          {"use", row.use},
+          {"position", point_json(row.position)},
+          {"weight", row.weight},
+          {"demand", row.demand},
+          {"volume", row.volume},
+          {"error", row.error},
+          {"cell_volume", row.cell_volume},
+          {"floor_area", row.floor_area},
+          {"surface_area", row.surface_area},
+          {"spherical_area", row.spherical_area},
+          {"footprint", row.footprint},
+          {"storey_height", row.storey_height},
+          {"height", row.height},
+          {"bottom", row.bottom},
+          {"state", row.state},
+          {"reason", row.reason}};
 }
 
 Json use_json(const UseRow& use) {
-  return {{"use", use.use}, {"in_programme", use.is_in_programme}, {"volumes", use.volumes}, {"alive", use.alive},
-          {"wanted_floor_area", use.wanted_floor_area}, {"floor_area", use.floor_area}, {"wanted_volume", use.wanted_volume},
-          {"demand", use.demand}, {"volume", use.volume}};
+  return {{"use", use.use},
+          {"in_programme", use.is_in_programme},
+          {"volumes", use.volumes},
+          {"alive", use.alive},
+          {"wanted_floor_area", use.wanted_floor_area},
+          {"floor_area", use.floor_area},
+          {"wanted_volume", use.wanted_volume},
+          {"demand", use.demand},
+          {"volume", use.volume}};
 }
 
 Json tension_json(const TensionRow& row, const State& state) {
@@ -110,7 +148,8 @@ Json tension_json(const TensionRow& row, const State& state) {
   const auto path = parse_port_path(row.port);
   const auto ref = state.plan->find(state.plan->node_index(row.node), *path);
   for (const Pull& pull : row.pulls)
-    pulls.push_back({{"link", pull.link}, {"value", value_to_json(pull.value, state.plan->port(*ref))}, {"strength", pull.strength}});
+    pulls.push_back(
+        {{"link", pull.link}, {"value", value_to_json(pull.value, state.plan->port(*ref))}, {"strength", pull.strength}});
   return {{"node", row.node}, {"port", row.port}, {"tension", row.tension}, {"unit", row.unit}, {"links", std::move(pulls)}};
 }
 
@@ -133,13 +172,17 @@ Json survey_json(const Survey& survey, const State& state, const std::string& ou
   for (const UseRow& use : survey.uses) totals["uses"].push_back(use_json(use));
   totals["solvers"] = Json::array();
   for (const SolverRow& solver : survey.solvers)
-    totals["solvers"].push_back({{"id", solver.id}, {"message", solver.message}, {"boundary_volume", solver.boundary_volume},
-                                 {"total_demand", solver.total_demand}, {"total_volume", solver.total_volume}});
+    totals["solvers"].push_back({{"id", solver.id},
+                                 {"message", solver.message},
+                                 {"boundary_volume", solver.boundary_volume},
+                                 {"total_demand", solver.total_demand},
+                                 {"total_volume", solver.total_volume}});
   json["tensions"] = Json::array();
   for (const TensionRow& row : survey.tensions) json["tensions"].push_back(tension_json(row, state));
   json["problems"] = Json::array();
   for (const Error& problem : survey.problems)
-    json["problems"].push_back({{"code", std::string(name_of(problem.code))}, {"place", problem.place}, {"message", problem.message}});
+    json["problems"].push_back(
+        {{"code", std::string(name_of(problem.code))}, {"place", problem.place}, {"message", problem.message}});
   return json;
 }
 

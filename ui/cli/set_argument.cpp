@@ -13,7 +13,8 @@ namespace {
 bool holds_text(ValueKind kind) { return kind == ValueKind::text || kind == ValueKind::choice || kind == ValueKind::port; }
 
 // The unit that a scene gives to a port; a node that is not there is left to the command to complain about.
-Unit unit_at(const Scene& scene, const Registry& registry, const std::string& node, const PortPath& path, const PortDefinition& port) {
+Unit unit_at(const Scene& scene, const Registry& registry, const std::string& node, const PortPath& path,
+             const PortDefinition& port) {
   const auto record = scene.nodes.find(node);
   const TypificationDefinition* type = registry.typification(path.typification);
   return record == scene.nodes.end() || type == nullptr ? port.unit : unit_of(registry, record->second, *type, port);
@@ -26,14 +27,17 @@ Result<std::string> value_text(const PortDefinition& port, Unit unit, const std:
       return port.kind == ValueKind::integer && *quantity == static_cast<double>(static_cast<long long>(*quantity))
                  ? std::to_string(static_cast<long long>(*quantity))
                  : shortest(*quantity);
-  if (auto json = parse_json(text); json && !(holds_text(port.kind) && !json->is_string() && !json->is_null())) return write_json_line(*json);
+  if (auto json = parse_json(text); json && !(holds_text(port.kind) && !json->is_string() && !json->is_null()))
+    return write_json_line(*json);
   if (holds_text(port.kind)) return write_json_line(Json(text));
   if (is_number) {
     const std::string_view pretty = info(unit).pretty;
-    return Error{ErrorCode::wrong_unit, place,
-                 "`" + text + "` is no number" + (pretty.empty() ? "" : " or quantity in " + std::string(pretty) + " or its multiples")};
+    return Error{
+        ErrorCode::wrong_unit, place,
+        "`" + text + "` is no number" + (pretty.empty() ? "" : " or quantity in " + std::string(pretty) + " or its multiples")};
   }
-  return Error{ErrorCode::parse, place, "`" + text + "` is no value of the kind " + std::string(name_of(port.kind)) + "; write it as in a scene file"};
+  return Error{ErrorCode::parse, place,
+               "`" + text + "` is no value of the kind " + std::string(name_of(port.kind)) + "; write it as in a scene file"};
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr long long kPatience = 40, kLongPatience = 400;
 
 struct Mover {
   std::string id;
-  double distance = 0;    // [m] in the last tick
+  double distance = 0;  // [m] in the last tick
 };
 
 Mover fastest(const State& state, const State* before) {
@@ -45,7 +45,8 @@ std::string of_greedy(const State& state) {
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
     if (const auto ref = state.plan->find(n, PortPath{"smart_volume", "demand", ""}))
       if (const double demand = as_number(state.value(*ref)); demand > room)
-        return "; `" + state.plan->nodes[n].id + "` alone asks for " + fixed(demand, 1) + " m³, more than the " + fixed(room, 1) + " m³ inside the boundary";
+        return "; `" + state.plan->nodes[n].id + "` alone asks for " + fixed(demand, 1) + " m³, more than the " + fixed(room, 1) +
+               " m³ inside the boundary";
   return "";
 }
 
@@ -72,7 +73,8 @@ bool SettleWatch::is_hopeless(const State& state) {
 std::string why_not_settled(const State& state, const State* before) {
   if (const std::string message = solver_message(state); !message.empty()) return "the demands cannot be met: " + message;
   const std::vector<VolumeRow> volumes = volumes_of(state);
-  const auto worst = std::max_element(volumes.begin(), volumes.end(), [](const VolumeRow& a, const VolumeRow& b) { return a.error < b.error; });
+  const auto worst =
+      std::max_element(volumes.begin(), volumes.end(), [](const VolumeRow& a, const VolumeRow& b) { return a.error < b.error; });
   const Settings& settings = state.plan->settings;
   if (has_failure(state)) {
     const Error problem = problems_of(state).front();
@@ -83,13 +85,15 @@ std::string why_not_settled(const State& state, const State* before) {
   if (state.largest_move > settings.move_limit) {
     const Mover mover = fastest(state, before);
     const std::string who = mover.id.empty() ? "a node" : "`" + mover.id + "`";
-    return who + " still moves by " + fixed(state.largest_move, 3) + " m per tick, the limit is " + shortest(settings.move_limit) + " m";
+    return who + " still moves by " + fixed(state.largest_move, 3) + " m per tick, the limit is " +
+           shortest(settings.move_limit) + " m";
   }
   if (state.largest_change > settings.change_limit)
-    return "`" + state.plan->nodes[state.restless.node].id + "`: `" + state.plan->path_text(state.restless) + "` still changes by " +
-           fixed(100 * state.largest_change, 2) + " % per tick, the limit is " + shortest(100 * settings.change_limit) + " %" +
-           of_greedy(state);
-  return "all demands are met, and " + std::to_string(state.calm) + " of " + std::to_string(settings.calm_ticks) + " calm ticks have passed";
+    return "`" + state.plan->nodes[state.restless.node].id + "`: `" + state.plan->path_text(state.restless) +
+           "` still changes by " + fixed(100 * state.largest_change, 2) + " % per tick, the limit is " +
+           shortest(100 * settings.change_limit) + " %" + of_greedy(state);
+  return "all demands are met, and " + std::to_string(state.calm) + " of " + std::to_string(settings.calm_ticks) +
+         " calm ticks have passed";
 }
 
 }  // namespace bl::cli

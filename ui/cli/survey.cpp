@@ -107,7 +107,7 @@ std::vector<TensionRow> tensions_of(const State& state) {
       for (std::uint16_t p = 0; p < state.nodes[n].types[t].tension.size(); ++p) {
         const double tension = state.nodes[n].types[t].tension[p];
         // Rounding alone leaves traces below a millionth of any unit; they are no conflict.
-        if (!(tension > 1e-3)) continue;    // a millimetre, a litre: nothing that anybody feels
+        if (!(tension > 1e-3)) continue;  // a millimetre, a litre: nothing that anybody feels
         const PortRef ref{n, t, p};
         const std::string unit(info(state.plan->port(ref).unit).pretty);
         rows.push_back({state.plan->nodes[n].id, state.plan->path_text(ref), unit, tension, pulls_on(state, ref)});
@@ -139,7 +139,8 @@ std::vector<VolumeRow> volumes_of(const State& state) {
 std::string solver_message(const State& state) {
   std::string message;
   for (std::uint32_t n = 0; n < count_of(state); ++n)
-    if (const std::string said = text_at(state, n, "smart_volumes_solver.message"); !said.empty()) message += (message.empty() ? "" : "; ") + said;
+    if (const std::string said = text_at(state, n, "smart_volumes_solver.message"); !said.empty())
+      message += (message.empty() ? "" : "; ") + said;
   return message;
 }
 

@@ -13,13 +13,13 @@ namespace bl::cli {
 /// The record of one SmartVolume, whatever became of it.
 struct VolumeRow {
   std::string id, name, use, state, reason;
-  Point3 position;              ///< [m]
-  double weight = 0;            ///< [m²]
-  double demand = 0;            ///< what the solver aims at [m³]
-  double volume = 0, cell_volume = 0;    ///< [m³]
-  double error = 0;             ///< share of the demand
-  double floor_area = 0, surface_area = 0, footprint = 0, spherical_area = 0;    ///< [m²]
-  double storey_height = 0, height = 0, bottom = 0;    ///< [m]
+  Point3 position;                                                             ///< [m]
+  double weight = 0;                                                           ///< [m²]
+  double demand = 0;                                                           ///< what the solver aims at [m³]
+  double volume = 0, cell_volume = 0;                                          ///< [m³]
+  double error = 0;                                                            ///< share of the demand
+  double floor_area = 0, surface_area = 0, footprint = 0, spherical_area = 0;  ///< [m²]
+  double storey_height = 0, height = 0, bottom = 0;                            ///< [m]
 };
 
 /// One use: what programmes want of it, and what its volumes have.
@@ -27,15 +27,15 @@ struct UseRow {
   std::string use;
   bool is_in_programme = false;
   std::size_t volumes = 0, alive = 0;
-  double wanted_floor_area = 0, floor_area = 0;    ///< [m²]
-  double wanted_volume = 0;     ///< of the programme [m³]
-  double demand = 0;            ///< of its volumes [m³]
-  double volume = 0;            ///< [m³]
+  double wanted_floor_area = 0, floor_area = 0;  ///< [m²]
+  double wanted_volume = 0;                      ///< of the programme [m³]
+  double demand = 0;                             ///< of its volumes [m³]
+  double volume = 0;                             ///< [m³]
 };
 
 struct Pull {
   std::string link;
-  Value value;                  ///< a change for moves, a wanted value elsewhere
+  Value value;  ///< a change for moves, a wanted value elsewhere
   double strength = 1;
 };
 
@@ -43,24 +43,24 @@ struct Pull {
 struct TensionRow {
   std::string node, port, unit;
   double tension = 0;
-  std::vector<Pull> pulls;      ///< ascending link id
+  std::vector<Pull> pulls;  ///< ascending link id
 };
 
 struct SolverRow {
   std::string id, message;
-  double boundary_volume = 0;   ///< [m³]
-  double total_demand = 0, total_volume = 0;    ///< [m³]
+  double boundary_volume = 0;                 ///< [m³]
+  double total_demand = 0, total_volume = 0;  ///< [m³]
 };
 
 struct Survey {
-  std::vector<VolumeRow> volumes;      ///< ascending id
-  std::vector<UseRow> uses;            ///< ascending use
+  std::vector<VolumeRow> volumes;  ///< ascending id
+  std::vector<UseRow> uses;        ///< ascending use
   UseRow all;
-  std::vector<TensionRow> tensions;    ///< greatest first, ties in ascending node and port
+  std::vector<TensionRow> tensions;  ///< greatest first, ties in ascending node and port
   std::vector<SolverRow> solvers;
-  std::vector<Error> problems;         ///< errors of nodes and links, with their places
-  double worst_error = 0;              ///< share of a demand
-  std::string worst;                   ///< id of the node that has it; empty where all is exact
+  std::vector<Error> problems;  ///< errors of nodes and links, with their places
+  double worst_error = 0;       ///< share of a demand
+  std::string worst;            ///< id of the node that has it; empty where all is exact
 };
 
 Survey survey_of(const State& state);

@@ -48,7 +48,8 @@ std::string coloured(std::string_view text, Colour colour) {
 
 std::size_t width_of(std::string_view text) {
   // Continuation bytes of UTF-8 take no column of their own.
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 void print_line(std::string_view text) {

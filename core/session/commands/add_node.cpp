@@ -19,7 +19,8 @@ Inverse AddNode::apply(SceneEdit& edit, const In& in) {
   auto node = node_from_json(*json, edit.registry(), "nodes/" + in.id);
   if (!node) return node.error();
   for (const auto& [type, values] : node->types)
-    if (auto known = check_references(edit, *edit.registry().typification(type), values, in.id, "nodes/" + in.id + "/" + type); !known)
+    if (auto known = check_references(edit, *edit.registry().typification(type), values, in.id, "nodes/" + in.id + "/" + type);
+        !known)
       return known.error();
   for (const std::string& path : node->locked) {
     const auto parsed = parse_port_path(path);

@@ -12,7 +12,8 @@ void EnableLink::declare(CommandBuilder<EnableLink>& c) {
 Inverse EnableLink::apply(SceneEdit& edit, const In& in) {
   auto link = edit.link(in.id);
   if (!link) return link.error();
-  if (!(*link)->ghost.empty()) return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
+  if (!(*link)->ghost.empty())
+    return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
   std::vector inverse{command<EnableLink>({in.id, (*link)->is_enabled})};
   (*link)->is_enabled = in.enabled;
   return inverse;

@@ -12,7 +12,8 @@ void MuteLink::declare(CommandBuilder<MuteLink>& c) {
 Inverse MuteLink::apply(SceneEdit& edit, const In& in) {
   auto link = edit.link(in.id);
   if (!link) return link.error();
-  if (!(*link)->ghost.empty()) return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
+  if (!(*link)->ghost.empty())
+    return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
   std::vector inverse{command<MuteLink>({in.id, (*link)->is_muted})};
   (*link)->is_muted = in.muted;
   return inverse;

@@ -12,7 +12,8 @@ void SetLinkStrength::declare(CommandBuilder<SetLinkStrength>& c) {
 Inverse SetLinkStrength::apply(SceneEdit& edit, const In& in) {
   auto link = edit.link(in.id);
   if (!link) return link.error();
-  if (!(*link)->ghost.empty()) return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
+  if (!(*link)->ghost.empty())
+    return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
   std::vector inverse{command<SetLinkStrength>({in.id, (*link)->strength})};
   (*link)->strength = in.strength;
   return inverse;

@@ -13,10 +13,12 @@ void SetPort::declare(CommandBuilder<SetPort>& c) {
 Inverse SetPort::apply(SceneEdit& edit, const In& in) {
   const auto site = find_setting(edit, in.node, in.port);
   if (!site) return site.error();
-  const std::string path = site->type->id + "." + site->port->id, place = "nodes/" + in.node + "/" + site->type->id + "/" + site->port->id;
+  const std::string path = site->type->id + "." + site->port->id,
+                    place = "nodes/" + in.node + "/" + site->type->id + "/" + site->port->id;
   auto value = argument_value(*site->type, site->port->id, in.value, place);
   if (!value) return value.error();
-  if (auto known = check_references(edit, *site->type, {{site->port->id, *value}}, "", "nodes/" + in.node + "/" + site->type->id); !known)
+  if (auto known = check_references(edit, *site->type, {{site->port->id, *value}}, "", "nodes/" + in.node + "/" + site->type->id);
+      !known)
     return known.error();
   PortValues& values = site->node->types.at(site->type->id);
   std::vector inverse{command<SetPort>({in.node, {path}, current_value(values, *site->port)})};

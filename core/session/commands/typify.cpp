@@ -21,7 +21,8 @@ Inverse Typify::apply(SceneEdit& edit, const In& in) {
   const TypificationDefinition* type = edit.registry().typification(in.typification);
   if (type == nullptr)
     return Error{ErrorCode::unknown_type, place,
-                 "unknown typification `" + in.typification + "`" + did_you_mean(in.typification, keys_of(edit.registry().typifications()))};
+                 "unknown typification `" + in.typification + "`" +
+                     did_you_mean(in.typification, keys_of(edit.registry().typifications()))};
   if ((*node)->types.contains(type->id)) return Error{ErrorCode::duplicate, place, "the node is a `" + type->id + "` already"};
   auto json = parse_json(in.values.text);
   if (!json) return json.error().within(place);

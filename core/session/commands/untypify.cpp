@@ -17,9 +17,11 @@ Inverse Untypify::apply(SceneEdit& edit, const In& in) {
   if (!node) return node.error();
   const std::string place = "nodes/" + in.node + "/" + in.typification;
   const TypificationDefinition* type = edit.registry().typification(in.typification);
-  if (type == nullptr || !(*node)->types.contains(type->id)) return Error{ErrorCode::not_found, place, "the node is no `" + in.typification + "`"};
+  if (type == nullptr || !(*node)->types.contains(type->id))
+    return Error{ErrorCode::not_found, place, "the node is no `" + in.typification + "`"};
   if (type->id == kBaseNode) return Error{ErrorCode::conflict, place, "every node is a `node`; remove the node instead"};
-  std::vector<Command> inverse{command<Typify>({in.node, type->id, {write_json_line(ports_to_json(*type, (*node)->types.at(type->id)))}})};
+  std::vector<Command> inverse{
+      command<Typify>({in.node, type->id, {write_json_line(ports_to_json(*type, (*node)->types.at(type->id)))}})};
   for (auto it = (*node)->locked.begin(); it != (*node)->locked.end();) {
     if (!it->starts_with(type->id + ".")) {
       ++it;

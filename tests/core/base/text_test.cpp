@@ -63,7 +63,8 @@ TEST(Text, ParsesWholeNumbersOnly) {
   EXPECT_EQ(parse_number("+2"), 2.0);
   EXPECT_EQ(parse_number("-3e-2"), -0.03);
   EXPECT_EQ(parse_number(".5"), 0.5);
-  for (const char* none : {"", "+", "-", "e5", "1,5", "1.5 ", " 1.5", "1.5m", "1.2.3", "0x10", "1e", "1e400", "--1", "+-1", "inf", "nan", "one"})
+  for (const char* none :
+       {"", "+", "-", "e5", "1,5", "1.5 ", " 1.5", "1.5m", "1.2.3", "0x10", "1e", "1e400", "--1", "+-1", "inf", "nan", "one"})
     EXPECT_FALSE(parse_number(none).has_value()) << none;
 }
 

@@ -1,9 +1,9 @@
 // Scene files: canonical text, ghosts, upgrades, and the message for each way of being wrong.
+#include <sys/resource.h>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sys/resource.h>
-#include <csignal>
 
 #include <gtest/gtest.h>
 
@@ -37,46 +37,56 @@ INSTANTIATE_TEST_SUITE_P(
     SceneFile, BadSceneTest,
     testing::Values(
         BadScene{"empty", "", "line 1, column 1: the text ends in the middle of a JSON value; the file is cut off"},
-        BadScene{"truncated", with_nodes("").substr(0, 50), "line 1, column 51: the text ends in the middle of a JSON value; the file is cut off"},
-        BadScene{"no_json", "{\"format\": behaviourlinks}", "line 1, column 12: this is not JSON (no comments, no trailing commas, no NaN)"},
+        BadScene{"truncated", with_nodes("").substr(0, 50),
+                 "line 1, column 51: the text ends in the middle of a JSON value; the file is cut off"},
+        BadScene{"no_json", "{\"format\": behaviourlinks}",
+                 "line 1, column 12: this is not JSON (no comments, no trailing commas, no NaN)"},
         BadScene{"not_a_number", with_nodes(R"({"id": "a", "position": [NaN, 0, 0]})"),
                  "line 1, column 79: this is not JSON (no comments, no trailing commas, no NaN)"},
-        BadScene{"overflow", with_nodes(R"({"id": "a", "position": [1e999, 0, 0]})"), "line 1, column 79: a number is too large for a double"},
+        BadScene{"overflow", with_nodes(R"({"id": "a", "position": [1e999, 0, 0]})"),
+                 "line 1, column 79: a number is too large for a double"},
         BadScene{"far", with_nodes(R"({"id": "a", "position": [1e300, 0, 0]})"),
                  "nodes/a/position: lies farther than 10 000 km from the origin; use local metric coordinates"},
         BadScene{"another_format", R"({"format": "gltf"})",
                  "format: this is not a scene: a scene starts with {\"format\": \"behaviourlinks\", \"version\": 1, ...}"},
-        BadScene{"newer", R"({"format": "behaviourlinks", "version": 2})", "version: the file has version 2, this program reads up to 1; get a newer program"},
-        BadScene{"unknown_key", R"({"format": "behaviourlinks", "version": 1, "node": []})", "node: unknown field `node`, did you mean `nodes`?"},
+        BadScene{"newer", R"({"format": "behaviourlinks", "version": 2})",
+                 "version: the file has version 2, this program reads up to 1; get a newer program"},
+        BadScene{"unknown_key", R"({"format": "behaviourlinks", "version": 1, "node": []})",
+                 "node: unknown field `node`, did you mean `nodes`?"},
         BadScene{"unknown_field", with_nodes(R"({"id": "a", "types": {"smart_volume": {"demnd": 5}}})"),
                  "nodes/a/types/smart_volume/demnd: `smart_volume` has no `demnd`, did you mean `demand`?"},
         BadScene{"computed", with_nodes(R"({"id": "a", "types": {"smart_volume": {"volume": 5}}})"),
                  "nodes/a/types/smart_volume/volume: `volume` is computed and cannot be set"},
         BadScene{"wrong_unit", with_nodes(R"({"id": "a", "types": {"smart_volume": {"demand": "850 m2"}}})"),
-                 "nodes/a/types/smart_volume/demand: expects a number in m³, found \"850 m2\", which is in square metres; convert it and write the "
+                 "nodes/a/types/smart_volume/demand: expects a number in m³, found \"850 m2\", which is in square metres; "
+                 "convert it and write the "
                  "plain number"},
         BadScene{"unit_text", with_nodes(R"({"id": "a", "types": {"smart_volume": {"demand": "850 m3"}}})"),
                  "nodes/a/types/smart_volume/demand: expects a number in m³, found the text \"850 m3\"; write 850"},
         BadScene{"negative", with_nodes(R"({"id": "a", "types": {"smart_volume": {"demand": -1}}})"),
                  "nodes/a/types/smart_volume/demand: must be between 0 and 1e+09 m³, found -1"},
         BadScene{"twice", with_nodes(R"({"id": "a"}, {"id": "a"})"), "nodes/a: two nodes have the id `a`; ids must be unique"},
-        BadScene{"key_twice", with_nodes(R"({"id": "a", "id": "b"})"), "the key \"id\" stands twice in one object; keep one of them"},
+        BadScene{"key_twice", with_nodes(R"({"id": "a", "id": "b"})"),
+                 "the key \"id\" stands twice in one object; keep one of them"},
         BadScene{"no_id", with_nodes(R"({"name": "a"})"), "nodes/0: `id` is missing"},
         BadScene{"bad_id", with_nodes(R"({"id": "Tower 1"})"), "nodes/0/id: `Tower 1` is no id: use 1 to 64 of a-z 0-9 _ - . #"},
-        BadScene{"missing_node", with_nodes(R"({"id": "tower"})", R"(, "links": [{"id": "l", "kind": "attract", "from": "tower", "to": "twoer"}])"),
-                 "links/l/to: there is no node `twoer`, did you mean `tower`?"},
-        BadScene{"no_end", with_nodes(R"({"id": "tower"})", R"(, "links": [{"id": "l", "kind": "attract", "from": "tower"}])"), "links/l: `to` is missing"},
-        BadScene{"bad_lock", with_nodes(R"({"id": "a", "locked": ["smart_volume.demand"]})"), "nodes/a/locked: the node has no port `smart_volume.demand`"}),
+        BadScene{
+            "missing_node",
+            with_nodes(R"({"id": "tower"})", R"(, "links": [{"id": "l", "kind": "attract", "from": "tower", "to": "twoer"}])"),
+            "links/l/to: there is no node `twoer`, did you mean `tower`?"},
+        BadScene{"no_end", with_nodes(R"({"id": "tower"})", R"(, "links": [{"id": "l", "kind": "attract", "from": "tower"}])"),
+                 "links/l: `to` is missing"},
+        BadScene{"bad_lock", with_nodes(R"({"id": "a", "locked": ["smart_volume.demand"]})"),
+                 "nodes/a/locked: the node has no port `smart_volume.demand`"}),
     [](const testing::TestParamInfo<BadScene>& test) { return std::string(test.param.name); });
 
 TEST(SceneFile, ListsAllErrorsNotOnlyTheFirst) {
-  const SceneReading reading = read_scene(with_nodes(R"({"id": "a", "x": 1}, {"id": "b", "name": 3}, {"id": "c"})"), full_registry());
+  const SceneReading reading =
+      read_scene(with_nodes(R"({"id": "a", "x": 1}, {"id": "b", "name": 3}, {"id": "c"})"), full_registry());
   EXPECT_EQ(reading.problems.size(), 2u);
 }
 
-TEST(SceneFile, DeepNestingIsAnError) {
-  EXPECT_EQ(first_error(std::string(100000, '[')), "nested deeper than 64 levels");
-}
+TEST(SceneFile, DeepNestingIsAnError) { EXPECT_EQ(first_error(std::string(100000, '[')), "nested deeper than 64 levels"); }
 
 TEST(SceneFile, GhostsAreKeptToTheLetterAndReported) {
   const std::string text = R"({
@@ -93,20 +103,26 @@ TEST(SceneFile, GhostsAreKeptToTheLetterAndReported) {
   const SceneReading reading = read_scene(text, full_registry());
   EXPECT_TRUE(reading.is_usable());
   ASSERT_EQ(reading.problems.size(), 2u);
-  EXPECT_EQ(reading.problems[0].error.text(), "nodes/a/hologram: unknown typification `hologram`: kept as it is and saved back, not run");
+  EXPECT_EQ(reading.problems[0].error.text(),
+            "nodes/a/hologram: unknown typification `hologram`: kept as it is and saved back, not run");
   EXPECT_EQ(reading.problems[1].error.text(), "links/l: unknown link kind `teleport`: kept as it is, not run");
   EXPECT_EQ(write_scene(reading.scene, full_registry()), text);
 }
 
 TEST(SceneFile, DefaultsAreNotWritten) {
-  const SceneReading reading = read_scene(with_nodes(R"({"id": "a", "name": "", "position": [0, 0, 0], "types": {"smart_volume": {"demand": 1000.0}}})"), full_registry());
+  const SceneReading reading =
+      read_scene(with_nodes(R"({"id": "a", "name": "", "position": [0, 0, 0], "types": {"smart_volume": {"demand": 1000.0}}})"),
+                 full_registry());
   EXPECT_EQ(write_scene(reading.scene, full_registry()),
-            "{\n  \"format\": \"behaviourlinks\",\n  \"version\": 1,\n  \"nodes\": [\n    {\"id\": \"a\", \"types\": {\"smart_volume\": {}}}\n  ],\n  \"links\": []\n}\n");
+            "{\n  \"format\": \"behaviourlinks\",\n  \"version\": 1,\n  \"nodes\": [\n    {\"id\": \"a\", \"types\": "
+            "{\"smart_volume\": {}}}\n  ],\n  \"links\": []\n}\n");
 }
 
 // A type that was renamed and changed: its old id is an alias, its old values are upgraded.
 struct Plot {
-  struct In { double depth = 1; };
+  struct In {
+    double depth = 1;
+  };
   struct Out {};
   static void declare(TypificationBuilder<Plot>& t) {
     t.id("plot").label("Plot").doc("A plot.").alias("parcel");
@@ -134,13 +150,15 @@ TEST(SceneFile, OldRevisionsAndNamesAreUpgraded) {
 }
 
 TEST(SceneFile, RandomByteEditsGiveErrorsNeverCrashes) {
-  const std::string good = with_nodes(R"({"id": "a", "position": [1, 2, 3], "types": {"smart_volume": {"demand": 5}}}, {"id": "b"})",
-                                      R"(, "links": [{"id": "l", "kind": "attract", "from": "a", "to": ["a", "b"], "strength": 0.5}], "view": {"k": 1})");
+  const std::string good = with_nodes(
+      R"({"id": "a", "position": [1, 2, 3], "types": {"smart_volume": {"demand": 5}}}, {"id": "b"})",
+      R"(, "links": [{"id": "l", "kind": "attract", "from": "a", "to": ["a", "b"], "strength": 0.5}], "view": {"k": 1})");
   ASSERT_EQ(first_error(good), "");
   bl::Random random(5);
   for (int i = 0; i < 3000; ++i) {
     std::string text = good;
-    for (std::uint64_t edits = 1 + random.below(3); edits > 0; --edits) text[random.below(text.size())] = static_cast<char>(random.below(256));
+    for (std::uint64_t edits = 1 + random.below(3); edits > 0; --edits)
+      text[random.below(text.size())] = static_cast<char>(random.below(256));
     const SceneReading reading = read_scene(text, full_registry());
     if (!reading.is_usable()) {
       EXPECT_GT(reading.first_error().message.size(), 5u);

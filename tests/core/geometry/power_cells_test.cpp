@@ -227,9 +227,7 @@ TEST(PowerCells, ABallThatOnlyTouchesItsCellHasNoShape) {
     ASSERT_TRUE(cells.ok());
     const CellMeasure& cell = cells->front();
     EXPECT_EQ(cell.mesh != nullptr, cell.volume > 0) << more;
-    if (cell.mesh) {
-      EXPECT_LE(enclosed_volume(*cell.mesh), cell.volume + 1e-6) << more;
-    }
+    if (cell.mesh) { EXPECT_LE(enclosed_volume(*cell.mesh), cell.volume + 1e-6) << more; }
   }
 }
 

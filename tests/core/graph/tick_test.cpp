@@ -11,8 +11,12 @@ namespace {
 
 // A thing with one port for each rule.
 struct Toy {
-  struct In { double blended = 10, smallest = 100, largest = 0; };
-  struct Out { double doubled = 0; };
+  struct In {
+    double blended = 10, smallest = 100, largest = 0;
+  };
+  struct Out {
+    double doubled = 0;
+  };
   static void declare(TypificationBuilder<Toy>& t) {
     t.id("toy").label("Toy").doc("A toy.");
     t.in(&In::blended, "blended").combine(CombineRule::blend).range(-1000, 1000).doc("Mean.");
@@ -28,15 +32,24 @@ struct Toy {
 
 // Wants a value on all three ports; fails when asked to.
 struct Want {
-  struct In { double value = 0; bool is_failing = false; };
-  struct Ends { double source = 0; };
-  struct Out { std::optional<double> blended, smallest, largest; };
+  struct In {
+    double value = 0;
+    bool is_failing = false;
+  };
+  struct Ends {
+    double source = 0;
+  };
+  struct Out {
+    std::optional<double> blended, smallest, largest;
+  };
   static void declare(LinkBuilder<Want>& l) {
     l.id("want").label("Want").doc("Wants a value.");
     l.param(&In::value, "value").doc("The value.");
     l.param(&In::is_failing, "fail").doc("Fail.");
     l.reads(&Ends::source, End::from, "toy.blended");
-    l.proposes(&Out::blended, End::to, "toy.blended").proposes(&Out::smallest, End::to, "toy.smallest").proposes(&Out::largest, End::to, "toy.largest");
+    l.proposes(&Out::blended, End::to, "toy.blended")
+        .proposes(&Out::smallest, End::to, "toy.smallest")
+        .proposes(&Out::largest, End::to, "toy.largest");
   }
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     if (in.is_failing || ends.source > 500) return Error{ErrorCode::conflict, "value", "does not want to"};
@@ -45,9 +58,15 @@ struct Want {
 };
 
 struct Push {
-  struct In { Vector3 move; };
-  struct Ends { Point3 to; };
-  struct Out { Vector3 to; };
+  struct In {
+    Vector3 move;
+  };
+  struct Ends {
+    Point3 to;
+  };
+  struct Out {
+    Vector3 to;
+  };
   static void declare(LinkBuilder<Push>& l) {
     l.id("push").label("Push").doc("Pushes.");
     l.param(&In::move, "move").doc("The move.");
@@ -71,7 +90,8 @@ const Registry& toys() {
 class TickTest : public testing::Test {
  protected:
   void node(const std::string& id, PortValues toy = {}) { scene_.nodes[id].types = {{"node", {}}, {"toy", std::move(toy)}}; }
-  void link(const std::string& id, const std::string& kind, const std::string& from, const std::string& to, PortValues parameters, double strength = 1) {
+  void link(const std::string& id, const std::string& kind, const std::string& from, const std::string& to, PortValues parameters,
+            double strength = 1) {
     scene_.links[id] = LinkRecord{kind, {{from}, "", ""}, {{to}, "", ""}, true, false, strength, std::move(parameters), ""};
   }
   Simulation& start() {

@@ -31,26 +31,31 @@ std::string with(const std::string& nodes, const std::string& links = "") { retu
 
 INSTANTIATE_TEST_SUITE_P(
     ByHand, RefusedScene,
-    testing::Values(BadScene{"truncated", with(volume_text("a", "[0, 0, 5]")).substr(0, 120), "line "},
-                    BadScene{"empty", "", ""},
-                    BadScene{"unknown_field", with(R"({"id": "a", "postion": [0, 0, 5]})"), "nodes/a/postion: unknown field `postion`, did you mean `position`?"},
-                    BadScene{"unknown_port", with(R"({"id": "a", "types": {"smart_volume": {"demnd": 5}}})"), "did you mean `demand`?"},
-                    BadScene{"text_with_unit", with(volume_text("a", "[0, 0, 5]", "\"500 m3\"")), "found the text \"500 m3\"; write 500"},
-                    BadScene{"wrong_unit", with(volume_text("a", "[0, 0, 5]", "\"500 m2\"")), "which is in square metres"},
-                    BadScene{"link_to_nobody", with(volume_text("tower", "[0, 0, 5]"), R"({"id": "l", "kind": "attract", "from": "tower", "to": "towre"})"),
-                             "links/l/to: there is no node `towre`, did you mean `tower`?"},
-                    BadScene{"not_a_number", with(volume_text("a", "[0, 0, NaN]")), "line "},
-                    BadScene{"too_large", with(volume_text("a", "[0, 0, 1e300]")), "nodes/a/position: lies farther than 10 000 km"},
-                    BadScene{"too_large_demand", with(volume_text("a", "[0, 0, 5]", "1e300")), "1e+300"},
-                    BadScene{"beyond_a_double", with(volume_text("a", "[0, 0, 5]", "1e999")), "a number is too large for a double"},
-                    BadScene{"duplicate", with(volume_text("a", "[0, 0, 5]") + "," + volume_text("a", "[5, 0, 5]")), "nodes/a: two nodes have the id `a`"},
-                    BadScene{"newer", R"({"format": "behaviourlinks", "version": 2, "nodes": [], "links": []})", "the file has version 2, this program reads up to 1"},
-                    BadScene{"no_scene", R"({"type": "FeatureCollection"})", "this is not a scene"}),
+    testing::Values(
+        BadScene{"truncated", with(volume_text("a", "[0, 0, 5]")).substr(0, 120), "line "}, BadScene{"empty", "", ""},
+        BadScene{"unknown_field", with(R"({"id": "a", "postion": [0, 0, 5]})"),
+                 "nodes/a/postion: unknown field `postion`, did you mean `position`?"},
+        BadScene{"unknown_port", with(R"({"id": "a", "types": {"smart_volume": {"demnd": 5}}})"), "did you mean `demand`?"},
+        BadScene{"text_with_unit", with(volume_text("a", "[0, 0, 5]", "\"500 m3\"")), "found the text \"500 m3\"; write 500"},
+        BadScene{"wrong_unit", with(volume_text("a", "[0, 0, 5]", "\"500 m2\"")), "which is in square metres"},
+        BadScene{"link_to_nobody",
+                 with(volume_text("tower", "[0, 0, 5]"), R"({"id": "l", "kind": "attract", "from": "tower", "to": "towre"})"),
+                 "links/l/to: there is no node `towre`, did you mean `tower`?"},
+        BadScene{"not_a_number", with(volume_text("a", "[0, 0, NaN]")), "line "},
+        BadScene{"too_large", with(volume_text("a", "[0, 0, 1e300]")), "nodes/a/position: lies farther than 10 000 km"},
+        BadScene{"too_large_demand", with(volume_text("a", "[0, 0, 5]", "1e300")), "1e+300"},
+        BadScene{"beyond_a_double", with(volume_text("a", "[0, 0, 5]", "1e999")), "a number is too large for a double"},
+        BadScene{"duplicate", with(volume_text("a", "[0, 0, 5]") + "," + volume_text("a", "[5, 0, 5]")),
+                 "nodes/a: two nodes have the id `a`"},
+        BadScene{"newer", R"({"format": "behaviourlinks", "version": 2, "nodes": [], "links": []})",
+                 "the file has version 2, this program reads up to 1"},
+        BadScene{"no_scene", R"({"type": "FeatureCollection"})", "this is not a scene"}),
     [](const auto& test_case) { return std::string(test_case.param.name); });
 
 TEST(BadInput, AllProblemsAreListedErrorsFirst) {
   const Workplace place;
-  place.write("s.json", with(volume_text("a", "[0, 0, 5]", "-1") + R"(, {"id": "b", "types": {"hologram": {}}}, {"id": "c", "nme": "x"})"));
+  place.write("s.json",
+              with(volume_text("a", "[0, 0, 5]", "-1") + R"(, {"id": "b", "types": {"hologram": {}}}, {"id": "c", "nme": "x"})"));
   const Outcome outcome = place.run({"check", "s.json", "--json", "p.json"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("nodes/a/types/smart_volume/demand"), std::string::npos) << outcome.err;
@@ -63,9 +68,10 @@ TEST(BadInput, AllProblemsAreListedErrorsFirst) {
 
 TEST(BadInput, BoundariesThatAreNone) {
   const Workplace place;
-  for (const auto& [boundary, said] : {std::pair<const char*, const char*>{R"({"points": [[0, 0, 0], [9, 0, 0], [0, 9, 0]]})", "at least 4"},
-                                       {R"({"form": "plan", "plan": [[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 9, 0]]})", "cross"},
-                                       {R"({"form": "plan", "plan": [[0, 0, 0], [9, 0, 0], [2, 2, 0], [0, 9, 0]]})", "convex"}}) {
+  for (const auto& [boundary, said] :
+       {std::pair<const char*, const char*>{R"({"points": [[0, 0, 0], [9, 0, 0], [0, 9, 0]]})", "at least 4"},
+        {R"({"form": "plan", "plan": [[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 9, 0]]})", "cross"},
+        {R"({"form": "plan", "plan": [[0, 0, 0], [9, 0, 0], [2, 2, 0], [0, 9, 0]]})", "convex"}}) {
     place.write("s.json", scene_text(volume_text("a", "[2, 2, 5]"), "", boundary));
     const Outcome check = place.run({"check", "s.json"});
     EXPECT_EQ(check.code, 2) << boundary;
@@ -79,7 +85,8 @@ TEST(BadInput, BoundariesThatAreNone) {
 
 TEST(BadInput, VolumesInTheWrongPlaceAreAccountedFor) {
   const Workplace place;
-  place.write("s.json", with(volume_text("first", "[0, 0, 5]") + "," + volume_text("second", "[0, 0, 5]") + "," + volume_text("stray", "[90, 0, 5]")));
+  place.write("s.json", with(volume_text("first", "[0, 0, 5]") + "," + volume_text("second", "[0, 0, 5]") + "," +
+                             volume_text("stray", "[90, 0, 5]")));
   const Outcome check = place.run({"check", "s.json"});
   EXPECT_EQ(check.code, 0) << "a scene may be run as it is";
   EXPECT_NE(check.err.find("is coincident"), std::string::npos) << check.err;

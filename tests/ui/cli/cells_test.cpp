@@ -10,7 +10,8 @@ namespace bl::test {
 
 namespace {
 
-constexpr const char* kCube = R"("boundary": {"planes": [[-2, 0, 0, 0], [1, 0, 0, 1], [0, -1, 0, 0], [0, 1, 0, 1], [0, 0, -1, 0], [0, 0, 1, 1]]})";
+constexpr const char* kCube =
+    R"("boundary": {"planes": [[-2, 0, 0, 0], [1, 0, 0, 1], [0, -1, 0, 0], [0, 1, 0, 1], [0, 0, -1, 0], [0, 0, 1, 1]]})";
 
 TEST(Cells, BallAndHalfCubes) {
   const Workplace place;
@@ -31,7 +32,9 @@ TEST(Cells, BallAndHalfCubes) {
 
 TEST(Cells, VerticesGiveThePlanesThatWereFound) {
   const Workplace place;
-  place.write("i.json", R"({"boundary": {"vertices": [[0,0,0],[2,0,0],[2,2,0],[0,2,0],[1,1,3]]}, "sites": [[0.3, 0.3, 0.3]], "weights": [100]})");
+  place.write(
+      "i.json",
+      R"({"boundary": {"vertices": [[0,0,0],[2,0,0],[2,2,0],[0,2,0],[1,1,3]]}, "sites": [[0.3, 0.3, 0.3]], "weights": [100]})");
   ASSERT_EQ(place.run({"cells", "i.json", "--json", "o.json"}).code, 0);
   EXPECT_EQ(place.json("o.json")["planes"].size(), 5u);
   EXPECT_NEAR(place.json("o.json")["cells"][0]["volume"].get<double>(), 4, 1e-14);
@@ -43,14 +46,17 @@ TEST(Cells, AgreesWithIndependentValues) {
   const Workplace place;
   ASSERT_EQ(place.run({"cells", oracle.string(), "--json", "o.json"}).code, 0);
   const nlohmann::json wanted = nlohmann::json::parse(read_text(oracle))["cases"], found = place.json("o.json")["cases"];
-  const auto expect_near = [](double a, double b, const std::string& what) { EXPECT_NEAR(a, b, 1e-11 * std::max(std::abs(a), 1e-6)) << what; };
+  const auto expect_near = [](double a, double b, const std::string& what) {
+    EXPECT_NEAR(a, b, 1e-11 * std::max(std::abs(a), 1e-6)) << what;
+  };
   for (std::size_t c = 0; c < wanted.size(); ++c)
     for (const auto& cell : wanted[c]["cells"]) {
       const auto& ours = found[c]["cells"][cell["site"].get<std::size_t>()];
       const std::string name = wanted[c]["name"];
       expect_near(std::stod(cell["volume"].get<std::string>()), ours["volume"], name);
       expect_near(std::stod(cell["spherical_area"].get<std::string>()), ours["spherical_area"], name);
-      for (const auto& [facet, area] : cell["facet_areas"].items()) expect_near(std::stod(area.get<std::string>()), ours["facet_areas"].value(facet, 0.0), name + " " + facet);
+      for (const auto& [facet, area] : cell["facet_areas"].items())
+        expect_near(std::stod(area.get<std::string>()), ours["facet_areas"].value(facet, 0.0), name + " " + facet);
     }
 }
 
@@ -58,7 +64,8 @@ TEST(Cells, BadInputHasAPlace) {
   const Workplace place;
   const std::string cube = std::string("{") + kCube;
   for (const auto& [text, said] :
-       {std::pair<std::string, const char*>{R"({"cases": [)" + cube + R"(, "sites": [[0, 0, 0]], "weights": [1]}, )" + cube + R"(, "sites": [[0, 0, 0], [0, "x", 0]], "weights": [1, 1]}]})",
+       {std::pair<std::string, const char*>{R"({"cases": [)" + cube + R"(, "sites": [[0, 0, 0]], "weights": [1]}, )" + cube +
+                                                R"(, "sites": [[0, 0, 0], [0, "x", 0]], "weights": [1, 1]}]})",
                                             "i.json: cases/1/sites/1/1: expects a finite number"},
         {cube + R"(, "sites": [[0, 0, null]], "weights": [1]})", "i.json: sites/0/2: "},
         {cube + R"(, "sites": [[0, 0, NaN]], "weights": [1]})", "i.json: line "},
@@ -78,12 +85,14 @@ TEST(Cells, BadInputHasAPlace) {
 
 TEST(Bench, RowsHoldWhatWasAsked) {
   const Workplace place;
-  const Outcome outcome = place.run({"bench", "--sites", "30", "50", "--threads", "1", "2", "--repeat", "1", "--ticks", "3", "--json", "b.json"});
+  const Outcome outcome =
+      place.run({"bench", "--sites", "30", "50", "--threads", "1", "2", "--repeat", "1", "--ticks", "3", "--json", "b.json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const nlohmann::json rows = place.json("b.json");
   ASSERT_EQ(rows.size(), 4u);
   for (const auto& row : rows)
-    for (const char* key : {"case", "sites", "threads", "seconds", "microseconds_per_cell", "yardstick_seconds", "voropp_seconds", "hash"})
+    for (const char* key :
+         {"case", "sites", "threads", "seconds", "microseconds_per_cell", "yardstick_seconds", "voropp_seconds", "hash"})
       EXPECT_TRUE(row.contains(key)) << key;
   EXPECT_EQ(rows[0]["hash"], rows[1]["hash"]) << "the threads must not change the result";
   EXPECT_EQ(rows[2]["sites"], 50);

@@ -26,7 +26,8 @@ class New : public testing::Test {
     place.write("brief.csv", kBrief);
   }
   Outcome make(std::vector<std::string> more = {}, const std::string& boundary = "site.geojson") {
-    std::vector<std::string> arguments{"new", "--boundary", boundary, "--height", "30", "--programme", "brief.csv", "--out", "scene.json"};
+    std::vector<std::string> arguments{"new",         "--boundary", boundary, "--height",  "30",
+                                       "--programme", "brief.csv",  "--out",  "scene.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return place.run(arguments);
   }
@@ -96,12 +97,15 @@ TEST_F(New, WarnsOfDemandsThatDoNotFit) {
   place.write("brief.csv", "use,floor_area_m2,storey_height_m\nhousing,40000,3\n");
   const Outcome outcome = make();
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_NE(outcome.err.find("warning: the demands do not fit into the boundary; they need a height of at least 40.0 m"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: the demands do not fit into the boundary; they need a height of at least 40.0 m"),
+            std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(New, RefusesHeightsThatAreNone) {
   for (const char* height : {"0", "-3", "nan", "inf", "1e300"}) {
-    const Outcome outcome = place.run({"new", "--boundary", "site.geojson", std::string("--height=") + height, "--programme", "brief.csv", "--out", "scene.json"});
+    const Outcome outcome = place.run({"new", "--boundary", "site.geojson", std::string("--height=") + height, "--programme",
+                                       "brief.csv", "--out", "scene.json"});
     EXPECT_EQ(outcome.code, 2) << height;
     EXPECT_NE(outcome.err.find("--height: must be a height in m"), std::string::npos) << outcome.err;
   }

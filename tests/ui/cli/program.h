@@ -1,12 +1,12 @@
 // Runs the built program as people do: arguments in, exit code and text out, in a folder of its own.
 #pragma once
 
+#include <sys/wait.h>
+#include <unistd.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -60,7 +60,8 @@ class Workplace {
 
   /// `before`: shell commands that go before the program, such as limits; `after` what follows it, such as `& sleep 1`.
   Outcome shell(const std::string& line) const {
-    const std::string full = "cd '" + folder_.string() + "' && export BEHAVIOURLINKS='" + program_path().string() + "' && { " + line + "\n} >.out 2>.err </dev/null";
+    const std::string full = "cd '" + folder_.string() + "' && export BEHAVIOURLINKS='" + program_path().string() + "' && { " +
+                             line + "\n} >.out 2>.err </dev/null";
     const int status = std::system(full.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text(".out"), text(".err")};
   }
@@ -81,18 +82,22 @@ class Workplace {
 /// A scene of a box of 40 by 40 by 20 m with a solver, and whatever nodes and links are added.
 inline std::string scene_text(const std::string& nodes, const std::string& links = "", const std::string& boundary = "{}") {
   return R"({"format": "behaviourlinks", "version": 1, "nodes": [
-    {"id": "site", "types": {"boundary": )" + boundary + R"(}}, {"id": "solver", "types": {"smart_volumes_solver": {}}})" +
-         (nodes.empty() ? "" : ",\n" + nodes) + "], \"links\": [" + links + "]}\n";
+    {"id": "site", "types": {"boundary": )" +
+         boundary + R"(}}, {"id": "solver", "types": {"smart_volumes_solver": {}}})" + (nodes.empty() ? "" : ",\n" + nodes) +
+         "], \"links\": [" + links + "]}\n";
 }
 
 inline std::string volume_text(const std::string& id, const std::string& position, const std::string& demand = "1000") {
-  return R"({"id": ")" + id + R"(", "position": )" + position + R"(, "types": {"smart_volume": {"use": "housing", "demand": )" + demand + "}}}";
+  return R"({"id": ")" + id + R"(", "position": )" + position + R"(, "types": {"smart_volume": {"use": "housing", "demand": )" +
+         demand + "}}}";
 }
 
 /// Two volumes that settle side by side, and a third that one of them keeps at a distance, so that something moves.
 inline std::string moving_scene() {
-  return scene_text(volume_text("east", "[8, 0, 8]") + "," + volume_text("west", "[-8, 0, 8]", "2000") + "," + volume_text("guest", "[9, 3, 8]", "500"),
-                    R"({"id": "apart", "kind": "keep_distance", "from": "east", "to": "guest", "parameters": {"minimum": 14, "maximum": 18}})");
+  return scene_text(
+      volume_text("east", "[8, 0, 8]") + "," + volume_text("west", "[-8, 0, 8]", "2000") + "," +
+          volume_text("guest", "[9, 3, 8]", "500"),
+      R"({"id": "apart", "kind": "keep_distance", "from": "east", "to": "guest", "parameters": {"minimum": 14, "maximum": 18}})");
 }
 
 }  // namespace bl::test

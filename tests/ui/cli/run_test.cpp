@@ -18,12 +18,15 @@ TEST(Run, SettlesAndSaysSo) {
   EXPECT_TRUE(line.starts_with("settled after " + std::to_string(result["ticks"].get<int>()) + " ticks, worst error ")) << line;
   EXPECT_TRUE(line.ends_with(" %, hash " + result["hash"].get<std::string>())) << line;
   EXPECT_EQ(outcome.out.find('\033'), std::string::npos);
-  for (const char* key : {"ticks", "settled", "hash", "volumes", "totals", "tensions", "problems"}) EXPECT_TRUE(result.contains(key)) << key;
+  for (const char* key : {"ticks", "settled", "hash", "volumes", "totals", "tensions", "problems"})
+    EXPECT_TRUE(result.contains(key)) << key;
   ASSERT_EQ(result["volumes"].size(), 3u);
-  for (const char* key : {"id", "name", "position", "weight", "demand", "volume", "cell_volume", "floor_area", "surface_area", "state", "reason"})
+  for (const char* key :
+       {"id", "name", "position", "weight", "demand", "volume", "cell_volume", "floor_area", "surface_area", "state", "reason"})
     EXPECT_TRUE(result["volumes"][0].contains(key)) << key;
   EXPECT_EQ(result["volumes"][0]["id"], "east");
-  for (const auto& volume : result["volumes"]) EXPECT_NEAR(volume["volume"].get<double>() / volume["demand"].get<double>(), 1, 0.01);
+  for (const auto& volume : result["volumes"])
+    EXPECT_NEAR(volume["volume"].get<double>() / volume["demand"].get<double>(), 1, 0.01);
 }
 
 TEST(Run, TicksEndWithCodeZeroHoweverFar) {
@@ -37,7 +40,8 @@ TEST(Run, TicksEndWithCodeZeroHoweverFar) {
 TEST(Run, ThreadsGiveTheSameHash) {
   const Workplace place;
   place.write("s.json", moving_scene());
-  EXPECT_EQ(place.run({"run", "s.json", "--ticks", "40", "--threads", "1"}).last_line(), place.run({"run", "s.json", "--ticks", "40", "--threads", "3"}).last_line());
+  EXPECT_EQ(place.run({"run", "s.json", "--ticks", "40", "--threads", "1"}).last_line(),
+            place.run({"run", "s.json", "--ticks", "40", "--threads", "3"}).last_line());
 }
 
 TEST(Run, SavedAndContinuedIsTheSameAsRunThrough) {
@@ -54,7 +58,8 @@ TEST(Run, SavedAndContinuedIsTheSameAsRunThrough) {
 TEST(Run, LogIsReplayed) {
   const Workplace place;
   place.write("s.json", moving_scene());
-  const Outcome run = place.run({"run", "s.json", "--ticks", "130", "--log", "run.log", "--set", "east/smart_volume.demand=1500 m3", "--set", "site/node.position=[1, 2, 3]"});
+  const Outcome run = place.run({"run", "s.json", "--ticks", "130", "--log", "run.log", "--set",
+                                 "east/smart_volume.demand=1500 m3", "--set", "site/node.position=[1, 2, 3]"});
   ASSERT_EQ(run.code, 0) << run.err;
   const Outcome replay = place.run({"replay", "run.log", "--threads", "2"});
   EXPECT_EQ(replay.code, 0) << replay.err;
@@ -77,14 +82,19 @@ TEST(Run, LogIsReplayed) {
 TEST(Run, SetTakesQuantitiesAndSaysWhatItCannotTake) {
   const Workplace place;
   place.write("s.json", moving_scene());
-  const auto set = [&](const std::string& argument) { return place.run({"run", "s.json", "--ticks", "3", "--json", "r.json", "--set", argument}); };
+  const auto set = [&](const std::string& argument) {
+    return place.run({"run", "s.json", "--ticks", "3", "--json", "r.json", "--set", argument});
+  };
   EXPECT_EQ(set("east/smart_volume.storey_height=400 cm").code, 0);
   EXPECT_EQ(place.json("r.json")["volumes"][0]["storey_height"], 4);
   EXPECT_EQ(set("east/smart_volume.use=Town hall").code, 0);
   EXPECT_EQ(place.json("r.json")["volumes"][0]["use"], "Town hall");
-  for (const auto& [argument, said] : {std::pair<const char*, const char*>{"east/smart_volume.demand=12 m2", "m³"}, {"east/smart_volume.demnd=5", "did you mean `demand`?"},
-                                       {"easd/smart_volume.demand=5", "did you mean `east`?"}, {"east.demand=5", "NODE/TYPIFICATION.PORT=VALUE"},
-                                       {"east/smart_volume.demand=-5", "between 0 and"}, {"east/smart_volume.volume=5", "computed"}}) {
+  for (const auto& [argument, said] : {std::pair<const char*, const char*>{"east/smart_volume.demand=12 m2", "m³"},
+                                       {"east/smart_volume.demnd=5", "did you mean `demand`?"},
+                                       {"easd/smart_volume.demand=5", "did you mean `east`?"},
+                                       {"east.demand=5", "NODE/TYPIFICATION.PORT=VALUE"},
+                                       {"east/smart_volume.demand=-5", "between 0 and"},
+                                       {"east/smart_volume.volume=5", "computed"}}) {
     const Outcome outcome = set(argument);
     EXPECT_EQ(outcome.code, 2) << argument;
     EXPECT_NE(outcome.err.find(said), std::string::npos) << argument << ": " << outcome.err;
@@ -93,7 +103,8 @@ TEST(Run, SetTakesQuantitiesAndSaysWhatItCannotTake) {
 
 TEST(Run, DemandsThatDoNotFitAreNamedEarly) {
   const Workplace place;
-  place.write("s.json", scene_text(volume_text("small", "[8, 0, 8]", "4000") + "," + volume_text("greedy", "[-8, 0, 8]", "60000")));
+  place.write("s.json",
+              scene_text(volume_text("small", "[8, 0, 8]", "4000") + "," + volume_text("greedy", "[-8, 0, 8]", "60000")));
   const Outcome outcome = place.run({"run", "s.json", "--json", "r.json"});
   EXPECT_EQ(outcome.code, 3);
   EXPECT_TRUE(outcome.last_line().starts_with("not settled: the demands cannot be met: ")) << outcome.last_line();
@@ -105,13 +116,16 @@ TEST(Run, ReportIsWritten) {
   const Workplace place;
   place.write("s.json", moving_scene());
   EXPECT_EQ(place.run({"run", "s.json", "--report", "out"}).code, 0);
-  for (const char* file : {"out/report.html", "out/volumes.csv", "out/volumes.obj"}) EXPECT_GT(place.text(file).size(), 100u) << file;
+  for (const char* file : {"out/report.html", "out/volumes.csv", "out/volumes.obj"})
+    EXPECT_GT(place.text(file).size(), 100u) << file;
 }
 
 TEST(Run, InterruptWritesWhatIsThere) {
   const Workplace place;
   place.write("s.json", moving_scene());
-  const Outcome outcome = place.shell("timeout --preserve-status -s INT 2 \"$BEHAVIOURLINKS\" run s.json --ticks 1000000000 --log run.log --json r.json --report out");
+  const Outcome outcome = place.shell(
+      "timeout --preserve-status -s INT 2 \"$BEHAVIOURLINKS\" run s.json --ticks 1000000000 --log run.log --json r.json --report "
+      "out");
   EXPECT_EQ(outcome.code, 130) << outcome.err;
   EXPECT_NE(place.text("run.log").find("\"end\""), std::string::npos);
   EXPECT_GT(place.json("r.json")["ticks"].get<int>(), 0);

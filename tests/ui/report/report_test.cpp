@@ -57,7 +57,8 @@ Files write_and_read(const std::string& name, const ReportData& data) {
   const auto written = write_report(folder, data);
   EXPECT_TRUE(written.ok()) << (written.ok() ? "" : written.error().text());
   Files files;
-  for (const auto& [file, text] : {std::pair{"report.html", &files.html}, {"volumes.csv", &files.csv}, {"volumes.obj", &files.obj}}) {
+  for (const auto& [file, text] :
+       {std::pair{"report.html", &files.html}, {"volumes.csv", &files.csv}, {"volumes.obj", &files.obj}}) {
     const auto read = read_file(folder + "/" + file);
     if (read) *text = *read;
     else ADD_FAILURE() << read.error().text();
@@ -65,7 +66,8 @@ Files write_and_read(const std::string& name, const ReportData& data) {
   return files;
 }
 
-// Tags match, attributes are quoted and not repeated, ampersands start references: what makes XML well formed, as far as a page needs it.
+// Tags match, attributes are quoted and not repeated, ampersands start references: what makes XML well formed, as far as a page
+// needs it.
 std::string fault_in(const std::string& xml) {
   std::vector<std::string> open;
   for (std::size_t i = xml.find('<'); i != std::string::npos; i = xml.find('<', i + 1)) {
@@ -75,7 +77,8 @@ std::string fault_in(const std::string& xml) {
     if (tag.find('<') != std::string::npos) return "a bare < near " + tag;
     if (tag.starts_with("!")) continue;
     if (tag.starts_with("/")) {
-      if (open.empty() || open.back() != tag.substr(1)) return "</" + tag.substr(1) + "> closes " + (open.empty() ? "nothing" : open.back());
+      if (open.empty() || open.back() != tag.substr(1))
+        return "</" + tag.substr(1) + "> closes " + (open.empty() ? "nothing" : open.back());
       open.pop_back();
       continue;
     }
@@ -83,7 +86,8 @@ std::string fault_in(const std::string& xml) {
     if (!tag.ends_with("/")) open.push_back(tag.substr(0, tag.find(' ')));
   }
   for (std::size_t i = xml.find('&'); i != std::string::npos; i = xml.find('&', i + 1))
-    if (const std::size_t end = xml.find(';', i); end == std::string::npos || end - i > 6) return "a bare & near " + xml.substr(i, 20);
+    if (const std::size_t end = xml.find(';', i); end == std::string::npos || end - i > 6)
+      return "a bare & near " + xml.substr(i, 20);
   return open.empty() ? "" : "never closed: " + open.back();
 }
 
@@ -145,7 +149,8 @@ TEST(Report, NeedsNothingFromOutside) {
   World world = World::from_text(kBlock);
   world.tick(5);
   const std::string html = write_and_read("alone", data_of(world.state())).html;
-  for (const char* word : {"<script", "<link", "src=", "@import", "href=\"h", "url(h"}) EXPECT_EQ(html.find(word), std::string::npos) << word;
+  for (const char* word : {"<script", "<link", "src=", "@import", "href=\"h", "url(h"})
+    EXPECT_EQ(html.find(word), std::string::npos) << word;
   // The only addresses are the names of the two languages.
   std::size_t addresses = 0;
   for (std::size_t i = html.find("http"); i != std::string::npos; i = html.find("http", i + 1)) {
@@ -234,8 +239,11 @@ TEST(Report, AnUnusableFolderIsASentence) {
 
 TEST(ReportParts, EscapeWhatXmlDoesNotTake) {
   EXPECT_EQ(report::escape_xml("<&\">'"), "&lt;&amp;&quot;&gt;&#39;");
-  EXPECT_EQ(report::escape_xml(std::string("a\x01") + "b\xFF" + "c\xC3\xA9"), "a\xEF\xBF\xBD" "b\xEF\xBF\xBD" "c\xC3\xA9");
-  EXPECT_EQ(report::escape_xml("\xED\xA0\x80").find('\xED'), std::string::npos);    // half a surrogate pair
+  EXPECT_EQ(report::escape_xml(std::string("a\x01") + "b\xFF" + "c\xC3\xA9"),
+            "a\xEF\xBF\xBD"
+            "b\xEF\xBF\xBD"
+            "c\xC3\xA9");
+  EXPECT_EQ(report::escape_xml("\xED\xA0\x80").find('\xED'), std::string::npos);  // half a surrogate pair
 }
 
 TEST(ReportParts, PathsAreRelativeTenthsThatDoNotDrift) {
@@ -248,10 +256,15 @@ TEST(ReportParts, PathsAreRelativeTenthsThatDoNotDrift) {
 
 TEST(ReportParts, NumbersReadEasily) {
   using namespace report;
-  EXPECT_EQ(grouped(1234567), "1\xE2\x80\xAF" "234\xE2\x80\xAF" "567");
+  EXPECT_EQ(grouped(1234567),
+            "1\xE2\x80\xAF"
+            "234\xE2\x80\xAF"
+            "567");
   EXPECT_EQ(grouped(1234), "1234");
   EXPECT_EQ(grouped(-0.001, 1), "0.0");
-  EXPECT_EQ(signed_percent(-0.5), "\xE2\x88\x92" "50.00\xC2\xA0%");
+  EXPECT_EQ(signed_percent(-0.5),
+            "\xE2\x88\x92"
+            "50.00\xC2\xA0%");
   EXPECT_EQ(signed_percent(1e-9), "0.00\xC2\xA0%");
   EXPECT_EQ(pixels(12.0), "12");
   EXPECT_EQ(round_length(73), 50);
@@ -280,7 +293,18 @@ TEST(ReportParts, TheAxonometryIsOrthonormalAndLooksDown) {
 
 TEST(ReportParts, SectionsOfABoxAreItsPlan) {
   const Mesh box{{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}},
-                 {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}}};
+                 {{0, 2, 1},
+                  {0, 3, 2},
+                  {4, 5, 6},
+                  {4, 6, 7},
+                  {0, 1, 5},
+                  {0, 5, 4},
+                  {1, 2, 6},
+                  {1, 6, 5},
+                  {2, 3, 7},
+                  {2, 7, 6},
+                  {3, 0, 4},
+                  {3, 4, 7}}};
   ASSERT_NEAR(enclosed_volume(box), 24, 1e-12);
   const auto all = [](std::size_t) { return true; };
   for (const double z : {1.0, 4.0}) {
@@ -329,12 +353,24 @@ TEST(ReportParts, ExactShapesHoldTheirMeshes) {
 
 TEST(ReportParts, BodiesThatAreNoBallsAreDrawnFromTheirMesh) {
   const Mesh box{{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}},
-                 {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}}};
+                 {{0, 2, 1},
+                  {0, 3, 2},
+                  {4, 5, 6},
+                  {4, 6, 7},
+                  {0, 1, 5},
+                  {0, 5, 4},
+                  {1, 2, 6},
+                  {1, 6, 5},
+                  {2, 3, 7},
+                  {2, 7, 6},
+                  {3, 0, 4},
+                  {3, 4, 7}}};
   const report::Sheet sheet(report::axonometric_view(150, 33), box.vertices, 400, 400, {10, 10, 10, 10});
   report::Markup svg;
   report::draw_solid(svg, sheet, box, {{0.5, 0.6, 0.7}, {0, 0, 1}, 1, 0, 4});
   EXPECT_EQ(fault_in(svg.str()), "");
-  // Two shades (roof, and walls that the sun does not reach), the storeys, creases and the outline: triangles of one face are one.
+  // Two shades (roof, and walls that the sun does not reach), the storeys, creases and the outline: triangles of one face are
+  // one.
   std::size_t paths = 0;
   for (std::size_t i = svg.str().find("<path"); i != std::string::npos; i = svg.str().find("<path", i + 1)) ++paths;
   EXPECT_EQ(paths, 5u);

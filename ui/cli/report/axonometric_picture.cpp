@@ -115,7 +115,8 @@ void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, con
     if (!volume.mesh) continue;
     std::vector<Pixel> cast;
     const bool is_exact = volume.exact.radius > 0;
-    for (const Point3& point : is_exact ? outline_of(volume.exact, scenery.to_sun) : volume.mesh->vertices) cast.push_back(sheet.at(shadow_of(point, scenery)));
+    for (const Point3& point : is_exact ? outline_of(volume.exact, scenery.to_sun) : volume.mesh->vertices)
+      cast.push_back(sheet.at(shadow_of(point, scenery)));
     shadows.polyline(simplified(convex_outline(std::move(cast)), true), true);
   }
   svg.path(shadows, {{"fill", hex(kShade)}, {"fill-opacity", ".16"}, {"fill-rule", "nonzero"}});
@@ -135,16 +136,23 @@ void draw_envelope(Markup& svg, const Sheet& sheet, const ReportModel& model, bo
         path.polyline({sheet.at(mesh.vertices[edge.a]), sheet.at(mesh.vertices[edge.b])}, false);
     }
   }
-  svg.path(path, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", near ? ".8" : ".6"}, {"stroke-opacity", near ? ".55" : ".4"},
+  svg.path(path, {{"fill", "none"},
+                  {"stroke", hex(kInk)},
+                  {"stroke-width", near ? ".8" : ".6"},
+                  {"stroke-opacity", near ? ".55" : ".4"},
                   {"stroke-dasharray", near ? "7 3 1.5 3" : "2 3"}});
 }
 
-void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const Palette& palette, const Scenery& scenery, bool has_storeys) {
+void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const Palette& palette, const Scenery& scenery,
+                 bool has_storeys) {
   svg.open("g");
   svg.element("title", std::to_string(volume.number) + ". " + volume.name + (volume.use.empty() ? "" : ", " + volume.use) + ": " +
-                           quantity(volume.floor_area, Unit::square_metre) + " floor area, " + quantity(volume.volume, Unit::cubic_metre));
-  const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.storey_height : 0, volume.bottom, volume.bottom + volume.height};
-  if (volume.exact.radius > 0) draw_ball(svg, sheet, volume.exact, style, "shade-" + palette.letter(volume.use), "ball-" + std::to_string(volume.number));
+                           quantity(volume.floor_area, Unit::square_metre) + " floor area, " +
+                           quantity(volume.volume, Unit::cubic_metre));
+  const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.storey_height : 0, volume.bottom,
+                         volume.bottom + volume.height};
+  if (volume.exact.radius > 0)
+    draw_ball(svg, sheet, volume.exact, style, "shade-" + palette.letter(volume.use), "ball-" + std::to_string(volume.number));
   else draw_solid(svg, sheet, *volume.mesh, style);
   svg.close();
 }
@@ -177,7 +185,8 @@ class Anchors {
     const bool has_roof = roof_area > 0.25 * seen_area;
     anchor = has_roof ? Pixel{roof.x / roof_area, roof.y / roof_area} : Pixel{seen.x / seen_area, seen.y / seen_area};
     if (is_inside(outlines_[rank], anchor) && !is_hidden(rank, anchor)) return true;
-    anchor = std::max_element(visible.begin(), visible.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    anchor =
+        std::max_element(visible.begin(), visible.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
     return true;
   }
 
@@ -205,7 +214,10 @@ std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<cons
   std::size_t hidden = 0;
   for (std::size_t rank = 0; rank < order.size(); ++rank) {
     const VolumeRow& volume = *order[rank];
-    Label label{{}, volume.name, palette.letter(volume.use) + " \xC2\xB7 " + quantity(volume.floor_area, Unit::square_metre), std::to_string(volume.number)};
+    Label label{{},
+                volume.name,
+                palette.letter(volume.use) + " \xC2\xB7 " + quantity(volume.floor_area, Unit::square_metre),
+                std::to_string(volume.number)};
     if (anchors.find(rank, label.anchor)) found.emplace_back(&volume, std::move(label));
     else ++hidden;
   }
@@ -233,11 +245,13 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   const std::vector<const VolumeRow*> order = back_to_front(model, view);
   Markup svg;
   open_picture(svg, sheet.width(), sheet.height(), "axonometry", "Axonometry",
-               "The proposal seen from above and aside: " + counted(order.size(), "volume") + " on the site, coloured and lettered by use.");
+               "The proposal seen from above and aside: " + counted(order.size(), "volume") +
+                   " on the site, coloured and lettered by use.");
   const double grid = draw_ground(svg, sheet, model);
   draw_shadows(svg, sheet, model, scenery);
   draw_envelope(svg, sheet, model, false);
-  for (const UseRow& use : model.uses) define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, "shade-" + palette.letter(use.use));
+  for (const UseRow& use : model.uses)
+    define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, "shade-" + palette.letter(use.use));
   const bool has_storeys = order.size() <= kMostStoreys;
   for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys);
   draw_envelope(svg, sheet, model, true);
@@ -245,7 +259,9 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   draw_scale_bar(svg, sheet.scale(), {24, sheet.height() - 18}, 170);
   draw_north(svg, view, model.true_north, {sheet.width() - 44, 40}, 26);
   svg.close();
-  std::string caption = "Axonometry: parallel projection, so equal lengths in one direction are equal everywhere; the bar holds for lines across the sheet.";
+  std::string caption =
+      "Axonometry: parallel projection, so equal lengths in one direction are equal everywhere; the bar holds for lines across "
+      "the sheet.";
   if (grid > 0) caption += " Ground grid " + shortest(grid) + " m; dash-dotted, the boundary.";
   if (has_storeys && !order.empty()) caption += " Fine lines on the volumes are storey levels.";
   caption += " Light and shadow are a drawing convention, not a sun study.";

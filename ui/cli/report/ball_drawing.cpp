@@ -14,7 +14,8 @@ std::vector<Pixel> pixels_of(const Sheet& sheet, const Corners& corners, bool is
   return on_sheet(sheet, Polyline{corners, is_closed});
 }
 
-// The brightest place of a ball as the eye sees it, in radii from its middle; light is linear in the normal, up to its shaded side.
+// The brightest place of a ball as the eye sees it, in radii from its middle; light is linear in the normal, up to its shaded
+// side.
 Pixel glint(const View& view, const Vector3& to_sun) {
   const Vector3 axis = brightest_normal(to_sun);
   return {0.92 * dot(axis, view.right), -0.92 * dot(axis, view.up)};
@@ -74,7 +75,8 @@ std::string define_ball(Markup& svg, const View& view, const SolidStyle& style, 
   return id;
 }
 
-void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const SolidStyle& style, const std::string& stops, const std::string& id) {
+void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const SolidStyle& style, const std::string& stops,
+               const std::string& id) {
   const std::string ink = hex(mix(style.colour, kInk, 0.62));
   const Pixel centre = sheet.at(shape.centre), focus = glint(sheet.view(), style.to_sun);
   const double radius = shape.radius * sheet.scale();
@@ -82,15 +84,24 @@ void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const S
   for (const Point3& p : outline_of(shape, sheet.view().toward)) places.push_back(sheet.at(p));
   PathText outline;
   outline.polyline(simplified(convex_outline(std::move(places)), true), true);
-  svg.leaf("radialGradient", {{"id", id}, {"href", "#" + stops}, {"gradientUnits", "userSpaceOnUse"}, {"cx", pixels(centre.x)}, {"cy", pixels(centre.y)},
-                              {"r", pixels(radius)}, {"fx", pixels(centre.x + focus.x * radius)}, {"fy", pixels(centre.y + focus.y * radius)}});
+  svg.leaf("radialGradient", {{"id", id},
+                              {"href", "#" + stops},
+                              {"gradientUnits", "userSpaceOnUse"},
+                              {"cx", pixels(centre.x)},
+                              {"cy", pixels(centre.y)},
+                              {"r", pixels(radius)},
+                              {"fx", pixels(centre.x + focus.x * radius)},
+                              {"fy", pixels(centre.y + focus.y * radius)}});
   Markup details;
   for (std::size_t k = 0; k < shape.cuts.size(); ++k) {
     if (dot(shape.cuts[k].normal, sheet.view().toward) <= 1e-9) continue;
     PathText face;
     face.polyline(pixels_of(sheet, face_of(shape, k)), true);
-    details.path(face, {{"fill", shaded(style.colour, light_on(shape.cuts[k].normal, style.to_sun))}, {"stroke", ink}, {"stroke-width", ".6"},
-                    {"stroke-opacity", ".7"}, {"stroke-linejoin", "round"}});
+    details.path(face, {{"fill", shaded(style.colour, light_on(shape.cuts[k].normal, style.to_sun))},
+                        {"stroke", ink},
+                        {"stroke-width", ".6"},
+                        {"stroke-opacity", ".7"},
+                        {"stroke-linejoin", "round"}});
   }
   draw_storeys(details, sheet, shape, style, ink);
   if (details.str().empty()) {

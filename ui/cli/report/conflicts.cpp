@@ -41,7 +41,8 @@ std::string pull_text(const State& state, const LinkPlan& link, const Voice& voi
   if (move == nullptr) return who + "pulls by " + quantity(as_number(voice.value), port.unit) + loudness;
   if (norm(*move) < 1e-3 * voice.magnitude || norm(*move) == 0)
     return who + "pulls both ways, " + quantity(voice.magnitude, port.unit) + " in all" + loudness;
-  return who + "pulls " + quantity(norm(*move), port.unit) + " " + direction_of(*move, state.plan->settings.true_north) + loudness;
+  return who + "pulls " + quantity(norm(*move), port.unit) + " " + direction_of(*move, state.plan->settings.true_north) +
+         loudness;
 }
 
 double size_of(const State& state, PortRef ref) {
@@ -54,7 +55,8 @@ double size_of(const State& state, PortRef ref) {
 ConflictRow row_of(const State& state, PortRef ref, double tension) {
   const PortDefinition& port = state.plan->port(ref);
   const TypePlan& type = state.plan->nodes[ref.node].types[ref.type];
-  ConflictRow row{name_at(state, ref.node), state.plan->path_text(ref), quantity(tension, port.unit), {}, tension / size_of(state, ref)};
+  ConflictRow row{
+      name_at(state, ref.node), state.plan->path_text(ref), quantity(tension, port.unit), {}, tension / size_of(state, ref)};
   for (std::size_t l = 0; l < state.links.size(); ++l) {
     const LinkPlan& link = state.plan->links[l];
     if (!link.is_enabled || link.is_muted) continue;
@@ -64,7 +66,8 @@ ConflictRow row_of(const State& state, PortRef ref, double tension) {
     }
   }
   if (type.is_locked[ref.port]) row.pulls.push_back("locked by hand");
-  else if (type.is_set[ref.port] && port.rule == CombineRule::blend && !std::holds_alternative<Vector3>(type.set_values[ref.port]))
+  else if (type.is_set[ref.port] && port.rule == CombineRule::blend &&
+           !std::holds_alternative<Vector3>(type.set_values[ref.port]))
     row.pulls.push_back("set by hand to " + quantity(as_number(type.set_values[ref.port]), port.unit));
   return row;
 }
@@ -89,7 +92,9 @@ void read_conflicts(const State& state, ReportModel& model) {
 
 void read_problems(const State& state, ReportModel& model) {
   const Plan& plan = *state.plan;
-  const auto add = [&](std::string place, std::string message) { model.problems.push_back({std::move(place), std::move(message)}); };
+  const auto add = [&](std::string place, std::string message) {
+    model.problems.push_back({std::move(place), std::move(message)});
+  };
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
     for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t)
       if (const auto& error = state.nodes[n].types[t].error)

@@ -49,7 +49,8 @@ Corners circle(const Point3& centre, const Vector3& normal, double radius) {
 Corners disc_inside(const ExactShape& shape, const Cut& plane, std::size_t except) {
   const double away = plane.offset - dot(plane.normal, shape.centre);
   if (!(std::abs(away) < shape.radius)) return {};
-  Corners polygon = circle(shape.centre + plane.normal * away, plane.normal, std::sqrt(shape.radius * shape.radius - away * away));
+  Corners polygon =
+      circle(shape.centre + plane.normal * away, plane.normal, std::sqrt(shape.radius * shape.radius - away * away));
   for (std::size_t k = 0; k < shape.cuts.size() && !polygon.empty(); ++k)
     if (k != except) polygon = clipped(polygon, shape.cuts[k]);
   return polygon.size() > 2 ? polygon : Corners{};
@@ -84,21 +85,25 @@ double plan_area(Corners points) {
       while (chain.size() > 1 && side * cross(chain.back() - chain[chain.size() - 2], p - chain.back()).z <= 0) chain.pop_back();
       chain.push_back(p);
     }
-    for (std::size_t i = 1; i < chain.size(); ++i) area -= side * 0.5 * (chain[i].y + chain[i - 1].y) * (chain[i].x - chain[i - 1].x);
+    for (std::size_t i = 1; i < chain.size(); ++i)
+      area -= side * 0.5 * (chain[i].y + chain[i - 1].y) * (chain[i].x - chain[i - 1].x);
   }
   return area;
 }
 
 bool agrees(const State& state, std::uint32_t node, const ExactShape& shape) {
-  const double footprint = number_at(state, node, "smart_volume", "footprint"), height = number_at(state, node, "smart_volume", "height");
+  const double footprint = number_at(state, node, "smart_volume", "footprint"),
+               height = number_at(state, node, "smart_volume", "height");
   const Corners seen_from_above = outline_of(shape, {0, 0, 1});
   Corners aside = outline_of(shape, {1, 0, 0});
   if (seen_from_above.empty() || aside.empty() || !(footprint > 0)) return false;
   // The highest and lowest points of the ball may be no corner of the sample.
-  const auto [low, high] = std::minmax_element(aside.begin(), aside.end(), [](const Point3& a, const Point3& b) { return a.z < b.z; });
+  const auto [low, high] =
+      std::minmax_element(aside.begin(), aside.end(), [](const Point3& a, const Point3& b) { return a.z < b.z; });
   Corners flat = seen_from_above;
   for (Point3& p : flat) p = {p.x - shape.centre.x, p.y - shape.centre.y, 0};
-  return std::abs(plan_area(flat) - footprint) < kAgreement * footprint && std::abs(high->z - low->z - height) < kAgreement * height;
+  return std::abs(plan_area(flat) - footprint) < kAgreement * footprint &&
+         std::abs(high->z - low->z - height) < kAgreement * height;
 }
 
 }  // namespace
@@ -119,7 +124,8 @@ Vector3 normal_at(const ExactShape& shape, const Point3& point) {
 Corners outline_of(const ExactShape& shape, const Vector3& toward) {
   Corners points;
   for (const Point3& p : circle(shape.centre, toward, shape.radius))
-    if (std::all_of(shape.cuts.begin(), shape.cuts.end(), [&](const Cut& cut) { return is_kept(cut, p, 1e-9 * shape.radius); })) points.push_back(p);
+    if (std::all_of(shape.cuts.begin(), shape.cuts.end(), [&](const Cut& cut) { return is_kept(cut, p, 1e-9 * shape.radius); }))
+      points.push_back(p);
   for (std::size_t k = 0; k < shape.cuts.size(); ++k) {
     const Corners face = face_of(shape, k);
     points.insert(points.end(), face.begin(), face.end());

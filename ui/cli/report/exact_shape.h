@@ -32,8 +32,9 @@ Vector3 normal_at(const ExactShape& shape, const Point3& point);
 /// Points whose convex hull, seen along `toward`, is the outline of the shape.
 Corners outline_of(const ExactShape& shape, const Vector3& toward);
 
-/// The shape of a SmartVolume node from its place, weight, neighbours and the planes of the solver's boundary. Empty (radius 0) where
-/// these do not give the footprint and height that the solver reports: then another geometry is at work, and its mesh counts.
+/// The shape of a SmartVolume node from its place, weight, neighbours and the planes of the solver's boundary. Empty (radius 0)
+/// where these do not give the footprint and height that the solver reports: then another geometry is at work, and its mesh
+/// counts.
 ExactShape exact_shape(const State& state, std::uint32_t node);
 
 }  // namespace bl::report

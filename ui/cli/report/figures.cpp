@@ -40,7 +40,12 @@ std::string quantity(double value, Unit unit) {
 
 std::string percent(double share) {
   const double size = std::abs(share * 100);
-  return grouped(share * 100, size >= 10 ? 1 : size >= 0.1 || size == 0 ? 2 : size >= 0.01 ? 3 : size >= 0.0001 ? 5 : 7) + "\xC2\xA0%";
+  return grouped(share * 100, size >= 10                 ? 1
+                              : size >= 0.1 || size == 0 ? 2
+                              : size >= 0.01             ? 3
+                              : size >= 0.0001           ? 5
+                                                         : 7) +
+         "\xC2\xA0%";
 }
 
 std::string signed_percent(double share) {

@@ -43,7 +43,8 @@ bool LabelPlacer::place_long(Markup& svg, const Label& label) {
     const Box box{centre.x - wide / 2, centre.y - tall / 2, centre.x + wide / 2, centre.y + tall / 2};
     if (!take(box)) return false;
     if (has_leader) {
-      const Pixel end = toward({std::clamp(label.anchor.x, box.left, box.right), std::clamp(label.anchor.y, box.top, box.bottom)}, label.anchor, 1);
+      const Pixel end = toward({std::clamp(label.anchor.x, box.left, box.right), std::clamp(label.anchor.y, box.top, box.bottom)},
+                               label.anchor, 1);
       PathText leader;
       leader.polyline({end, label.anchor}, false);
       svg.path(leader, {{"class", "leader"}});
@@ -118,8 +119,13 @@ void draw_scale_bar(Markup& svg, double pixels_per_metre, Pixel at, double most_
   svg.open("g", {{"role", "img"}}).element("title", "Scale bar of " + shortest(metres) + " m");
   for (int part = 0; part < 4; ++part) {
     const bool is_dark = part % 2 == 0;
-    svg.leaf("rect", {{"x", pixels(at.x + width * part / 4)}, {"y", pixels(at.y)}, {"width", pixels(width / 4)}, {"height", "4"},
-                      {"fill", hex(is_dark ? kInk : kPaper)}, {"stroke", hex(kInk)}, {"stroke-width", ".7"}});
+    svg.leaf("rect", {{"x", pixels(at.x + width * part / 4)},
+                      {"y", pixels(at.y)},
+                      {"width", pixels(width / 4)},
+                      {"height", "4"},
+                      {"fill", hex(is_dark ? kInk : kPaper)},
+                      {"stroke", hex(kInk)},
+                      {"stroke-width", ".7"}});
   }
   for (const double share : {0.0, 0.5, 1.0}) {
     const std::string figure = shortest(metres * share) + (share == 1 ? "\xC2\xA0m" : "");

@@ -12,8 +12,10 @@ namespace {
 // A link over more pairs than this would be a thicket; it is named in the caption instead.
 constexpr std::size_t kMostPairs = 16;
 
-constexpr std::array kFamilies = {LinkFamily{"adjacency, attraction", "#117733", ""}, LinkFamily{"separation, repulsion", "#aa3311", "5 3"},
-                                  LinkFamily{"distance", "#225599", "1.5 2.5"}, LinkFamily{"alignment, stacking", "#882288", "9 3"},
+constexpr std::array kFamilies = {LinkFamily{"adjacency, attraction", "#117733", ""},
+                                  LinkFamily{"separation, repulsion", "#aa3311", "5 3"},
+                                  LinkFamily{"distance", "#225599", "1.5 2.5"},
+                                  LinkFamily{"alignment, stacking", "#882288", "9 3"},
                                   LinkFamily{"numbers: ratios, caps, mapped values", "#666a73", "8 3 1.5 3"},
                                   LinkFamily{"other kinds", "#8a5a00", "3 2 1 2"}};
 

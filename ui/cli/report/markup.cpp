@@ -25,7 +25,8 @@ std::size_t character_length(std::string_view text, std::size_t at) {
     code = (code << 6) | (byte(at + i) & 0x3Fu);
   }
   const unsigned least = length == 2 ? 0x80u : length == 3 ? 0x800u : 0x10000u;
-  const bool is_allowed = code >= least && code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF) && code != 0xFFFE && code != 0xFFFF;
+  const bool is_allowed =
+      code >= least && code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF) && code != 0xFFFE && code != 0xFFFF;
   return is_allowed ? length : 0;
 }
 

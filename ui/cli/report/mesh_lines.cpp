@@ -122,7 +122,8 @@ std::vector<Polyline> section(const Mesh& mesh, double z, const TriangleFilter& 
 std::vector<Polyline> outline(const Mesh& mesh, const TriangleFilter& counts) {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> border;
   for (const MeshEdge& edge : mesh_edges(mesh))
-    if (counts(edge.first) != counts(edge.second) || (edge.first == edge.second && counts(edge.first))) border.emplace_back(edge.a, edge.b);
+    if (counts(edge.first) != counts(edge.second) || (edge.first == edge.second && counts(edge.first)))
+      border.emplace_back(edge.a, edge.b);
   std::vector<Polyline> lines;
   for (const Chain& chain : chain_edges(border)) {
     Polyline line{{}, chain.is_closed};

@@ -25,15 +25,19 @@ void write_keys(Markup& page, const ReportModel& model) {
   const double index = has_site ? model.floor_area / model.plan_area : 0;
   const auto share = [](double part, double whole) { return whole > 0 ? percent(part / whole) : std::string("\xE2\x80\x93"); };
   page.open("dl", {{"class", "keys"}});
-  key(page, "Plan area", has_site ? quantity(model.plan_area, Unit::square_metre) : "\xE2\x80\x93", has_site ? "inside the boundary" : "no boundary");
+  key(page, "Plan area", has_site ? quantity(model.plan_area, Unit::square_metre) : "\xE2\x80\x93",
+      has_site ? "inside the boundary" : "no boundary");
   key(page, "Floor area wanted", quantity(model.wanted_floor_area, Unit::square_metre), "by the programme");
-  key(page, "Floor area reached", quantity(model.floor_area, Unit::square_metre), share(model.floor_area, model.wanted_floor_area) + " of what is wanted");
+  key(page, "Floor area reached", quantity(model.floor_area, Unit::square_metre),
+      share(model.floor_area, model.wanted_floor_area) + " of what is wanted");
   key(page, "Floor space index", has_site ? grouped(index, 2) : "\xE2\x80\x93", "floor area to plan area");
   key(page, "Volume", quantity(model.volume, Unit::cubic_metre), share(model.volume, model.demand) + " of what is asked for");
   key(page, "Fill", share(model.volume, model.site_volume), "of the space inside the boundary");
   key(page, "Volumes", grouped(static_cast<double>(model.volumes.size())),
-      model.shapes == model.volumes.size() ? "all have a shape" : std::to_string(model.volumes.size() - model.shapes) + " without a shape");
-  key(page, "Worst error", model.worst ? percent(std::abs(model.worst->error())) : "\xE2\x80\x93", model.worst ? model.worst->name : "no volumes");
+      model.shapes == model.volumes.size() ? "all have a shape"
+                                           : std::to_string(model.volumes.size() - model.shapes) + " without a shape");
+  key(page, "Worst error", model.worst ? percent(std::abs(model.worst->error())) : "\xE2\x80\x93",
+      model.worst ? model.worst->name : "no volumes");
   page.close();
 }
 
@@ -41,7 +45,8 @@ void write_header(Markup& page, const ReportModel& model, const ReportData& data
   page.open("header").element("h1", title_of(model, data));
   if (!model.about.empty()) page.element("p", model.about, {{"class", "about"}});
   page.open("div", {{"class", "outcome"}});
-  page.element("span", model.is_settled ? "\xE2\x9C\x93 Settled" : "\xE2\x9C\x97 Not settled", {{"class", model.is_settled ? "badge good" : "badge bad"}});
+  page.element("span", model.is_settled ? "\xE2\x9C\x93 Settled" : "\xE2\x9C\x97 Not settled",
+               {{"class", model.is_settled ? "badge good" : "badge bad"}});
   page.element("span", data.outcome).close();
   write_keys(page, model);
   page.close();
@@ -72,12 +77,20 @@ void write_notes(Markup& page, const ReportModel& model, const Palette& palette)
   }
   page.close();
   const auto note = [&](const std::string& text) { page.element("p", text); };
-  note("Volume is that of the shape: the part of a volume's cell, its share of the space inside the boundary, that lies within reach of its position. "
-       "Demand is what the volume aims at: what the programme and people ask for, inside the limits set. Error is the difference as a share of the demand.");
-  note("Floor area is the sum of horizontal sections through the middle of each storey, gross, without deductions for walls, shafts or stairs. It follows the "
-       "shape, so it differs a little from volume divided by storey height. Floor space index is floor area divided by the plan area of the boundary.");
-  note("Footprint is what a volume covers seen from above, whether it stands on the ground or not; volumes above each other both count theirs. Surface is the "
-       "whole outer surface with the parts shared with neighbours. Height is measured from the lowest to the highest point.");
+  note(
+      "Volume is that of the shape: the part of a volume's cell, its share of the space inside the boundary, that lies within "
+      "reach of its position. "
+      "Demand is what the volume aims at: what the programme and people ask for, inside the limits set. Error is the difference "
+      "as a share of the demand.");
+  note(
+      "Floor area is the sum of horizontal sections through the middle of each storey, gross, without deductions for walls, "
+      "shafts or stairs. It follows the "
+      "shape, so it differs a little from volume divided by storey height. Floor space index is floor area divided by the plan "
+      "area of the boundary.");
+  note(
+      "Footprint is what a volume covers seen from above, whether it stands on the ground or not; volumes above each other both "
+      "count theirs. Surface is the "
+      "whole outer surface with the parts shared with neighbours. Height is measured from the lowest to the highest point.");
   note("States: met, short and over compare with the tolerance of " + percent(model.tolerance) +
        "; hidden, outside, coincident and starved volumes have no shape, and the reason says why.");
   note("The shapes are massing studies: room for a building, not a building. All lengths are in metres.");
@@ -99,7 +112,8 @@ std::string write_page(const ReportModel& model, const ReportData& data, const P
   Markup page;
   page.raw("<!DOCTYPE html>\n");
   page.open("html", {{"xmlns", "http://www.w3.org/1999/xhtml"}, {"lang", "en"}}).open("head");
-  page.leaf("meta", {{"charset", "utf-8"}}).leaf("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  page.leaf("meta", {{"charset", "utf-8"}})
+      .leaf("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   page.element("title", title_of(model, data) + ": report");
   page.open("style").raw(page_style()).close().close();
   page.open("body");

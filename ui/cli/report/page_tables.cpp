@@ -39,7 +39,9 @@ void met_cell(Markup& page, double volume, double wanted) {
   page.text(percent(share)).close();
 }
 
-std::string difference(double reached, double wanted) { return wanted > 0 ? signed_percent((reached - wanted) / wanted) : "\xE2\x80\x93"; }
+std::string difference(double reached, double wanted) {
+  return wanted > 0 ? signed_percent((reached - wanted) / wanted) : "\xE2\x80\x93";
+}
 
 // Caps and other limits lower demands before the solver sees them.
 std::string held_back(const ReportModel& model) {
@@ -91,8 +93,10 @@ void write_programme(Markup& page, const ReportModel& model, const Palette& pale
     return;
   }
   const bool has_own = std::any_of(model.uses.begin(), model.uses.end(), [](const UseRow& use) { return !use.is_in_programme; });
-  open_table(page, "Programme", "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(model) +
-                                    std::string(has_own ? " Uses with * stand in no programme; their area follows from the demands of their volumes." : ""));
+  open_table(page, "Programme",
+             "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(model) +
+                 std::string(has_own ? " Uses with * stand in no programme; their area follows from the demands of their volumes."
+                                     : ""));
   page.open("thead").open("tr");
   head(page, "Use", "", false);
   head(page, "Wanted", "m\xC2\xB2");
@@ -128,7 +132,8 @@ void write_volumes(Markup& page, const ReportModel& model, const Palette& palett
     page.element("p", "The scene has no volumes.");
     return;
   }
-  open_table(page, "Volumes", "Every volume, numbered as in the drawings. Met: within " + percent(model.tolerance) + " of its demand.");
+  open_table(page, "Volumes",
+             "Every volume, numbered as in the drawings. Met: within " + percent(model.tolerance) + " of its demand.");
   page.open("thead").open("tr");
   head(page, "No.");
   head(page, "Name", "", false);
@@ -161,14 +166,18 @@ void write_volumes(Markup& page, const ReportModel& model, const Palette& palett
 
 void write_conflicts(Markup& page, const ReportModel& model) {
   page.element("h2", "Conflicts", {{"id", "conflicts"}});
-  const std::string minor = model.minor_conflicts == 0 ? "" : counted(model.minor_conflicts, "port") + " under a tension too small to matter.";
+  const std::string minor =
+      model.minor_conflicts == 0 ? "" : counted(model.minor_conflicts, "port") + " under a tension too small to matter.";
   if (model.conflicts.empty()) {
     page.element("p", "No links pull against each other. " + minor);
     return;
   }
   const std::size_t shown = std::min(kMostConflicts, model.conflicts.size());
-  std::string caption = "Tension is how far proposals disagree with what came of them; the hardest conflicts, measured against the size of what is pulled at, come first.";
-  if (shown < model.conflicts.size()) caption += " The first " + std::to_string(shown) + " of " + std::to_string(model.conflicts.size()) + ".";
+  std::string caption =
+      "Tension is how far proposals disagree with what came of them; the hardest conflicts, measured against the size of what is "
+      "pulled at, come first.";
+  if (shown < model.conflicts.size())
+    caption += " The first " + std::to_string(shown) + " of " + std::to_string(model.conflicts.size()) + ".";
   if (!minor.empty()) caption += " Besides, " + minor;
   open_table(page, "Conflicts", caption);
   page.open("thead").open("tr");

@@ -18,7 +18,8 @@ constexpr std::string_view kStyle =
 
 }  // namespace
 
-void open_picture(Markup& svg, double width, double height, const std::string& id, const std::string& title, const std::string& description) {
+void open_picture(Markup& svg, double width, double height, const std::string& id, const std::string& title,
+                  const std::string& description) {
   svg.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                    {"viewBox", "0 0 " + pixels(width) + " " + pixels(height)},
                    {"role", "img"},

@@ -24,7 +24,8 @@ Picture draw_plan(const State& state, const ReportModel& model, const Palette& p
 Picture draw_error_chart(const ReportModel& model, const std::vector<ErrorSample>& history);
 
 /// Opens the element that all drawings have in common, with its title for those who cannot see it.
-void open_picture(Markup& svg, double width, double height, const std::string& id, const std::string& title, const std::string& description);
+void open_picture(Markup& svg, double width, double height, const std::string& id, const std::string& title,
+                  const std::string& description);
 /// A drawing that says why there is nothing on it.
 std::string empty_picture(const std::string& id, const std::string& title, const std::string& sentence);
 /// Volumes by size, the largest first: the order in which labels get their places.

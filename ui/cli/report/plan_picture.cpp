@@ -87,7 +87,8 @@ PathText cut_of(const Sheet& sheet, const VolumeRow& volume, double z) {
     path.polyline(on_sheet(sheet, {section_of(volume.exact, z), true}), true);
     return path;
   }
-  for (const Polyline& line : section(*volume.mesh, z, [](std::size_t) { return true; })) path.polyline(on_sheet(sheet, line), line.is_closed);
+  for (const Polyline& line : section(*volume.mesh, z, [](std::size_t) { return true; }))
+    path.polyline(on_sheet(sheet, line), line.is_closed);
   return path;
 }
 
@@ -106,9 +107,11 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
     const Colour colour = palette.colour(volume->use);
     PathText outline_path;
     outline_path.polyline(simplified(convex_outline(sheet, *volume), true), true);
-    svg.open("g").element("title", std::to_string(volume->number) + ". " + volume->name + ": " + quantity(volume->bottom, Unit::metre) + " to " +
+    svg.open("g").element("title", std::to_string(volume->number) + ". " + volume->name + ": " +
+                                       quantity(volume->bottom, Unit::metre) + " to " +
                                        quantity(volume->bottom + volume->height, Unit::metre) + " above the origin");
-    svg.path(outline_path, {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
+    svg.path(outline_path,
+             {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
     svg.close();
   }
   for (const VolumeRow* volume : order) {
@@ -119,13 +122,19 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
 
 void draw_links(Markup& svg, const State& state, const Sheet& sheet, const DrawnLinks& links) {
   for (const DrawnLink& link : links.lines) {
-    const Pixel a = sheet.at(point_at(state, link.from, "node", "position")), b = sheet.at(point_at(state, link.to, "node", "position"));
+    const Pixel a = sheet.at(point_at(state, link.from, "node", "position")),
+                b = sheet.at(point_at(state, link.to, "node", "position"));
     // Bent to one side, so that links of two families between the same nodes stay apart.
     const double bend = 0.07 + 0.05 * static_cast<double>(link.family->label.size() % 3);
     const Pixel middle{(a.x + b.x) / 2 - (b.y - a.y) * bend, (a.y + b.y) / 2 + (b.x - a.x) * bend};
-    const std::string d = "M" + pixels(a.x) + " " + pixels(a.y) + "Q" + pixels(middle.x) + " " + pixels(middle.y) + " " + pixels(b.x) + " " + pixels(b.y);
-    svg.open("path", {{"d", d}, {"fill", "none"}, {"stroke", std::string(link.family->colour)}, {"stroke-width", "1.5"},
-                      {"stroke-dasharray", std::string(link.family->dashes)}, {"stroke-linecap", "butt"}});
+    const std::string d = "M" + pixels(a.x) + " " + pixels(a.y) + "Q" + pixels(middle.x) + " " + pixels(middle.y) + " " +
+                          pixels(b.x) + " " + pixels(b.y);
+    svg.open("path", {{"d", d},
+                      {"fill", "none"},
+                      {"stroke", std::string(link.family->colour)},
+                      {"stroke-width", "1.5"},
+                      {"stroke-dasharray", std::string(link.family->dashes)},
+                      {"stroke-linecap", "butt"}});
     svg.element("title", link.title).close();
   }
 }
@@ -139,8 +148,12 @@ void draw_positions(Markup& svg, const State& state, const Sheet& sheet, const R
     const auto row = std::find_if(model.volumes.begin(), model.volumes.end(), [&](const VolumeRow& v) { return v.node == node; });
     const bool has_shape = row != model.volumes.end() && row->mesh != nullptr;
     // Hollow: nothing stands there.
-    svg.leaf("circle", {{"cx", pixels(at.x)}, {"cy", pixels(at.y)}, {"r", has_shape ? "2.2" : "3.4"}, {"fill", hex(has_shape ? kInk : kPaper)},
-                        {"stroke", hex(has_shape ? kPaper : kInk)}, {"stroke-width", has_shape ? ".8" : "1.4"}});
+    svg.leaf("circle", {{"cx", pixels(at.x)},
+                        {"cy", pixels(at.y)},
+                        {"r", has_shape ? "2.2" : "3.4"},
+                        {"fill", hex(has_shape ? kInk : kPaper)},
+                        {"stroke", hex(has_shape ? kPaper : kInk)},
+                        {"stroke-width", has_shape ? ".8" : "1.4"}});
   }
 }
 
@@ -156,7 +169,10 @@ void draw_legend(Markup& svg, const Sheet& sheet, const DrawnLinks& links, Pixel
     }
     PathText sample;
     sample.polyline({{x, y - 3.5}, {x + 32, y - 3.5}}, false);
-    svg.path(sample, {{"fill", "none"}, {"stroke", std::string(family->colour)}, {"stroke-width", "1.8"}, {"stroke-dasharray", std::string(family->dashes)}});
+    svg.path(sample, {{"fill", "none"},
+                      {"stroke", std::string(family->colour)},
+                      {"stroke-width", "1.8"},
+                      {"stroke-dasharray", std::string(family->dashes)}});
     svg.element("text", label, {{"x", pixels(x + 38)}, {"y", pixels(y)}, {"class", "figure start"}});
     x += width;
   }
@@ -178,8 +194,9 @@ std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model
 }
 
 std::string caption_of(const ReportModel& model, const DrawnLinks& links, double step, double cut) {
-  std::string caption = "Plan: tinted, each volume seen from above, the highest on top; strong tint with heavy lines, the cut " + readable(kEyeHeight) +
-                        " m above the ground (height " + readable(cut) + " m). Dots are positions, grid " + figure_of(step) + " m.";
+  std::string caption = "Plan: tinted, each volume seen from above, the highest on top; strong tint with heavy lines, the cut " +
+                        readable(kEyeHeight) + " m above the ground (height " + readable(cut) + " m). Dots are positions, grid " +
+                        figure_of(step) + " m.";
   if (std::any_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& v) { return !v.mesh; }))
     caption += " Hollow dots are volumes without a shape.";
   if (!links.families.empty()) caption += " Links of demand are not drawn.";
@@ -202,7 +219,8 @@ Picture draw_plan(const State& state, const ReportModel& model, const Palette& p
   const double bottom = sheet.height() - 8, cut = ground_of(model) + kEyeHeight;
   const double height = sheet.height() + 34 + kLegendRow * (links.families.empty() ? 0 : links.families.size() > 4 ? 2 : 1);
   Markup svg;
-  open_picture(svg, sheet.width(), height, "plan", "Plan", "The site seen from above with all volumes, their positions, and the links between them.");
+  open_picture(svg, sheet.width(), height, "plan", "Plan",
+               "The site seen from above with all volumes, their positions, and the links between them.");
   const double step = draw_grid(svg, sheet, bottom);
   draw_sites(svg, sheet, model);
   draw_volumes(svg, sheet, model, palette, cut);

@@ -17,13 +17,32 @@ using report::ReportModel;
 using report::VolumeRow;
 
 std::string csv_of(const ReportModel& model) {
-  const std::vector<std::string> header = {"number", "id", "name", "use", "x [m]", "y [m]", "z [m]", "storey_height [m]", "demand [m3]", "wanted [m3]",
-                                           "volume [m3]", "cell_volume [m3]", "error [%]", "floor_area [m2]", "surface_area [m2]", "footprint [m2]",
-                                           "bottom [m]", "height [m]", "weight [m2]", "state", "reason"};
+  const std::vector<std::string> header = {"number",
+                                           "id",
+                                           "name",
+                                           "use",
+                                           "x [m]",
+                                           "y [m]",
+                                           "z [m]",
+                                           "storey_height [m]",
+                                           "demand [m3]",
+                                           "wanted [m3]",
+                                           "volume [m3]",
+                                           "cell_volume [m3]",
+                                           "error [%]",
+                                           "floor_area [m2]",
+                                           "surface_area [m2]",
+                                           "footprint [m2]",
+                                           "bottom [m]",
+                                           "height [m]",
+                                           "weight [m2]",
+                                           "state",
+                                           "reason"};
   std::vector<std::vector<CsvCell>> rows;
   for (const VolumeRow& v : model.volumes)
-    rows.push_back({v.number, v.id, v.name, v.use, v.position.x, v.position.y, v.position.z, v.storey_height, v.demand, v.wanted, v.volume, v.cell_volume,
-                    v.error() * 100, v.floor_area, v.surface_area, v.footprint, v.bottom, v.height, v.weight, v.state, v.reason});
+    rows.push_back({v.number,        v.id,        v.name,   v.use,    v.position.x,  v.position.y,    v.position.z,
+                    v.storey_height, v.demand,    v.wanted, v.volume, v.cell_volume, v.error() * 100, v.floor_area,
+                    v.surface_area,  v.footprint, v.bottom, v.height, v.weight,      v.state,         v.reason});
   return write_csv(header, rows);
 }
 
@@ -44,7 +63,8 @@ Result<void> make_directory(const std::string& directory) {
 }  // namespace
 
 Result<void> write_report(const std::string& directory, const ReportData& data) {
-  if (data.state == nullptr || data.state->plan == nullptr) return Error{ErrorCode::missing, directory, "there is no state to report on: run the scene first"};
+  if (data.state == nullptr || data.state->plan == nullptr)
+    return Error{ErrorCode::missing, directory, "there is no state to report on: run the scene first"};
   if (auto made = make_directory(directory); !made) return made;
   ReportModel model;
   report::read_model(*data.state, model);

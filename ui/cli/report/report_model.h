@@ -17,14 +17,14 @@ struct VolumeRow {
   std::uint32_t node = 0;
   std::string id, name, use, state, reason;
   Point3 position;
-  double storey_height = 0;                              ///< [m]
-  double demand = 0, wanted = 0, volume = 0;             ///< [m³]; wanted: the demand inside its limits
-  double cell_volume = 0, weight = 0;                    ///< [m³], [m²]
+  double storey_height = 0;                                ///< [m]
+  double demand = 0, wanted = 0, volume = 0;               ///< [m³]; wanted: the demand inside its limits
+  double cell_volume = 0, weight = 0;                      ///< [m³], [m²]
   double floor_area = 0, surface_area = 0, footprint = 0;  ///< [m²]
-  double height = 0, bottom = 0;                         ///< [m]
-  MeshPointer mesh;                                      ///< none where there is no shape
-  ExactShape exact;                                      ///< radius 0 where only the mesh is known
-  std::size_t group = 0;                                 ///< volumes of one solver stand together
+  double height = 0, bottom = 0;                           ///< [m]
+  MeshPointer mesh;                                        ///< none where there is no shape
+  ExactShape exact;                                        ///< radius 0 where only the mesh is known
+  std::size_t group = 0;                                   ///< volumes of one solver stand together
 
   double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
   double wanted_floor_area() const { return storey_height > 0 ? wanted / storey_height : 0; }
@@ -88,7 +88,8 @@ void read_problems(const State& state, ReportModel& model);
 double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback = 0);
 std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port);
 Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port);
-const Table* table_at(const State& state, std::uint32_t node, const char* type, const char* port);    ///< nothing where there is none
+const Table* table_at(const State& state, std::uint32_t node, const char* type,
+                      const char* port);  ///< nothing where there is none
 MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port);
 bool has_type(const State& state, std::uint32_t node, std::string_view type);
 /// The name that people gave, or the id.

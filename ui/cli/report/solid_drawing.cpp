@@ -24,7 +24,9 @@ bool is_straight(Pixel a, Pixel b, Pixel c) {
 double twice_area(Pixel a, Pixel b, Pixel c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 // Quantised, so that faces of one plane stay one face.
-int shade_of(const Vector3& normal, const Vector3& to_sun) { return static_cast<int>(std::lround(light_on(normal, to_sun) * kShades)); }
+int shade_of(const Vector3& normal, const Vector3& to_sun) {
+  return static_cast<int>(std::lround(light_on(normal, to_sun) * kShades));
+}
 
 std::string shade_colour(const Colour& colour, int shade) { return shaded(colour, static_cast<double>(shade) / kShades); }
 
@@ -48,7 +50,8 @@ class Solid {
     for (const auto& [shade, triangles] : by_shade)
       for (const std::uint32_t t : triangles) by_depth.emplace_back(depth_of(t), t);
     std::sort(by_depth.begin(), by_depth.end());
-    for (const auto& [depth, t] : by_depth) draw_region(svg, {t}, shade_colour(style.colour, shade_of(normals_[t], style.to_sun)));
+    for (const auto& [depth, t] : by_depth)
+      draw_region(svg, {t}, shade_colour(style.colour, shade_of(normals_[t], style.to_sun)));
   }
 
   void draw_storeys(Markup& svg, double storey_height, const std::string& ink) const {
@@ -183,7 +186,7 @@ std::vector<Pixel> convex_outline(std::vector<Pixel> places) {
       while (hull.size() >= first + 2 && !(twice_area(hull[hull.size() - 2], hull.back(), place) > 0)) hull.pop_back();
       hull.push_back(place);
     }
-    if (!hull.empty()) hull.pop_back();    // the other side starts with it
+    if (!hull.empty()) hull.pop_back();  // the other side starts with it
     std::reverse(places.begin(), places.end());
   }
   return hull;

@@ -19,9 +19,9 @@ std::vector<Pixel> on_sheet(const Sheet& sheet, const Polyline& line);
 
 struct SolidStyle {
   Colour colour;
-  Vector3 to_sun;             ///< unit vector
-  double storey_height = 0;   ///< [m]; 0: no storey lines
-  double bottom = 0, top = 0; ///< [m], what the storeys are counted between
+  Vector3 to_sun;              ///< unit vector
+  double storey_height = 0;    ///< [m]; 0: no storey lines
+  double bottom = 0, top = 0;  ///< [m], what the storeys are counted between
 };
 
 /// Daylight on a surface, 0 to 1: a soft part from the sky and a hard one from the sun.
@@ -34,7 +34,8 @@ std::string shaded(const Colour& colour, double light);
 /// The shades of a ball of one colour, to be referred to by `draw_ball`.
 std::string define_ball(Markup& svg, const View& view, const SolidStyle& style, const std::string& id);
 /// A ball cut by planes, smooth at any size. `stops`: id of the shades; `id`: a name of its own.
-void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const SolidStyle& style, const std::string& stops, const std::string& id);
+void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const SolidStyle& style, const std::string& stops,
+               const std::string& id);
 
 /// Into a group that the caller has opened. Meant for bodies that are nearly convex; others are drawn face by face.
 void draw_solid(Markup& svg, const Sheet& sheet, const Mesh& mesh, const SolidStyle& style);
