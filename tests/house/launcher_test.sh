@@ -1,5 +1,6 @@
 # Tries `bl` with stand-ins for apt, sudo and the rest, in a copy of its own. Usage: sh launcher_test.sh CHECKOUT
 set -u
+unset BL_QUICK BL_NO_SETUP BL_JOBS    # those of whoever runs the tests must not reach the launchers under test
 checkout=$1
 place=$(mktemp -d "${TMPDIR:-/tmp}/bl launcher.XXXXXX") || exit 1    # a space in the path, on purpose
 trap 'rm -rf "$place"' EXIT
