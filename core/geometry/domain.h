@@ -1,0 +1,45 @@
+// The boundary of a SmartVolumes solver: any solid, kept as a union of convex pieces.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/convex_domain.h"
+
+namespace bl {
+
+/// A solid as convex pieces whose interiors are disjoint. Makers split pieces where needed, so that the face of each plane of
+/// a piece lies either wholly on the surface of the solid or wholly between two pieces. One convex domain is one piece whose
+/// plane k is side `#k`.
+struct Domain {
+  /// In `Piece::sides`: the face lies between two pieces and is no surface.
+  static constexpr std::uint32_t kInner = 0xffffffffu;
+
+  struct Piece {
+    ConvexDomain shape;
+    std::vector<std::uint32_t> sides;  ///< per plane of `shape`: the boundary side `#s` that its face lies in, or kInner
+    bool operator==(const Piece&) const = default;
+  };
+
+  std::vector<Piece> pieces;
+  std::uint32_t side_count = 0;  ///< sides are 0 .. side_count - 1; the makers say what each of them is
+  double volume = 0;             ///< [m³]
+  Point3 centroid;               ///< [m]; of a solid that is not convex it may lie outside
+  Vector3 minimum, maximum;      ///< corners of the axis-parallel box around it [m]
+  bool operator==(const Domain&) const = default;
+
+  Domain() = default;
+  /// Not explicit: wherever a domain is wanted, a convex one will do.
+  Domain(ConvexDomain convex);  // NOLINT(google-explicit-constructor)
+
+  bool is_convex() const { return pieces.size() == 1; }
+  /// Diagonal of the box around it [m]: what tolerances are relative to.
+  double size() const { return distance(minimum, maximum); }
+  /// Is the point in one of the pieces, or outside by no more than `tolerance` [m]?
+  bool contains(const Point3& point, double tolerance = 0) const;
+};
+
+/// Pieces put together: volume, centroid, box and side count follow from them. Fails where there is no piece.
+Result<Domain> join_pieces(std::vector<Domain::Piece> pieces);
+
+}  // namespace bl
