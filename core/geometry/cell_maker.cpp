@@ -89,13 +89,13 @@ void CellMaker::start_run(const CellGround& ground, std::uint32_t first_place, s
 }
 
 // Tells the sites that are still to come who borders them.
-void CellMaker::remember(const CellGround& ground, std::uint32_t site) {
+void CellMaker::remember(const CellGround& ground, std::uint32_t site, bool is_sure) {
   const std::uint32_t place = ground.grid.place_of(site);
   run_.end = place + 1;
   for (const std::uint32_t j : borders_) {
     const std::uint32_t other = ground.grid.place_of(j);
     if (other <= place || other - run_.begin >= known_.size()) continue;
-    links_.push_back({site, known_[other - run_.begin], !cell_.is_touchy()});
+    links_.push_back({site, known_[other - run_.begin], is_sure});
     known_[other - run_.begin] = static_cast<std::uint32_t>(links_.size() - 1);
   }
 }
@@ -147,16 +147,14 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
   const PowerSite& own = ground.sites[site];
   part_count_ = 0;
   borders_.clear();
-  const bool is_run = !known_.empty();
   limit_ = whole ? kUnlimited : std::sqrt(std::max(0.0, own.weight));
-  if (limit_ == 0) {
-    // Without a ball there is no shape, and no face of another's shape either.
-    if (is_run) remember(ground, site);
-    return;
-  }
+  if (limit_ == 0) return;
   if (limit_ > kLargeBall * ground.domain.size()) limit_ = kUnlimited;
+  // Of a cell that was cut only as far as its ball reaches, the borders beyond are not known to the neighbours.
+  if (limit_ < kUnlimited) end_run();
+  const bool is_run = !known_.empty();
   begin(ground, site);
-  bool is_in_order = ground.is_triangulated;
+  const bool is_in_order = ground.is_triangulated;
   if (ground.is_triangulated) {
     gather(ground, site, kUnlimited);
     cut_in_order(ground, site);
@@ -164,8 +162,9 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
     cut_by_search(ground, site);
   }
   Polyhedron& outline = ground.domain.is_convex() ? next_part() : outline_;
-  bool is_vague = !cell_.finish(outline);
-  if (!is_in_order && (is_vague || cell_.is_touchy())) {
+  const bool is_vague = !cell_.finish(outline);
+  const bool is_sure = !is_vague && !cell_.is_touchy();
+  if (!is_in_order && !is_sure) {
     // Here the order of the cuts may show: they are made again in an order that depends on the sites alone.
     gather(ground, site, cell_.is_empty() ? kUnlimited : kNearlyReached * reach());
     cut_in_order(ground, site);
@@ -178,7 +177,7 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
   }
   std::sort(borders_.begin(), borders_.end());
   borders_.erase(std::unique(borders_.begin(), borders_.end()), borders_.end());
-  if (is_run) remember(ground, site);
+  if (is_run) remember(ground, site, is_sure);
   if (!ground.domain.is_convex()) keep_parts(ground, own.position);
   if (ground.domain.is_convex() && outline.is_empty()) part_count_ = 0;
 }

@@ -51,7 +51,7 @@ class CellMaker {
     std::uint32_t site;
     Vector3 normal;
   };
-  void remember(const CellGround& ground, std::uint32_t site);
+  void remember(const CellGround& ground, std::uint32_t site, bool is_sure);
   void begin(const CellGround& ground, std::uint32_t site);
   bool cut_by(const PowerSite& own, const PowerSite& other, std::uint32_t index);
   void cut_by_search(const CellGround& ground, std::uint32_t site);
