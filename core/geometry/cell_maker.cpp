@@ -78,8 +78,11 @@ void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
       cut_by(own, ground.sites[links_[k].site], links_[k].site);
     }
   }
-  ground.grid.search(own.position, own.weight, site, skip, [&] { return reach(); },
-                     [&](const SiteGrid::Entry& entry) { cut_by(own, {entry.position, entry.weight}, entry.site); });
+  ground.grid.search(
+      own.position, own.weight, site, skip, [&] { return reach(); },
+      [&](const SiteGrid::Entry& entry) {
+        cut_by(own, {entry.position, entry.weight}, entry.site);
+      });
 }
 
 void CellMaker::start_run(const CellGround& ground, std::uint32_t first_place, std::uint32_t count) {
@@ -112,12 +115,12 @@ void CellMaker::gather(const CellGround& ground, std::uint32_t site, double reac
   if (ground.is_triangulated) {
     for (const std::uint32_t j : ground.neighbours.of(site)) consider(ground.sites[j].position, ground.sites[j].weight, j);
   } else {
-    ground.grid.search(own.position, own.weight, site, {}, [&] { return reach; },
-                       [&](const SiteGrid::Entry& entry) { consider(entry.position, entry.weight, entry.site); });
+    ground.grid.search(
+        own.position, own.weight, site, {}, [&] { return reach; },
+        [&](const SiteGrid::Entry& entry) { consider(entry.position, entry.weight, entry.site); });
   }
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    return a.offset != b.offset ? a.offset < b.offset : a.site < b.site;
-  });
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.offset != b.offset ? a.offset < b.offset : a.site < b.site; });
 }
 
 void CellMaker::cut_in_order(const CellGround& ground, std::uint32_t site) {

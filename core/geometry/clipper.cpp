@@ -93,8 +93,8 @@ Clipper::Start::Start(const ConvexDomain& domain, const std::vector<std::uint32_
     });
     vertices_.push_back(distance(*nearest, at) <= kSnapShare * size ? *nearest : at);
     const Corner& corner = shape.corners_[v];
-    corners_.push_back({corner.plane[0] - 6, corner.plane[1] - 6, corner.plane[2] - 6, corner.next[0], corner.next[1],
-                        corner.next[2]});
+    corners_.push_back(
+        {corner.plane[0] - 6, corner.plane[1] - 6, corner.plane[2] - 6, corner.next[0], corner.next[1], corner.next[2]});
   }
 }
 
@@ -242,12 +242,14 @@ void Clipper::untangle(double tolerance) {
   };
   const auto farthest = std::max_element(beyond_.begin(), beyond_.begin() + size_) - beyond_.begin();
   std::vector<std::uint8_t> seen(size_, 0);
-  connected(static_cast<std::uint32_t>(farthest), [&](std::uint32_t w) { return beyond_[w] > tolerance; }, seen);
+  connected(
+      static_cast<std::uint32_t>(farthest), [&](std::uint32_t w) { return beyond_[w] > tolerance; }, seen);
   const std::vector<std::uint8_t> gone = seen;
   std::vector<std::uint32_t> largest_part;
   for (std::uint32_t v = 0; v < size_; ++v) {
     if (seen[v]) continue;
-    const auto part = connected(v, [&](std::uint32_t w) { return !gone[w]; }, seen);
+    const auto part = connected(
+        v, [&](std::uint32_t w) { return !gone[w]; }, seen);
     if (part.size() > largest_part.size()) largest_part = part;
   }
   std::fill_n(taken_.begin(), size_, std::uint8_t{1});

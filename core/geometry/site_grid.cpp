@@ -68,7 +68,8 @@ void SiteGrid::build(std::span<const PowerSite> sites, std::span<const std::uint
   }
   origin_ = low;
   const Vector3 extent = high - low;
-  const double longest = std::max({extent.x, extent.y, extent.z}), wanted = std::max(1.0, static_cast<double>(participants.size()) / kSitesPerBlock);
+  const double longest = std::max({extent.x, extent.y, extent.z}),
+               wanted = std::max(1.0, static_cast<double>(participants.size()) / kSitesPerBlock);
   const auto steps = [&](double length) { return std::max(1.0, std::ceil(length / side_ * (1 + 1e-12))); };
   // The side that makes about as many blocks as wanted, whatever the shape of the box.
   side_ = longest > 0 ? longest : 1;
@@ -132,10 +133,29 @@ void SiteGrid::change(std::uint32_t site, const PowerSite& now) {
     return;
   }
   entry = {now.position, now.weight, site};
+  find_block_weight(block);
+}
+
+void SiteGrid::find_block_weight(std::size_t block) {
   block_weight_[block] = -std::numeric_limits<double>::infinity();
   for (std::uint32_t k = first_[block]; k < first_[block + 1]; ++k) {
-    block_weight_[block] = std::max(block_weight_[block], entries_[k].weight);
+    if (entries_[k].site != kNone) block_weight_[block] = std::max(block_weight_[block], entries_[k].weight);
   }
+}
+
+void SiteGrid::insert(std::uint32_t site, const PowerSite& now) {
+  if (slot_of_.size() <= site) slot_of_.resize(std::size_t{site} + 1, kNone);
+  slot_of_[site] = kNone;
+  largest_weight_ = std::max(largest_weight_, now.weight);
+  strays_.push_back({now.position, now.weight, site});
+}
+
+void SiteGrid::erase(std::uint32_t site) {
+  std::erase_if(strays_, [&](const Entry& stray) { return stray.site == site; });
+  const std::uint32_t slot = slot_of_[site];
+  if (slot == kNone || entries_[slot].site != site) return;
+  entries_[slot].site = kNone;
+  find_block_weight(index_of(block_of(entries_[slot].position)));
 }
 
 bool SiteGrid::has_site_within(const Point3& p, double limit, std::uint32_t self) const {

@@ -27,6 +27,10 @@ class SiteGrid {
   /// A participant has another weight, or another position, now. Cheap; after many moves to other blocks build() is due.
   void change(std::uint32_t site, const PowerSite& now);
 
+  /// A new participant, whose index may be beyond all others; and one that takes part no longer.
+  void insert(std::uint32_t site, const PowerSite& now);
+  void erase(std::uint32_t site);
+
   /// Are the sites spread so unevenly that a triangulation finds neighbours faster?
   bool is_uneven() const { return is_uneven_; }
   /// Have so many sites left their blocks that the grid should be built anew?
@@ -45,7 +49,8 @@ class SiteGrid {
   };
 
   /// Calls consider(entry) for every other participant whose bisector with a site of this position and weight may lie nearer
-  /// than reach() [m], near blocks first, and whose place is not in `skip`. The bisector's distance from the position is (d² + weight - weight_j) / (2 d).
+  /// than reach() [m], near blocks first, and whose place is not in `skip`. The bisector's distance from the position is (d² +
+  /// weight - weight_j) / (2 d).
   template <class Reach, class Consider>
   void search(const Point3& position, double weight, std::uint32_t self, Range skip, Reach&& reach, Consider&& consider) const {
     const auto home = block_of(position);
@@ -55,7 +60,8 @@ class SiteGrid {
     const double lighter = weight - largest_weight_;
     const Vector3 middle{origin_.x + (home[0] + 0.5) * side_, origin_.y + (home[1] + 0.5) * side_,
                          origin_.z + (home[2] + 0.5) * side_};
-    const unsigned eighth = (position.x > middle.x ? 1u : 0u) + (position.y > middle.y ? 2u : 0u) + (position.z > middle.z ? 4u : 0u);
+    const unsigned eighth =
+        (position.x > middle.x ? 1u : 0u) + (position.y > middle.y ? 2u : 0u) + (position.z > middle.z ? 4u : 0u);
     for (const Offset& offset : offsets(eighth)) {
       if (is_beyond((1 - 1e-9) * offset.squared_gap * side_ * side_, lighter, reach())) return;
       const std::array<int, 3> block{home[0] + offset.at[0], home[1] + offset.at[1], home[2] + offset.at[2]};
@@ -92,6 +98,7 @@ class SiteGrid {
   }
 
   std::array<int, 3> block_of(const Point3& p) const;
+  void find_block_weight(std::size_t block);
   std::size_t index_of(const std::array<int, 3>& block) const {
     return (static_cast<std::size_t>(block[2]) * count_[1] + block[1]) * count_[0] + block[0];
   }
@@ -134,11 +141,11 @@ class SiteGrid {
   std::array<int, 3> count_{1, 1, 1};
   bool is_uneven_ = false;
   double largest_weight_ = 0;
-  std::vector<std::uint32_t> first_;   // block b: entries first_[b] .. first_[b + 1)
-  std::vector<double> block_weight_;   // largest weight in a block
-  std::vector<Entry> entries_;         // site kNone: it has moved to another block
+  std::vector<std::uint32_t> first_;  // block b: entries first_[b] .. first_[b + 1)
+  std::vector<double> block_weight_;  // largest weight in a block
+  std::vector<Entry> entries_;        // site kNone: it has moved to another block
   std::vector<std::uint32_t> order_, slot_of_;
-  std::vector<Entry> strays_;          // sites that have left their blocks
+  std::vector<Entry> strays_;  // sites that have left their blocks
 };
 
 }  // namespace bl
