@@ -22,6 +22,8 @@ constexpr double kRepair = 0.8;
 constexpr double kLeastOfCube = 0.1;
 // Up to this share of the demands may be repaired one by one after a step that all others gain by.
 constexpr double kFewOffenders = 0.02;
+// Such a step has to bring the residual below this share, and below that one after the repair.
+constexpr double kFallWorthRepair = 0.5, kRepairedFall = 0.7;
 // A change of weight that moves no volume by more than this share of the tolerance is not made: what it would move stays as it
 // is, bit for bit, and need not be measured again.
 constexpr double kIdleShare = 0.02;
@@ -228,10 +230,12 @@ class Fit {
     }
     const double residual = std::sqrt(squares), share = std::abs(state.share);
     if (state.residual >= 0 && share > kLeastStep) {
-      const bool falls = residual <= (1 - 0.1 * share) * state.residual;
+      const bool is_repaired = state.share < 0;
+      const bool falls = residual <= (is_repaired ? kRepairedFall : 1 - 0.1 * share) * state.residual;
       const double most_repairs = std::max(1.0, kFewOffenders * static_cast<double>(targets_.size()));
-      // A step that does all good but a few: these are helped, and then it is judged again.
-      if (falls && !offenders.empty() && state.share > 0 && static_cast<double>(offenders.size()) <= most_repairs) {
+      // A full step that does all much good but a few: these are helped, and then it is judged again, more strictly.
+      if (!offenders.empty() && !is_repaired && share == options_.damping && residual <= kFallWorthRepair * state.residual &&
+          static_cast<double>(offenders.size()) <= most_repairs) {
         return repair_offenders(offenders);
       }
       if (!falls || !offenders.empty()) return take_back(0.5 * share);
