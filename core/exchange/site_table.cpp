@@ -118,7 +118,7 @@ Result<void> Importer::match_header() {
       const std::string near = nearest_name(name, names);
       return Error{ErrorCode::unknown_field, line + ", column " + std::to_string(i + 1),
                    "`" + header.fields[i].substr(0, 40) + "` is no column of sites" +
-                       (near.empty() ? "" : ", did you mean `" + near + "`?") + "; accepted are " + site_table_columns() + "."};
+                       (near.empty() ? "" : " (did you mean `" + near + "`?)") + "; accepted are " + site_table_columns() + "."};
     }
     if (auto taken = take(column, i); !taken) return taken.error();
   }

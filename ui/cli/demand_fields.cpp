@@ -127,9 +127,9 @@ Result<void> read_group_demands(const Json& json, const Json& demands, const std
   if (!groups) return groups.error();
   const std::string place = slash(into.place, "demands");
   if (demands.size() != groups->size())
-    return Error{ErrorCode::conflict, place,
-                 "expects one demand for each group: groups: " + std::to_string(groups->size()) +
-                     ", demands: " + std::to_string(demands.size())};
+    return Error{
+        ErrorCode::conflict, place,
+        "expects one demand for each group: " + counted(groups->size(), "group") + ", " + counted(demands.size(), "demand")};
   for (std::size_t g = 0; g < groups->size(); ++g) {
     auto demand = demand_at(demands[g], into.boundary.domain, slash(place, g));
     if (!demand) return demand.error();
@@ -142,9 +142,9 @@ Result<void> read_group_demands(const Json& json, const Json& demands, const std
 Result<void> read_single_demands(const Json& demands, const std::vector<bool>& locked, SiteCase& into) {
   const std::string place = slash(into.place, "demands");
   if (demands.size() != locked.size())
-    return Error{ErrorCode::conflict, place,
-                 "expects one demand for each site: sites: " + std::to_string(locked.size()) +
-                     ", demands: " + std::to_string(demands.size())};
+    return Error{
+        ErrorCode::conflict, place,
+        "expects one demand for each site: " + counted(locked.size(), "site") + ", " + counted(demands.size(), "demand")};
   for (std::uint32_t site = 0; site < locked.size(); ++site) {
     const std::string here = slash(place, site);
     if (locked[site] && demands[site].is_null()) continue;

@@ -61,6 +61,7 @@ VolumeFit not_begun(const FitProblem& problem) {
   return fit;
 }
 
+// "2, 5, 7": the sites of a demand by number or name.
 std::string sites_text(const VolumeDemand& demand, const SiteCase& c) {
   std::string text;
   for (std::size_t i = 0; i < demand.sites.size(); ++i) {
@@ -155,15 +156,17 @@ class FitRun {
   }
 
   std::string own_reason(const SiteCase& c, const VolumeFit& fit) const {
-    const std::string state =
-        "the largest relative error is " + rough(fit.max_relative_error) + ", of demand " + std::to_string(fit.worst_demand) +
-        " (" +
-        (fit.worst_demand < c.problem.demands.size() ? "sites " + sites_text(c.problem.demands[fit.worst_demand], c) : "") + ")";
-    if (fit.status == FitStatus::cancelled)
-      return "stopped after " + counted(static_cast<std::size_t>(fit.evaluations), "evaluation") + "; " + state;
+    std::string state = "the largest relative error is " + rough(fit.max_relative_error);
+    if (fit.worst_demand < c.problem.demands.size()) {
+      const VolumeDemand& demand = c.problem.demands[fit.worst_demand];
+      state += ", of demand " + std::to_string(fit.worst_demand) + (demand.sites.size() == 1 ? " (site " : " (sites ") +
+               sites_text(demand, c) + ")";
+    }
+    const std::string effort = counted(static_cast<std::size_t>(fit.evaluations), "evaluation");
+    if (fit.status == FitStatus::cancelled) return "stopped after " + effort + "; " + state;
     if (fit.status == FitStatus::infeasible) return "the demands cannot be met together; " + state;
-    return "not met after " + counted(static_cast<std::size_t>(fit.evaluations), "evaluation") + "; " + state +
-           ": give it more by --steps" + (options_.method == "feedback" ? ", or take --method newton" : "");
+    return "not met after " + effort + "; " + state + ": give it more by --steps" +
+           (options_.method == "feedback" ? ", or take --method newton" : "");
   }
 
   static void print_losses(const SiteCase& c, const VolumeFit& fit) {

@@ -42,6 +42,8 @@ bool is_output_sound(const CaseFiles& files) {
 }
 
 Result<Json> json_of(const std::string& text) {
+  if (text.find_first_not_of(" \t\r\n") == text.npos)
+    return Error{ErrorCode::missing, "", "the file is empty: it needs a JSON object, see --help"};
   auto json = parse_json(text);
   if (json) return json;
   const std::string_view body = trimmed(text), line = body.substr(0, body.find('\n'));
@@ -55,12 +57,10 @@ Result<Json> json_of(const std::string& text) {
 Result<void> check_site(const PowerSite& site, const std::string& place, const std::string& weight_place) {
   const Point3& p = site.position;
   if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargestCoordinate)
-    return Error{ErrorCode::out_of_range, place,
-                 "lies more than " + shortest(kLargestCoordinate) + " m from the origin: move the origin near the sites"};
+    return Error{ErrorCode::out_of_range, place, "lies more than 1e8 m from the origin: move the origin near the sites"};
   if (std::abs(site.weight) > kLargestWeight)
-    return Error{
-        ErrorCode::out_of_range, weight_place,
-        "a weight is at most " + shortest(kLargestWeight) + " m², found " + shortest(site.weight) + ": it is a squared radius"};
+    return Error{ErrorCode::out_of_range, weight_place,
+                 "a weight is at most 1e18 m², found " + shortest(site.weight) + ": it is a squared radius"};
   return {};
 }
 
@@ -175,7 +175,8 @@ class Loader {
   Result<SiteCase> case_of(const Json& json, const std::string& place) const {
     if (!json.is_object())
       return Error{ErrorCode::wrong_kind, place,
-                   "expects {\"boundary\": ..., \"sites\": [...], \"weights\": [...]}, found " + excerpt(json)};
+                   std::string("expects {\"boundary\": ..., \"sites\": [...], \"") +
+                       (purpose_ == CasePurpose::cells ? "weights" : "demands") + "\": [...]}, found " + excerpt(json)};
     SiteCase result;
     result.place = place;
     auto boundary = boundary_of(json, place);
