@@ -62,15 +62,30 @@ Result<double> height_at(const Json& json, const char* key, const std::string& p
   return number_at(*it, slash(place, key));
 }
 
+Result<Domain> solid_of_plan(const std::vector<Point3>& plan, const std::vector<std::vector<Point3>>& holes, double bottom,
+                             double top, const std::string& place) {
+  if (!holes.empty())
+    return Error{ErrorCode::geometry, slash(place, "holes"), "plans with holes are not read yet; leave the holes out"};
+  return told(extrude(plan, bottom, top), slash(place, "plan"));
+}
+
 Result<Domain> from_plan(const Json& json, const std::string& place) {
   const auto plan = ring_at(json["plan"], slash(place, "plan"));
   if (!plan) return plan.error();
   const auto bottom = height_at(json, "bottom", place), top = height_at(json, "top", place);
   if (!bottom) return bottom.error();
   if (!top) return top.error();
-  if (json.contains("holes") && !json["holes"].empty())
-    return Error{ErrorCode::geometry, slash(place, "holes"), "plans with holes are not read yet; leave the holes out"};
-  return told(extrude(*plan, *bottom, *top), slash(place, "plan"));
+  std::vector<std::vector<Point3>> holes;
+  if (json.contains("holes")) {
+    const auto list = list_at(json, "holes", place);
+    if (!list) return list.error();
+    for (std::size_t k = 0; k < (*list)->size(); ++k) {
+      auto hole = ring_at((**list)[k], slash(slash(place, "holes"), k));
+      if (!hole) return hole.error();
+      holes.push_back(std::move(*hole));
+    }
+  }
+  return solid_of_plan(*plan, holes, *bottom, *top, place);
 }
 
 Result<Domain> from_mesh_object(const Json& mesh, const std::string& place) {
