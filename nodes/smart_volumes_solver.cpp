@@ -149,7 +149,7 @@ struct SmartVolumesSolver {
   }
 
   // Newcomers among settled ones start small, so that they push nobody out; where all are new, the fit starts them all alike.
-  static void start_newcomers(const ConvexDomain& domain, std::span<PowerSite> sites, std::span<const double> wanted) {
+  static void start_newcomers(const Domain& domain, std::span<PowerSite> sites, std::span<const double> wanted) {
     if (std::none_of(sites.begin(), sites.end(), [](const PowerSite& s) { return s.weight > 0; })) return;
     for (std::size_t i = 0; i < sites.size(); ++i)
       if (!(sites[i].weight > 0))

@@ -1,65 +1,107 @@
 // A convex polyhedron that is cut by one plane after the other: the working shape behind cells and domains.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/base/vector.h"
-#include "core/geometry/convex_domain.h"
-#include "core/geometry/power_cells.h"
+#include "core/geometry/polyhedron.h"
 
 namespace bl {
 
-/// One face of a Clipper; its corners are `loops[first .. first + count)`.
-struct ClippedFace {
-  Vector3 normal;     ///< unit, outward
-  double offset = 0;  ///< [m], signed distance of the plane from the origin of the Clipper
-  FacetArea::Kind kind = FacetArea::Kind::plane;
-  std::uint32_t index = 0;
-  std::uint32_t first = 0, count = 0;
-};
-
-/// Each vertex is judged once per cut, so that all faces agree on what is cut away: the polyhedron stays a closed surface
-/// (every directed edge has its twin exactly once) whatever the rounding says. Vertices within a tolerance outside the plane
-/// count as touching and stay. A cut through a vertex makes a second vertex at the same place instead of merging: edges and
-/// faces of no extent are harmless to every measure, wrong topology is not.
+/// Kept so that a cut touches little memory and allocates nothing once warm: exactly three faces meet at each vertex (a corner
+/// of the shape where more meet is several vertices at one place), vertices know their three neighbours, coordinates lie in
+/// arrays of their own. A cut judges each vertex once: beyond the plane by more than a tolerance, or not. What goes is the
+/// connected part around the farthest vertex beyond; so the polyhedron stays a closed surface whatever the rounding says.
 class Clipper {
  public:
-  /// Starts from the domain, moved so that `origin` becomes the origin. Plane k becomes a face named (plane, k).
-  void start(const ConvexDomain& domain, const Point3& origin);
-  /// Starts from an axis-parallel box; all faces are named (plane, box_index).
-  void start_box(const Vector3& minimum, const Vector3& maximum, std::uint32_t box_index);
-  /// Keeps normal·x <= offset. Returns false when nothing is left.
-  bool cut(const Vector3& normal, double offset, FacetArea::Kind kind, std::uint32_t index);
+  /// A polyhedron to start from, made once and copied often.
+  class Start {
+   public:
+    /// `sides` (one per plane, or empty): the number that the face of plane k carries; kInnerSide makes it an inner face.
+    explicit Start(const ConvexDomain& domain, const std::vector<std::uint32_t>& sides = {});
 
-  bool is_empty() const { return vertices.empty(); }
-  /// Largest distance of a vertex from the origin, squared [m²].
+   private:
+    friend class Clipper;
+    struct Side {
+      Vector3 normal;
+      Point3 anchor;  ///< a corner on the plane [m]
+      FaceKind kind;
+      std::uint32_t index;
+    };
+    std::vector<Point3> vertices_;  // [m], not relative to any site
+    std::vector<std::array<std::uint32_t, 6>> corners_;
+    std::vector<Side> sides_;
+  };
+  static constexpr std::uint32_t kInnerSide = 0xffffffffu;
+
+  void start(const Start& from, const Point3& origin);
+  /// An axis-parallel box; its faces are (frame, 0..5).
+  void start_box(const Vector3& minimum, const Vector3& maximum);
+  /// Goes on from another clipper's shape.
+  void copy(const Clipper& other);
+  /// Keeps normal·x <= offset, `normal` a unit vector. False when nothing is left.
+  bool cut(const Vector3& normal, double offset, FaceKind kind, std::uint32_t index);
+  /// Cuts by all planes of a piece that come nearer to `origin`, its new origin, than `limit` [m]. False: nothing is left.
+  bool cut(const Start& piece, const Point3& origin, double limit);
+
+  bool is_empty() const { return size_ == 0; }
+  /// Planes so far: one more after a cut that took something away.
+  std::size_t side_count() const { return sides_.size(); }
+  /// Largest squared distance of a vertex from the origin [m²].
   double reach_squared() const { return reach_squared_; }
-  /// Volume from the vertices alone, relative to their mean [m³]; `centroid` relative to the origin.
-  double volume_and_centroid(Point3& centroid) const;
+  /// Has some vertex come so near to a plane that the order of the cuts may show in the result?
+  bool is_touchy() const { return is_touchy_; }
 
-  std::vector<Point3> vertices;  ///< relative to the origin [m]
-  std::vector<ClippedFace> faces;
-  std::vector<std::uint32_t> loops;
+  /// The shape in a form that does not depend on the order of the cuts (unless it is touchy): faces by kind and index, loops
+  /// from a fixed corner on, every vertex computed anew from its three planes. False where three planes meet so flatly that a
+  /// vertex had to stay where the cuts have put it.
+  bool finish(Polyhedron& out);
+  /// The same with every vertex where the cuts have put it: good for shapes where many planes meet in one corner.
+  void finish_as_cut(Polyhedron& out);
 
  private:
-  struct Crossing {
-    std::uint32_t inner, outer;  ///< ends of the cut edge, as numbered before the cut
-    std::uint32_t next;          ///< crossing that follows on the new face
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  /// The three faces that meet at a vertex, counter-clockwise seen from outside, and the neighbours: next[k] is reached along
+  /// the edge that does not lie on face plane[k].
+  struct Corner {
+    std::array<std::uint32_t, 3> plane, next;
+    std::uint32_t given;  ///< kNone, or: the vertex was there from the start and keeps its place
   };
-  std::uint32_t crossing(std::uint32_t inner, std::uint32_t outer);
-  void cut_face(const ClippedFace& face);
-  void close_cut(const Vector3& normal, double offset, FacetArea::Kind kind, std::uint32_t index);
-  void measure_reach();
+  struct Side {
+    Vector3 normal;
+    double offset;
+    FaceKind kind;
+    std::uint32_t index;
+  };
+  struct Crossing {
+    std::uint32_t kept, removed, slot;
+  };
 
+  void reserve(std::size_t vertices);
+  void measure_reach();
+  bool judge(const Vector3& normal, double offset, double tolerance);
+  std::uint32_t take_connected(std::uint32_t seed, double tolerance);
+  bool trace_rim();
+  bool take_in_islands();
+  void close_rim(std::uint32_t plane);
+  void remove_taken();
+  void move_vertex(std::uint32_t from, std::uint32_t to);
+  bool meeting_point(const Corner& corner, Point3& at) const;
+  void rank_sides();
+  bool write(Polyhedron& out, bool is_exact);
+
+  std::uint32_t size_ = 0;
   double reach_squared_ = 0, start_reach_ = 0;
-  std::uint32_t kept_ = 0;
-  std::vector<double> side_;           // signed distance per vertex; positive: cut away
-  std::vector<std::uint32_t> number_;  // new number per vertex that stays
-  std::vector<Crossing> crossings_;
-  std::vector<Point3> new_vertices_;
-  std::vector<ClippedFace> new_faces_;
-  std::vector<std::uint32_t> new_loops_;
+  bool is_touchy_ = false;
+  std::vector<double> x_, y_, z_, beyond_;  // beyond_: signed distance from the plane that is being cut with
+  std::vector<Corner> corners_;
+  std::vector<Side> sides_;
+  std::vector<std::uint8_t> taken_;    // per vertex: goes with the cut under way
+  std::vector<std::uint32_t> leaving_;  // the vertices that go, as found
+  std::vector<Crossing> rim_;          // edges from kept to leaving vertices, in order around the cut
+  std::vector<std::uint32_t> rank_, order_, first_corner_, number_;
 };
 
 }  // namespace bl

@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "core/base/text.h"
-#include "core/geometry/clipper.h"
 #include "core/geometry/domain_parts.h"
 #include "core/geometry/hull_triangles.h"
+#include "core/geometry/polyhedron.h"
 
 namespace bl {
 
@@ -194,10 +194,8 @@ Result<ConvexDomain> finish_domain(ConvexDomain domain) {
     domain.minimum = {std::min(domain.minimum.x, v.x), std::min(domain.minimum.y, v.y), std::min(domain.minimum.z, v.z)};
     domain.maximum = {std::max(domain.maximum.x, v.x), std::max(domain.maximum.y, v.y), std::max(domain.maximum.z, v.z)};
   }
-  Clipper shape;
-  shape.start(domain, domain.vertices.front());
   Point3 centroid;
-  domain.volume = shape.volume_and_centroid(centroid);
+  domain.volume = volume_and_centroid(polyhedron_of(domain, domain.vertices.front()), centroid);
   domain.centroid = centroid + domain.vertices.front();
   const double size = domain.size();
   if (!(domain.volume > kFlatShare * size * size * size)) {
@@ -213,6 +211,15 @@ bool ConvexDomain::contains(const Point3& point, double tolerance) const {
     if (!(dot(planes[k].normal, point - vertices[faces[k].front()]) <= tolerance)) return false;
   }
   return true;
+}
+
+double ConvexDomain::share_inside(const Vector3& way, double most) const {
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    if (faces[k].size() < 3) continue;
+    const double rise = dot(planes[k].normal, way), room = dot(planes[k].normal, vertices[faces[k].front()] - centroid);
+    if (rise * most > room) most = room / rise;
+  }
+  return most;
 }
 
 Result<ConvexDomain> convex_hull(std::span<const Point3> points) {

@@ -33,6 +33,8 @@ struct ConvexDomain {
   double size() const { return distance(minimum, maximum); }
   /// Is the point inside, or outside by no more than `tolerance` [m]?
   bool contains(const Point3& point, double tolerance = 0) const;
+  /// Largest share s <= `most` for which centroid + s * way lies inside.
+  double share_inside(const Vector3& way, double most) const;
 };
 
 /// Largest absolute coordinate [m] that this folder accepts.

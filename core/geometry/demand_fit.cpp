@@ -28,22 +28,17 @@ constexpr double kLeastShare = 1e-4;
 // A free ball never exceeds so many times what it takes to hold the whole domain: more weight only drowns the others.
 constexpr double kMostReach = 4;
 
-// The nearest place inside the domain on the way to its centroid; the position itself where it is inside.
-Point3 place_inside(const ConvexDomain& domain, const Point3& position) {
-  const Vector3 way = position - domain.centroid;
-  double share = 1;
-  for (std::size_t k = 0; k < domain.planes.size(); ++k) {
-    if (domain.faces[k].size() < 3) continue;
-    const Vector3& normal = domain.planes[k].normal;
-    const double rise = dot(normal, way), room = dot(normal, domain.vertices[domain.faces[k].front()] - domain.centroid);
-    if (rise * share > room) share = room / rise;
-  }
-  return share < 1 ? domain.centroid + (0.99 * share) * way : position;
+// The position itself where it is inside; else the nearest place on the way to the middle of the nearest piece.
+Point3 place_inside(const Domain& domain, const Point3& position) {
+  if (domain.contains(position)) return position;
+  const ConvexDomain& piece = domain.nearest_piece(position);
+  const Vector3 way = position - piece.centroid;
+  return piece.centroid + (0.99 * piece.share_inside(way, 1)) * way;
 }
 
 class Fit {
  public:
-  Fit(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
+  Fit(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
       std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options)
       : domain_(domain), options_(options), sites_(sites.begin(), sites.end()), free_(sites.size(), 1) {
     for (std::size_t i = 0; i < locked.size(); ++i) free_[i] = locked[i] == 0;
@@ -272,7 +267,9 @@ class Fit {
   // Moves of the last call are comparable only while the problem is the same.
   void recognise(std::span<const PowerSite> sites, std::span<const double> demands) {
     Hash hash;
-    for (const Point3& v : domain_.vertices) hash.add(v);
+    for (const Domain::Piece& piece : domain_.pieces) {
+      for (const Point3& v : piece.shape.vertices) hash.add(v);
+    }
     for (std::size_t i = 0; i < sites.size(); ++i) {
       hash.add(sites[i].position);
       hash.add(demands[i]);
@@ -292,7 +289,7 @@ class Fit {
     }
   }
 
-  const ConvexDomain& domain_;
+  const Domain& domain_;
   FitOptions options_;
   std::vector<PowerSite> sites_;
   std::vector<std::uint8_t> free_;
@@ -301,7 +298,7 @@ class Fit {
 
 }  // namespace
 
-Result<FitReport> adapt_weights(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
+Result<FitReport> adapt_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
                                 std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options) {
   if (demands.size() != sites.size() || (!locked.empty() && locked.size() != sites.size())) {
     return Error{ErrorCode::out_of_range, "", "there has to be one demand, and one lock or none, for each site"};

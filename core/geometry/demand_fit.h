@@ -61,13 +61,13 @@ struct FitReport {
 
 /// Equal weights [m²] from which no site inside the domain is empty (the diagram is then an ordinary Voronoi diagram):
 /// a common radius from the mean demand, enlarged with the fill f by -ln(1-f)/f.
-std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites,
+std::vector<double> initial_weights(const Domain& domain, std::span<const PowerSite> sites,
                                     std::span<const double> demands);
 
 /// Takes up to `options.steps` steps from the weights of `sites` towards volume = demand [m³] for each site that is not
 /// locked (`locked` empty: all free). Weights of locked sites stay. Pure: the same arguments give the same bits.
 /// Demands whose sum exceeds what the domain holds are all scaled by one factor; the report names who loses how much.
-Result<FitReport> adapt_weights(const ConvexDomain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
+Result<FitReport> adapt_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
                                 std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options);
 
 }  // namespace bl

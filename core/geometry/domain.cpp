@@ -44,6 +44,28 @@ bool Domain::contains(const Point3& point, double tolerance) const {
   return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) { return piece.shape.contains(point, tolerance); });
 }
 
+const ConvexDomain& Domain::nearest_piece(const Point3& point) const {
+  const auto excess = [&](const Piece& piece) {
+    double most = -size();
+    for (std::size_t k = 0; k < piece.shape.planes.size(); ++k) {
+      const auto& face = piece.shape.faces[k];
+      if (face.size() < 3) continue;
+      most = std::max(most, dot(piece.shape.planes[k].normal, point - piece.shape.vertices[face.front()]));
+    }
+    return most;
+  };
+  const Piece* best = &pieces.front();
+  for (const Piece& piece : pieces) {
+    if (excess(piece) < excess(*best)) best = &piece;
+  }
+  return best->shape;
+}
+
+const ConvexDomain& Domain::largest_piece() const {
+  const auto is_smaller = [](const Piece& a, const Piece& b) { return a.shape.volume < b.shape.volume; };
+  return std::max_element(pieces.begin(), pieces.end(), is_smaller)->shape;
+}
+
 Result<Domain> join_pieces(std::vector<Domain::Piece> pieces) {
   if (pieces.empty()) return Error{ErrorCode::geometry, "", "the boundary has no volume: nothing is left of it"};
   Domain domain;

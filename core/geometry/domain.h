@@ -37,6 +37,9 @@ struct Domain {
   double size() const { return distance(minimum, maximum); }
   /// Is the point in one of the pieces, or outside by no more than `tolerance` [m]?
   bool contains(const Point3& point, double tolerance = 0) const;
+  /// The piece that holds the point, or the one whose planes it violates least; not for an empty domain.
+  const ConvexDomain& nearest_piece(const Point3& point) const;
+  const ConvexDomain& largest_piece() const;
 };
 
 /// Pieces put together: volume, centroid, box and side count follow from them. Fails where there is no piece.

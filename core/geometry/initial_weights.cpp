@@ -20,17 +20,6 @@ double minus_log_of_rest(double f) {
   return 2 * sum;
 }
 
-// Largest share s <= `most` for which centroid + s * way stays in the domain, shrunk to nine tenths.
-double share_inside(const ConvexDomain& domain, const Vector3& way, double most) {
-  for (std::size_t k = 0; k < domain.planes.size(); ++k) {
-    if (domain.faces[k].size() < 3) continue;
-    const double rise = dot(domain.planes[k].normal, way);
-    const double room = 0.9 * dot(domain.planes[k].normal, domain.vertices[domain.faces[k].front()] - domain.centroid);
-    if (rise * most > room) most = room / rise;
-  }
-  return most;
-}
-
 // Sites that crowd a part of the domain, or lie outside it, are given the ordinary Voronoi diagram of images of them that
 // are spread over the domain: with image x = c + s (p - m), the power diagram of weights (1 - s)|p|² - 2 t·p + K is the
 // Voronoi diagram of the images s p + t, whatever K; K is chosen so that every ball reaches its site's image.
@@ -40,7 +29,7 @@ struct Spread {
   Point3 middle;
 };
 
-Spread spread_of(const ConvexDomain& domain, std::span<const PowerSite> sites) {
+Spread spread_of(const Domain& domain, std::span<const PowerSite> sites) {
   Spread spread;
   if (sites.size() < 2) spread.is_needed = !sites.empty() && !domain.contains(sites[0].position);
   Vector3 low = sites[0].position, high = low;
@@ -55,14 +44,17 @@ Spread spread_of(const ConvexDomain& domain, std::span<const PowerSite> sites) {
   const double extent = distance(low, high);
   if (all_inside && (extent > 0.4 * domain.size() || sites.size() < 2)) return spread;
   spread.is_needed = true;
+  const ConvexDomain& room = domain.largest_piece();
   spread.s = extent > 1e-6 * domain.size() ? domain.size() / extent : 1;
-  for (const PowerSite& site : sites) spread.s = share_inside(domain, site.position - spread.middle, spread.s);
+  for (const PowerSite& site : sites) {
+    spread.s = std::min(spread.s, 0.9 * room.share_inside(site.position - spread.middle, spread.s / 0.9));
+  }
   return spread;
 }
 
 }  // namespace
 
-std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const PowerSite> sites,
+std::vector<double> initial_weights(const Domain& domain, std::span<const PowerSite> sites,
                                     std::span<const double> demands) {
   double sum = 0;
   for (const double demand : demands) sum += std::max(0.0, demand);
@@ -72,12 +64,13 @@ std::vector<double> initial_weights(const ConvexDomain& domain, std::span<const 
   std::vector<double> weights(sites.size(), weight_of_volume(volume));
   const Spread spread = spread_of(domain, sites);
   if (!spread.is_needed) return weights;
-  // Relative to the domain's centroid: x = s q + t with q = p - c and t = -s (m - c).
-  const Vector3 shift = -spread.s * (spread.middle - domain.centroid);
+  const Point3& centre = domain.largest_piece().centroid;
+  // Relative to the centroid of the piece that holds the images: x = s q + t with q = p - c and t = -s (m - c).
+  const Vector3 shift = -spread.s * (spread.middle - centre);
   double lift = 0;
   std::vector<double> slope(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    const Vector3 q = sites[i].position - domain.centroid;
+    const Vector3 q = sites[i].position - centre;
     slope[i] = (1 - spread.s) * squared_norm(q) - 2 * dot(shift, q);
     const double needed = squared_norm(spread.s * q + shift - q) - slope[i];
     lift = i == 0 ? needed : std::max(lift, needed);

@@ -11,7 +11,6 @@ namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kBox = 0xffffffffu;
 constexpr double kWeldShare = 1e-12;
 
 double determinant(const Vector3& a, const Vector3& b, const Vector3& c) { return dot(a, cross(b, c)); }
@@ -38,8 +37,8 @@ Result<std::vector<Plane>> unit_planes(std::span<const Plane> planes) {
 }
 
 // Welds corners that fell together and writes the faces; each corner is the best-conditioned meeting point of its planes.
-ConvexDomain exact_domain(const Clipper& shape, const std::vector<Plane>& planes, const Point3& origin) {
-  double size = std::sqrt(shape.reach_squared());
+ConvexDomain exact_domain(const Polyhedron& shape, const std::vector<Plane>& planes, const Point3& origin) {
+  double size = std::sqrt(shape.reach_squared);
   std::vector<std::uint32_t> place(shape.vertices.size());
   std::vector<std::uint32_t> firsts;
   for (std::uint32_t v = 0; v < shape.vertices.size(); ++v) {
@@ -53,7 +52,7 @@ ConvexDomain exact_domain(const Clipper& shape, const std::vector<Plane>& planes
   ConvexDomain domain;
   domain.planes = planes;
   domain.faces.resize(planes.size());
-  for (const ClippedFace& face : shape.faces) {
+  for (const PolyhedronFace& face : shape.faces) {
     std::vector<std::uint32_t> loop;
     for (std::uint32_t i = 0; i < face.count; ++i) {
       const std::uint32_t v = place[shape.loops[face.first + i]];
@@ -94,21 +93,23 @@ Result<ConvexDomain> from_planes(std::span<const Plane> input) {
   if (!planes) return planes.error();
   const double far_away = 2 * kLargestCoordinate;
   Vector3 low{-far_away, -far_away, -far_away}, high{far_away, far_away, far_away};
-  Clipper shape;
+  Clipper clipper;
+  Polyhedron shape;
   Point3 origin;
   // The first pass finds where the domain is, at the rounding of the large box; the others repeat it at the domain's own.
   for (int pass = 0; pass < 4; ++pass) {
     origin = 0.5 * (low + high);
-    shape.start_box(low - origin, high - origin, kBox);
+    clipper.start_box(low - origin, high - origin);
     for (std::uint32_t k = 0; k < planes->size(); ++k) {
       const Plane& plane = (*planes)[k];
-      if (!shape.cut(plane.normal, plane.offset - dot(plane.normal, origin), FacetArea::Kind::plane, k)) {
+      if (!clipper.cut(plane.normal, plane.offset - dot(plane.normal, origin), FaceKind::plane, k)) {
         return Error{
             ErrorCode::geometry, "",
             "the boundary planes leave no space: plane " + std::to_string(k) + " cuts away what the planes before it left"};
       }
     }
-    if (std::any_of(shape.faces.begin(), shape.faces.end(), [](const ClippedFace& face) { return face.index == kBox; })) {
+    clipper.finish_as_cut(shape);
+    if (std::any_of(shape.faces.begin(), shape.faces.end(), [](const PolyhedronFace& face) { return face.kind == FaceKind::frame; })) {
       return Error{ErrorCode::geometry, "", "the boundary planes do not close: the space reaches farther than 1e8 m"};
     }
     const double box = distance(low, high);

@@ -11,7 +11,8 @@
 #include "core/base/mesh.h"
 #include "core/base/parallel.h"
 #include "core/base/result.h"
-#include "core/geometry/convex_domain.h"
+#include "core/geometry/domain.h"
+#include "core/geometry/polyhedron.h"
 
 namespace bl {
 
@@ -43,9 +44,9 @@ std::string_view name_of(SiteState state);
 
 /// Area [m²] of one flat facet of the shape (inside the ball).
 struct FacetArea {
-  enum class Kind : std::uint8_t { plane, site };
-  Kind kind = Kind::plane;
-  std::uint32_t index = 0;  ///< of the boundary plane, or of the site on the other side
+  using Kind = FaceKind;
+  Kind kind = Kind::plane;  ///< a boundary side, or another site
+  std::uint32_t index = 0;  ///< of the boundary side, or of the site on the other side
   double area = 0;          ///< [m²], positive
   bool operator==(const FacetArea&) const = default;
 };
@@ -66,23 +67,30 @@ struct CellMeasure {
   double volume_by_own_weight = 0;  ///< dV_i/dw_i [m]: sum over shared facets of A/(2 d), plus spherical area/(2 radius)
   Point3 centroid;                  ///< of the shape [m]; the site's own position where the shape is empty
   std::vector<FacetArea> facets;    ///< sorted by (kind, index), only those with an area
+  /// The power cell inside the domain, not shrunk, relative to the site: one polyhedron per piece of the domain that it reaches
+  /// into. Null where not asked for.
+  std::shared_ptr<const std::vector<Polyhedron>> outlines;
   MeshPointer mesh;                 ///< tessellated and shrink-wrapped; null where not asked for or where the shape is empty
 };
 
 struct CellOptions {
   double storey_height = 3;                ///< [m], for the floor area
   std::span<const double> storey_heights;  ///< [m], per site; overrides `storey_height` where not empty
-  bool with_shape = true;                  ///< floor area, footprint, height and bottom; off: volumes, areas, centroid only
+  bool with_shape = true;                  ///< off: volumes, areas and centroid of the shape only; cell_volume, floor area,
+                                           ///< footprint, height and bottom stay 0, and hidden sites count as starved
+  bool with_centroid = true;               ///< off: centroids are the sites' positions
+  bool with_outlines = false;              ///< keep the polyhedra of the cells; together with `with_shape` only
   int tessellation_depth = -1;             ///< -1: no mesh; 0 to 4: each face's triangles are split in four so many times
   ThreadPool* pool = nullptr;              ///< null: on the calling thread. The result does not depend on it
 };
 
 /// The cells of all sites, in the order of the sites. Every site gets a record. Fails on non-finite or absurd input only.
-Result<std::vector<CellMeasure>> power_cells(const ConvexDomain& domain, std::span<const PowerSite> sites,
+Result<std::vector<CellMeasure>> power_cells(const Domain& domain, std::span<const PowerSite> sites,
                                              const CellOptions& options = {});
 
 /// The same with memory kept between calls: for a solver that evaluates the same sites many times.
-/// Results depend on the arguments alone, never on earlier calls.
+/// Results depend on the arguments alone, never on earlier calls: where few sites have changed, the cells that cannot have
+/// changed with them are kept, bit for bit what they would be if made anew.
 class PowerDiagram {
  public:
   PowerDiagram();
@@ -90,12 +98,14 @@ class PowerDiagram {
   PowerDiagram(PowerDiagram&&) noexcept;
   PowerDiagram& operator=(PowerDiagram&&) noexcept;
 
-  Result<void> set_domain(const ConvexDomain& domain);
-  const ConvexDomain& domain() const;
+  Result<void> set_domain(const Domain& domain);
+  const Domain& domain() const;
   /// Valid until the next call. An error leaves the last measures as they were.
   Result<std::span<const CellMeasure>> update(std::span<const PowerSite> sites, const CellOptions& options = {});
   /// The measures of the last update.
   std::span<const CellMeasure> cells() const;
+  /// The sites whose cells the last update has made anew: the others cannot have changed.
+  std::span<const std::uint32_t> made() const;
 
  private:
   struct Workshop;

@@ -25,7 +25,7 @@ Result<VolumeFit> fit_volumes(const Domain& domain, const FitProblem& problem, c
       locked[site] = 0;
     }
   }
-  auto fit = adapt_weights(domain.pieces.front().shape, problem.sites, demands, locked, {},
+  auto fit = adapt_weights(domain, problem.sites, demands, locked, {},
                            {.method = options.method,
                             .gain = options.gain,
                             .steps = options.most_steps,

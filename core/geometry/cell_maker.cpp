@@ -1,0 +1,153 @@
+// The search and the cuts behind one power cell.
+#include "core/geometry/cell_maker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bl {
+
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+// The box that stands in for everything beyond the ball is wider than the ball by this share.
+constexpr double kFrameMargin = 1e-3;
+// A ball of more than this share of the domain's size is no help: the domain itself is the tighter start.
+constexpr double kLargeBall = 0.5;
+// Where touching planes decide, all candidates that could come this little nearer take part.
+constexpr double kNearlyReached = 1 + 1e-9;
+
+// Squared distance of a point from an axis-parallel box.
+double squared_gap(const Point3& p, const Vector3& low, const Vector3& high) {
+  const double dx = std::max({0.0, low.x - p.x, p.x - high.x}), dy = std::max({0.0, low.y - p.y, p.y - high.y}),
+               dz = std::max({0.0, low.z - p.z, p.z - high.z});
+  return dx * dx + dy * dy + dz * dz;
+}
+
+}  // namespace
+
+void CellGround::set_domain(const Domain& given) {
+  domain = given;
+  pieces.clear();
+  for (const Domain::Piece& piece : domain.pieces) pieces.emplace_back(piece.shape, piece.sides);
+}
+
+Result<void> CellGround::set_sites(std::span<const PowerSite> all, std::span<const std::uint32_t> participants) {
+  sites = all;
+  grid.build(all, participants);
+  is_triangulated = grid.is_uneven();
+  return is_triangulated ? find_power_neighbours(all, participants, neighbours) : Result<void>{};
+}
+
+double CellMaker::reach() const { return std::min(limit_, std::sqrt(cell_.reach_squared())); }
+
+void CellMaker::begin(const CellGround& ground, std::uint32_t site) {
+  const Point3& origin = ground.sites[site].position;
+  if (limit_ < kUnlimited) {
+    const double side = (1 + kFrameMargin) * limit_;
+    cell_.start_box({-side, -side, -side}, {side, side, side});
+    if (ground.domain.is_convex()) cell_.cut(ground.pieces.front(), origin, limit_);
+  } else if (ground.domain.is_convex()) {
+    cell_.start(ground.pieces.front(), origin);
+  } else {
+    const double margin = kFrameMargin * ground.domain.size();
+    const Vector3 room{margin, margin, margin};
+    cell_.start_box(ground.domain.minimum - origin - room, ground.domain.maximum - origin + room);
+  }
+}
+
+void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
+  const PowerSite& own = ground.sites[site];
+  double reach = this->reach(), four_reach_squared = 4 * reach * reach;
+  const auto consider = [&](const SiteGrid::Entry& entry) {
+    const Vector3 to = entry.position - own.position;
+    const double squared = squared_norm(to), sum = squared + (own.weight - entry.weight);
+    if (sum > 0 && sum * sum >= squared * four_reach_squared) return;
+    const double d = std::sqrt(squared);
+    const std::size_t before = cell_.side_count();
+    cell_.cut(to / d, sum / (2 * d), FaceKind::site, entry.site);
+    if (cell_.side_count() == before && !cell_.is_empty()) return;
+    reach = this->reach();
+    four_reach_squared = 4 * reach * reach;
+  };
+  ground.grid.search(own.position, own.weight, site, [&] { return reach; }, consider);
+}
+
+// All sites whose bisectors may come nearer than `reach`, nearest bisector first.
+void CellMaker::gather(const CellGround& ground, std::uint32_t site, double reach) {
+  const PowerSite& own = ground.sites[site];
+  candidates_.clear();
+  const auto consider = [&](const Point3& position, double weight, std::uint32_t j) {
+    const Vector3 to = position - own.position;
+    const double squared = squared_norm(to), d = std::sqrt(squared), offset = (squared + (own.weight - weight)) / (2 * d);
+    if (offset < reach) candidates_.push_back({offset, j, to / d});
+  };
+  if (ground.is_triangulated) {
+    for (const std::uint32_t j : ground.neighbours.of(site)) consider(ground.sites[j].position, ground.sites[j].weight, j);
+  } else {
+    ground.grid.search(own.position, own.weight, site, [&] { return reach; },
+                       [&](const SiteGrid::Entry& entry) { consider(entry.position, entry.weight, entry.site); });
+  }
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return a.offset != b.offset ? a.offset < b.offset : a.site < b.site;
+  });
+}
+
+void CellMaker::cut_in_order(const CellGround& ground, std::uint32_t site) {
+  begin(ground, site);
+  for (const Candidate& candidate : candidates_) {
+    if (!cell_.cut(candidate.normal, candidate.offset, FaceKind::site, candidate.site)) return;
+  }
+}
+
+Polyhedron& CellMaker::next_part() {
+  if (part_count_ == parts_.size()) parts_.emplace_back();
+  return parts_[part_count_++];
+}
+
+// The cell, cut up by the pieces of the domain.
+void CellMaker::keep_parts(const CellGround& ground, const Point3& origin) {
+  for (std::size_t k = 0; k < ground.pieces.size(); ++k) {
+    const ConvexDomain& shape = ground.domain.pieces[k].shape;
+    if (squared_gap(origin, shape.minimum, shape.maximum) > cell_.reach_squared()) continue;
+    piece_.copy(cell_);
+    if (!piece_.cut(ground.pieces[k], origin, kUnlimited)) continue;
+    piece_.finish(next_part());
+  }
+}
+
+void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
+  const PowerSite& own = ground.sites[site];
+  part_count_ = 0;
+  borders_.clear();
+  limit_ = whole ? kUnlimited : std::sqrt(std::max(0.0, own.weight));
+  if (limit_ == 0) return;
+  if (limit_ > kLargeBall * ground.domain.size()) limit_ = kUnlimited;
+  begin(ground, site);
+  bool is_in_order = ground.is_triangulated;
+  if (ground.is_triangulated) {
+    gather(ground, site, kUnlimited);
+    cut_in_order(ground, site);
+  } else {
+    cut_by_search(ground, site);
+  }
+  Polyhedron& outline = ground.domain.is_convex() ? next_part() : outline_;
+  bool is_vague = !cell_.finish(outline);
+  if (!is_in_order && (is_vague || cell_.is_touchy())) {
+    // Here the order of the cuts may show: they are made again in an order that depends on the sites alone.
+    gather(ground, site, cell_.is_empty() ? kUnlimited : kNearlyReached * reach());
+    cut_in_order(ground, site);
+    cell_.finish(outline);
+    for (const Candidate& candidate : candidates_) borders_.push_back(candidate.site);
+  } else {
+    for (const PolyhedronFace& face : outline.faces) {
+      if (face.kind == FaceKind::site) borders_.push_back(face.index);
+    }
+  }
+  std::sort(borders_.begin(), borders_.end());
+  borders_.erase(std::unique(borders_.begin(), borders_.end()), borders_.end());
+  if (!ground.domain.is_convex()) keep_parts(ground, own.position);
+  if (ground.domain.is_convex() && outline.is_empty()) part_count_ = 0;
+}
+
+}  // namespace bl

@@ -1,0 +1,63 @@
+// One power cell after the other, as polyhedra: which planes to cut with, in which order, and where to stop.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/clipper.h"
+#include "core/geometry/domain.h"
+#include "core/geometry/power_neighbours.h"
+#include "core/geometry/site_grid.h"
+
+namespace bl {
+
+/// What all threads read while cells are made.
+struct CellGround {
+  Domain domain;
+  std::vector<Clipper::Start> pieces;  ///< of the domain, ready to be clipped
+  std::span<const PowerSite> sites;
+  SiteGrid grid;
+  bool is_triangulated = false;  ///< candidates come from `neighbours` instead of the grid
+  PowerNeighbours neighbours;
+
+  void set_domain(const Domain& given);
+  /// Spreads the participants over the grid; where they lie too unevenly for one, triangulates them.
+  Result<void> set_sites(std::span<const PowerSite> all, std::span<const std::uint32_t> participants);
+};
+
+/// The working memory of one thread. A cell depends on the ground and the site alone, never on the cells made before.
+class CellMaker {
+ public:
+  /// `whole`: the whole power cell inside the domain; otherwise only what may lie in the site's ball.
+  void make(const CellGround& ground, std::uint32_t site, bool whole);
+
+  /// Relative to the site; one for each piece of the domain that the cell reaches into.
+  std::span<const Polyhedron> parts() const { return std::span(parts_).first(part_count_); }
+  /// All sites whose bisectors bound the cell (or nearly so), in ascending order: a change of another site cannot change it.
+  std::span<const std::uint32_t> borders() const { return borders_; }
+
+ private:
+  struct Candidate {
+    double offset;
+    std::uint32_t site;
+    Vector3 normal;
+  };
+  void begin(const CellGround& ground, std::uint32_t site);
+  void cut_by_search(const CellGround& ground, std::uint32_t site);
+  void cut_in_order(const CellGround& ground, std::uint32_t site);
+  void gather(const CellGround& ground, std::uint32_t site, double reach);
+  void keep_parts(const CellGround& ground, const Point3& origin);
+  double reach() const;
+  Polyhedron& next_part();
+
+  Clipper cell_, piece_;
+  Polyhedron outline_;
+  double limit_ = 0;  // nothing beyond this distance matters [m]
+  std::vector<Candidate> candidates_;
+  std::vector<std::uint32_t> borders_;
+  std::vector<Polyhedron> parts_;
+  std::size_t part_count_ = 0;
+};
+
+}  // namespace bl

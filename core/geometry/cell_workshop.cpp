@@ -1,0 +1,274 @@
+// From a polyhedron and a ball to a record of the cell; and the bookkeeping of sites behind it.
+#include "core/geometry/cell_workshop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/text.h"
+#include "core/geometry/coincidence.h"
+#include "core/geometry/tessellate.h"
+
+namespace bl {
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Facets below this share of the cell's squared reach are slivers of rounding: they carry no name.
+constexpr double kSliverShare = 1e-14;
+// A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
+constexpr double kInsideShare = 1e-6;
+constexpr std::size_t kChunk = 16;
+
+bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin) {
+  for (const PolyhedronFace& face : part.faces) {
+    if (!(dot(face.normal, point) <= face.offset - margin)) return false;
+  }
+  return squared_norm(point) <= squared_radius;
+}
+
+void add_facet(FaceKind kind, std::uint32_t index, double area, std::vector<FacetArea>& facets) {
+  // Faces come in the order of kind and index, so only parts of other pieces have to look back.
+  const FacetArea facet{kind, index, area};
+  const auto is_before = [](const FacetArea& a, const FacetArea& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.index < b.index;
+  };
+  if (facets.empty() || is_before(facets.back(), facet)) return facets.push_back(facet);
+  const auto at = std::lower_bound(facets.begin(), facets.end(), facet, is_before);
+  if (at != facets.end() && at->kind == kind && at->index == index) {
+    at->area += area;
+  } else {
+    facets.insert(at, facet);
+  }
+}
+
+void gather_facets(const Polyhedron& part, const ShapeMeasure& shape, CellMeasure& out) {
+  const double sliver = kSliverShare * part.reach_squared;
+  for (std::size_t k = 0; k < part.faces.size(); ++k) {
+    const PolyhedronFace& face = part.faces[k];
+    const bool is_surface = face.kind == FaceKind::plane || face.kind == FaceKind::site;
+    if (is_surface && shape.areas[k] > sliver) add_facet(face.kind, face.index, shape.areas[k], out.facets);
+  }
+}
+
+// What follows from facets and spherical area.
+void add_up(std::span<const PowerSite> sites, std::uint32_t site, CellMeasure& out) {
+  out.surface_area = out.spherical_area;
+  out.volume_by_own_weight = out.spherical_area > 0 ? out.spherical_area / (2 * std::sqrt(sites[site].weight)) : 0;
+  for (const FacetArea& facet : out.facets) {
+    out.surface_area += facet.area;
+    if (facet.kind != FacetArea::Kind::site) continue;
+    out.volume_by_own_weight += facet.area / (2 * distance(sites[site].position, sites[facet.index].position));
+  }
+}
+
+Mesh mesh_of(const Polyhedron& part, const PowerSite& site, int depth, const Point3& wrap_centre) {
+  std::vector<FaceLoop> loops;
+  for (const PolyhedronFace& face : part.faces) {
+    if (face.kind != FaceKind::inner) loops.push_back(part.loop(face));
+  }
+  return tessellate(part.vertices, loops, depth, {}, std::sqrt(site.weight), wrap_centre, site.position);
+}
+
+// The parts in the pieces of the domain become one mesh without the faces between the pieces.
+MeshPointer make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
+                      const Point3& centroid) {
+  // Towards the site, or where it is not inside its own cell, towards the centroid.
+  const double margin = kInsideShare * std::sqrt(site.weight);
+  const bool is_inside =
+      std::any_of(parts.begin(), parts.end(), [&](const Polyhedron& part) { return holds(part, site.weight, {}, margin); });
+  Mesh whole;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (shapes[k].is_empty) continue;
+    const Mesh mesh = mesh_of(parts[k], site, depth, is_inside ? Point3{} : centroid);
+    const std::uint32_t first = static_cast<std::uint32_t>(whole.vertices.size());
+    whole.vertices.insert(whole.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& t : mesh.triangles) whole.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return std::make_shared<const Mesh>(std::move(whole));
+}
+
+// Height, floor area and footprint of all parts together.
+void measure_storeys(std::span<const Polyhedron> parts, std::span<ShapeMeasure> shapes, const PowerSite& site, double storey,
+                     CellMeasure& out) {
+  double lowest = kInfinity, highest = -kInfinity;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (shapes[k].is_empty) continue;
+    measure_extent(parts[k], site.weight, shapes[k]);
+    lowest = std::min(lowest, shapes[k].lowest);
+    highest = std::max(highest, shapes[k].highest);
+  }
+  out.height = highest - lowest;
+  out.bottom = site.position.z + lowest;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (shapes[k].is_empty) continue;
+    shapes[k].lowest = lowest;
+    shapes[k].highest = highest;
+    out.floor_area += floor_area(parts[k], site.weight, shapes[k], storey);
+    out.footprint += footprint_area(parts[k], site.weight, shapes[k]);
+  }
+}
+
+void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const CellOptions& options, CellBench& bench,
+                   CellMeasure& out) {
+  const PowerSite& site = sites[index];
+  const auto parts = bench.maker.parts();
+  bench.shapes.resize(parts.size());
+  Vector3 moment;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    ShapeMeasure& shape = bench.shapes[k];
+    Point3 middle;
+    const double cell_volume = options.with_shape ? volume_and_centroid(parts[k], middle) : kInfinity;
+    if (options.with_shape) out.cell_volume += cell_volume;
+    shape.is_empty = true;
+    if (!(site.weight > 0)) continue;
+    measure_shape(parts[k], site.weight, cell_volume, options.with_centroid, shape);
+    if (shape.is_empty || !(shape.volume > 0)) continue;
+    // A sliver seen from a far-away site may have a centroid of pure rounding; a point of its facets is then the better answer.
+    if (options.with_centroid && !holds(parts[k], site.weight, shape.centroid, 0)) shape.centroid = shape.point_inside;
+    out.volume += shape.volume;
+    out.spherical_area += shape.spherical_area;
+    moment += shape.volume * shape.centroid;
+    gather_facets(parts[k], shape, out);
+  }
+  if (!(out.volume > 0)) return;
+  const Point3 centroid = parts.size() == 1 ? bench.shapes[0].centroid : moment / out.volume;
+  if (options.with_centroid) out.centroid = site.position + centroid;
+  add_up(sites, index, out);
+  if (options.with_shape) {
+    const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[index];
+    measure_storeys(parts, bench.shapes, site, storey, out);
+  }
+  if (options.tessellation_depth >= 0) {
+    out.mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid);
+  }
+}
+
+std::string number(std::uint32_t site) { return "site " + std::to_string(site); }
+
+}  // namespace
+
+void CellWorkshop::set_domain(const Domain& domain) {
+  ground_.set_domain(domain);
+  sites_.clear();
+}
+
+Result<void> CellWorkshop::set_sites(std::span<const PowerSite> sites) {
+  sites_.assign(sites.begin(), sites.end());
+  find_coincident(sites_, kCoincidenceShare * ground_.domain.size(), twin_);
+  participants_.clear();
+  for (std::uint32_t i = 0; i < sites_.size(); ++i) {
+    if (twin_[i] == kNone) participants_.push_back(i);
+  }
+  has_twins_ = participants_.size() < sites_.size();
+  return ground_.set_sites(sites_, participants_);
+}
+
+Result<void> CellWorkshop::set_weights(std::span<const PowerSite> sites) {
+  // Of two sites at one place the heavier lives, so with twins other weights may mean other participants.
+  if (has_twins_ || ground_.is_triangulated || sites.size() != sites_.size()) return set_sites(sites);
+  sites_.assign(sites.begin(), sites.end());
+  ground_.sites = sites_;
+  ground_.grid.refresh_weights(sites_);
+  return {};
+}
+
+bool CellWorkshop::change(std::uint32_t site, const PowerSite& now) {
+  if (has_twins_ || ground_.is_triangulated || ground_.grid.is_stale()) return false;
+  if (now.position != sites_[site].position &&
+      ground_.grid.has_site_within(now.position, kCoincidenceShare * ground_.domain.size(), site)) {
+    return false;
+  }
+  sites_[site] = now;
+  ground_.grid.change(site, now);
+  return true;
+}
+
+void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const {
+  std::vector<FacetArea> facets = std::move(out.facets);
+  facets.clear();
+  out = CellMeasure{};
+  out.facets = std::move(facets);
+  out.centroid = sites_[site].position;
+  out.bottom = sites_[site].position.z;
+  const std::uint32_t twin = twin_[site];
+  if (twin == kNone) {
+    bench.maker.make(ground_, site, options.with_shape);
+    measure_parts(sites_, site, options, bench, out);
+    if (options.with_outlines && options.with_shape) {
+      const auto parts = bench.maker.parts();
+      out.outlines = std::make_shared<const std::vector<Polyhedron>>(parts.begin(), parts.end());
+    }
+  }
+  std::string emptiness;
+  if (twin == kNone && !(out.volume > 0)) {
+    const bool has_cell = out.cell_volume > 0 || (!options.with_shape && !bench.maker.parts().empty());
+    const std::uint32_t winner = has_cell ? kNone : ground_.grid.least_power(sites_[site].position);
+    out.state = has_cell ? SiteState::starved : SiteState::hidden;
+    emptiness = winner != kNone && winner != site ? "swallowed: " + number(winner) + " outweighs it at its position"
+                : !has_cell                       ? std::string("its power cell lies outside the domain")
+                : !(sites_[site].weight > 0)      ? std::string("its weight is not positive, so it has no ball")
+                                                  : std::string("its ball does not reach its own power cell: neighbours are heavier");
+    out.reason = emptiness;
+  }
+  if (twin != kNone) {
+    out.state = SiteState::coincident;
+    out.reason = "lies at the position of " + number(twin) + ", which is heavier or comes first";
+  } else if (!ground_.domain.contains(sites_[site].position, 1e-12 * ground_.domain.size())) {
+    out.state = SiteState::outside;
+    out.reason = "lies outside the domain" + (emptiness.empty() ? std::string("; its cell reaches in") : "; " + emptiness);
+  }
+}
+
+std::unique_ptr<CellBench> CellWorkshop::take_bench() {
+  const std::lock_guard lock(mutex_);
+  if (benches_.empty()) return std::make_unique<CellBench>();
+  auto bench = std::move(benches_.back());
+  benches_.pop_back();
+  return bench;
+}
+
+void CellWorkshop::give_back(std::unique_ptr<CellBench> bench) {
+  const std::lock_guard lock(mutex_);
+  benches_.push_back(std::move(bench));
+}
+
+void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
+                        std::vector<std::uint32_t>* borders) {
+  const auto body = [&](std::size_t begin, std::size_t end) {
+    auto bench = take_bench();
+    for (std::size_t k = begin; k < end; ++k) {
+      make_one(which[k], options, *bench, cells[which[k]]);
+      if (borders == nullptr) continue;
+      const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
+      borders[which[k]].assign(found.begin(), found.end());
+    }
+    give_back(std::move(bench));
+  };
+  if (options.pool != nullptr && which.size() > kChunk) {
+    options.pool->for_each_chunk(which.size(), kChunk, body);
+  } else if (!which.empty()) {
+    body(0, which.size());
+  }
+}
+
+Result<void> check_sites(std::span<const PowerSite> sites) {
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const PowerSite& site = sites[i];
+    if (!is_finite(site.position) || !std::isfinite(site.weight)) {
+      return Error{ErrorCode::not_finite, "", "site " + std::to_string(i) + " has a position or weight that is not a number"};
+    }
+    const Point3& p = site.position;
+    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargestCoordinate) {
+      return Error{ErrorCode::out_of_range, "", "site " + std::to_string(i) + " lies more than 1e8 m from the origin"};
+    }
+    if (std::abs(site.weight) > kLargestWeight) {
+      return Error{ErrorCode::out_of_range, "", "the weight of site " + std::to_string(i) + " exceeds 1e18 m²"};
+    }
+  }
+  return {};
+}
+
+}  // namespace bl

@@ -1,0 +1,64 @@
+// Makes and measures any selection of the cells of a site set: what the diagram and the fit share.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "core/geometry/cell_maker.h"
+#include "core/geometry/power_cells.h"
+#include "core/geometry/shape_measure.h"
+
+namespace bl {
+
+/// What one thread needs to make and measure cells.
+struct CellBench {
+  CellMaker maker;
+  ShapeMeasure shape;
+  std::vector<ShapeMeasure> shapes;
+};
+
+/// Sites in a domain, ready for their cells to be made. Every cell is a pure function of domain, sites and options: which cells
+/// are made, when, and on which thread leaves no trace in them.
+class CellWorkshop {
+ public:
+  void set_domain(const Domain& domain);
+  const Domain& domain() const { return ground_.domain; }
+
+  /// All sites anew: finds who coincides with whom and sorts the others into the search structure.
+  Result<void> set_sites(std::span<const PowerSite> sites);
+  /// Other weights, the same positions. Much cheaper.
+  Result<void> set_weights(std::span<const PowerSite> sites);
+  /// One site anew. False where that is more than a local change (it meets another site, say): then set_sites() is due.
+  bool change(std::uint32_t site, const PowerSite& now);
+
+  std::span<const PowerSite> sites() const { return sites_; }
+  /// Per site: the site it coincides with, or 0xffffffff.
+  std::span<const std::uint32_t> twins() const { return twin_; }
+  /// Sites in the order in which they lie in memory: nearby cells are made one after the other.
+  std::span<const std::uint32_t> order() const { return ground_.grid.order(); }
+
+  /// Makes the cells of `which`, each into its place of `cells`; `borders` (null, or one list per site) gets the sites whose
+  /// change can change the cell.
+  void make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
+            std::vector<std::uint32_t>* borders = nullptr);
+
+ private:
+  void make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const;
+  std::unique_ptr<CellBench> take_bench();
+  void give_back(std::unique_ptr<CellBench> bench);
+
+  CellGround ground_;
+  std::vector<PowerSite> sites_;
+  std::vector<std::uint32_t> twin_, participants_;
+  bool has_twins_ = false;
+  std::vector<std::unique_ptr<CellBench>> benches_;
+  std::mutex mutex_;
+};
+
+/// Fails on what cannot be computed with: numbers that are not finite or absurd.
+Result<void> check_sites(std::span<const PowerSite> sites);
+
+}  // namespace bl

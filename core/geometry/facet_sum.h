@@ -1,0 +1,140 @@
+// What the edges of one facet add up to inside a ball: its area, its solid angle and its moment, in closed form.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/vector.h"
+
+namespace bl {
+
+// A sum of angles as a product of complex numbers with the full turns counted: one arctangent for the whole sum.
+class AngleSum {
+ public:
+  /// Adds the angle of (re, im), taken in (-π, π).
+  void add(double re, double im) {
+    if (im == 0) return;  // an edge through the centre spans no angle, whichever side it is seen from
+    const double next_re = re_ * re - im_ * im, next_im = re_ * im + im_ * re;
+    if (im > 0) {
+      turns_ += im_ >= 0 && next_im < 0;
+    } else {
+      turns_ -= im_ < 0 && next_im >= 0;
+    }
+    re_ = next_re;
+    im_ = next_im;
+    const double size = std::abs(re_) + std::abs(im_);
+    if (size < 1e-60 || size > 1e60) {
+      re_ /= size;
+      im_ /= size;
+    }
+  }
+  double value() const { return std::atan2(im_, re_) + 2 * std::numbers::pi * turns_; }
+  int turns() const { return turns_; }
+
+ private:
+  double re_ = 1, im_ = 0;
+  int turns_ = 0;
+};
+
+// A corner of a facet: relative to the ball's centre.
+struct Place {
+  Point3 at;
+  double norm = 0;         // |at|
+  bool is_inside = false;  // of the ball
+
+  static Place of(const Point3& at, double squared_radius) {
+    const double squared = squared_norm(at);
+    return {at, std::sqrt(squared), squared <= squared_radius};
+  }
+};
+
+// One facet with unit normal n on the plane n·x = h: what its edges add up to. With q = h n the foot of the centre and ρ the
+// radius of the facet's disc, an edge piece a→b inside the ball contributes twice the area n·(a×b) of the triangle q a b. A
+// piece outside contributes a sector of the disc: with θ the angle of (a-q)·(b-q) + i n·(a×b), the area ρ²θ/2; and to the solid
+// angle of what lies outside the ball that of the triangle q a b, seen from the centre, less that of the sector:
+// Ω - (1 - |h|/r) θ with tan(Ω/2) = h n·(a×b) / (|h| (|a||b| + |h|(|a|+|b|) + a·b)) (van Oosterom and Strackee 1983).
+// Edges inside the ball leave the solid angle alone, so a centre on a facet, an edge or a corner is no special case.
+class FacetSum {
+ public:
+  FacetSum(const Vector3& normal, double offset, double squared_radius, AngleSum* solid)
+      : normal_(normal), offset_(offset), squared_radius_(squared_radius), squared_disc_(squared_radius - offset * offset),
+        solid_(solid) {}
+
+  /// Does the plane cut the ball at all?
+  bool has_disc() const { return squared_disc_ > 0; }
+
+  void add_edge(const Place& a, const Place& b, bool is_forward) {
+    if (a.is_inside && b.is_inside) return inside(a.at, b.at);
+    if (!has_disc()) return outside(a.at, a.norm, b.at, b.norm);
+    // Where the edge pierces the ball is worked out in one direction only: both of its faces get the same bits.
+    const Place &low = is_forward ? a : b, &high = is_forward ? b : a;
+    const Vector3 along = high.at - low.at;
+    const double squared_length = squared_norm(along), t = dot(low.at, along);
+    const double rest = t * t + squared_length * (squared_radius_ - squared_norm(low.at));
+    const bool is_chord = !low.is_inside && !high.is_inside;
+    if (!(rest > 0) || (is_chord && !(t < 0 && -t < squared_length))) return outside(a.at, a.norm, b.at, b.norm);
+    const double root = std::sqrt(rest), radius = std::sqrt(squared_radius_);
+    const auto pierced = [&](double numerator) {
+      return low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along;
+    };
+    const Point3 entry = low.is_inside ? low.at : pierced(-t - root), exit = high.is_inside ? high.at : pierced(-t + root);
+    if (is_forward) {
+      if (!low.is_inside) outside(low.at, low.norm, entry, radius);
+      inside(entry, exit);
+      if (!high.is_inside) outside(exit, radius, high.at, high.norm);
+    } else {
+      if (!high.is_inside) outside(high.at, high.norm, exit, radius);
+      inside(exit, entry);
+      if (!low.is_inside) outside(entry, radius, low.at, low.norm);
+    }
+  }
+
+  /// After the last edge.
+  void close() {
+    // Where the rim meets no edge the facet holds the whole disc or nothing of it, and the turns say which.
+    const double angle = meets_edge_ ? outer_.value() : outer_.turns() > 0 ? 2 * std::numbers::pi : 0;
+    area = std::max(0.0, 0.5 * (doubled_ + squared_disc_ * angle));
+    if (!meets_edge_) moment = {};
+    const double radius = std::sqrt(squared_radius_), height = std::abs(offset_);
+    sectors = squared_disc_ / (radius * (radius + height)) * angle;
+  }
+
+  double area = 0;     // inside the ball
+  double sectors = 0;  // solid angle of the sectors of the disc
+  Vector3 moment;      // first moment in the plane, about the foot; where asked for
+  bool with_moment = false;
+
+ private:
+  void inside(const Point3& a, const Point3& b) {
+    const double area_twice = dot(normal_, cross(a, b));
+    meets_edge_ = true;
+    doubled_ += area_twice;
+    if (with_moment) moment += (area_twice / 6) * (a + b - (2 * offset_) * normal_);
+  }
+
+  void outside(const Point3& a, double a_norm, const Point3& b, double b_norm) {
+    const double area_twice = dot(normal_, cross(a, b)) / squared_radius_, cosine = dot(a, b);
+    if (solid_ != nullptr) {
+      const double height = std::abs(offset_);
+      solid_->add((a_norm * b_norm + height * (a_norm + b_norm) + cosine) / squared_radius_,
+                  offset_ < 0 ? -area_twice : area_twice);
+    }
+    if (!has_disc()) return;
+    outer_.add((cosine - offset_ * offset_) / squared_radius_, area_twice);
+    if (!with_moment) return;
+    const Vector3 p = a - offset_ * normal_, q = b - offset_ * normal_;
+    const double p_norm = norm(p), q_norm = norm(q);
+    if (!(p_norm > 0) || !(q_norm > 0)) return;
+    moment += (squared_disc_ * std::sqrt(squared_disc_) / 3) * cross(q / q_norm - p / p_norm, normal_);
+  }
+
+  Vector3 normal_;
+  double offset_, squared_radius_, squared_disc_;
+  AngleSum* solid_;
+  AngleSum outer_;
+  double doubled_ = 0;
+  bool meets_edge_ = false;
+};
+
+}  // namespace bl

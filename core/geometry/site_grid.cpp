@@ -1,0 +1,184 @@
+// Blocks of sites, and what is asked of them outside the inner loop.
+#include "core/geometry/site_grid.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace bl {
+
+namespace {
+
+// Measured: fewer make more blocks to look at, more make more sites to look at.
+constexpr double kSitesPerBlock = 4;
+// More than so many times the even number of pairs that share a block, and a triangulation is faster.
+constexpr double kUnevenness = 40;
+
+}  // namespace
+
+const std::vector<SiteGrid::Offset>& SiteGrid::offsets() {
+  static const std::vector<Offset> table = [] {
+    std::vector<Offset> made;
+    for (int z = -kFar; z <= kFar; ++z) {
+      for (int y = -kFar; y <= kFar; ++y) {
+        for (int x = -kFar; x <= kFar; ++x) {
+          const auto gap = [](int steps) { return std::max(0, std::abs(steps) - 1); };
+          const double squared = gap(x) * gap(x) + gap(y) * gap(y) + gap(z) * gap(z);
+          made.push_back({{x, y, z}, squared});
+        }
+      }
+    }
+    // Of blocks with the same gap the one with the nearer centre first.
+    std::sort(made.begin(), made.end(), [](const Offset& a, const Offset& b) {
+      const auto centre = [](const Offset& o) { return o.at[0] * o.at[0] + o.at[1] * o.at[1] + o.at[2] * o.at[2]; };
+      if (a.squared_gap != b.squared_gap) return a.squared_gap < b.squared_gap;
+      return centre(a) != centre(b) ? centre(a) < centre(b) : a.at < b.at;
+    });
+    return made;
+  }();
+  return table;
+}
+
+std::array<int, 3> SiteGrid::block_of(const Point3& p) const {
+  const auto steps = [&](double from, double to, int count) {
+    return static_cast<int>(std::clamp((to - from) / side_, 0.0, static_cast<double>(count - 1)));
+  };
+  return {steps(origin_.x, p.x, count_[0]), steps(origin_.y, p.y, count_[1]), steps(origin_.z, p.z, count_[2])};
+}
+
+void SiteGrid::build(std::span<const PowerSite> sites, std::span<const std::uint32_t> participants) {
+  strays_.clear();
+  slot_of_.assign(sites.size(), kNone);
+  order_.resize(participants.size());
+  entries_.resize(participants.size());
+  is_uneven_ = false;
+  largest_weight_ = -std::numeric_limits<double>::infinity();
+  Vector3 low, high;
+  for (std::size_t k = 0; k < participants.size(); ++k) {
+    const PowerSite& site = sites[participants[k]];
+    const Point3& p = site.position;
+    if (k == 0) low = high = p;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    largest_weight_ = std::max(largest_weight_, site.weight);
+  }
+  origin_ = low;
+  const Vector3 extent = high - low;
+  const double longest = std::max({extent.x, extent.y, extent.z}), wanted = std::max(1.0, static_cast<double>(participants.size()) / kSitesPerBlock);
+  const auto steps = [&](double length) { return std::max(1.0, std::ceil(length / side_ * (1 + 1e-12))); };
+  // The side that makes about as many blocks as wanted, whatever the shape of the box.
+  side_ = longest > 0 ? longest : 1;
+  for (int k = 0; k < 200 && steps(extent.x) * steps(extent.y) * steps(extent.z) < wanted && longest > 0; ++k) side_ *= 0.95;
+  count_ = {static_cast<int>(steps(extent.x)), static_cast<int>(steps(extent.y)), static_cast<int>(steps(extent.z))};
+  const std::size_t blocks = static_cast<std::size_t>(count_[0]) * count_[1] * count_[2];
+  first_.assign(blocks + 1, 0);
+  block_weight_.assign(blocks, -std::numeric_limits<double>::infinity());
+  std::vector<std::uint32_t> block(participants.size());
+  for (std::size_t k = 0; k < participants.size(); ++k) {
+    block[k] = static_cast<std::uint32_t>(index_of(block_of(sites[participants[k]].position)));
+    ++first_[block[k] + 1];
+  }
+  double pairs = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    pairs += static_cast<double>(first_[b + 1]) * first_[b + 1];
+    first_[b + 1] += first_[b];
+  }
+  is_uneven_ = participants.size() > 100 && pairs > kUnevenness * kSitesPerBlock * static_cast<double>(participants.size());
+  std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
+  for (std::size_t k = 0; k < participants.size(); ++k) {
+    const std::uint32_t site = participants[k], slot = at[block[k]]++;
+    entries_[slot] = {sites[site].position, sites[site].weight, site};
+    slot_of_[site] = slot;
+    order_[slot] = site;
+    block_weight_[block[k]] = std::max(block_weight_[block[k]], sites[site].weight);
+  }
+}
+
+void SiteGrid::refresh_weights(std::span<const PowerSite> sites) {
+  constexpr double kLightest = -std::numeric_limits<double>::infinity();
+  largest_weight_ = kLightest;
+  for (Entry& stray : strays_) {
+    stray.weight = sites[stray.site].weight;
+    largest_weight_ = std::max(largest_weight_, stray.weight);
+  }
+  for (std::size_t b = 0; b < block_weight_.size(); ++b) {
+    block_weight_[b] = kLightest;
+    for (std::uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
+      if (entries_[k].site == kNone) continue;
+      entries_[k].weight = sites[entries_[k].site].weight;
+      block_weight_[b] = std::max(block_weight_[b], entries_[k].weight);
+    }
+    largest_weight_ = std::max(largest_weight_, block_weight_[b]);
+  }
+}
+
+void SiteGrid::change(std::uint32_t site, const PowerSite& now) {
+  largest_weight_ = std::max(largest_weight_, now.weight);
+  for (Entry& stray : strays_) {
+    if (stray.site == site) {
+      stray = {now.position, now.weight, site};
+      return;
+    }
+  }
+  Entry& entry = entries_[slot_of_[site]];
+  const std::size_t block = index_of(block_of(entry.position));
+  if (index_of(block_of(now.position)) != block) {
+    entry.site = kNone;
+    strays_.push_back({now.position, now.weight, site});
+    return;
+  }
+  entry = {now.position, now.weight, site};
+  block_weight_[block] = -std::numeric_limits<double>::infinity();
+  for (std::uint32_t k = first_[block]; k < first_[block + 1]; ++k) {
+    block_weight_[block] = std::max(block_weight_[block], entries_[k].weight);
+  }
+}
+
+bool SiteGrid::has_site_within(const Point3& p, double limit, std::uint32_t self) const {
+  const auto is_near = [&](const Entry& entry) {
+    return entry.site != kNone && entry.site != self && distance(entry.position, p) <= limit;
+  };
+  if (std::any_of(strays_.begin(), strays_.end(), is_near)) return true;
+  const Vector3 room{1.001 * limit, 1.001 * limit, 1.001 * limit};
+  const auto low = block_of(p - room), high = block_of(p + room);
+  for (int z = low[2]; z <= high[2]; ++z) {
+    for (int y = low[1]; y <= high[1]; ++y) {
+      for (int x = low[0]; x <= high[0]; ++x) {
+        const std::size_t block = index_of({x, y, z});
+        if (std::any_of(entries_.begin() + first_[block], entries_.begin() + first_[block + 1], is_near)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::uint32_t SiteGrid::least_power(const Point3& p) const {
+  double best = std::numeric_limits<double>::infinity();
+  std::uint32_t found = kNone;
+  const auto consider = [&](const Entry& entry) {
+    const double power = squared_norm(entry.position - p) - entry.weight;
+    if (power < best || (power == best && entry.site < found)) {
+      best = power;
+      found = entry.site;
+    }
+  };
+  for (const Entry& stray : strays_) consider(stray);
+  std::array<int, 3> block{};
+  for (block[2] = 0; block[2] < count_[2]; ++block[2]) {
+    for (block[1] = 0; block[1] < count_[1]; ++block[1]) {
+      for (block[0] = 0; block[0] < count_[0]; ++block[0]) {
+        const std::size_t index = index_of(block);
+        const Vector3 low{origin_.x + block[0] * side_, origin_.y + block[1] * side_, origin_.z + block[2] * side_};
+        const double dx = std::max({0.0, low.x - p.x, p.x - low.x - side_}),
+                     dy = std::max({0.0, low.y - p.y, p.y - low.y - side_}),
+                     dz = std::max({0.0, low.z - p.z, p.z - low.z - side_});
+        if ((1 - 1e-9) * (dx * dx + dy * dy + dz * dz) - block_weight_[index] > best) continue;
+        for (std::uint32_t k = first_[index]; k < first_[index + 1]; ++k) {
+          if (entries_[k].site != kNone) consider(entries_[k]);
+        }
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace bl

@@ -1,0 +1,132 @@
+// Finds the sites whose bisectors may come near a site, block by block, without a triangulation.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/power_cells.h"
+
+namespace bl {
+
+/// Sites in cubic blocks of about equal number. In the order of the blocks their data lie side by side in memory.
+class SiteGrid {
+ public:
+  /// One site as the search sees it.
+  struct Entry {
+    Point3 position;
+    double weight;
+    std::uint32_t site;
+  };
+
+  /// Sorts the participants (indices into `sites`) into blocks.
+  void build(std::span<const PowerSite> sites, std::span<const std::uint32_t> participants);
+
+  /// A participant has another weight, or another position, now. Cheap; after many moves to other blocks build() is due.
+  void change(std::uint32_t site, const PowerSite& now);
+
+  /// Are the sites spread so unevenly that a triangulation finds neighbours faster?
+  bool is_uneven() const { return is_uneven_; }
+  /// Have so many sites left their blocks that the grid should be built anew?
+  bool is_stale() const { return strays_.size() > 64; }
+
+  /// Participants in the order in which they lie in memory: the order to work through them.
+  std::span<const std::uint32_t> order() const { return order_; }
+  /// The participants have other weights now, but their old positions.
+  void refresh_weights(std::span<const PowerSite> sites);
+
+  /// Calls consider(entry) for every other participant whose bisector with a site of this position and weight may lie nearer
+  /// than reach() [m], near blocks first. The bisector's distance from the position is (d² + weight - weight_j) / (2 d).
+  template <class Reach, class Consider>
+  void search(const Point3& position, double weight, std::uint32_t self, Reach&& reach, Consider&& consider) const {
+    const auto home = block_of(position);
+    for (const Entry& entry : strays_) {
+      if (entry.site != self) consider(entry);
+    }
+    const double lighter = weight - largest_weight_;
+    for (const Offset& offset : offsets()) {
+      if (is_beyond(offset.squared_gap * side_ * side_, lighter, reach())) return;
+      const std::array<int, 3> block{home[0] + offset.at[0], home[1] + offset.at[1], home[2] + offset.at[2]};
+      if (static_cast<unsigned>(block[0]) >= static_cast<unsigned>(count_[0]) ||
+          static_cast<unsigned>(block[1]) >= static_cast<unsigned>(count_[1]) ||
+          static_cast<unsigned>(block[2]) >= static_cast<unsigned>(count_[2]))
+        continue;
+      visit_block(position, weight, self, block, reach, consider);
+    }
+    search_far(position, weight, self, home, reach, consider);
+  }
+
+  /// Is there another participant within this distance [m]?
+  bool has_site_within(const Point3& position, double distance, std::uint32_t self) const;
+
+  /// The participant of least power |p - p_j|² - w_j at a position; of equals the lowest index.
+  std::uint32_t least_power(const Point3& position) const;
+
+ private:
+  struct Offset {
+    std::array<int, 3> at;
+    double squared_gap;  ///< least squared distance between the two blocks, in sides
+  };
+  static constexpr int kFar = 5;
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static const std::vector<Offset>& offsets();
+
+  // Can no bisector of a site at least sqrt(squared_gap) away come nearer than reach? `lighter` is w - max w_j.
+  static bool is_beyond(double squared_gap, double lighter, double reach) {
+    if (lighter > squared_gap) return lighter >= reach * reach;  // least at d = sqrt(lighter), where it is that much
+    const double least = squared_gap + lighter;
+    return least > 0 && least * least >= 4 * squared_gap * reach * reach;
+  }
+
+  std::array<int, 3> block_of(const Point3& p) const;
+  std::size_t index_of(const std::array<int, 3>& block) const {
+    return (static_cast<std::size_t>(block[2]) * count_[1] + block[1]) * count_[0] + block[0];
+  }
+
+  template <class Reach, class Consider>
+  void visit_block(const Point3& p, double weight, std::uint32_t self, const std::array<int, 3>& block, Reach&& reach,
+                   Consider&& consider) const {
+    const std::size_t index = index_of(block);
+    const std::uint32_t begin = first_[index], end = first_[index + 1];
+    if (begin == end) return;
+    const Vector3 low{origin_.x + block[0] * side_, origin_.y + block[1] * side_, origin_.z + block[2] * side_};
+    const double dx = std::max({0.0, low.x - p.x, p.x - low.x - side_}), dy = std::max({0.0, low.y - p.y, p.y - low.y - side_}),
+                 dz = std::max({0.0, low.z - p.z, p.z - low.z - side_});
+    // A hair less than the gap: a site on the border of its block may lie beyond it by rounding.
+    if (is_beyond((1 - 1e-9) * (dx * dx + dy * dy + dz * dz), weight - block_weight_[index], reach())) return;
+    for (std::uint32_t k = begin; k < end; ++k) {
+      if (entries_[k].site != self && entries_[k].site != kNone) consider(entries_[k]);
+    }
+  }
+
+  // All blocks that the table of offsets does not hold.
+  template <class Reach, class Consider>
+  void search_far(const Point3& p, double weight, std::uint32_t self, const std::array<int, 3>& home, Reach&& reach,
+                  Consider&& consider) const {
+    std::array<int, 3> block{};
+    for (block[2] = 0; block[2] < count_[2]; ++block[2]) {
+      for (block[1] = 0; block[1] < count_[1]; ++block[1]) {
+        const bool near_row = std::abs(block[2] - home[2]) <= kFar && std::abs(block[1] - home[1]) <= kFar;
+        for (block[0] = 0; block[0] < count_[0]; ++block[0]) {
+          if (near_row && std::abs(block[0] - home[0]) <= kFar) continue;
+          visit_block(p, weight, self, block, reach, consider);
+        }
+      }
+    }
+  }
+
+  Vector3 origin_;
+  double side_ = 1;  // of a block [m]
+  std::array<int, 3> count_{1, 1, 1};
+  bool is_uneven_ = false;
+  double largest_weight_ = 0;
+  std::vector<std::uint32_t> first_;   // block b: entries first_[b] .. first_[b + 1)
+  std::vector<double> block_weight_;   // largest weight in a block
+  std::vector<Entry> entries_;         // site kNone: it has moved to another block
+  std::vector<std::uint32_t> order_, slot_of_;
+  std::vector<Entry> strays_;          // sites that have left their blocks
+};
+
+}  // namespace bl
