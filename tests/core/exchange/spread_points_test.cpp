@@ -9,7 +9,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/random.h"
-#include "core/exchange/plan_ring.h"
+#include "core/geometry/plan_ring.h"
 #include "core/exchange/prism_samples.h"
 #include "core/exchange/site_grid.h"
 
