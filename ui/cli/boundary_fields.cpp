@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/geometry/domain_makers.h"
 #include "ui/cli/json_fields.h"
 
 namespace bl::cli {
@@ -62,13 +63,6 @@ Result<double> height_at(const Json& json, const char* key, const std::string& p
   return number_at(*it, slash(place, key));
 }
 
-Result<Domain> solid_of_plan(const std::vector<Point3>& plan, const std::vector<std::vector<Point3>>& holes, double bottom,
-                             double top, const std::string& place) {
-  if (!holes.empty())
-    return Error{ErrorCode::geometry, slash(place, "holes"), "plans with holes are not read yet; leave the holes out"};
-  return told(extrude(plan, bottom, top), slash(place, "plan"));
-}
-
 Result<Domain> from_plan(const Json& json, const std::string& place) {
   const auto plan = ring_at(json["plan"], slash(place, "plan"));
   if (!plan) return plan.error();
@@ -85,7 +79,9 @@ Result<Domain> from_plan(const Json& json, const std::string& place) {
       holes.push_back(std::move(*hole));
     }
   }
-  return solid_of_plan(*plan, holes, *bottom, *top, place);
+  auto solid = extrude_plan(*plan, holes, *bottom, *top);
+  if (!solid) return solid.error().within(place);
+  return solid;
 }
 
 Result<Domain> from_mesh_object(const Json& mesh, const std::string& place) {

@@ -46,13 +46,10 @@ Json side_planes(const Domain& domain) {
 
 Result<Json> solved(const SiteCase& input, ThreadPool& pool) {
   const Domain& domain = input.boundary.domain;
-  if (!domain.is_convex())
-    return Error{ErrorCode::geometry, slash(input.place, "boundary"),
-                 "cells of a boundary that is not convex are not computed yet"};
   CellOptions options;
-  options.with_shape = false;
+  options.storey_height = domain.maximum.z - domain.minimum.z;  // floor areas are not written: one storey
   options.pool = &pool;
-  const auto cells = power_cells(domain.pieces.front().shape, input.problem.sites, options);
+  const auto cells = power_cells(domain, input.problem.sites, options);
   if (!cells) return cells.error().within(input.place);
   Json result = Json::object();
   result["cells"] = Json::array();

@@ -150,6 +150,18 @@ TEST(Fit, BoundariesOfAllFormsAreOne) {
   }
 }
 
+TEST(Fit, PlansThatAreNotConvex) {
+  const Workplace place;
+  place.write("i.json", R"({"boundary": {"plan": [[0,0],[10,0],[10,5],[5,5],[5,10],[0,10]],
+    "holes": [[[1,1],[3,1],[3,3],[1,3]]], "bottom": 0, "top": 10}, "sites": [[8,2,5],[2,8,5]], "weights": [400, 400], "demands": [355, 355]})");
+  ASSERT_EQ(place.run({"cells", "i.json", "--json", "c.json"}).code, 0);
+  const nlohmann::json cells = place.json("c.json");
+  EXPECT_NEAR(cells["cells"][0]["volume"].get<double>() + cells["cells"][1]["volume"].get<double>(), 710, 1e-9);
+  EXPECT_EQ(cells["planes"].size(), 12u) << "bottom, top, six walls and four of the hole";
+  const Outcome outcome = place.run({"fit", "i.json", "--json", "o.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
 TEST(Fit, InterruptWritesEveryCase) {
   const Workplace place;
   std::string cases, sites, demands;
