@@ -217,6 +217,20 @@ bool add_planes(std::vector<NamedPlane>& planes, const SolidPart& part, std::siz
   return true;
 }
 
+// Does every edge have a twin? Where more than three planes meet in one corner, rounding can tear it.
+bool is_closed(const ConvexDomain& shape) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, twins;
+  for (const auto& face : shape.faces) {
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      edges.emplace_back(face[i], face[(i + 1) % face.size()]);
+      twins.emplace_back(face[(i + 1) % face.size()], face[i]);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::sort(twins.begin(), twins.end());
+  return edges == twins && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
 // The union of two pieces is convex where the half-spaces of both, less those of the face between them, enclose no less.
 std::optional<Domain::Piece> merged(const Domain::Piece& a, const Domain::Piece& b, double tolerance) {
   if (!boxes_overlap(a.shape.vertices, b.shape.vertices, -16 * tolerance)) return std::nullopt;
@@ -231,7 +245,7 @@ std::optional<Domain::Piece> merged(const Domain::Piece& a, const Domain::Piece&
   for (const NamedPlane& named : planes) bounds.push_back(named.plane);
   auto shape = from_planes(bounds);
   const double sum = a.shape.volume + b.shape.volume;
-  if (!shape || std::abs(shape->volume - sum) > 1e-10 * sum) return std::nullopt;
+  if (!shape || std::abs(shape->volume - sum) > 1e-10 * sum || !is_closed(*shape)) return std::nullopt;
   for (std::size_t k = 0; k < planes.size(); ++k) {
     if (shape->faces[k].size() < 3) return std::nullopt;
     piece.sides.push_back(planes[k].side);

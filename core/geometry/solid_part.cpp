@@ -119,12 +119,23 @@ SolidPart part_of(const Domain::Piece& piece) {
 }
 
 Result<Domain::Piece> piece_of(const SolidPart& part) {
+  // A corner of two faces only lies within an edge: what a neighbour's cut has left there.
+  std::vector<std::uint32_t> count(part.vertices.size(), 0), number(part.vertices.size(), 0);
+  for (const PartFace& face : part.faces)
+    for (const std::uint32_t v : face.loop) ++count[v];
   ConvexDomain shape;
   Domain::Piece piece;
-  shape.vertices = part.vertices;
+  for (std::size_t v = 0; v < count.size(); ++v) {
+    if (count[v] < 3) continue;
+    number[v] = static_cast<std::uint32_t>(shape.vertices.size());
+    shape.vertices.push_back(part.vertices[v]);
+  }
   for (const PartFace& face : part.faces) {
+    auto& loop = shape.faces.emplace_back();
+    for (const std::uint32_t v : face.loop)
+      if (count[v] > 2) loop.push_back(number[v]);
+    if (loop.size() < 3) return Error{ErrorCode::geometry, "", "the part is flat"};
     shape.planes.push_back(face.plane);
-    shape.faces.push_back(face.loop);
     piece.sides.push_back(face.side);
   }
   auto finished = finish_domain(std::move(shape));

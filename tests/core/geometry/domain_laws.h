@@ -69,6 +69,7 @@ inline void expect_sound(const Domain& domain, double volume, double surface) {
     const auto again = from_planes(piece.shape.planes);
     ASSERT_TRUE(again.ok()) << again.error().text();
     EXPECT_NEAR(again->volume, piece.shape.volume, 1e-9 * volume);
+    EXPECT_TRUE(is_closed(to_mesh(*again)));
   }
   EXPECT_NEAR(sum, volume, 1e-9 * volume);
   EXPECT_LT(norm(closing), 1e-8 * surface);
