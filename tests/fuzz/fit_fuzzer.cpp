@@ -1,5 +1,5 @@
 // Feeds the fit with nasty sites and problems: groups, intervals, floor areas, locks, too much demand, and nonsense.
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/geometry/domain_makers.h"
 #include "core/geometry/power_cells.h"
 #include "core/geometry/volume_fit.h"
 #include "tests/fuzz/nasty_sets.h"
@@ -27,18 +28,12 @@ void require(bool holds, const char* what) {
   std::abort();
 }
 
-Domain::Piece box(double west, double south, double east, double north, std::vector<std::uint32_t> sides) {
-  const std::vector<bl::Point3> plan{{west, south, 0}, {east, south, 0}, {east, north, 0}, {west, north, 0}};
-  return {bl::extrude(plan, 0, 10).value(), std::move(sides)};
-}
-
-// A convex domain, or an L of three boxes.
+// A convex domain, or an L with a hole.
 Domain make_solid(Bytes& bytes) {
   if (bytes.next() % 3 != 0) return bl::fuzz::make_domain(bytes);
-  constexpr std::uint32_t kInner = Domain::kInner;
-  return bl::join_pieces({box(0, 0, 5, 5, {0, 1, 2, kInner, kInner, 7}), box(0, 5, 5, 10, {0, 1, kInner, 5, 6, 7}),
-                          box(5, 0, 10, 5, {0, 1, 2, 3, 4, kInner})})
-      .value();
+  const std::vector<bl::Point3> plan{{0, 0, 0}, {10, 0, 0}, {10, 5, 0}, {5, 5, 0}, {5, 10, 0}, {0, 10, 0}};
+  const std::vector<std::vector<bl::Point3>> holes{{{1, 1, 0}, {2, 1, 0}, {2, 3, 0}}};
+  return bl::extrude_plan(plan, holes, 0, 10).value();
 }
 
 double make_amount(Bytes& bytes, double fair) {
@@ -54,13 +49,13 @@ double make_amount(Bytes& bytes, double fair) {
 // Each site joins the demand before it, starts one of its own, or keeps its weight.
 FitProblem make_problem(Bytes& bytes, const Domain& domain) {
   FitProblem problem;
-  std::vector<std::uint8_t> choices;
-  for (int i = 0; i < 24; ++i) choices.push_back(bytes.next());
+  std::array<std::uint8_t, 6> choices{};  // short inputs shall have sites, too: later sites vary those of the first
+  for (std::uint8_t& choice : choices) choice = bytes.next();
   const std::uint8_t mode = bytes.next();
-  problem.sites = bl::fuzz::make_sites(bytes, domain.minimum, choices.size());
+  problem.sites = bl::fuzz::make_sites(bytes, domain.minimum, 24);
   const double fair = domain.volume / static_cast<double>(problem.sites.size() + 1);
   for (std::uint32_t site = 0; site < problem.sites.size(); ++site) {
-    const std::uint8_t choice = choices[site];
+    const auto choice = static_cast<std::uint8_t>(choices[site % 6] + 53 * (site / 6));
     if ((mode & 1u) != 0) problem.sites[site].weight = 0;
     if (choice < 32) continue;
     if (choice < 80 && !problem.demands.empty()) {

@@ -103,7 +103,9 @@ Result<Domain> from_mesh_object(const Json& mesh, const std::string& place) {
       return Error{ErrorCode::wrong_kind, here, "expects a triangle [i, j, k], found " + excerpt((**triangles)[t])};
     result.triangles.push_back({(*corners)[0], (*corners)[1], (*corners)[2]});
   }
-  return told(from_mesh(result), place);
+  auto solid = from_closed_mesh(result);
+  if (!solid) return solid.error().within(place);
+  return solid;
 }
 
 }  // namespace

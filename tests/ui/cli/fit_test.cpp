@@ -162,6 +162,19 @@ TEST(Fit, PlansThatAreNotConvex) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
+TEST(Fit, MeshesThatAreNotConvex) {
+  const Workplace place;
+  // A prism over an arrowhead: 1 is the notch.
+  place.write("i.json", R"({"boundary": {"mesh": {
+    "vertices": [[0,0,0],[5,3,0],[10,0,0],[5,10,0],[0,0,2],[5,3,2],[10,0,2],[5,10,2]],
+    "triangles": [[0,3,1],[1,3,2],[4,5,7],[5,6,7],[0,1,5],[0,5,4],[1,2,6],[1,6,5],[2,3,7],[2,7,6],[3,0,4],[3,4,7]]}},
+    "sites": [[2.5,3,1],[7.5,3,1]], "weights": [400, 400], "demands": [20, 30]})");
+  ASSERT_EQ(place.run({"cells", "i.json", "--json", "c.json"}).code, 0);
+  const nlohmann::json cells = place.json("c.json")["cells"];
+  EXPECT_NEAR(cells[0]["volume"].get<double>() + cells[1]["volume"].get<double>(), 70, 1e-9);
+  EXPECT_EQ(place.run({"fit", "i.json", "--json", "o.json"}).code, 0);
+}
+
 TEST(Fit, InterruptWritesEveryCase) {
   const Workplace place;
   std::string cases, sites, demands;
