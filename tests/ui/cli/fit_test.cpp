@@ -175,6 +175,27 @@ TEST(Fit, MeshesThatAreNotConvex) {
   EXPECT_EQ(place.run({"fit", "i.json", "--json", "o.json"}).code, 0);
 }
 
+TEST(Fit, StrangeButSoundInputIsAnswered) {
+  const Workplace place;
+  for (const std::string rest :
+       {R"("sites": [[20,5,5],[25,5,5]], "demands": [100, 100])", R"("sites": [[1e8,5,5],[-1e8,5,5]], "demands": [100, 100])",
+        R"("sites": [[0,0,0],[10,10,10]], "demands": [100, 100])", R"("sites": [[5,5,5],[5,5,5.000001]], "demands": [100, 100])",
+        R"("sites": [[2,5,5],[8,5,5]], "demands": [1e-12, 999.99])", R"("sites": [[2,5,5],[8,5,5]], "demands": [0, 10])",
+        R"("sites": [[2,5,5],[8,5,5]], "demands": [500, 500])", R"("sites": [[2,5,5],[8,5,5]], "demands": [{"min": 0}, 10])",
+        R"("sites": [[2,5,5],[8,5,5]], "weights": [1e18, -1e18], "demands": [10, 10])",
+        R"("sites": [[2,5,5],[8,5,5]], "weights": [1e18, 1], "demands": [null, 10], "locked": [0])"})
+    for (const char* method : {"newton", "feedback"}) {
+      place.write("i.json", "{" + kBox + ", " + rest + "}");
+      const Outcome outcome = place.run({"fit", "i.json", "--json", "o.json", "--method", method});
+      EXPECT_TRUE(outcome.code == 0 || outcome.code == 3) << rest << "\n" << outcome.err;
+      EXPECT_EQ(outcome.code == 3, outcome.err.starts_with("i.json: ")) << rest << "\n" << outcome.err;
+      const nlohmann::json fit = place.json("o.json");
+      EXPECT_EQ(outcome.code == 0, fit["status"] == "met") << rest;
+      for (const char* list : {"weights", "volumes"})
+        for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(fit[list].at(i).is_number()) << rest << list;
+    }
+}
+
 TEST(Fit, InterruptWritesEveryCase) {
   const Workplace place;
   std::string cases, sites, demands;
