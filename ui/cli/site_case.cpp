@@ -75,50 +75,28 @@ Result<void> check_optional_lists(const Json& json, const std::string& place) {
   return {};
 }
 
-class Loader {
+class Reader {
  public:
-  Loader(const CaseFiles& files, CasePurpose purpose) : files_(files), purpose_(purpose) {}
+  Reader(const BoundaryReading* boundary, CasePurpose purpose) : boundary_(boundary), purpose_(purpose) {}
 
-  std::optional<SiteCases> load() {
-    if (!is_output_sound(files_)) return std::nullopt;
-    const auto text = read_file(files_.input);
-    if (!text) return fail(files_.input, text.error());
-    if (!files_.boundary.empty()) {
-      auto boundary = boundary_of_file();
-      if (!boundary) return fail(files_.boundary, boundary.error());
-      boundary_ = std::move(*boundary);
-    }
-    return is_table(files_.input) ? from_table(*text) : from_json(*text);
+  CaseReading read(const std::string& text, bool is_table) {
+    if (is_table) from_table(text);
+    else from_json(text);
+    return std::move(result_);
   }
 
  private:
-  static std::nullopt_t fail(const std::string& file, const Error& error) {
-    print_error(file, error);
-    return std::nullopt;
-  }
+  void fail(Error error) { result_.errors.push_back(std::move(error)); }
 
-  Result<BoundaryReading> boundary_of_file() const {
-    const auto text = read_file(files_.boundary);
-    if (!text) return text.error();
-    const auto json = json_of(*text);
-    if (!json) return json.error();
-    if (json->is_object() && json->contains("cases"))
-      return Error{ErrorCode::wrong_kind, "cases", "holds a list of cases, where one boundary is wanted: give that alone"};
-    return json->is_object() && json->contains("boundary") ? boundary_at((*json)["boundary"], "boundary")
-                                                           : boundary_at(*json, "");
-  }
-
-  std::optional<SiteCases> from_table(const std::string& text) {
-    if (!boundary_)
-      return fail(files_.input, {ErrorCode::missing, "", "a table has no boundary: give one as JSON by --boundary FILE"});
+  void from_table(const std::string& text) {
+    if (boundary_ == nullptr)
+      return fail({ErrorCode::missing, "", "a table has no boundary: give one as JSON by --boundary FILE"});
     const auto table = read_site_table(text);
-    if (!table) return fail(files_.input, table.error());
-    for (const std::string& note : table->notes) print_line("note: " + files_.input + ": " + note);
+    if (!table) return fail(table.error());
+    result_.notes = table->notes;
     auto only = case_of(*table);
-    if (!only) return fail(files_.input, only.error());
-    SiteCases result;
-    result.cases.push_back(std::move(*only));
-    return result;
+    if (!only) return fail(only.error());
+    result_.content.cases.push_back(std::move(*only));
   }
 
   Result<SiteCase> case_of(const SiteTable& table) const {
@@ -143,32 +121,28 @@ class Loader {
     return result;
   }
 
-  std::optional<SiteCases> from_json(const std::string& text) {
+  void from_json(const std::string& text) {
     const auto input = json_of(text);
-    if (!input) return fail(files_.input, input.error());
-    SiteCases result;
-    result.is_list = input->is_object() && input->contains("cases");
-    if (result.is_list && !(*input)["cases"].is_array())
-      return fail(files_.input, {ErrorCode::wrong_kind, "cases", "expects a list of cases"});
-    bool is_all_well = true;
-    const std::size_t count = result.is_list ? (*input)["cases"].size() : 1;
+    if (!input) return fail(input.error());
+    SiteCases& content = result_.content;
+    content.is_list = input->is_object() && input->contains("cases");
+    if (content.is_list && !(*input)["cases"].is_array())
+      return fail({ErrorCode::wrong_kind, "cases", "expects a list of cases"});
+    const std::size_t count = content.is_list ? (*input)["cases"].size() : 1;
     for (std::size_t i = 0; i < count; ++i) {
-      auto read = result.is_list ? case_of((*input)["cases"][i], slash("cases", i)) : case_of(*input, "");
-      if (read) result.cases.push_back(std::move(*read));
-      else print_error(files_.input, read.error());
-      is_all_well &= read.ok();
+      auto read = content.is_list ? case_of((*input)["cases"][i], slash("cases", i)) : case_of(*input, "");
+      if (read) content.cases.push_back(std::move(*read));
+      else fail(read.error());
     }
-    if (!is_all_well) return std::nullopt;
-    return result;
   }
 
   Result<BoundaryReading> boundary_of(const Json& json, const std::string& place) const {
     const std::string here = slash(place, "boundary");
     const auto own = json.find("boundary");
-    if (own != json.end() && boundary_)
-      return Error{ErrorCode::conflict, here, "stands here and in --boundary " + files_.boundary + ": keep one of them"};
+    if (own != json.end() && boundary_ != nullptr)
+      return Error{ErrorCode::conflict, here, "stands here and in --boundary: keep one of them"};
     if (own != json.end()) return boundary_at(*own, here);
-    if (boundary_) return *boundary_;
+    if (boundary_ != nullptr) return *boundary_;
     return Error{ErrorCode::missing, here, "`boundary` is missing: put it into the case, or give it by --boundary FILE"};
   }
 
@@ -216,13 +190,47 @@ class Loader {
     return {};
   }
 
-  const CaseFiles& files_;
+  const BoundaryReading* boundary_;
   CasePurpose purpose_;
-  std::optional<BoundaryReading> boundary_;
+  CaseReading result_;
 };
 
 }  // namespace
 
-std::optional<SiteCases> load_site_cases(const CaseFiles& files, CasePurpose purpose) { return Loader(files, purpose).load(); }
+CaseReading read_site_cases(const std::string& text, bool is_table, const BoundaryReading* boundary, CasePurpose purpose) {
+  return Reader(boundary, purpose).read(text, is_table);
+}
+
+Result<BoundaryReading> read_boundary(const std::string& text) {
+  const auto json = json_of(text);
+  if (!json) return json.error();
+  if (json->is_object() && json->contains("cases"))
+    return Error{ErrorCode::wrong_kind, "cases", "holds a list of cases, where one boundary is wanted: give that alone"};
+  return json->is_object() && json->contains("boundary") ? boundary_at((*json)["boundary"], "boundary") : boundary_at(*json, "");
+}
+
+std::optional<SiteCases> load_site_cases(const CaseFiles& files, CasePurpose purpose) {
+  if (!is_output_sound(files)) return std::nullopt;
+  const auto text = read_file(files.input);
+  if (!text) {
+    print_error(files.input, text.error());
+    return std::nullopt;
+  }
+  std::optional<BoundaryReading> boundary;
+  if (!files.boundary.empty()) {
+    const auto boundary_text = read_file(files.boundary);
+    auto read = boundary_text ? read_boundary(*boundary_text) : Result<BoundaryReading>(boundary_text.error());
+    if (!read) {
+      print_error(files.boundary, read.error());
+      return std::nullopt;
+    }
+    boundary = std::move(*read);
+  }
+  CaseReading reading = read_site_cases(*text, is_table(files.input), boundary ? &*boundary : nullptr, purpose);
+  for (const std::string& note : reading.notes) print_line("note: " + files.input + ": " + note);
+  for (const Error& error : reading.errors) print_error(files.input, error);
+  if (!reading.errors.empty()) return std::nullopt;
+  return std::move(reading.content);
+}
 
 }  // namespace bl::cli

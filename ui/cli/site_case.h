@@ -24,6 +24,18 @@ struct SiteCases {
   bool is_list = false;  ///< {"cases": [...]}: the output is a list as well
 };
 
+/// What a text holds, or everything that is wrong with it.
+struct CaseReading {
+  SiteCases content;
+  std::vector<std::string> notes;  ///< what was assumed, one sentence each
+  std::vector<Error> errors;       ///< any: the content is not to be used
+};
+
+/// `boundary`: of cases without one of their own; may be null.
+CaseReading read_site_cases(const std::string& text, bool is_table, const BoundaryReading* boundary, CasePurpose purpose);
+/// A boundary alone, or that of a case.
+Result<BoundaryReading> read_boundary(const std::string& text);
+
 struct CaseFiles {
   std::string input;     ///< JSON; a table where the name ends in .csv, .tsv or .txt
   std::string boundary;  ///< JSON of a boundary, for input without one; may be empty

@@ -264,7 +264,7 @@ std::vector<Hostile> options() {
           row("negative_steps", {"--steps=-3"}, "--steps"),
           row("unknown_method", {"--method", "newtn"}, "--method"),
           row("unknown_option", {"--tolerence", "1e-3"}, "--tolerence"),
-          row("boundary_twice", {"--boundary", "box.json"}, "boundary: stands here and in --boundary box.json: keep one of them"),
+          row("boundary_twice", {"--boundary", "box.json"}, "boundary: stands here and in --boundary: keep one of them"),
           row("boundary_that_is_not_there", {"--boundary", "nowhere.json"}, "nowhere.json: cannot be opened"),
           row("boundary_of_many_cases", {"--boundary", "many.json"},
               "many.json: cases: holds a list of cases, where one boundary is wanted"),
