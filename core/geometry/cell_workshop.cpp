@@ -21,6 +21,8 @@ constexpr double kSliverShare = 1e-14;
 // A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
 constexpr double kInsideShare = 1e-6;
 constexpr std::size_t kChunk = 16;
+// Few long runs share more; a few more than threads even out the load.
+constexpr std::size_t kRunsPerThread = 4;
 
 bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin) {
   for (const PolyhedronFace& face : part.faces) {
@@ -235,23 +237,47 @@ void CellWorkshop::give_back(std::unique_ptr<CellBench> bench) {
   benches_.push_back(std::move(bench));
 }
 
+void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
+                              const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders) {
+  auto bench = take_bench();
+  if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
+  for (std::size_t k = begin; k < end; ++k) {
+    make_one(which[k], options, *bench, cells[which[k]]);
+    if (borders == nullptr) continue;
+    const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
+    borders[which[k]].assign(found.begin(), found.end());
+  }
+  bench->maker.end_run();
+  give_back(std::move(bench));
+}
+
 void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
                         std::vector<std::uint32_t>* borders) {
   const auto body = [&](std::size_t begin, std::size_t end) {
-    auto bench = take_bench();
-    for (std::size_t k = begin; k < end; ++k) {
-      make_one(which[k], options, *bench, cells[which[k]]);
-      if (borders == nullptr) continue;
-      const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
-      borders[which[k]].assign(found.begin(), found.end());
-    }
-    give_back(std::move(bench));
+    make_range(which, false, begin, end, options, cells, borders);
   };
   if (options.pool != nullptr && which.size() > kChunk) {
     options.pool->for_each_chunk(which.size(), kChunk, body);
   } else if (!which.empty()) {
     body(0, which.size());
   }
+}
+
+void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders) {
+  const auto order = ground_.grid.order();
+  const auto body = [&](std::size_t begin, std::size_t end) { make_range(order, true, begin, end, options, cells, borders); };
+  const std::size_t threads = options.pool != nullptr ? static_cast<std::size_t>(options.pool->threads()) : 1;
+  const std::size_t runs = threads > 1 && order.size() > 2 * kChunk ? kRunsPerThread * threads : 1;
+  if (runs > 1) {
+    options.pool->for_each_chunk(order.size(), (order.size() + runs - 1) / runs, body);
+  } else {
+    body(0, order.size());
+  }
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t i = 0; has_twins_ && i < sites_.size(); ++i) {
+    if (twin_[i] != kNone) others.push_back(i);
+  }
+  make(others, options, cells, borders);
 }
 
 Result<void> check_sites(std::span<const PowerSite> sites) {

@@ -44,8 +44,12 @@ class CellWorkshop {
   /// change can change the cell.
   void make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
             std::vector<std::uint32_t>* borders = nullptr);
+  /// Makes all cells, which takes less than making each of them.
+  void make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders = nullptr);
 
  private:
+  void make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
+                  const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders);
   void make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const;
   std::unique_ptr<CellBench> take_bench();
   void give_back(std::unique_ptr<CellBench> bench);

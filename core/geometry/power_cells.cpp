@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <numeric>
 #include <string>
 
 #include "core/geometry/cell_workshop.h"
@@ -87,11 +88,9 @@ struct PowerDiagram::Workshop {
     if (auto set = same_places ? workshop.set_weights(sites) : workshop.set_sites(sites); !set) return set.error();
     cells.resize(sites.size());
     borders.resize(sites.size());
-    made.assign(workshop.order().begin(), workshop.order().end());
-    for (std::uint32_t i = 0; i < sites.size(); ++i) {
-      if (workshop.twins()[i] != 0xffffffffu) made.push_back(i);
-    }
-    workshop.make(made, options, cells, borders.data());
+    made.resize(sites.size());
+    std::iota(made.begin(), made.end(), 0u);
+    workshop.make_all(options, cells, borders.data());
     return {};
   }
 
