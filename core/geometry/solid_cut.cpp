@@ -212,10 +212,15 @@ Result<Domain> exclude(const Domain& domain, std::span<const Domain> solids) {
 }
 
 double area_in_plan(const Domain& domain) {
-  // Each upward face as a column of height 1, the later ones without what the earlier ones cover.
-  std::vector<LoosePart> all;
-  const double tolerance = place_tolerance(domain.minimum, domain.maximum);
   double area = 0;
+  if (domain.is_convex()) {
+    const Mesh mesh = to_mesh(domain);
+    for (const auto& [a, b, c] : mesh.triangles)
+      area += 0.5 * std::max(0.0, cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]).z);
+    return area;
+  }
+  // Over each piece a column of height 1, without what the earlier ones cover.
+  const double tolerance = place_tolerance(domain.minimum, domain.maximum);
   std::vector<Domain> columns;
   for (const Domain::Piece& piece : domain.pieces) {
     std::vector<Point3> points;
