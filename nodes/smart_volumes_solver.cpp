@@ -7,6 +7,7 @@
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/demand_fit.h"
+#include "core/geometry/domain_table.h"
 #include "core/geometry/fit_text.h"
 
 namespace bl {
@@ -130,7 +131,7 @@ struct SmartVolumesSolver {
     t.memory(&Out::memory, &In::last, member, id).doc(doc);
   }
 
-  static Result<ConvexDomain> domain_of(const std::vector<Plot>& plots) {
+  static Result<Domain> domain_of(const std::vector<Plot>& plots) {
     if (plots.empty())
       return Error{ErrorCode::missing, "boundary", "a boundary is needed and none was found: add one, or choose one here"};
     std::string found;
@@ -141,11 +142,8 @@ struct SmartVolumesSolver {
     const Table& table = plots.front().planes;
     if (table.rows.empty())
       return Error{ErrorCode::missing, "boundary", "the boundary " + found + " has no shape: see its own error"};
-    std::vector<Plane> planes;
-    for (std::size_t r = 0; r < table.rows.size(); ++r)
-      planes.push_back({{table.number(r, "x"), table.number(r, "y"), table.number(r, "z")}, table.number(r, "offset")});
-    auto domain = from_planes(planes);
-    return domain ? domain : Result<ConvexDomain>(domain.error().within("boundary"));
+    auto domain = read_domain(table);
+    return domain ? domain : Result<Domain>(domain.error().within("boundary"));
   }
 
   // Newcomers among settled ones start small, so that they push nobody out; where all are new, the fit starts them all alike.

@@ -8,7 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/exchange/local_frame.h"
-#include "core/exchange/plan_ring.h"
+#include "core/geometry/plan_ring.h"
 
 namespace bl {
 

@@ -10,6 +10,7 @@
 
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "core/geometry/domain_table.h"
 #include "core/geometry/power_neighbours.h"
 #include "core/geometry/yardstick.h"
 #include "core/session/session.h"
@@ -64,19 +65,15 @@ std::vector<PowerSite> sites_of(const State& state) {
   return sites;
 }
 
-std::optional<ConvexDomain> domain_of(const State& state) {
-  std::optional<ConvexDomain> found;
+std::optional<Domain> domain_of(const State& state) {
+  std::optional<Domain> found;
   const auto path = parse_port_path("boundary.planes");
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
     const auto ref = state.plan->find(n, *path);
     const auto* table = ref ? std::get_if<Shared<Table>>(&state.value(*ref)) : nullptr;
     if (table == nullptr) continue;
     if (found) return std::nullopt;  // several plots: there is no one domain to measure
-    std::vector<Plane> planes;
-    for (std::size_t r = 0; r < (*table)->rows.size(); ++r)
-      planes.push_back(
-          {{(*table)->number(r, "x"), (*table)->number(r, "y"), (*table)->number(r, "z")}, (*table)->number(r, "offset")});
-    auto domain = from_planes(planes);
+    auto domain = read_domain(**table);
     if (!domain) return std::nullopt;
     found = std::move(*domain);
   }

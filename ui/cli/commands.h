@@ -58,10 +58,19 @@ struct SchemaOptions {
 int schema_command(const SchemaOptions& options);
 
 struct CellsOptions {
-  std::string input, json;
+  std::string input, json, boundary;
   int threads = 1;
 };
 int cells_command(const CellsOptions& options);
+
+struct FitFileOptions {
+  std::string input, json, boundary;
+  std::string method = "newton";  ///< or "feedback"
+  double tolerance = 1e-6;        ///< largest relative error
+  int threads = 1;
+  int steps = 200;  ///< at most so many evaluations of the diagram
+};
+int fit_command(const FitFileOptions& options);
 
 struct BenchOptions {
   std::vector<std::string> scenes;
