@@ -256,17 +256,21 @@ std::optional<Domain::Piece> merged(const Domain::Piece& a, const Domain::Piece&
 
 // Pieces from `first` on; those before it stay as they are.
 void merge_pieces(std::vector<Domain::Piece>& pieces, std::size_t first, double tolerance) {
-  for (std::size_t a = first; a < pieces.size();) {
-    bool is_merged = false;
-    for (std::size_t b = a + 1; b < pieces.size() && !is_merged; ++b) {
-      auto both = merged(pieces[a], pieces[b], tolerance);
-      if (!both) continue;
-      pieces[a] = std::move(*both);
-      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(b));
-      is_merged = true;
+  for (bool is_merged = true; is_merged;) {
+    is_merged = false;
+    for (std::size_t a = first; a < pieces.size(); ++a) {
+      for (std::size_t b = a + 1; b < pieces.size();) {
+        auto both = merged(pieces[a], pieces[b], tolerance);
+        if (!both) {
+          ++b;
+          continue;
+        }
+        pieces[a] = std::move(*both);
+        pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(b));
+        // A larger piece may fit to one that was tried before.
+        is_merged = true;
+      }
     }
-    // A larger piece may fit to one that was tried before.
-    a = is_merged ? first : a + 1;
   }
 }
 
