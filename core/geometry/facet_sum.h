@@ -58,7 +58,10 @@ struct Place {
 class FacetSum {
  public:
   FacetSum(const Vector3& normal, double offset, double squared_radius, AngleSum* solid)
-      : normal_(normal), offset_(offset), squared_radius_(squared_radius), squared_disc_(squared_radius - offset * offset),
+      : normal_(normal),
+        offset_(offset),
+        squared_radius_(squared_radius),
+        squared_disc_(squared_radius - offset * offset),
         solid_(solid) {}
 
   /// Does the plane cut the ball at all?
@@ -75,9 +78,7 @@ class FacetSum {
     const bool is_chord = !low.is_inside && !high.is_inside;
     if (!(rest > 0) || (is_chord && !(t < 0 && -t < squared_length))) return outside(a.at, a.norm, b.at, b.norm);
     const double root = std::sqrt(rest), radius = std::sqrt(squared_radius_);
-    const auto pierced = [&](double numerator) {
-      return low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along;
-    };
+    const auto pierced = [&](double numerator) { return low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along; };
     const Point3 entry = low.is_inside ? low.at : pierced(-t - root), exit = high.is_inside ? high.at : pierced(-t + root);
     if (is_forward) {
       if (!low.is_inside) outside(low.at, low.norm, entry, radius);
