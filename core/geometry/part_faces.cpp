@@ -28,10 +28,6 @@ bool lies_in(const Polygon& polygon, const Plane& plane, double tolerance) {
                      [&](const Point3& p) { return std::abs(dot(plane.normal, p) - plane.offset) <= tolerance; });
 }
 
-// A strip narrower than this many tolerances (a hundred-thousandth of the size) may lie against a sliver that was judged the
-// other way; it is called inner where no wall claims it. Wider ones would be a defect.
-constexpr double kThinStrip = 3e3;
-
 std::array<Point3, 2> box_of(const std::vector<Point3>& points) {
   Point3 low = points.front(), high = points.front();
   for (const Point3& p : points) {
@@ -157,7 +153,7 @@ class Settler {
       const double area = norm(area_vector(polygon));
       if (face.side == kSettled || covered_area(polygon, covers_of(face, polygon), face.plane.normal) > 0.5 * area) {
         face.side = Domain::kInner;
-      } else if (face.side == Domain::kInner && !name_by_wall(face, polygon) && area > kThinStrip * slack(polygon)) {
+      } else if (face.side == Domain::kInner && !name_by_wall(face, polygon) && area > slack(polygon)) {
         return Error{ErrorCode::internal, "", "a face of the boundary belongs to none of its sides: please report this shape"};
       }
     }

@@ -56,7 +56,8 @@ class Carver {
     if (kept.size() > kMostParts) return;  // the maker will refuse it
     double common = 0;
     for (const SolidPart& other : tool_.parts) common += common_volume(part, other, tolerance_);
-    const double volume = volume_of(part), slack = std::min(0.25 * volume, 4 * tolerance_ * surface_of(part));
+    // What a cut within the tolerance may do to volumes is more; this only spares cuts that are not needed for certain.
+    const double volume = volume_of(part), slack = std::min(0.25 * volume, 1e-3 * tolerance_ * surface_of(part));
     if (common <= slack) {
       kept.push_back(loose);
       return;
