@@ -133,7 +133,7 @@ struct Boundary {
       return hull ? Result<Domain>(Domain(std::move(*hull))) : hull.error().within("points");
     }
     if (in.form == Form::plan) {
-      SitePlan site{in.plan, {}, in.bottom, in.bottom + in.height, solids_of(in.steps)};
+      SitePlan site{in.plan, {}, in.bottom, in.bottom + in.height, solids_of(in.steps), solids_of(in.exclusions)};
       for (NamedRing& hole : read_rings(in.holes)) site.holes.push_back(std::move(hole.corners));
       for (PlanSolid& step : site.steps) step.bottom = in.bottom;
       return site_domain(site);
@@ -155,7 +155,12 @@ struct Boundary {
       const Vector3 normal{in.setbacks.number(row, "x"), in.setbacks.number(row, "y"), in.setbacks.number(row, "z")};
       setbacks.push_back({normal, in.setbacks.number(row, "offset") * norm(normal)});
     }
-    if (domain) domain = restricted_domain(*domain, setbacks, solids_of(in.exclusions));
+    // In a plan the exclusions have been cut out together with everything else.
+    if (domain && in.form != Form::plan) domain = without_solids(*domain, solids_of(in.exclusions));
+    if (domain && !setbacks.empty()) {
+      auto cut = cut_domain(*domain, setbacks);
+      domain = cut ? cut : Result<Domain>(cut.error().within("setbacks"));
+    }
     if (!domain) return at_row(domain.error(), in);
     Out out;
     write_domain(*domain, out.planes);

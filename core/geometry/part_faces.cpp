@@ -2,6 +2,7 @@
 #include "core/geometry/part_faces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -27,6 +28,15 @@ bool lies_in(const Polygon& polygon, const Plane& plane, double tolerance) {
                      [&](const Point3& p) { return std::abs(dot(plane.normal, p) - plane.offset) <= tolerance; });
 }
 
+std::array<Point3, 2> box_of(const std::vector<Point3>& points) {
+  Point3 low = points.front(), high = points.front();
+  for (const Point3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return {low, high};
+}
+
 struct Cover {
   Polygon polygon;
   Vector3 normal;
@@ -41,7 +51,9 @@ struct Choice {
 class Settler {
  public:
   Settler(const std::vector<LoosePart>& parts, const std::vector<Wall>& walls, double tolerance)
-      : parts_(parts), walls_(walls), tolerance_(tolerance) {}
+      : parts_(parts), walls_(walls), tolerance_(tolerance) {
+    for (const LoosePart& loose : parts) boxes_.push_back(box_of(loose.part.vertices));
+  }
 
   Result<std::vector<Domain::Piece>> run() {
     std::vector<Domain::Piece> pieces;
@@ -74,7 +86,7 @@ class Settler {
   void find_neighbours(std::size_t p) {
     neighbours_.clear();
     for (std::size_t q = 0; q < parts_.size(); ++q)
-      if (q != p && boxes_overlap(parts_[p].part.vertices, parts_[q].part.vertices, -16 * tolerance_)) neighbours_.push_back(q);
+      if (q != p && boxes_overlap(boxes_[p], boxes_[q], -16 * tolerance_)) neighbours_.push_back(q);
   }
 
   std::vector<Cover> covers_of(const PartFace& face, const Polygon& polygon) const {
@@ -176,6 +188,7 @@ class Settler {
   const std::vector<LoosePart>& parts_;
   const std::vector<Wall>& walls_;
   double tolerance_;
+  std::vector<std::array<Point3, 2>> boxes_;
   std::vector<std::size_t> neighbours_;
 };
 
@@ -233,7 +246,8 @@ bool is_closed(const ConvexDomain& shape) {
 
 // The union of two pieces is convex where the half-spaces of both, less those of the face between them, enclose no less.
 std::optional<Domain::Piece> merged(const Domain::Piece& a, const Domain::Piece& b, double tolerance) {
-  if (!boxes_overlap(a.shape.vertices, b.shape.vertices, -16 * tolerance)) return std::nullopt;
+  const std::array<Point3, 2> here{a.shape.minimum, a.shape.maximum}, there{b.shape.minimum, b.shape.maximum};
+  if (!boxes_overlap(here, there, -16 * tolerance)) return std::nullopt;
   const SolidPart first = part_of(a), second = part_of(b);
   const auto between = shared_face(first, second, tolerance);
   if (!between) return std::nullopt;
@@ -256,17 +270,21 @@ std::optional<Domain::Piece> merged(const Domain::Piece& a, const Domain::Piece&
 
 // Pieces from `first` on; those before it stay as they are.
 void merge_pieces(std::vector<Domain::Piece>& pieces, std::size_t first, double tolerance) {
-  for (std::size_t a = first; a < pieces.size();) {
-    bool is_merged = false;
-    for (std::size_t b = a + 1; b < pieces.size() && !is_merged; ++b) {
-      auto both = merged(pieces[a], pieces[b], tolerance);
-      if (!both) continue;
-      pieces[a] = std::move(*both);
-      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(b));
-      is_merged = true;
+  for (bool is_merged = true; is_merged;) {
+    is_merged = false;
+    for (std::size_t a = first; a < pieces.size(); ++a) {
+      for (std::size_t b = a + 1; b < pieces.size();) {
+        auto both = merged(pieces[a], pieces[b], tolerance);
+        if (!both) {
+          ++b;
+          continue;
+        }
+        pieces[a] = std::move(*both);
+        pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(b));
+        // A larger piece may fit to one that was tried before.
+        is_merged = true;
+      }
     }
-    // A larger piece may fit to one that was tried before.
-    a = is_merged ? first : a + 1;
   }
 }
 

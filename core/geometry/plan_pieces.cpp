@@ -27,8 +27,16 @@ using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Trian
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
+// Constraints that cross get a new corner there, rounded; which side of which is decided exactly all the same.
+using CrossingTriangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::Exact_predicates_tag>;
+
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 using Loop = std::vector<std::uint32_t>;
+
+// Pieces of a plan turn at each corner by more than this, so that no two walls of one are as good as one.
+constexpr double kBend = 1e-9;
 
 // The corners of all rings, sorted by place, and the directed sides between them.
 struct Outline {
@@ -100,7 +108,9 @@ std::vector<std::array<std::uint32_t, 3>> inner_triangles(const Outline& outline
 // Takes diagonals away one by one, as long as both of their ends stay convex (after Hertel and Mehlhorn, 1983).
 class Merger {
  public:
-  Merger(const Outline& outline, const std::vector<std::array<std::uint32_t, 3>>& triangles) : outline_(outline) {
+  /// A corner stays convex where it turns by more than `least_bend`, in terms of the lengths of its sides.
+  Merger(const std::vector<PlanCorner>& corners, const std::vector<std::array<std::uint32_t, 3>>& triangles, double least_bend)
+      : corners_(corners), least_bend_(least_bend) {
     for (const auto& t : triangles) loops_.emplace_back(t.begin(), t.end());
     for (std::uint32_t l = 0; l < loops_.size(); ++l) own(l);
   }
@@ -113,18 +123,34 @@ class Merger {
   }
 
   double length(const Edge& edge) const {
-    const PlanCorner &a = outline_.corners[edge.first], &b = outline_.corners[edge.second];
+    const PlanCorner &a = corners_[edge.first], &b = corners_[edge.second];
     return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
   }
 
   void remove(const Edge& edge) {
-    const std::uint32_t left = owner_.at(edge), right = owner_.at({edge.second, edge.first});
+    const auto here = owner_.find(edge), there = owner_.find({edge.second, edge.first});
+    if (here == owner_.end() || there == owner_.end() || here->second == there->second) return;  // gone with another one
+    const std::uint32_t left = here->second, right = there->second;
+    // a runs from the second end to the first, b back again; what else they share next to the edge goes with it.
     Loop a = turned(loops_[left], edge.second), b = turned(loops_[right], edge.first);
-    // a runs from the second end to the first, b back again.
-    if (!is_convex(a[a.size() - 2], edge.first, b[1]) || !is_convex(b[b.size() - 2], edge.second, a[1])) return;
+    std::vector<Edge> shared{edge};
+    while (a.size() > 2 && b.size() > 2 && a[1] == b[b.size() - 2]) {
+      shared.push_back({a[0], a[1]});
+      a.erase(a.begin());
+      b.pop_back();
+    }
+    while (a.size() > 2 && b.size() > 2 && a[a.size() - 2] == b[1]) {
+      shared.push_back({b[0], b[1]});
+      a.pop_back();
+      b.erase(b.begin());
+    }
+    if (a.size() < 3 && b.size() < 3) return;
+    if (!is_convex(a[a.size() - 2], b.front(), b[1]) || !is_convex(b[b.size() - 2], a.front(), a[1])) return;
     a.insert(a.end(), b.begin() + 1, b.end() - 1);
-    owner_.erase(edge);
-    owner_.erase({edge.second, edge.first});
+    for (const Edge& gone : shared) {
+      owner_.erase(gone);
+      owner_.erase({gone.second, gone.first});
+    }
     loops_[left] = std::move(a);
     loops_[right].clear();
     own(left);
@@ -150,20 +176,22 @@ class Merger {
   }
 
   bool is_convex(std::uint32_t before, std::uint32_t at, std::uint32_t after) const {
-    const double bend = turn(outline_.corners[before], outline_.corners[at], outline_.corners[after]);
-    return bend > 1e-9 * length({before, at}) * length({at, after});
+    const double bend = turn(corners_[before], corners_[at], corners_[after]);
+    return bend > least_bend_ * length({before, at}) * length({at, after});
   }
 
-  const Outline& outline_;
+  const std::vector<PlanCorner>& corners_;
+  double least_bend_;
   std::vector<Loop> loops_;
   std::map<Edge, std::uint32_t> owner_;
 };
 
 // Which diagonals go first decides how many pieces are left; a few orders are tried, and the first of the best is taken.
-std::vector<Loop> few_loops(const Outline& outline, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+std::vector<Loop> few_loops(const std::vector<PlanCorner>& corners, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                            double least_bend) {
   std::vector<Loop> best;
   for (const double sign : {1.0, -1.0, 0.0}) {
-    Merger merger(outline, triangles);
+    Merger merger(corners, triangles, least_bend);
     std::vector<Edge> edges = merger.diagonals();
     std::stable_sort(edges.begin(), edges.end(),
                      [&](const Edge& a, const Edge& b) { return sign * merger.length(a) < sign * merger.length(b); });
@@ -174,12 +202,94 @@ std::vector<Loop> few_loops(const Outline& outline, const std::vector<std::array
   return best;
 }
 
+struct CutPlane {
+  std::vector<PlanCorner> corners;
+  std::map<int, std::vector<std::array<std::uint32_t, 3>>> triangles;  // per label
+};
+
+double extent_of(const std::vector<std::vector<PlanCorner>>& rings) {
+  double extent = 0;
+  for (const auto& ring : rings)
+    for (const PlanCorner& c : ring) extent = std::max({extent, std::abs(c.x - rings[0][0].x), std::abs(c.y - rings[0][0].y)});
+  return extent;
+}
+
+CutPlane cut_plane(const std::vector<std::vector<PlanCorner>>& rings, const std::function<int(const Point3&)>& label_at) {
+  CrossingTriangulation triangulation;
+  std::vector<std::array<double, 4>> sides;
+  for (const auto& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const PlanCorner &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      // From the lower end on, so that the way a ring turns does not matter.
+      if (std::tuple(a.y, a.x) < std::tuple(b.y, b.x)) sides.push_back({a.y, a.x, b.y, b.x});
+      else sides.push_back({b.y, b.x, a.y, a.x});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (const auto& s : sides) triangulation.insert_constraint(Kernel::Point_2(s[1], s[0]), Kernel::Point_2(s[3], s[2]));
+  std::vector<CrossingTriangulation::Vertex_handle> order;
+  for (auto v = triangulation.finite_vertices_begin(); v != triangulation.finite_vertices_end(); ++v) order.push_back(v);
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+    return std::tuple(a->point().y(), a->point().x()) < std::tuple(b->point().y(), b->point().x());
+  });
+  CutPlane cut;
+  // Crossings that fall together but for rounding are one corner, in all triangles alike.
+  const double same = 1e-11 * extent_of(rings);
+  for (const auto& vertex : order) {
+    const double x = vertex->point().x(), y = vertex->point().y();
+    std::size_t known = cut.corners.size();
+    while (known > 0 && cut.corners[known - 1].y >= y - same && std::abs(cut.corners[known - 1].x - x) > same) --known;
+    if (known > 0 && cut.corners[known - 1].y >= y - same) {
+      vertex->info() = static_cast<std::uint32_t>(known - 1);
+      continue;
+    }
+    vertex->info() = static_cast<std::uint32_t>(cut.corners.size());
+    cut.corners.push_back({x, y, 0});
+  }
+  for (auto face = triangulation.finite_faces_begin(); face != triangulation.finite_faces_end(); ++face) {
+    std::array<std::uint32_t, 3> t{};
+    Vector3 sum;
+    for (unsigned i = 0; i < 3; ++i) {
+      t[i] = face->vertex(static_cast<int>(i))->info();
+      sum += {cut.corners[t[i]].x, cut.corners[t[i]].y, 0};
+    }
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    if (const int label = label_at(sum / 3); label >= 0) cut.triangles[label].push_back(t);
+  }
+  for (auto& [label, triangles] : cut.triangles) std::sort(triangles.begin(), triangles.end());
+  return cut;
+}
+
 }  // namespace
+
+Result<std::vector<LabelledPolygon>> labelled_pieces(const std::vector<std::vector<PlanCorner>>& rings,
+                                                     const std::function<int(const Point3&)>& label_at) try {
+  const CutPlane cut = cut_plane(rings, label_at);
+  std::vector<LabelledPolygon> polygons;
+  for (const auto& [label, triangles] : cut.triangles) {
+    for (const Loop& loop : few_loops(cut.corners, triangles, -1e-12)) {
+      LabelledPolygon polygon{{}, label};
+      const std::size_t n = loop.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        const PlanCorner &before = cut.corners[loop[(i + n - 1) % n]], &at = cut.corners[loop[i]],
+                         &after = cut.corners[loop[(i + 1) % n]];
+        const double in = (at.x - before.x) * (at.x - before.x) + (at.y - before.y) * (at.y - before.y);
+        const double out = (after.x - at.x) * (after.x - at.x) + (after.y - at.y) * (after.y - at.y);
+        if (turn(before, at, after) > 1e-11 * std::sqrt(in * out)) polygon.corners.push_back(at);
+      }
+      if (polygon.corners.size() > 2) polygons.push_back(std::move(polygon));
+    }
+  }
+  return polygons;
+} catch (const std::exception&) {
+  return Error{ErrorCode::geometry, "", "the rings of the plan cross within rounding: move the corners apart"};
+}
 
 Result<std::vector<PlanPiece>> plan_pieces(const std::vector<std::vector<PlanCorner>>& rings) try {
   const Outline outline = outline_of(rings);
   std::vector<PlanPiece> pieces;
-  for (const Loop& loop : few_loops(outline, inner_triangles(outline))) {
+  for (const Loop& loop : few_loops(outline.corners, inner_triangles(outline), kBend)) {
     PlanPiece piece;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       piece.corners.push_back(outline.corners[loop[i]]);

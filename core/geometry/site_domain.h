@@ -1,7 +1,6 @@
-// The boundary of a site as people give it: a plan with holes and steps, setback planes, and solids that stay.
+// The boundary of a site as people give it: a plan with holes, steps of their own height, and solids that stay.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "core/geometry/domain_makers.h"
@@ -14,20 +13,21 @@ struct PlanSolid {
   double bottom = 0, top = 0;
 };
 
-/// A plan with holes, and parts with heights of their own: all of it together is the site. A step covers what it covers, holes
-/// among it.
+/// A plan with holes between two heights, together with all steps, less all exclusions. Steps and exclusions may overlap
+/// anything.
 struct SitePlan {
   std::vector<Point3> plan;
   std::vector<std::vector<Point3>> holes;
   double bottom = 0, top = 0;
-  std::vector<PlanSolid> steps;
+  std::vector<PlanSolid> steps, exclusions;
 };
 
-/// Sides: those of `extrude_plan`, then those of the steps in their order. Places of errors: `plan`, `holes/k`, `steps/k`.
+/// All rings cut the plan at once, and what lies over each place is one stack of heights, so that pieces are few whatever the
+/// rings look like. Sides: those of `extrude_plan`; then, for each step and then for each exclusion, bottom, top and walls.
+/// Places of errors: `plan`, `holes/k`, `steps/k`, `exclusions/k`.
 Result<Domain> site_domain(const SitePlan& site);
 
-/// What setback planes and the solids that stay leave of a domain; their sides follow its own in this order, planes first.
-/// Places of errors: `setbacks/k`, `exclusions/k`.
-Result<Domain> restricted_domain(const Domain& domain, std::span<const Plane> setbacks, std::span<const PlanSolid> exclusions);
+/// `exclude` for solids that are given as plans. Places of errors: `exclusions/k`.
+Result<Domain> without_solids(const Domain& domain, const std::vector<PlanSolid>& exclusions);
 
 }  // namespace bl

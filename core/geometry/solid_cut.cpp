@@ -12,6 +12,8 @@ namespace bl {
 
 namespace {
 
+constexpr std::size_t kMostParts = 5000;
+
 // A solid that is taken away, ready for many questions.
 struct Tool {
   std::vector<SolidPart> parts;
@@ -51,9 +53,11 @@ class Carver {
 
   void carve(const LoosePart& loose, std::vector<LoosePart>& kept) {
     const SolidPart& part = loose.part;
+    if (kept.size() > kMostParts) return;  // the maker will refuse it
     double common = 0;
     for (const SolidPart& other : tool_.parts) common += common_volume(part, other, tolerance_);
-    const double volume = volume_of(part), slack = std::min(0.25 * volume, 4 * tolerance_ * surface_of(part));
+    // What a cut within the tolerance may do to volumes is more; this only spares cuts that are not needed for certain.
+    const double volume = volume_of(part), slack = std::min(0.25 * volume, 1e-3 * tolerance_ * surface_of(part));
     if (common <= slack) {
       kept.push_back(loose);
       return;
@@ -114,6 +118,13 @@ void add_walls(std::vector<Wall>& walls, const Domain& domain, std::uint32_t fir
 void shift_sides(SolidPart& part, std::uint32_t shift) {
   for (PartFace& face : part.faces)
     if (face.side != Domain::kInner) face.side += shift;
+}
+
+// A solid with hundreds of corners on several levels is cut better as a plan (site_domain).
+Result<void> check_count(const std::vector<LoosePart>& parts) {
+  if (parts.size() <= kMostParts) return {};
+  return Error{ErrorCode::geometry, "",
+               "the boundary falls into more than " + std::to_string(kMostParts) + " pieces: simplify what is cut out of it"};
 }
 
 Result<std::vector<Plane>> unit_planes(std::span<const Plane> planes) {
@@ -189,6 +200,7 @@ Result<Domain> unite(std::span<const Domain> domains) {
     for (std::size_t j = 0; j < k; ++j) carve_all(parts, domains[j], tolerance);
     for (LoosePart& loose : parts) shift_sides(loose.part, sides);
     all.insert(all.end(), parts.begin(), parts.end());
+    if (auto few = check_count(all); !few) return few.error();
     add_walls(walls, domains[k], sides, false);
     sides += domains[k].side_count;
   }
@@ -203,6 +215,7 @@ Result<Domain> exclude(const Domain& domain, std::span<const Domain> solids) {
   std::uint32_t sides = domain.side_count;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     carve_all(parts, solids[k], tolerance);
+    if (auto few = check_count(parts); !few) return few.error().within(std::to_string(k));
     if (parts.empty())
       return Error{ErrorCode::geometry, std::to_string(k), "this exclusion takes away all that is left of the boundary"};
     add_walls(walls, solids[k], sides, true);

@@ -100,7 +100,7 @@ TEST_F(New, KeepsTheHolesOfAPlan) {
   EXPECT_NE(made.out.find("boundary:  4 corners and 1 hole, 2600.0 m²"), std::string::npos) << made.out;
   const nlohmann::json scene = place.json("scene.json");
   for (const auto& node : scene["nodes"]) {
-    if (node["id"] == "site") EXPECT_EQ(node["types"]["boundary"]["holes"].size(), 4u);
+    if (node["id"] == "site") { EXPECT_EQ(node["types"]["boundary"]["holes"].size(), 4u); }
     if (!node.contains("position") || !node["types"].contains("smart_volume")) continue;
     const double x = node["position"][0], y = node["position"][1];
     // Around the middle of the site, where the court is 20 m by 20 m.
