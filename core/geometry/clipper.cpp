@@ -421,17 +421,27 @@ bool Clipper::write_face(Polyhedron& out, std::uint32_t corner, bool is_exact) {
   return is_sharp;
 }
 
-bool Clipper::finish(Polyhedron& out) { return write(out, true); }
-void Clipper::finish_as_cut(Polyhedron& out) { write(out, false); }
+bool Clipper::finish(Polyhedron& out, double limit) { return write(out, true, limit); }
+void Clipper::finish_as_cut(Polyhedron& out) { write(out, false, std::numeric_limits<double>::infinity()); }
 
-bool Clipper::write(Polyhedron& out, bool is_exact) {
+bool Clipper::write(Polyhedron& out, bool is_exact, double limit) {
   out.clear();
   if (size_ == 0) return true;
   rank_sides();
   number_.assign(size_, kNone);
   loop_.resize(std::size_t{size_} + 1);
-  bool is_sharp = true;
-  for (const std::uint32_t p : order_) is_sharp = write_face(out, first_corner_[p], is_exact) && is_sharp;
+  bool is_sharp = true, is_open = false;
+  for (const std::uint32_t p : order_) {
+    if (sides_[p].offset < limit) {
+      is_sharp = write_face(out, first_corner_[p], is_exact) && is_sharp;
+    } else {
+      is_open = true;
+    }
+  }
+  if (is_open) {
+    out.reach_squared = std::numeric_limits<double>::infinity();
+    return is_sharp;
+  }
   if (out.loops.size() == 3 * std::size_t{size_}) return is_sharp;
   write_split_faces(out, is_exact);
   return false;
