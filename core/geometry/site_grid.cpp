@@ -127,7 +127,12 @@ void SiteGrid::change(std::uint32_t site, const PowerSite& now) {
   }
   Entry& entry = entries_[slot_of_[site]];
   const std::size_t block = index_of(block_of(entry.position));
-  if (index_of(block_of(now.position)) != block) {
+  // What lies outside of all blocks belongs to none: the search reckons with the borders of a block.
+  const Vector3 high = origin_ + side_ * Vector3{double(count_[0]), double(count_[1]), double(count_[2])};
+  const Point3& p = now.position;
+  const bool is_in_box =
+      p.x >= origin_.x && p.y >= origin_.y && p.z >= origin_.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
+  if (!is_in_box || index_of(block_of(p)) != block) {
     entry.site = kNone;
     strays_.push_back({now.position, now.weight, site});
     return;
@@ -159,21 +164,10 @@ void SiteGrid::erase(std::uint32_t site) {
 }
 
 bool SiteGrid::has_site_within(const Point3& p, double limit, std::uint32_t self) const {
-  const auto is_near = [&](const Entry& entry) {
-    return entry.site != kNone && entry.site != self && distance(entry.position, p) <= limit;
-  };
-  if (std::any_of(strays_.begin(), strays_.end(), is_near)) return true;
-  const Vector3 room{1.001 * limit, 1.001 * limit, 1.001 * limit};
-  const auto low = block_of(p - room), high = block_of(p + room);
-  for (int z = low[2]; z <= high[2]; ++z) {
-    for (int y = low[1]; y <= high[1]; ++y) {
-      for (int x = low[0]; x <= high[0]; ++x) {
-        const std::size_t block = index_of({x, y, z});
-        if (std::any_of(entries_.begin() + first_[block], entries_.begin() + first_[block + 1], is_near)) return true;
-      }
-    }
-  }
-  return false;
+  bool is_found = false;
+  visit_near(p, limit,
+             [&](const Entry& entry) { is_found = is_found || (entry.site != self && distance(entry.position, p) <= limit); });
+  return is_found;
 }
 
 std::uint32_t SiteGrid::least_power(const Point3& p) const {

@@ -77,6 +77,22 @@ class SiteGrid {
   /// Is there another participant within this distance [m]?
   bool has_site_within(const Point3& position, double distance, std::uint32_t self) const;
 
+  /// Calls consider(entry) for every participant within a distance [m], and for some beyond it.
+  template <class Consider>
+  void visit_near(const Point3& position, double distance, Consider&& consider) const {
+    for (const Entry& entry : strays_) consider(entry);
+    const Vector3 room{1.001 * distance, 1.001 * distance, 1.001 * distance};
+    const auto low = block_of(position - room), high = block_of(position + room);
+    for (int z = low[2]; z <= high[2]; ++z) {
+      for (int y = low[1]; y <= high[1]; ++y) {
+        const std::uint32_t end = first_[index_of({high[0], y, z}) + 1];
+        for (std::uint32_t k = first_[index_of({low[0], y, z})]; k < end; ++k) {
+          if (entries_[k].site != kNone) consider(entries_[k]);
+        }
+      }
+    }
+  }
+
   /// The participant of least power |p - p_j|² - w_j at a position; of equals the lowest index.
   std::uint32_t least_power(const Point3& position) const;
 
