@@ -35,6 +35,11 @@ void CellGround::set_domain(const Domain& given) {
   for (const Domain::Piece& piece : domain.pieces) pieces.emplace_back(piece.shape, piece.sides);
 }
 
+double CellGround::limit_of(double weight, bool whole) const {
+  const double radius = std::sqrt(std::max(0.0, weight));
+  return whole || radius > kLargeBall * domain.size() ? kUnlimited : radius;
+}
+
 Result<void> CellGround::set_sites(std::span<const PowerSite> all, std::span<const std::uint32_t> participants) {
   sites = all;
   grid.build(all, participants);
@@ -144,24 +149,31 @@ Polyhedron& CellMaker::next_part() {
   return parts_[part_count_++];
 }
 
-// The cell, cut up by the pieces of the domain.
-void CellMaker::keep_parts(const CellGround& ground, const Point3& origin) {
+// The cell, cut up by the pieces of the domain. False where the order of the cuts that made the cell may show in a part.
+bool CellMaker::keep_parts(const CellGround& ground, const Point3& origin) {
+  bool is_sure = true;
   for (std::size_t k = 0; k < ground.pieces.size(); ++k) {
     const ConvexDomain& shape = ground.domain.pieces[k].shape;
     if (squared_gap(origin, shape.minimum, shape.maximum) > cell_.reach_squared()) continue;
     piece_.copy(cell_);
-    if (!piece_.cut(ground.pieces[k], origin, kUnlimited)) continue;
-    finish(piece_, next_part());
+    const bool is_left = piece_.cut(ground.pieces[k], origin, kUnlimited);
+    is_sure = is_sure && !piece_.is_touchy();
+    if (is_left && piece_.is_touchy()) piece_.name_by(ground.pieces[k], origin);
+    if (!is_left || (piece_.is_touchy() && piece_.is_flat())) continue;
+    is_sure = finish(piece_, next_part()) && is_sure;
   }
+  return is_sure;
 }
 
 void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
   const PowerSite& own = ground.sites[site];
   part_count_ = 0;
   borders_.clear();
-  limit_ = whole ? kUnlimited : std::sqrt(std::max(0.0, own.weight));
+  faces_.clear();
+  limit_ = ground.limit_of(own.weight, whole);
   if (limit_ == 0) return;
-  if (limit_ > kLargeBall * ground.domain.size()) limit_ = kUnlimited;
+  // Swallowed: it has no neighbours that could cut it down.
+  if (ground.is_triangulated && !ground.neighbours.has_cell[site]) return;
   // Of a cell that was cut only as far as its ball reaches, the borders beyond are not known to the neighbours.
   if (limit_ < kUnlimited) end_run();
   const bool is_run = !known_.empty();
@@ -173,25 +185,33 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
   } else {
     cut_by_search(ground, site);
   }
-  Polyhedron& outline = ground.domain.is_convex() ? next_part() : outline_;
-  const bool is_vague = !finish(cell_, outline);
-  const bool is_sure = !is_vague && !cell_.is_touchy();
+  const bool is_convex = ground.domain.is_convex();
+  Polyhedron& outline = is_convex ? next_part() : outline_;
+  bool is_sure = finish(cell_, outline) && !cell_.is_touchy();
+  if (!is_convex) is_sure = keep_parts(ground, own.position) && is_sure;
   if (!is_in_order && !is_sure) {
     // Here the order of the cuts may show: they are made again in an order that depends on the sites alone.
     gather(ground, site, cell_.is_empty() ? kUnlimited : kNearlyReached * reach());
     cut_in_order(ground, site);
     finish(cell_, outline);
-    for (const Candidate& candidate : candidates_) borders_.push_back(candidate.site);
-  } else {
-    for (const PolyhedronFace& face : outline.faces) {
-      if (face.kind == FaceKind::site) borders_.push_back(face.index);
+    if (!is_convex) {
+      part_count_ = 0;
+      keep_parts(ground, own.position);
     }
+    for (const Candidate& candidate : candidates_) borders_.push_back(candidate.site);
   }
-  std::sort(borders_.begin(), borders_.end());
-  borders_.erase(std::unique(borders_.begin(), borders_.end()), borders_.end());
+  for (const PolyhedronFace& face : outline.faces) {
+    if (face.kind == FaceKind::site) faces_.push_back(face.index);
+  }
+  std::sort(faces_.begin(), faces_.end());
+  faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+  borders_.insert(borders_.end(), faces_.begin(), faces_.end());
+  if (!is_sure) {
+    std::sort(borders_.begin(), borders_.end());
+    borders_.erase(std::unique(borders_.begin(), borders_.end()), borders_.end());
+  }
   if (is_run) remember(ground, site, is_sure);
-  if (!ground.domain.is_convex()) keep_parts(ground, own.position);
-  if (ground.domain.is_convex() && outline.is_empty()) part_count_ = 0;
+  if (is_convex && (outline.is_empty() || (!is_sure && cell_.is_flat()))) part_count_ = 0;
 }
 
 }  // namespace bl

@@ -22,6 +22,8 @@ struct CellGround {
   PowerNeighbours neighbours;
 
   void set_domain(const Domain& given);
+  /// How far from its site a cell is made [m]: infinity for the whole of it, 0 for none.
+  double limit_of(double weight, bool whole) const;
   /// Spreads the participants over the grid; where they lie too unevenly for one, triangulates them.
   Result<void> set_sites(std::span<const PowerSite> all, std::span<const std::uint32_t> participants);
 };
@@ -44,6 +46,8 @@ class CellMaker {
   std::span<const Polyhedron> parts() const { return std::span(parts_).first(part_count_); }
   /// All sites whose bisectors bound the cell (or nearly so), in ascending order: a change of another site cannot change it.
   std::span<const std::uint32_t> borders() const { return borders_; }
+  /// Those of them that share a face with the cell, in ascending order.
+  std::span<const std::uint32_t> faces() const { return faces_; }
 
  private:
   struct Candidate {
@@ -56,7 +60,7 @@ class CellMaker {
   void cut_by_search(const CellGround& ground, std::uint32_t site);
   void cut_in_order(const CellGround& ground, std::uint32_t site);
   void gather(const CellGround& ground, std::uint32_t site, double reach);
-  void keep_parts(const CellGround& ground, const Point3& origin);
+  bool keep_parts(const CellGround& ground, const Point3& origin);
   double reach() const;
   bool finish(Clipper& shape, Polyhedron& out);
   Polyhedron& next_part();
@@ -65,7 +69,7 @@ class CellMaker {
   Polyhedron outline_;
   double limit_ = 0;  // nothing beyond this distance matters [m]
   std::vector<Candidate> candidates_;
-  std::vector<std::uint32_t> borders_;
+  std::vector<std::uint32_t> borders_, faces_;
   std::vector<Polyhedron> parts_;
   std::size_t part_count_ = 0;
 

@@ -270,7 +270,8 @@ void CellWorkshop::give_back(std::unique_ptr<CellBench> bench) {
 }
 
 void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
-                              const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders) {
+                              const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
+                              std::vector<std::uint32_t>* faces) {
   auto bench = take_bench();
   if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
   for (std::size_t k = begin; k < end; ++k) {
@@ -278,14 +279,19 @@ void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run,
     if (borders == nullptr) continue;
     const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
     borders[which[k]].assign(found.begin(), found.end());
+    if (faces == nullptr) continue;
+    const auto sides = twin_[which[k]] == kNone ? bench->maker.faces() : std::span<const std::uint32_t>{};
+    faces[which[k]].assign(sides.begin(), sides.end());
   }
   bench->maker.end_run();
   give_back(std::move(bench));
 }
 
 void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
-                        std::vector<std::uint32_t>* borders) {
-  const auto body = [&](std::size_t begin, std::size_t end) { make_range(which, false, begin, end, options, cells, borders); };
+                        std::vector<std::uint32_t>* borders, std::vector<std::uint32_t>* faces) {
+  const auto body = [&](std::size_t begin, std::size_t end) {
+    make_range(which, false, begin, end, options, cells, borders, faces);
+  };
   if (options.pool != nullptr && which.size() > kChunk) {
     options.pool->for_each_chunk(which.size(), kChunk, body);
   } else if (!which.empty()) {
@@ -293,9 +299,12 @@ void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions&
   }
 }
 
-void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders) {
+void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
+                            std::vector<std::uint32_t>* faces) {
   const auto order = ground_.grid.order();
-  const auto body = [&](std::size_t begin, std::size_t end) { make_range(order, true, begin, end, options, cells, borders); };
+  const auto body = [&](std::size_t begin, std::size_t end) {
+    make_range(order, true, begin, end, options, cells, borders, faces);
+  };
   const std::size_t threads = options.pool != nullptr ? static_cast<std::size_t>(options.pool->threads()) : 1;
   const std::size_t runs = threads > 1 && order.size() > 2 * kChunk ? kRunsPerThread * threads : 1;
   if (runs > 1) {
@@ -307,7 +316,7 @@ void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> c
   for (std::uint32_t i = 0; has_twins_ && i < sites_.size(); ++i) {
     if (twin_[i] != kNone) others.push_back(i);
   }
-  make(others, options, cells, borders);
+  make(others, options, cells, borders, faces);
 }
 
 Result<void> check_sites(std::span<const PowerSite> sites) {

@@ -39,21 +39,30 @@ class CellWorkshop {
   void erase(std::uint32_t site);
 
   std::span<const PowerSite> sites() const { return sites_; }
+  /// How far from its site a cell is made [m]: infinity for the whole of it, 0 for none.
+  double limit_of(double weight, const CellOptions& options) const { return ground_.limit_of(weight, options.with_shape); }
+  /// Calls consider(entry) for every site within a distance [m], and for some beyond it; each has site, position and weight.
+  template <class Consider>
+  void visit_near(const Point3& position, double distance, Consider&& consider) const {
+    ground_.grid.visit_near(position, distance, consider);
+  }
   /// Per site: the site it coincides with, or 0xffffffff; an absent site is named by itself.
   std::span<const std::uint32_t> twins() const { return twin_; }
   /// Sites in the order in which they lie in memory: nearby cells are made one after the other.
   std::span<const std::uint32_t> order() const { return ground_.grid.order(); }
 
   /// Makes the cells of `which`, each into its place of `cells`; `borders` (null, or one list per site) gets the sites whose
-  /// change can change the cell.
+  /// change can change the cell; `faces` (likewise) those of them that share a face with it.
   void make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
-            std::vector<std::uint32_t>* borders = nullptr);
+            std::vector<std::uint32_t>* borders = nullptr, std::vector<std::uint32_t>* faces = nullptr);
   /// Makes all cells, which takes less than making each of them.
-  void make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders = nullptr);
+  void make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders = nullptr,
+                std::vector<std::uint32_t>* faces = nullptr);
 
  private:
   void make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
-                  const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders);
+                  const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
+                  std::vector<std::uint32_t>* faces);
   bool has_room_for(std::uint32_t site, const Point3& position) const;
   void make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const;
   std::unique_ptr<CellBench> take_bench();

@@ -348,6 +348,31 @@ bool Clipper::cut(const Start& piece, const Point3& origin, double limit) {
   return size_ > 0;
 }
 
+void Clipper::name_by(const Start& piece, const Point3& origin) {
+  const double near = 4 * (kTouchShare * reach_ + kFirstTouchShare * start_reach_);
+  for (const Start::Side& surface : piece.sides_) {
+    if (surface.kind != FaceKind::plane) continue;
+    const double offset = dot(surface.normal, surface.anchor - origin);
+    for (Side& side : sides_) {
+      const bool is_same = side.kind == FaceKind::site && std::abs(side.offset - offset) <= near &&
+                           squared_norm(side.normal - surface.normal) <= kTouchyShare * kTouchyShare;
+      if (!is_same) continue;
+      side.kind = FaceKind::plane;
+      side.index = surface.index;
+    }
+  }
+}
+
+bool Clipper::is_flat() const {
+  const double thick = 4 * (kTouchShare * reach_ + kFirstTouchShare * start_reach_);
+  return std::any_of(sides_.begin(), sides_.end(), [&](const Side& side) {
+    for (std::uint32_t v = 0; v < size_; ++v) {
+      if (side.normal.x * x_[v] + side.normal.y * y_[v] + side.normal.z * z_[v] < side.offset - thick) return false;
+    }
+    return true;
+  });
+}
+
 // The point on three planes (Cramer's rule), the face of lowest rank first so that the bits do not depend on the history.
 bool Clipper::meeting_point(const Corner& corner, Point3& at) const {
   const auto& p = corner.plane;

@@ -55,6 +55,11 @@ class Clipper {
   double reach() const { return reach_; }
   /// Has some vertex come so near to a plane that the order of the cuts may show in the result?
   bool is_touchy() const { return is_touchy_; }
+  /// Is all that is left a plate no thicker than what counts as touching? Planes that meet face to face leave such plates.
+  bool is_flat() const;
+
+  /// Faces that lie on a side of the boundary, which has to be one of this piece, are that side's.
+  void name_by(const Start& piece, const Point3& origin);
 
   /// The shape in a form that does not depend on the order of the cuts (unless it is touchy): faces by kind and index, loops
   /// from a fixed corner on, every vertex computed anew from its three planes. False where three planes meet so flatly that a
