@@ -43,9 +43,11 @@ Result<void> check_options(std::span<const PowerSite> sites, const Domain& domai
 struct PowerDiagram::Workshop {
   CellWorkshop workshop;
   std::vector<CellMeasure> cells;
-  std::vector<std::vector<std::uint32_t>> borders;
-  std::vector<std::uint32_t> changed, made, empty;
+  std::vector<std::vector<std::uint32_t>> borders, faces;
+  std::vector<std::uint32_t> changed, made, empty, unlimited;
   std::vector<std::uint8_t> is_marked;
+  std::vector<double> limits;  // how far from its site each cell is made [m]
+  double largest_limit = 0;    // of those that end
   std::vector<double> storey_heights;
   CellOptions last;
   bool is_whole = false;  // do `cells` belong to the sites and options of the last call?
@@ -63,25 +65,83 @@ struct PowerDiagram::Workshop {
     made.push_back(site);
   }
 
-  // Only what the changed sites can have touched: themselves, their neighbours before and after, and cells that have been empty.
+  // A cell that ends at its ball is cut by every bisector that comes into the ball, also where no facet is left of it. A whole
+  // cell among cells that end at their balls may have borders that those do not know of.
+  void mark_reached(const PowerSite& by, const CellOptions& options) {
+    if (std::isfinite(workshop.limit_of(by.weight, options))) {
+      for (const std::uint32_t site : unlimited) mark(site);
+    }
+    const double radius = std::sqrt(std::max(0.0, by.weight)) * (1 + 1e-9);
+    if (radius == 0 || largest_limit == 0) return;
+    workshop.visit_near(by.position, radius + largest_limit, [&](const SiteGrid::Entry& entry) {
+      const double limit = limits[entry.site];
+      if (limit > 0 && std::isfinite(limit) && std::abs(distance(entry.position, by.position) - limit) < radius) mark(entry.site);
+    });
+  }
+
+  void find_limits(std::span<const PowerSite> sites, const CellOptions& options) {
+    limits.resize(sites.size());
+    unlimited.clear();
+    largest_limit = 0;
+    for (std::uint32_t i = 0; i < sites.size(); ++i) {
+      limits[i] = workshop.limit_of(sites[i].weight, options);
+      if (!std::isfinite(limits[i])) {
+        unlimited.push_back(i);
+      } else {
+        largest_limit = std::max(largest_limit, limits[i]);
+      }
+    }
+  }
+
+  // Makes the cells from a place of the list on, and then those that these no longer border: something has come between, and may
+  // have swallowed them together with all that it touches.
+  void make_and_follow(std::size_t from, const CellOptions& options) {
+    std::vector<std::vector<std::uint32_t>> before;
+    while (from < made.size()) {
+      const std::size_t end = made.size();
+      std::sort(made.begin() + static_cast<std::ptrdiff_t>(from), made.end());
+      before.resize(end - from);
+      for (std::size_t k = from; k < end; ++k) before[k - from] = faces[made[k]];
+      workshop.make(std::span(made).subspan(from), options, cells, borders.data(), faces.data());
+      for (std::size_t k = from; k < end; ++k) {
+        const auto& now = faces[made[k]];
+        for (const std::uint32_t j : before[k - from]) {
+          if (!std::binary_search(now.begin(), now.end(), j)) mark(j);
+        }
+      }
+      from = end;
+    }
+  }
+
+  // Only what the changed sites can have touched: themselves, what they reach, their neighbours before and after with all that
+  // these have lost sight of, and cells that have been empty.
   bool update_locally(std::span<const PowerSite> sites, const CellOptions& options) {
+    if (changed.empty()) return made.clear(), true;
+    std::vector<PowerSite> before;
     for (const std::uint32_t site : changed) {
+      before.push_back(workshop.sites()[site]);
       if (!workshop.change(site, sites[site])) return false;
     }
     is_marked.assign(sites.size(), 0);
     made.clear();
     for (const std::uint32_t site : changed) mark(site);
+    const std::size_t done = changed.size();
     for (const std::uint32_t site : changed) {
       for (const std::uint32_t j : borders[site]) mark(j);
     }
-    for (const std::uint32_t site : empty) mark(site);
-    workshop.make(changed, options, cells, borders.data());
-    const std::size_t done = changed.size();
-    for (std::size_t k = 0; k < done; ++k) {
-      for (const std::uint32_t j : borders[changed[k]]) mark(j);
+    workshop.make(changed, options, cells, borders.data(), faces.data());
+    for (const std::uint32_t site : changed) {
+      for (const std::uint32_t j : borders[site]) mark(j);
     }
-    std::sort(made.begin() + static_cast<std::ptrdiff_t>(done), made.end());
-    workshop.make(std::span(made).subspan(done), options, cells, borders.data());
+    // Nothing else borders them: whole cells that have appeared out of nothing may have swallowed everything.
+    find_limits(sites, options);
+    if (made.size() == done && !unlimited.empty() && done < sites.size()) return false;
+    for (const std::uint32_t site : empty) mark(site);
+    for (std::size_t k = 0; k < done && !options.with_shape; ++k) {
+      mark_reached(before[k], options);
+      mark_reached(sites[changed[k]], options);
+    }
+    make_and_follow(done, options);
     return true;
   }
 
@@ -89,9 +149,10 @@ struct PowerDiagram::Workshop {
     if (auto set = same_places ? workshop.set_weights(sites) : workshop.set_sites(sites); !set) return set.error();
     cells.resize(sites.size());
     borders.resize(sites.size());
+    faces.resize(sites.size());
     made.resize(sites.size());
     std::iota(made.begin(), made.end(), 0u);
-    workshop.make_all(options, cells, borders.data());
+    workshop.make_all(options, cells, borders.data(), faces.data());
     return {};
   }
 
