@@ -198,23 +198,29 @@ bool CellWorkshop::change(std::uint32_t site, const PowerSite& now) {
   return true;
 }
 
+// Lengthens the list up to a place; what is new in it is absent.
+void CellWorkshop::make_place(std::uint32_t site) {
+  absent_.resize(sites_.size(), 0);
+  for (auto k = static_cast<std::uint32_t>(sites_.size()); k <= site; ++k) {
+    sites_.emplace_back();
+    twin_.push_back(k);
+    absent_.push_back(1);
+  }
+  ground_.sites = sites_;
+}
+
 bool CellWorkshop::insert(std::uint32_t site, const PowerSite& now) {
   if (!has_room_for(site, now.position)) return false;
-  if (site >= sites_.size()) {
-    sites_.resize(std::size_t{site} + 1);
-    twin_.resize(sites_.size(), kNone);
-    if (!absent_.empty()) absent_.resize(sites_.size(), 0);
-    ground_.sites = sites_;
-  }
+  make_place(site);
   sites_[site] = now;
   twin_[site] = kNone;
-  if (!absent_.empty()) absent_[site] = 0;
+  absent_[site] = 0;
   ground_.grid.insert(site, now);
   return true;
 }
 
 void CellWorkshop::erase(std::uint32_t site) {
-  absent_.resize(sites_.size(), 0);
+  make_place(site);
   absent_[site] = 1;
   twin_[site] = site;
   ground_.grid.erase(site);

@@ -140,7 +140,11 @@ class Fit {
   void judge(std::span<const CellMeasure> cells) {
     targets_.measure(cells);
     report_.volumes.resize(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) report_.volumes[i] = cells[i].volume;
+    report_.evaluated.resize(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      report_.volumes[i] = cells[i].volume;
+      report_.evaluated[i] = sites_[i].weight;
+    }
     report_.error = 0;
     report_.worst_site = 0;
     for (std::uint32_t k = 0; k < targets_.size(); ++k) {

@@ -97,7 +97,8 @@ void FitTargets::grant(std::span<const CellMeasure> cells, double domain_volume)
   double share = 1;
   if (wanted > room * (1 + 1e-12)) {
     share = room / wanted;
-    infeasible_ = "the demands exceed the domain: " + fixed(wanted, 1) + " m³ are asked for, " + fixed(room, 1) +
+    const int digits = wanted < 100 ? 4 : 1;
+    infeasible_ = "the demands exceed the domain: " + fixed(wanted, digits) + " m³ are asked for, " + fixed(room, digits) +
                   " m³ are there; each site gets " + fixed(100 * share, 1) + " % of its demand";
   }
   for (std::uint32_t k = 0; k < size(); ++k) {

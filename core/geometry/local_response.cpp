@@ -28,10 +28,13 @@ void LocalResponse::resize(std::size_t count) {
   for (auto* values : {&change_, &residual_, &scaled_, &direction_, &image_, &shift_}) values->assign(count, 0);
 }
 
-void LocalResponse::set_row(std::uint32_t site, std::span<const PowerSite> sites, const CellMeasure& cell) {
+void LocalResponse::set_row(std::uint32_t site, std::span<const PowerSite> sites, const CellMeasure& cell,
+                            std::vector<std::uint32_t>& lost) {
   Row& row = rows_[site];
   // Bonds that are gone are gone on the other side too.
+  const std::size_t first_lost = lost.size();
   for (const Bond& old : row.bonds) {
+    lost.push_back(old.other);
     auto& back = rows_[old.other].bonds;
     const auto at = std::find_if(back.begin(), back.end(), [&](const Bond& bond) { return bond.other == site; });
     if (at == back.end()) continue;
@@ -50,6 +53,10 @@ void LocalResponse::set_row(std::uint32_t site, std::span<const PowerSite> sites
     rows_[facet.index].bonds.push_back({site, value, lever});
     rows_[facet.index].bound += value;
   }
+  const auto is_bound = [&](std::uint32_t other) {
+    return std::any_of(row.bonds.begin(), row.bonds.end(), [&](const Bond& bond) { return bond.other == other; });
+  };
+  lost.erase(std::remove_if(lost.begin() + static_cast<std::ptrdiff_t>(first_lost), lost.end(), is_bound), lost.end());
 }
 
 std::span<const std::uint32_t> LocalResponse::active_around(std::span<const double> demand, std::span<const double> volume,

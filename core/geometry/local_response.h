@@ -15,8 +15,9 @@ class LocalResponse {
  public:
   void reset(std::size_t count);
   void resize(std::size_t count);
-  /// Takes over what a cell that has just been made says of its site's row.
-  void set_row(std::uint32_t site, std::span<const PowerSite> sites, const CellMeasure& cell);
+  /// Takes over what a cell that has just been made says of its site's row; appends to `lost` the sites that it no longer
+  /// borders.
+  void set_row(std::uint32_t site, std::span<const PowerSite> sites, const CellMeasure& cell, std::vector<std::uint32_t>& lost);
   double diagonal(std::uint32_t site) const { return rows_[site].free + rows_[site].bound; }
 
   /// The sites that miss their demand by more than a share `enough` of it, and those so many bonds around them, in ascending

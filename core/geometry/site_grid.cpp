@@ -157,7 +157,7 @@ void SiteGrid::insert(std::uint32_t site, const PowerSite& now) {
 
 void SiteGrid::erase(std::uint32_t site) {
   std::erase_if(strays_, [&](const Entry& stray) { return stray.site == site; });
-  const std::uint32_t slot = slot_of_[site];
+  const std::uint32_t slot = site < slot_of_.size() ? slot_of_[site] : kNone;
   if (slot == kNone || entries_[slot].site != site) return;
   entries_[slot].site = kNone;
   find_block_weight(index_of(block_of(entries_[slot].position)));

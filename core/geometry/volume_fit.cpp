@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "core/base/text.h"
@@ -18,6 +20,8 @@ namespace {
 constexpr int kMostCorrections = 25;
 // No smaller error for so many evaluations, and the fit is going nowhere.
 constexpr int kStalled = 40;
+// The same with weights to start from: there is another way.
+constexpr int kStalledWarm = 15;
 // Reasons that are written out; more are counted.
 constexpr std::size_t kMostReasons = 20;
 
@@ -65,7 +69,9 @@ class Attempt {
                     .pool = options_.pool,
                     .diagram = &diagram_};
     FitState state;
-    double best = 1e300;
+    double best = std::numeric_limits<double>::infinity();
+    std::vector<double> best_weights(problem_.sites.size(), 0);
+    bool is_warm = has_weights();
     int since = 0;
     while (true) {
       auto report = adapt_weights(domain_, problem_, state, step);
@@ -76,14 +82,42 @@ class Attempt {
       const FitReport& last = result_.last;
       const bool goes_on = !options_.progress || options_.progress(result_.evaluations, last.error);
       since = last.error < 0.9 * best ? 0 : since + 1;
-      best = std::min(best, last.error);
+      if (last.error < best) {
+        best = last.error;
+        best_weights = last.evaluated;
+      }
+      // Weights to start from may be a place that no step leads out of: then it starts by itself.
+      if (is_warm && since > kStalledWarm && !last.is_met && goes_on && result_.evaluations < options_.most_steps) {
+        is_warm = false;
+        since = 0;
+        state = {};
+        start_afresh();
+        continue;
+      }
       if (last.is_met || !goes_on || result_.evaluations >= options_.most_steps || since > kStalled) {
         result_.is_cancelled = !goes_on && !last.is_met;
+        // A step that went too far is no result: the best one is.
+        use(last.is_met ? last.evaluated : best_weights);
         return {};
       }
       state = last.state;
-      for (std::size_t i = 0; i < problem_.sites.size(); ++i) problem_.sites[i].weight = last.weights[i];
+      use(last.weights);
     }
+  }
+
+  bool has_weights() const {
+    return std::any_of(problem_.demands.begin(), problem_.demands.end(), [&](const VolumeDemand& demand) {
+      return std::any_of(demand.sites.begin(), demand.sites.end(), [&](std::uint32_t i) { return problem_.sites[i].weight > 0; });
+    });
+  }
+  void start_afresh() {
+    for (const VolumeDemand& demand : problem_.demands) {
+      for (const std::uint32_t i : demand.sites) problem_.sites[i].weight = 0;
+    }
+  }
+
+  void use(std::span<const double> weights) {
+    for (std::size_t i = 0; i < problem_.sites.size(); ++i) problem_.sites[i].weight = weights[i];
   }
 
   // The sites with the weights that were last evaluated: `volumes` are of these.

@@ -41,7 +41,8 @@ struct VolumeSolver::Desk {
   std::vector<std::vector<std::uint32_t>> borders;
   LocalResponse response;
   std::vector<std::uint32_t> changed, made;
-  bool is_fresh = true;  // everything has to be fitted anew
+  std::vector<std::uint32_t> lost;  // sites that a cell made anew no longer borders
+  bool is_fresh = true;             // everything has to be fitted anew
 
   std::size_t size() const { return sites.size(); }
   bool counts(std::uint32_t i) const { return !absent[i] && demand[i] > 0; }
@@ -64,14 +65,17 @@ struct VolumeSolver::Desk {
       volume[i] = cells[i].volume;
       shift[i] = 0;
     }
-    for (const std::uint32_t i : which) response.set_row(i, sites, cells[i]);
+    for (const std::uint32_t i : which) response.set_row(i, sites, cells[i], lost);
     report.cells_made += which.size();
   }
 
-  // A border that one side has found and the other has never heard of makes that one's cell anew too.
+  // A border that one side has found and the other has never heard of makes that one's cell anew too; and so does one that one
+  // side has lost: something has come between, and may have swallowed the other.
   void make_new_neighbours(const SolveOptions& options, SolveReport& report) {
-    for (std::size_t from = 0; from < made.size();) {
+    for (std::size_t from = 0; from < made.size() || !lost.empty();) {
       const std::size_t end = made.size();
+      for (const std::uint32_t i : lost) mark(i);
+      lost.clear();
       for (; from < end; ++from) {
         for (const FacetArea& facet : cells[made[from]].facets) {
           if (facet.kind != FacetArea::Kind::site || is_marked[facet.index]) continue;
@@ -110,10 +114,16 @@ struct VolumeSolver::Desk {
     std::vector<std::uint32_t> outer(made.begin() + static_cast<std::ptrdiff_t>(own), made.end());
     made.resize(own);
     make_marked(0, options, report);
+    const auto add_outer = [&](std::uint32_t j) {
+      if (!is_marked[j] && !absent[j]) outer.push_back(j), is_marked[j] = 1;
+    };
     for (const std::uint32_t i : changed) {
-      for (const std::uint32_t j : borders[i]) {
-        if (!is_marked[j] && !absent[j]) outer.push_back(j), is_marked[j] = 1;
-      }
+      for (const std::uint32_t j : borders[i]) add_outer(j);
+      // Where it outweighs others at their own positions it may have swallowed them without bordering anything of theirs.
+      if (absent[i] || !(sites[i].weight > 0)) continue;
+      workshop.visit_near(sites[i].position, std::sqrt(sites[i].weight), [&](const SiteGrid::Entry& entry) {
+        if (squared_norm(entry.position - sites[i].position) < sites[i].weight - entry.weight) add_outer(entry.site);
+      });
     }
     std::sort(outer.begin(), outer.end());
     made.insert(made.end(), outer.begin(), outer.end());
@@ -229,8 +239,9 @@ struct VolumeSolver::Desk {
     for (std::uint32_t i = 0; i < size(); ++i) {
       volume[i] = cells[i].volume;
       shift[i] = 0;
-      response.set_row(i, sites, cells[i]);
+      response.set_row(i, sites, cells[i], lost);
     }
+    lost.clear();
     report.cells_made += size();
     report.was_local = false;
     report.status = fit->status;
