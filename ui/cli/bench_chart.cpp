@@ -18,7 +18,9 @@ using report::PathText;
 using report::Pixel;
 using report::pixels;
 
-constexpr double kPanelWidth = 400, kHeight = 292, kTop = 68, kBottom = 46, kLeft = 56, kRight = 18;
+// One panel alone is wider, as its legend has to find room.
+constexpr double kPanelWidth = 400, kOnePanelWidth = 640;
+constexpr double kHeight = 292, kTop = 68, kBottom = 46, kLeft = 56, kRight = 18;
 constexpr const char* kRule = "#d9d5ca";
 
 // One logarithmic axis: where it begins and ends, and what is written on it.
@@ -76,11 +78,11 @@ std::string mark_text(double value) {
 
 class PanelDrawing {
  public:
-  PanelDrawing(Markup& svg, const ChartPanel& panel, double left)
+  PanelDrawing(Markup& svg, const ChartPanel& panel, double left, double width)
       : svg_(svg),
         panel_(panel),
         left_(left + kLeft),
-        right_(left + kPanelWidth - kRight),
+        right_(left + width - kRight),
         x_(axis_of(
             panel, [](const ChartLine::Point& p) { return p.x; }, 0)),
         y_(axis_of(
@@ -161,13 +163,13 @@ void draw_legend(Markup& svg, const std::vector<ChartLine>& lines) {
 
 std::string draw_chart(const Chart& chart) {
   Markup svg;
-  report::open_picture(svg, kPanelWidth * static_cast<double>(chart.panels.size()), kHeight, chart.id, chart.title,
-                       chart.description);
+  const double width = chart.panels.size() == 1 ? kOnePanelWidth : kPanelWidth;
+  report::open_picture(svg, width * static_cast<double>(chart.panels.size()), kHeight, chart.id, chart.title, chart.description);
   if (!chart.panels.empty()) draw_legend(svg, chart.panels.front().lines);
   double left = 0;
   for (const ChartPanel& panel : chart.panels) {
-    PanelDrawing(svg, panel, left).draw();
-    left += kPanelWidth;
+    PanelDrawing(svg, panel, left, width).draw();
+    left += width;
   }
   svg.close();
   return svg.str() + "\n";

@@ -2,6 +2,7 @@
 #include "ui/cli/solver_bench.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -56,6 +57,7 @@ int solver_bench(const BenchOptions& options) {
       table.print();
       table.append_to(rows);
     }
+    std::fflush(stdout);  // the whole run takes minutes: what is known is shown, in a file too
   }
   if (!options.json.empty()) {
     const Json all = {{"machine", machine}, {"rows", rows}};

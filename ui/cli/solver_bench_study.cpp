@@ -102,7 +102,7 @@ Result<void> draw(const Study& study, const std::vector<Curve>& curves, const st
   static constexpr const char* kDashes[] = {"2 2.5", "6 2.5", ""};
   ChartPanel panel{"largest relative error of a volume", "evaluations of the diagram (one a tick)", {}, kGoal, "1 %"};
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    ChartLine line{curves[c].name + ": " + std::to_string(curves[c].to_goal), kColours[c], kDashes[c], {}};
+    ChartLine line{curves[c].name + " (" + std::to_string(curves[c].to_goal) + " to 1 %)", kColours[c], kDashes[c], {}};
     for (std::size_t k = 0; k < curves[c].errors.size(); ++k) {
       line.points.push_back({static_cast<double>(k + 1), curves[c].errors[k]});
     }
