@@ -76,6 +76,8 @@ class Fit {
       }
       report_.steps = step + 1;
       judge(*measured);
+      report_.evaluated.clear();
+      for (const PowerSite& site : sites_) report_.evaluated.push_back(site.weight);
       if (report_.is_met) break;
       move(*measured);
       keep_in_bounds();
@@ -113,10 +115,13 @@ class Fit {
   // Balls that take the whole domain never cut: all weights are raised alike, which changes no bisector, until none does.
   // Otherwise the last corners, beyond the balls, would be won ever more slowly.
   bool start_full() {
+    bool has_changed = false;  // what has been measured no longer holds
     for (std::size_t i = 0; i < sites_.size(); ++i) {
-      if (targets_.owner(i) != FitTargets::kNone && !is_fitted(i)) sites_[i].weight = 0;
+      if (targets_.owner(i) == FitTargets::kNone || is_fitted(i) || sites_[i].weight == 0) continue;
+      sites_[i].weight = 0;
+      has_changed = true;
     }
-    if (!targets_.is_full()) return false;
+    if (!targets_.is_full()) return has_changed;
     double lift = 0;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!is_fitted(i)) continue;
@@ -126,7 +131,7 @@ class Fit {
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (is_fitted(i)) sites_[i].weight += lift;
     }
-    return lift > 0;
+    return has_changed || lift > 0;
   }
 
   void keep_in_bounds() {
@@ -140,11 +145,7 @@ class Fit {
   void judge(std::span<const CellMeasure> cells) {
     targets_.measure(cells);
     report_.volumes.resize(cells.size());
-    report_.evaluated.resize(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      report_.volumes[i] = cells[i].volume;
-      report_.evaluated[i] = sites_[i].weight;
-    }
+    for (std::size_t i = 0; i < cells.size(); ++i) report_.volumes[i] = cells[i].volume;
     report_.error = 0;
     report_.worst_site = 0;
     for (std::uint32_t k = 0; k < targets_.size(); ++k) {
@@ -252,17 +253,51 @@ class Fit {
 
   void take_back(double share) {
     report_.state.share = share;
+    std::vector<double> from(sites_.size(), 0);
     for (std::size_t i = 0; i < sites_.size(); ++i) {
-      if (is_fitted(i)) follow(i, cube_of_radius(sites_[i].weight) - report_.state.previous_move[i]);
+      if (!is_fitted(i)) continue;
+      from[i] = cube_of_radius(sites_[i].weight) - report_.state.previous_move[i];
+      follow(i, from[i]);
+    }
+    move_groups_alike(from);
+  }
+
+  // The weights of a group all move as that of its lightest member that moves at all: otherwise they would drift apart in r³, and
+  // what the group becomes would depend on the way.
+  void move_groups_alike(std::span<const double> from) {
+    for (std::uint32_t k = 0; k < targets_.size(); ++k) {
+      const auto members = targets_.sites(k);
+      if (members.size() < 2 || !(targets_.most(k) > 0)) continue;
+      std::uint32_t lead = FitTargets::kNone;
+      for (const std::uint32_t i : members) {
+        if (report_.state.direction[i] != 0 && (lead == FitTargets::kNone || from[i] < from[lead])) lead = i;
+      }
+      const double change = lead == FitTargets::kNone ? 0 : sites_[lead].weight - weight_of_cube(from[lead]);
+      for (const std::uint32_t i : members) {
+        if (i == lead || lead == FitTargets::kNone) continue;
+        sites_[i].weight = std::max(0.0, weight_of_cube(from[i]) + change);
+        report_.state.previous_move[i] = cube_of_radius(sites_[i].weight) - from[i];
+      }
+    }
+  }
+
+  // Raises the weights of a demand's sites alike, until the first of them has a cell again.
+  void raise(std::uint32_t target, std::vector<double>& weights) const {
+    double lift = 1e300;
+    for (const std::uint32_t i : targets_.sites(target)) lift = std::min(lift, repaired_weight(i) - sites_[i].weight);
+    for (const std::uint32_t i : targets_.sites(target)) {
+      weights[i] = targets_.sites(target).size() == 1 ? repaired_weight(i) : sites_[i].weight + lift;
     }
   }
 
   void repair_offenders(std::span<const std::uint32_t> offenders) {
     report_.state.share = -report_.state.share;
+    std::vector<double> weights(sites_.size());
     for (const std::uint32_t k : offenders) {
+      raise(k, weights);
       for (const std::uint32_t i : targets_.sites(k)) {
         const double before = cube_of_radius(sites_[i].weight);
-        sites_[i].weight = repaired_weight(i);
+        sites_[i].weight = weights[i];
         report_.state.previous_move[i] += cube_of_radius(sites_[i].weight) - before;
       }
     }
@@ -272,8 +307,9 @@ class Fit {
     report_.state.residual = -1;
     report_.state.share = 0;
     std::vector<double> weights(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      weights[i] = is_fitted(i) && !(cells[i].volume > 0) ? repaired_weight(i) : sites_[i].weight;
+    for (std::size_t i = 0; i < cells.size(); ++i) weights[i] = sites_[i].weight;
+    for (std::uint32_t k = 0; k < targets_.size(); ++k) {
+      if (!targets_.sites(k).empty() && targets_.most(k) > 0 && !(targets_.total(k) > 0)) raise(k, weights);
     }
     for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
   }
@@ -296,11 +332,15 @@ class Fit {
     state.residual = residual;
     state.share = options_.damping;
     state.direction.assign(cells.size(), 0);
+    state.previous_move.assign(cells.size(), 0);
+    std::vector<double> from(cells.size(), 0);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const bool counts = fitted[i] && cells[i].volume > 0 && !is_idle(cells, i, std::abs(change[unknown[i]]));
       if (counts) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change[unknown[i]];
-      if (fitted[i]) follow(i, cube_of_radius(sites_[i].weight));
+      from[i] = cube_of_radius(sites_[i].weight);
+      if (fitted[i]) follow(i, from[i]);
     }
+    move_groups_alike(from);
   }
 
   // Would this change of weight [m²] move no volume by what anybody counts?

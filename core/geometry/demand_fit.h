@@ -51,8 +51,8 @@ struct DemandLoss {
 
 struct FitReport {
   std::vector<double> weights;     ///< [m²], to be used next
+  std::vector<double> evaluated;   ///< [m²], those of the last evaluation
   FitState state;                  ///< to be handed to the next call
-  std::vector<double> evaluated;   ///< [m²], the weights of the last evaluation, which `volumes` and `error` belong to
   std::vector<double> demands;     ///< [m³] per demand, what was aimed at: as given, or scaled where infeasible
   std::vector<double> volumes;     ///< [m³] per site at the last evaluation, which is of `weights` where `is_met`
   double error = 0;                ///< largest |volume - demand| / demand of those that are free, at the last evaluation

@@ -94,7 +94,8 @@ void measure_shape(const Polyhedron& cell, double squared_radius, double cell_vo
     area_vector += sum.area * face.normal;
     moment += (face.offset / 4) * facet_moment;
   }
-  const double free = counts_inside ? (is_centre_inside ? 4 * kPi : 0) - 2 * solid.value() - sectors : 2 * solid.value() - sectors;
+  const double free =
+      counts_inside ? (is_centre_inside ? 4 * kPi : 0) - 2 * solid.value() - sectors : 2 * solid.value() - sectors;
   // Without facets it is a whole ball or nothing.
   out.spherical_area = squared_radius * (facets > 0 ? std::clamp(free, 0.0, 4 * kPi) : free > 2 * kPi ? 4 * kPi : 0);
   out.volume = std::clamp((cones + radius * out.spherical_area) / 3, 0.0, cell_volume);

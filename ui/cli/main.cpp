@@ -188,14 +188,30 @@ void declare_bench(CLI::App& app, BenchOptions& o) {
   c.add_option("--threads", o.threads, "Threads; several numbers give several rows. Default: 1.")
       ->type_name("K")
       ->check(CLI::Range(1, kMostThreads));
-  c.add_option("--repeat", o.repeat, "Measures so often and takes the median. Default: 3.")
+  c.add_option("--repeat", o.repeat, "Measures so often and takes the median. Default: 3, of the solver 5.")
       ->type_name("R")
       ->check(CLI::Range(1, 1000));
   c.add_option("--ticks", o.ticks, "Ticks of one measurement. Default: 20.")->type_name("N")->check(CLI::Range(1, 1000000));
   c.add_option("--json", o.json, "Writes the rows as JSON, times in seconds.")->type_name("FILE");
+  auto* solver = c.add_flag("--solver", o.is_solver,
+                            "Measures the solver without ticks: cells, fits, drags, growth, and the feedback on a scene.");
+  c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
+  c.add_option("--rows", o.rows, "Of the solver: these rows only.")
+      ->type_name("ROWS")
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "study"}))
+      ->needs(solver);
+  c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
+      ->type_name("K")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(solver);
+  c.add_option("--chart", o.chart, "Of the solver: writes growth.svg and feedback_newton.svg into a folder.")
+      ->type_name("DIR")
+      ->needs(solver);
   c.footer(
-      "Without scenes and --sites: 100 and 1000 random volumes.\n\nExample:\n  behaviourlinks bench --sites 100 1000 --threads 1 "
-      "2");
+      "Without scenes and --sites: 100 and 1000 random volumes; of the solver the sizes that suit each row, threads 1 and 2, "
+      "and\n"
+      "scenes/studies/sixty_volumes.json for the feedback.\n\nExample:\n  behaviourlinks bench --sites 100 1000 --threads 1 2\n"
+      "  behaviourlinks bench --solver --rows drag --sites 5000");
 }
 
 int run_program(int count, char** arguments) {

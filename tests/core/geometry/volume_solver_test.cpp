@@ -156,7 +156,7 @@ TEST(VolumeSolver, RandomWalksStayTrue) {
       if (HasFailure()) return;
       SCOPED_TRACE("fill " + std::to_string(fill) + ", " + std::to_string(count) + " sites");
       const FitScene scene = fit_scene(static_cast<std::size_t>(count > 20 ? 20 + rounds(count - 20) : count), fill, 52);
-      walk(scene, 90 + static_cast<std::uint64_t>(count), rounds(200) + 10, true, nullptr, nullptr);
+      walk(scene, 90 + static_cast<std::uint64_t>(count), rounds(count > 200 ? 70 : 150) + 10, true, nullptr, nullptr);
     }
   }
 }
