@@ -42,13 +42,19 @@ struct InsideBoundary {
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
-    const std::vector<Side> sides = sides_of(*ends.planes, in.margin);
-    if (outside(sides, ends.position) <= 1e-9) return Out{};
-    const Point3 nearest = projected(sides, ends.position);
-    if (!(outside(sides, nearest) <= 1e-3))
+    const std::vector<Piece> pieces = pieces_of(*ends.planes, in.margin);
+    if (pieces.empty()) return Out{};
+    std::optional<Vector3> best;
+    for (const Piece& sides : pieces) {
+      if (outside(sides, ends.position) <= 1e-9) return Out{};
+      const Point3 nearest = projected(sides, ends.position);
+      if (!(outside(sides, nearest) <= 1e-3)) continue;
+      if (!best || norm(nearest - ends.position) < norm(*best)) best = nearest - ends.position;
+    }
+    if (!best)
       return Error{ErrorCode::infeasible, "margin",
                    "a margin of " + shortest(in.margin) + " m leaves no room inside the boundary; make it smaller"};
-    return Out{nearest - ends.position};
+    return Out{best};
   }
 
  private:
@@ -57,19 +63,23 @@ struct InsideBoundary {
     Vector3 normal;
     double offset;
   };
+  using Piece = std::vector<Side>;
 
-  static std::vector<Side> sides_of(const Table& planes, double margin) {
-    std::vector<Side> sides;
+  // The margin is kept from the surface, not from the faces between two pieces.
+  static std::vector<Piece> pieces_of(const Table& planes, double margin) {
+    std::vector<Piece> pieces;
     for (std::size_t row = 0; row < planes.rows.size(); ++row) {
       const Vector3 normal{planes.number(row, "x"), planes.number(row, "y"), planes.number(row, "z")};
       const double length = norm(normal);
-      if (length > 0) sides.push_back({normal / length, planes.number(row, "offset") / length - margin});
+      if (row == 0 || planes.number(row, "piece") != planes.number(row - 1, "piece")) pieces.emplace_back();
+      const double room = planes.number(row, "side") < 0 ? 0 : margin;
+      if (length > 0) pieces.back().push_back({normal / length, planes.number(row, "offset") / length - room});
     }
-    return sides;
+    return pieces;
   }
 
   // How far the point is outside the side that it is furthest outside of.
-  static double outside(const std::vector<Side>& sides, const Point3& point) {
+  static double outside(const Piece& sides, const Point3& point) {
     double largest = 0;
     for (const Side& side : sides) largest = std::max(largest, dot(side.normal, point) - side.offset);
     return largest;
@@ -77,7 +87,7 @@ struct InsideBoundary {
 
   // The nearest point inside all sides: projections on one side after the other, each of which first takes back what it did
   // the round before (the algorithm of Dykstra). Where that is slow, plain projections still find some point inside.
-  static Point3 projected(const std::vector<Side>& sides, Point3 point) {
+  static Point3 projected(const Piece& sides, Point3 point) {
     constexpr int kNearest = 500, kRounds = 1000;
     std::vector<double> pushed(sides.size(), 0);
     for (int round = 0; round < kRounds; ++round) {

@@ -1,16 +1,19 @@
-// The boundary of a power diagram: the convex hull of points, or a plan polygon between two heights.
+// The boundary of a power diagram: a hull of points, a plan with holes and steps, or a closed mesh, cut back and hollowed.
 #include <algorithm>
+#include <cmath>
 
+#include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
-#include "core/geometry/convex_domain.h"
+#include "core/geometry/domain_table.h"
+#include "core/geometry/site_domain.h"
 
 namespace bl {
 
 namespace {
 
 struct Boundary {
-  enum class Form { hull, plan };
+  enum class Form { hull, plan, mesh };
 
   struct In {
     Form form = Form::hull;
@@ -18,6 +21,9 @@ struct Boundary {
                                   {-20, -20, 20}, {20, -20, 20}, {20, 20, 20}, {-20, 20, 20}};
     std::vector<Point3> plan = {{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}};
     double bottom = 0, height = 20;
+    Table holes, steps;
+    std::vector<Point3> vertices;
+    Table triangles, setbacks, exclusions;
   };
 
   struct Out {
@@ -31,14 +37,15 @@ struct Boundary {
     t.doc("The space that SmartVolumes may take: all of their cells together fill it, and none reaches out of it.");
     t.in(&In::form, "form",
          {{Form::hull, "hull", "The convex hull of `points`: the smallest convex body that holds them all."},
-          {Form::plan, "plan", "The polygon `plan`, drawn up from `bottom` to `height` above it."}})
+          {Form::plan, "plan", "The polygon `plan` without its `holes`, from `bottom` to `height` above it, with its `steps`."},
+          {Form::mesh, "mesh", "The solid within the closed mesh of `vertices` and `triangles`."}})
         .doc("How the boundary is given.");
     t.in(&In::points, "points")
         .unit(Unit::metre)
         .doc("At least four points that do not lie in one plane. Used where the form is `hull`.");
     t.in(&In::plan, "plan")
         .unit(Unit::metre)
-        .doc("Corners of a convex polygon, in order around it; their heights count for nothing. Used where the form is `plan`.");
+        .doc("Corners of a polygon, in order around it; their heights count for nothing. Used where the form is `plan`.");
     t.in(&In::bottom, "bottom")
         .unit(Unit::metre)
         .range(-1e5, 1e5)
@@ -51,12 +58,36 @@ struct Boundary {
         .soft(3, 200)
         .combine(CombineRule::blend)
         .doc("Height of the boundary from its underside to its top. Used where the form is `plan`.");
+    ring_columns(t.in(&In::holes, "holes"))
+        .doc("Courts and the like in the plan, one corner per row. Used where the form is `plan`.");
+    ring_columns(t.in(&In::steps, "steps"))
+        .column(height_column("top", "Height of this step's top above the origin, in its first row."))
+        .doc("Parts of the plan that rise to a height of their own, from `bottom` on. Used where the form is `plan`.");
+    t.in(&In::vertices, "vertices").unit(Unit::metre).doc("Corners of the mesh. Used where the form is `mesh`.");
+    t.in(&In::triangles, "triangles")
+        .column(index_column("a", "First"))
+        .column(index_column("b", "Second"))
+        .column(index_column("c", "Third"))
+        .doc("The closed surface, each triangle by three corners, all turned the same way. Used where the form is `mesh`.");
+    t.in(&In::setbacks, "setbacks")
+        .column(component_column("x", "First"))
+        .column(component_column("y", "Second"))
+        .column(component_column("z", "Third"))
+        .column(height_column("offset", "Distance of the plane from the origin along the normal, for a normal of length 1."))
+        .doc("Planes that the boundary stays behind, such as setbacks: what lies on the side of the normal is cut away.");
+    ring_columns(t.in(&In::exclusions, "exclusions"))
+        .column(height_column("bottom", "Height of the underside above the origin, in the first row."))
+        .column(height_column("top", "Height of the top above the origin, in the first row."))
+        .doc("Solids that are no part of the boundary, such as buildings that stay: plans between two heights.");
     t.out(&Out::planes, "planes")
         .column({.id = "x", .doc = "First component of the outward unit normal."})
         .column({.id = "y", .doc = "Second component of the outward unit normal."})
         .column({.id = "z", .doc = "Third component of the outward unit normal."})
         .column({.id = "offset", .unit = Unit::metre, .doc = "Distance of the plane from the origin along the normal."})
-        .doc("The sides of the boundary, in a fixed order: row k is the side `#k`. This is what other nodes and links read.");
+        .column({.id = "piece", .doc = "Number of the convex piece that the plane bounds."})
+        .column({.id = "side", .doc = "Number k of the side `#k` that the face lies in; -1 between two pieces."})
+        .doc(
+            "The boundary as convex pieces, in a fixed order. Of a convex one row k is the side `#k`. This is what others read.");
     t.out(&Out::volume, "volume").unit(Unit::cubic_metre).doc("Volume inside the boundary.");
     t.out(&Out::ground_area, "ground_area")
         .unit(Unit::square_metre)
@@ -64,27 +95,78 @@ struct Boundary {
     t.out(&Out::shape, "shape").doc("The boundary as a triangle mesh, for the eye and for export.");
   }
 
-  // Of a convex body: what its upward triangles cover.
-  static double area_in_plan(const Mesh& mesh) {
-    double area = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const Vector3 normal = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
-      area += 0.5 * std::max(0.0, normal.z);
+  static PortBuilder<Table> ring_columns(PortBuilder<Table> port) {
+    return port
+        .column({.id = "name", .is_text = true, .default_value = std::string(), .doc = "Rows of one name make one polygon."})
+        .column({.id = "x", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "East of the corner."})
+        .column({.id = "y", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "North of the corner."});
+  }
+  static ColumnDefinition height_column(const char* id, const char* doc) {
+    return {.id = id, .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = doc};
+  }
+  static ColumnDefinition index_column(const char* id, const std::string& which) {
+    return {.id = id, .minimum = 0, .maximum = 1e9, .doc = which + " corner: its index in `vertices`, counted from 0."};
+  }
+  static ColumnDefinition component_column(const char* id, const std::string& which) {
+    return {.id = id, .doc = which + " component of the normal, of any length."};
+  }
+
+  static std::vector<PlanSolid> solids_of(const Table& table) {
+    std::vector<PlanSolid> solids;
+    for (NamedRing& ring : read_rings(table)) solids.push_back({std::move(ring.corners), ring.bottom, ring.top});
+    return solids;
+  }
+
+  // A polygon of a table is named by the row of its first corner.
+  static Error at_row(Error error, const In& in) {
+    for (const auto& [port, table] : {std::pair{"holes/", &in.holes}, {"steps/", &in.steps}, {"exclusions/", &in.exclusions}}) {
+      if (!error.place.starts_with(port)) continue;
+      const auto number = parse_number(std::string_view(error.place).substr(std::string_view(port).size()));
+      if (number) error.place = port + std::to_string(read_rings(*table)[static_cast<std::size_t>(*number)].first_row);
     }
-    return area;
+    return error;
+  }
+
+  static Result<Domain> whole(const In& in) {
+    if (in.form == Form::hull) {
+      auto hull = convex_hull(in.points);
+      return hull ? Result<Domain>(Domain(std::move(*hull))) : hull.error().within("points");
+    }
+    if (in.form == Form::plan) {
+      SitePlan site{in.plan, {}, in.bottom, in.bottom + in.height, solids_of(in.steps), solids_of(in.exclusions)};
+      for (NamedRing& hole : read_rings(in.holes)) site.holes.push_back(std::move(hole.corners));
+      for (PlanSolid& step : site.steps) step.bottom = in.bottom;
+      return site_domain(site);
+    }
+    Mesh mesh{in.vertices, {}};
+    for (std::size_t row = 0; row < in.triangles.rows.size(); ++row) {
+      auto& corners = mesh.triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i)
+        corners[i] = static_cast<std::uint32_t>(in.triangles.number(row, i == 0 ? "a" : i == 1 ? "b" : "c"));
+    }
+    auto domain = from_closed_mesh(mesh);
+    return domain ? domain : Result<Domain>(domain.error().within("triangles"));
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) {
-    const bool is_hull = in.form == Form::hull;
-    const auto domain = is_hull ? convex_hull(in.points) : extrude(in.plan, in.bottom, in.bottom + in.height);
-    if (!domain) return domain.error().within(is_hull ? "points" : "plan");
+    auto domain = whole(in);
+    std::vector<Plane> setbacks;
+    for (std::size_t row = 0; row < in.setbacks.rows.size(); ++row) {
+      const Vector3 normal{in.setbacks.number(row, "x"), in.setbacks.number(row, "y"), in.setbacks.number(row, "z")};
+      setbacks.push_back({normal, in.setbacks.number(row, "offset") * norm(normal)});
+    }
+    // In a plan the exclusions have been cut out together with everything else.
+    if (domain && in.form != Form::plan) domain = without_solids(*domain, solids_of(in.exclusions));
+    if (domain && !setbacks.empty()) {
+      auto cut = cut_domain(*domain, setbacks);
+      domain = cut ? cut : Result<Domain>(cut.error().within("setbacks"));
+    }
+    if (!domain) return at_row(domain.error(), in);
     Out out;
-    out.planes.columns = {"x", "y", "z", "offset"};
-    for (const Plane& plane : domain->planes)
-      out.planes.rows.push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.offset});
+    write_domain(*domain, out.planes);
     out.volume = domain->volume;
     out.shape = std::make_shared<const Mesh>(to_mesh(*domain));
-    out.ground_area = area_in_plan(*out.shape);
+    out.ground_area = area_in_plan(*domain);
     return out;
   }
 };

@@ -7,6 +7,7 @@
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/demand_fit.h"
+#include "core/geometry/domain_table.h"
 #include "core/geometry/fit_text.h"
 
 namespace bl {
@@ -46,6 +47,10 @@ struct SmartVolumesSolver {
     Table neighbours;
     Point3 centroid;
     MeshPointer mesh;
+  };
+  // Cells of the last tick: those that no change has touched are not made again.
+  struct Kept {
+    PowerDiagram fitted, shown;
   };
   struct Out {
     std::int64_t count = 0;
@@ -130,7 +135,7 @@ struct SmartVolumesSolver {
     t.memory(&Out::memory, &In::last, member, id).doc(doc);
   }
 
-  static Result<ConvexDomain> domain_of(const std::vector<Plot>& plots) {
+  static Result<Domain> domain_of(const std::vector<Plot>& plots) {
     if (plots.empty())
       return Error{ErrorCode::missing, "boundary", "a boundary is needed and none was found: add one, or choose one here"};
     std::string found;
@@ -141,11 +146,8 @@ struct SmartVolumesSolver {
     const Table& table = plots.front().planes;
     if (table.rows.empty())
       return Error{ErrorCode::missing, "boundary", "the boundary " + found + " has no shape: see its own error"};
-    std::vector<Plane> planes;
-    for (std::size_t r = 0; r < table.rows.size(); ++r)
-      planes.push_back({{table.number(r, "x"), table.number(r, "y"), table.number(r, "z")}, table.number(r, "offset")});
-    auto domain = from_planes(planes);
-    return domain ? domain : Result<ConvexDomain>(domain.error().within("boundary"));
+    auto domain = read_domain(table);
+    return domain ? domain : Result<Domain>(domain.error().within("boundary"));
   }
 
   // Newcomers among settled ones start small, so that they push nobody out; where all are new, the fit starts them all alike.
@@ -215,13 +217,20 @@ struct SmartVolumesSolver {
       names.push_back(member.id);
     }
     start_newcomers(*domain, sites, wanted);
-    const FitOptions options{
-        .method = in.method, .gain = in.gain, .steps = in.steps, .tolerance = in.tolerance, .pool = tick.pool};
+    Kept own;
+    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
+    const FitOptions options{.method = in.method,
+                             .gain = in.gain,
+                             .steps = in.steps,
+                             .tolerance = in.tolerance,
+                             .pool = tick.pool,
+                             .diagram = &kept.fitted};
     const auto fit = adapt_weights(*domain, sites, wanted, {}, last_state(in, sets.members), options);
     if (!fit) return Error{fit.error().code, "members", with_names(fit.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit->weights[i];
-    const auto cells = power_cells(
-        *domain, sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
+    if (auto set = kept.shown.set_domain(*domain); !set) return set.error().within("boundary");
+    const auto cells = kept.shown.update(
+        sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
     if (!cells) return Error{cells.error().code, "members", with_names(cells.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) {
       Reply& reply = out.replies.emplace_back(reply_of((*cells)[i], wanted[i], sites[i].weight, names));

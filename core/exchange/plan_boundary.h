@@ -8,7 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/exchange/local_frame.h"
-#include "core/exchange/plan_ring.h"
+#include "core/geometry/plan_ring.h"
 
 namespace bl {
 
@@ -42,7 +42,7 @@ struct ConvexPlan {
   double added_area = 0;  ///< what the hull covers beyond the plan, its holes among it [m²]
 };
 
-/// The convex hull, for solvers that take convex plans only. Whether the added area is bearable is the caller's decision.
+/// The convex hull, for those who want a convex site. Whether the added area is bearable is the caller's decision.
 ConvexPlan convex_hull_plan(const PlanBoundary& plan);
 
 }  // namespace bl

@@ -18,16 +18,18 @@ struct Trapezoid {
 
 double x_at(const Point3& a, const Point3& b, double y) { return a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x); }
 
-std::vector<Trapezoid> trapezoids(std::span<const Point3> plan) {
+std::vector<Trapezoid> trapezoids(std::span<const Ring> rings) {
   struct Side {
     Point3 low, high;
   };
   std::vector<Side> sides;
   std::vector<double> heights;
-  for (std::size_t i = 0; i < plan.size(); ++i) {
-    const Point3 &a = plan[i], &b = plan[(i + 1) % plan.size()];
-    heights.push_back(a.y);
-    if (a.y != b.y) sides.push_back(a.y < b.y ? Side{a, b} : Side{b, a});
+  for (const Ring& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point3 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      heights.push_back(a.y);
+      if (a.y != b.y) sides.push_back(a.y < b.y ? Side{a, b} : Side{b, a});
+    }
   }
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
@@ -66,9 +68,8 @@ double inner(double share) { return 1e-6 + (1 - 2e-6) * share; }
 
 }  // namespace
 
-std::vector<Point3> prism_samples(std::span<const Point3> plan, double bottom, double top, std::size_t count,
-                                  std::uint64_t seed) {
-  const std::vector<Trapezoid> parts = trapezoids(plan);
+std::vector<Point3> prism_samples(std::span<const Ring> rings, double bottom, double top, std::size_t count, std::uint64_t seed) {
+  const std::vector<Trapezoid> parts = trapezoids(rings);
   if (parts.empty()) return {};
   std::vector<double> below{0};
   for (const Trapezoid& part : parts) below.push_back(below.back() + part.area());

@@ -1,4 +1,5 @@
-// Even samples of a prism over any simple polygon, by exact inversion: no rejection, so the cost does not depend on the shape.
+// Even samples of a prism over any simple polygon with holes, by exact inversion: no rejection, so the cost does not depend on
+// the shape.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +8,12 @@
 #include <vector>
 
 #include "core/base/vector.h"
+#include "core/geometry/plan_ring.h"
 
 namespace bl {
 
-/// `count` points strictly inside the prism, evenly spread: a fixed low-discrepancy sequence shifted by the seed.
-std::vector<Point3> prism_samples(std::span<const Point3> plan, double bottom, double top, std::size_t count, std::uint64_t seed);
+/// `count` points strictly inside the prism over the rings (a polygon, then its holes), evenly spread: a fixed low-discrepancy
+/// sequence shifted by the seed.
+std::vector<Point3> prism_samples(std::span<const Ring> rings, double bottom, double top, std::size_t count, std::uint64_t seed);
 
 }  // namespace bl

@@ -13,12 +13,15 @@ namespace {
 using Column = ProgrammeColumn;
 
 // Ways to write a unit in a header → the symbol of the unit table.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kUnits = {{{"m2", "m2"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {{{"m2", "m2"},
                                                                                    {"sqm", "m2"},
                                                                                    {"sq_m", "m2"},
                                                                                    {"qm", "m2"},
                                                                                    {"m_2", "m2"},
                                                                                    {"square_metres", "m2"},
+                                                                                   {"m3", "m3"},
+                                                                                   {"m_3", "m3"},
+                                                                                   {"cubic_metres", "m3"},
                                                                                    {"ha", "ha"},
                                                                                    {"km2", "km2"},
                                                                                    {"m", "m"},

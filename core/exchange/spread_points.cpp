@@ -9,9 +9,9 @@
 
 #include "core/base/random.h"
 #include "core/base/text.h"
-#include "core/exchange/plan_ring.h"
 #include "core/exchange/prism_samples.h"
-#include "core/exchange/site_grid.h"
+#include "core/exchange/ball_grid.h"
+#include "core/geometry/plan_ring.h"
 
 namespace bl {
 
@@ -35,7 +35,7 @@ double cube_root(double number) {
 
 class Spreader {
  public:
-  Spreader(std::span<const Point3> plan, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
+  Spreader(std::vector<Ring> rings, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
            std::span<const std::pair<std::size_t, std::size_t>> pairs);
   std::vector<Point3> run();
 
@@ -51,37 +51,59 @@ class Spreader {
   void separate();
   Point3 at_buildable_height(Point3 point, double radius) const;
 
-  std::span<const Point3> plan_;
+  bool is_inside(const Point3& point) const;
+  Point3 nearest_side(const Point3& point) const;
+
+  std::vector<Ring> rings_;  // the plan, then its holes
   double bottom_, top_, spacing_ = 0;
   std::span<const std::pair<std::size_t, std::size_t>> pairs_;
   Random random_;
   std::vector<Point3> samples_;
   std::vector<BallSite> sites_;
   std::vector<std::vector<std::size_t>> neighbours_;
-  std::vector<SiteGrid::Hit> owners_;  // per sample
+  std::vector<BallGrid::Hit> owners_;  // per sample
   std::vector<std::size_t> counts_;    // samples per site
 };
 
-Spreader::Spreader(std::span<const Point3> plan, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
+Spreader::Spreader(std::vector<Ring> rings, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
                    std::span<const std::pair<std::size_t, std::size_t>> pairs)
-    : plan_(plan),
+    : rings_(std::move(rings)),
       bottom_(bottom),
       top_(top),
       pairs_(pairs),
       random_(seed, 0x51),
       sites_(volumes.size()),
       neighbours_(volumes.size()) {
-  const double prism = std::abs(signed_area(plan)) * (top - bottom);
+  double area = 0;
+  for (std::size_t r = 0; r < rings_.size(); ++r) area += (r == 0 ? 1 : -1) * std::abs(signed_area(rings_[r]));
+  const double prism = area * (top - bottom);
   const double demand = std::accumulate(volumes.begin(), volumes.end(), 0.0);
   const double share = std::min(1.0, kFill * prism / demand);
   constexpr double kBall = 4.1887902047863910;  // 4π/3
   for (std::size_t i = 0; i < volumes.size(); ++i) sites_[i].radius = cube_root(volumes[i] * share / kBall);
   spacing_ = cube_root(prism / static_cast<double>(volumes.size()));
-  samples_ = prism_samples(plan, bottom, top, std::max(kFewestSamples, kSamplesPerPoint * volumes.size()), seed);
+  samples_ = prism_samples(rings_, bottom, top, std::max(kFewestSamples, kSamplesPerPoint * volumes.size()), seed);
   for (const auto& [a, b] : pairs) {
     neighbours_[a].push_back(b);
     neighbours_[b].push_back(a);
   }
+}
+
+// By the even-odd rule over all rings, the holes among them.
+bool Spreader::is_inside(const Point3& point) const {
+  bool inside = false;
+  for (const Ring& ring : rings_) inside = inside != ring_contains(ring, point);
+  return inside;
+}
+
+Point3 Spreader::nearest_side(const Point3& point) const {
+  const auto away = [&](const Point3& p) { return (p.x - point.x) * (p.x - point.x) + (p.y - point.y) * (p.y - point.y); };
+  Point3 best = nearest_on_ring(rings_.front(), point);
+  for (const Ring& ring : rings_) {
+    const Point3 other = nearest_on_ring(ring, point);
+    if (away(other) < away(best)) best = other;
+  }
+  return best;
 }
 
 std::vector<Point3> Spreader::run() {
@@ -136,7 +158,7 @@ void Spreader::place_candidates() {
 }
 
 void Spreader::assign() {
-  const SiteGrid grid(sites_, spacing_);
+  const BallGrid grid(sites_, spacing_);
   owners_.resize(samples_.size());
   counts_.assign(sites_.size(), 0);
   for (std::size_t s = 0; s < samples_.size(); ++s) {
@@ -167,7 +189,7 @@ void Spreader::move_to_centroids() {
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     if (counts_[i] == 0) continue;
     centroids[i] *= 1.0 / static_cast<double>(counts_[i]);
-    if (ring_contains(plan_, centroids[i])) sites_[i].at = centroids[i];
+    if (is_inside(centroids[i])) sites_[i].at = centroids[i];
     else nearest[i] = std::numeric_limits<double>::infinity();
   }
   for (std::size_t s = 0; s < samples_.size(); ++s) {
@@ -199,7 +221,7 @@ void Spreader::attract(double strength) {
   }
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     const Point3 moved = sites_[i].at + 0.5 * pull[i];
-    if (ring_contains(plan_, moved)) sites_[i].at = moved;
+    if (is_inside(moved)) sites_[i].at = moved;
   }
 }
 
@@ -214,18 +236,18 @@ void Spreader::relax(double attraction) {
 // Moves sites away from the nearest side until their ball fits, or as far as that helps.
 void Spreader::keep_clear() {
   const auto clearance = [&](const Point3& point) {
-    const Point3 side = nearest_on_ring(plan_, point);
+    const Point3 side = nearest_side(point);
     return norm(Vector3{point.x - side.x, point.y - side.y, 0});
   };
   for (BallSite& site : sites_) {
     double step = 1;
     for (int k = 0; k < 12; ++k) {
-      const Point3 side = nearest_on_ring(plan_, site.at);
+      const Point3 side = nearest_side(site.at);
       const Vector3 inward{site.at.x - side.x, site.at.y - side.y, 0};
       const double clear = norm(inward);
       if (clear >= site.radius || clear == 0) break;
       const Point3 moved = site.at + inward * (step * (site.radius - clear) / clear);
-      if (ring_contains(plan_, moved) && clearance(moved) > clear) site.at = moved;
+      if (is_inside(moved) && clearance(moved) > clear) site.at = moved;
       else step /= 2;
     }
   }
@@ -235,10 +257,10 @@ void Spreader::keep_clear() {
 // cover less than two hundredths of the prism, so that nearly every sample is free.
 void Spreader::separate() {
   const double limit = kSpreadSeparation * spacing_ * 1.01;
-  const SiteGrid grid(sites_, spacing_);
+  const BallGrid grid(sites_, spacing_);
   std::vector<std::size_t> crowded;
   for (std::size_t i = 0; i < sites_.size(); ++i)
-    if (grid.crowded(i, limit) || !ring_contains(plan_, sites_[i].at)) crowded.push_back(i);
+    if (grid.crowded(i, limit) || !is_inside(sites_[i].at)) crowded.push_back(i);
   const std::size_t stride = std::max<std::size_t>(1, samples_.size() / kSpareSamples);
   for (const std::size_t i : crowded) {
     double best = -1;
@@ -280,10 +302,22 @@ Result<void> check(std::span<const Point3> plan, double bottom, double top, std:
 
 Result<std::vector<Point3>> spread_points(std::span<const Point3> plan, double bottom, double top,
                                           std::span<const double> volumes, std::uint64_t seed,
-                                          std::span<const std::pair<std::size_t, std::size_t>> neighbours) {
+                                          std::span<const std::pair<std::size_t, std::size_t>> neighbours,
+                                          std::span<const Ring> holes) {
   if (auto sound = check(plan, bottom, top, volumes, neighbours); !sound) return sound.error();
+  std::vector<Ring> rings{Ring(plan.begin(), plan.end())};
+  for (std::size_t h = 0; h < holes.size(); ++h) {
+    const std::string place = "holes/" + std::to_string(h);
+    if (holes[h].size() < 3 || find_self_crossing(holes[h]))
+      return Error{ErrorCode::geometry, place, "A hole must be a simple polygon of at least 3 points."};
+    for (const Ring& ring : rings)
+      if (find_crossing(ring, holes[h]))
+        return Error{ErrorCode::geometry, place, "The hole must lie inside the plan and must not meet another hole."};
+    if (!ring_contains(plan, holes[h].front())) return Error{ErrorCode::geometry, place, "The hole must lie inside the plan."};
+    rings.push_back(holes[h]);
+  }
   if (volumes.empty()) return std::vector<Point3>();
-  return Spreader(plan, bottom, top, volumes, seed, neighbours).run();
+  return Spreader(std::move(rings), bottom, top, volumes, seed, neighbours).run();
 }
 
 }  // namespace bl

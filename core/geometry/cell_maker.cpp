@@ -5,10 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/shape_measure.h"
+
 namespace bl {
 
 namespace {
 
+constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 // The box that stands in for everything beyond the ball is wider than the ball by this share.
 constexpr double kFrameMargin = 1e-3;
@@ -39,7 +42,7 @@ Result<void> CellGround::set_sites(std::span<const PowerSite> all, std::span<con
   return is_triangulated ? find_power_neighbours(all, participants, neighbours) : Result<void>{};
 }
 
-double CellMaker::reach() const { return std::min(limit_, std::sqrt(cell_.reach_squared())); }
+double CellMaker::reach() const { return std::min(limit_, cell_.reach()); }
 
 void CellMaker::begin(const CellGround& ground, std::uint32_t site) {
   const Point3& origin = ground.sites[site].position;
@@ -58,19 +61,48 @@ void CellMaker::begin(const CellGround& ground, std::uint32_t site) {
 
 void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
   const PowerSite& own = ground.sites[site];
+  const Point3 centre = own.position;
+  const double weight = own.weight;
   double reach = this->reach(), four_reach_squared = 4 * reach * reach;
-  const auto consider = [&](const SiteGrid::Entry& entry) {
-    const Vector3 to = entry.position - own.position;
-    const double squared = squared_norm(to), sum = squared + (own.weight - entry.weight);
+  const auto cut_by = [&](const Point3& position, double other_weight, std::uint32_t index) {
+    const Vector3 to = position - centre;
+    const double squared = squared_norm(to), sum = squared + (weight - other_weight);
     if (sum > 0 && sum * sum >= squared * four_reach_squared) return;
     const double d = std::sqrt(squared);
-    const std::size_t before = cell_.side_count();
-    cell_.cut(to / d, sum / (2 * d), FaceKind::site, entry.site);
-    if (cell_.side_count() == before && !cell_.is_empty()) return;
+    cell_.cut(to / d, sum / (2 * d), FaceKind::site, index);
     reach = this->reach();
     four_reach_squared = 4 * reach * reach;
   };
-  ground.grid.search(own.position, own.weight, site, [&] { return reach; }, consider);
+  // A site that has a border with a site that is done is known to all its neighbours that are done. One that has none may be
+  // swallowed by them, which they do not know: then they are searched like the others.
+  SiteGrid::Range skip;
+  if (!known_.empty()) {
+    for (std::uint32_t k = known_[ground.grid.place_of(site) - run_.begin]; k != kNone; k = links_[k].next) {
+      if (links_[k].is_sure) skip = run_;
+      cut_by(ground.sites[links_[k].site].position, ground.sites[links_[k].site].weight, links_[k].site);
+    }
+  }
+  ground.grid.search(
+      centre, weight, site, skip, [&] { return reach; },
+      [&](const SiteGrid::Entry& entry) { cut_by(entry.position, entry.weight, entry.site); });
+}
+
+void CellMaker::start_run(const CellGround& ground, std::uint32_t first_place, std::uint32_t count) {
+  run_ = {first_place, first_place};
+  known_.assign(ground.is_triangulated ? 0 : count, kNone);
+  links_.clear();
+}
+
+// Tells the sites that are still to come who borders them.
+void CellMaker::remember(const CellGround& ground, std::uint32_t site, bool is_sure) {
+  const std::uint32_t place = ground.grid.place_of(site);
+  run_.end = place + 1;
+  for (const std::uint32_t j : borders_) {
+    const std::uint32_t other = ground.grid.place_of(j);
+    if (other <= place || other - run_.begin >= known_.size()) continue;
+    links_.push_back({site, known_[other - run_.begin], is_sure});
+    known_[other - run_.begin] = static_cast<std::uint32_t>(links_.size() - 1);
+  }
 }
 
 // All sites whose bisectors may come nearer than `reach`, nearest bisector first.
@@ -85,12 +117,12 @@ void CellMaker::gather(const CellGround& ground, std::uint32_t site, double reac
   if (ground.is_triangulated) {
     for (const std::uint32_t j : ground.neighbours.of(site)) consider(ground.sites[j].position, ground.sites[j].weight, j);
   } else {
-    ground.grid.search(own.position, own.weight, site, [&] { return reach; },
-                       [&](const SiteGrid::Entry& entry) { consider(entry.position, entry.weight, entry.site); });
+    ground.grid.search(
+        own.position, own.weight, site, {}, [&] { return reach; },
+        [&](const SiteGrid::Entry& entry) { consider(entry.position, entry.weight, entry.site); });
   }
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    return a.offset != b.offset ? a.offset < b.offset : a.site < b.site;
-  });
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.offset != b.offset ? a.offset < b.offset : a.site < b.site; });
 }
 
 void CellMaker::cut_in_order(const CellGround& ground, std::uint32_t site) {
@@ -98,6 +130,13 @@ void CellMaker::cut_in_order(const CellGround& ground, std::uint32_t site) {
   for (const Candidate& candidate : candidates_) {
     if (!cell_.cut(candidate.normal, candidate.offset, FaceKind::site, candidate.site)) return;
   }
+}
+
+// Without the faces beyond the ball where that is enough to measure by.
+bool CellMaker::finish(Clipper& shape, Polyhedron& out) {
+  const bool is_sharp = shape.finish(out, limit_);
+  const bool is_enough = limit_ == kUnlimited || shape.is_empty() || (!out.faces.empty() && is_centre_apart(out, limit_));
+  return is_enough ? is_sharp : shape.finish(out);
 }
 
 Polyhedron& CellMaker::next_part() {
@@ -112,7 +151,7 @@ void CellMaker::keep_parts(const CellGround& ground, const Point3& origin) {
     if (squared_gap(origin, shape.minimum, shape.maximum) > cell_.reach_squared()) continue;
     piece_.copy(cell_);
     if (!piece_.cut(ground.pieces[k], origin, kUnlimited)) continue;
-    piece_.finish(next_part());
+    finish(piece_, next_part());
   }
 }
 
@@ -123,8 +162,11 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
   limit_ = whole ? kUnlimited : std::sqrt(std::max(0.0, own.weight));
   if (limit_ == 0) return;
   if (limit_ > kLargeBall * ground.domain.size()) limit_ = kUnlimited;
+  // Of a cell that was cut only as far as its ball reaches, the borders beyond are not known to the neighbours.
+  if (limit_ < kUnlimited) end_run();
+  const bool is_run = !known_.empty();
   begin(ground, site);
-  bool is_in_order = ground.is_triangulated;
+  const bool is_in_order = ground.is_triangulated;
   if (ground.is_triangulated) {
     gather(ground, site, kUnlimited);
     cut_in_order(ground, site);
@@ -132,12 +174,13 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
     cut_by_search(ground, site);
   }
   Polyhedron& outline = ground.domain.is_convex() ? next_part() : outline_;
-  bool is_vague = !cell_.finish(outline);
-  if (!is_in_order && (is_vague || cell_.is_touchy())) {
+  const bool is_vague = !finish(cell_, outline);
+  const bool is_sure = !is_vague && !cell_.is_touchy();
+  if (!is_in_order && !is_sure) {
     // Here the order of the cuts may show: they are made again in an order that depends on the sites alone.
     gather(ground, site, cell_.is_empty() ? kUnlimited : kNearlyReached * reach());
     cut_in_order(ground, site);
-    cell_.finish(outline);
+    finish(cell_, outline);
     for (const Candidate& candidate : candidates_) borders_.push_back(candidate.site);
   } else {
     for (const PolyhedronFace& face : outline.faces) {
@@ -146,6 +189,7 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
   }
   std::sort(borders_.begin(), borders_.end());
   borders_.erase(std::unique(borders_.begin(), borders_.end()), borders_.end());
+  if (is_run) remember(ground, site, is_sure);
   if (!ground.domain.is_convex()) keep_parts(ground, own.position);
   if (ground.domain.is_convex() && outline.is_empty()) part_count_ = 0;
 }

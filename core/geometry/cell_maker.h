@@ -29,6 +29,14 @@ struct CellGround {
 /// The working memory of one thread. A cell depends on the ground and the site alone, never on the cells made before.
 class CellMaker {
  public:
+  /// From here on cells will be made in the order of the grid, from a place on: who borders whom is then remembered, and sites
+  /// whose cells are done are not searched for again. It saves time and changes no cell.
+  void start_run(const CellGround& ground, std::uint32_t first_place, std::uint32_t count);
+  void end_run() {
+    run_ = {};
+    known_.clear();
+  }
+
   /// `whole`: the whole power cell inside the domain; otherwise only what may lie in the site's ball.
   void make(const CellGround& ground, std::uint32_t site, bool whole);
 
@@ -43,12 +51,14 @@ class CellMaker {
     std::uint32_t site;
     Vector3 normal;
   };
+  void remember(const CellGround& ground, std::uint32_t site, bool is_sure);
   void begin(const CellGround& ground, std::uint32_t site);
   void cut_by_search(const CellGround& ground, std::uint32_t site);
   void cut_in_order(const CellGround& ground, std::uint32_t site);
   void gather(const CellGround& ground, std::uint32_t site, double reach);
   void keep_parts(const CellGround& ground, const Point3& origin);
   double reach() const;
+  bool finish(Clipper& shape, Polyhedron& out);
   Polyhedron& next_part();
 
   Clipper cell_, piece_;
@@ -58,6 +68,15 @@ class CellMaker {
   std::vector<std::uint32_t> borders_;
   std::vector<Polyhedron> parts_;
   std::size_t part_count_ = 0;
+
+  // The run: places [begin, end) are done; per place of the run, a list of done sites that border it.
+  SiteGrid::Range run_;
+  struct Link {
+    std::uint32_t site, next;
+    bool is_sure;  ///< the border has an extent beyond all rounding
+  };
+  std::vector<std::uint32_t> known_;
+  std::vector<Link> links_;
 };
 
 }  // namespace bl

@@ -16,11 +16,13 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Facets below this share of the cell's squared reach are slivers of rounding: they carry no name.
+// Facets below this share of the shape's squared reach are slivers of rounding: they carry no name.
 constexpr double kSliverShare = 1e-14;
 // A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
 constexpr double kInsideShare = 1e-6;
 constexpr std::size_t kChunk = 16;
+// Few long runs share more; a few more than threads even out the load.
+constexpr std::size_t kRunsPerThread = 4;
 
 bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin) {
   for (const PolyhedronFace& face : part.faces) {
@@ -44,8 +46,8 @@ void add_facet(FaceKind kind, std::uint32_t index, double area, std::vector<Face
   }
 }
 
-void gather_facets(const Polyhedron& part, const ShapeMeasure& shape, CellMeasure& out) {
-  const double sliver = kSliverShare * part.reach_squared;
+void gather_facets(const Polyhedron& part, double squared_radius, const ShapeMeasure& shape, CellMeasure& out) {
+  const double sliver = kSliverShare * std::min(part.reach_squared, squared_radius);
   for (std::size_t k = 0; k < part.faces.size(); ++k) {
     const PolyhedronFace& face = part.faces[k];
     const bool is_surface = face.kind == FaceKind::plane || face.kind == FaceKind::site;
@@ -131,7 +133,7 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
     out.volume += shape.volume;
     out.spherical_area += shape.spherical_area;
     moment += shape.volume * shape.centroid;
-    gather_facets(parts[k], shape, out);
+    gather_facets(parts[k], site.weight, shape, out);
   }
   if (!(out.volume > 0)) return;
   const Point3 centroid = parts.size() == 1 ? bench.shapes[0].centroid : moment / out.volume;
@@ -141,9 +143,7 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
     const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[index];
     measure_storeys(parts, bench.shapes, site, storey, out);
   }
-  if (options.tessellation_depth >= 0) {
-    out.mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid);
-  }
+  if (options.tessellation_depth >= 0) { out.mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid); }
 }
 
 std::string number(std::uint32_t site) { return "site " + std::to_string(site); }
@@ -155,35 +155,69 @@ void CellWorkshop::set_domain(const Domain& domain) {
   sites_.clear();
 }
 
-Result<void> CellWorkshop::set_sites(std::span<const PowerSite> sites) {
+Result<void> CellWorkshop::set_sites(std::span<const PowerSite> sites, std::span<const std::uint8_t> absent) {
   sites_.assign(sites.begin(), sites.end());
+  absent_.assign(absent.begin(), absent.end());
   find_coincident(sites_, kCoincidenceShare * ground_.domain.size(), twin_);
   participants_.clear();
+  has_twins_ = false;
   for (std::uint32_t i = 0; i < sites_.size(); ++i) {
-    if (twin_[i] == kNone) participants_.push_back(i);
+    if (!absent_.empty() && absent_[i]) {
+      twin_[i] = i;
+    } else if (twin_[i] == kNone) {
+      participants_.push_back(i);
+    } else {
+      has_twins_ = true;
+    }
   }
-  has_twins_ = participants_.size() < sites_.size();
   return ground_.set_sites(sites_, participants_);
 }
 
 Result<void> CellWorkshop::set_weights(std::span<const PowerSite> sites) {
   // Of two sites at one place the heavier lives, so with twins other weights may mean other participants.
-  if (has_twins_ || ground_.is_triangulated || sites.size() != sites_.size()) return set_sites(sites);
+  if (has_twins_ || ground_.is_triangulated || sites.size() != sites_.size()) {
+    const std::vector<std::uint8_t> absent = absent_;
+    return set_sites(sites, absent);
+  }
   sites_.assign(sites.begin(), sites.end());
   ground_.sites = sites_;
   ground_.grid.refresh_weights(sites_);
   return {};
 }
 
-bool CellWorkshop::change(std::uint32_t site, const PowerSite& now) {
+bool CellWorkshop::has_room_for(std::uint32_t site, const Point3& position) const {
   if (has_twins_ || ground_.is_triangulated || ground_.grid.is_stale()) return false;
-  if (now.position != sites_[site].position &&
-      ground_.grid.has_site_within(now.position, kCoincidenceShare * ground_.domain.size(), site)) {
+  return !ground_.grid.has_site_within(position, kCoincidenceShare * ground_.domain.size(), site);
+}
+
+bool CellWorkshop::change(std::uint32_t site, const PowerSite& now) {
+  if (now.position == sites_[site].position ? ground_.is_triangulated || has_twins_ : !has_room_for(site, now.position))
     return false;
-  }
   sites_[site] = now;
   ground_.grid.change(site, now);
   return true;
+}
+
+bool CellWorkshop::insert(std::uint32_t site, const PowerSite& now) {
+  if (!has_room_for(site, now.position)) return false;
+  if (site >= sites_.size()) {
+    sites_.resize(std::size_t{site} + 1);
+    twin_.resize(sites_.size(), kNone);
+    if (!absent_.empty()) absent_.resize(sites_.size(), 0);
+    ground_.sites = sites_;
+  }
+  sites_[site] = now;
+  twin_[site] = kNone;
+  if (!absent_.empty()) absent_[site] = 0;
+  ground_.grid.insert(site, now);
+  return true;
+}
+
+void CellWorkshop::erase(std::uint32_t site) {
+  absent_.resize(sites_.size(), 0);
+  absent_[site] = 1;
+  twin_[site] = site;
+  ground_.grid.erase(site);
 }
 
 void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const {
@@ -210,7 +244,7 @@ void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, Cell
     emptiness = winner != kNone && winner != site ? "swallowed: " + number(winner) + " outweighs it at its position"
                 : !has_cell                       ? std::string("its power cell lies outside the domain")
                 : !(sites_[site].weight > 0)      ? std::string("its weight is not positive, so it has no ball")
-                                                  : std::string("its ball does not reach its own power cell: neighbours are heavier");
+                                             : std::string("its ball does not reach its own power cell: neighbours are heavier");
     out.reason = emptiness;
   }
   if (twin != kNone) {
@@ -235,23 +269,45 @@ void CellWorkshop::give_back(std::unique_ptr<CellBench> bench) {
   benches_.push_back(std::move(bench));
 }
 
+void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
+                              const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders) {
+  auto bench = take_bench();
+  if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
+  for (std::size_t k = begin; k < end; ++k) {
+    make_one(which[k], options, *bench, cells[which[k]]);
+    if (borders == nullptr) continue;
+    const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
+    borders[which[k]].assign(found.begin(), found.end());
+  }
+  bench->maker.end_run();
+  give_back(std::move(bench));
+}
+
 void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
                         std::vector<std::uint32_t>* borders) {
-  const auto body = [&](std::size_t begin, std::size_t end) {
-    auto bench = take_bench();
-    for (std::size_t k = begin; k < end; ++k) {
-      make_one(which[k], options, *bench, cells[which[k]]);
-      if (borders == nullptr) continue;
-      const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
-      borders[which[k]].assign(found.begin(), found.end());
-    }
-    give_back(std::move(bench));
-  };
+  const auto body = [&](std::size_t begin, std::size_t end) { make_range(which, false, begin, end, options, cells, borders); };
   if (options.pool != nullptr && which.size() > kChunk) {
     options.pool->for_each_chunk(which.size(), kChunk, body);
   } else if (!which.empty()) {
     body(0, which.size());
   }
+}
+
+void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders) {
+  const auto order = ground_.grid.order();
+  const auto body = [&](std::size_t begin, std::size_t end) { make_range(order, true, begin, end, options, cells, borders); };
+  const std::size_t threads = options.pool != nullptr ? static_cast<std::size_t>(options.pool->threads()) : 1;
+  const std::size_t runs = threads > 1 && order.size() > 2 * kChunk ? kRunsPerThread * threads : 1;
+  if (runs > 1) {
+    options.pool->for_each_chunk(order.size(), (order.size() + runs - 1) / runs, body);
+  } else {
+    body(0, order.size());
+  }
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t i = 0; has_twins_ && i < sites_.size(); ++i) {
+    if (twin_[i] != kNone) others.push_back(i);
+  }
+  make(others, options, cells, borders);
 }
 
 Result<void> check_sites(std::span<const PowerSite> sites) {

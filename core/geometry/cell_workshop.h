@@ -27,15 +27,19 @@ class CellWorkshop {
   void set_domain(const Domain& domain);
   const Domain& domain() const { return ground_.domain; }
 
-  /// All sites anew: finds who coincides with whom and sorts the others into the search structure.
-  Result<void> set_sites(std::span<const PowerSite> sites);
+  /// All sites anew: finds who coincides with whom and sorts the others into the search structure. `absent` (empty, or one flag
+  /// per site) marks places in the list without a site.
+  Result<void> set_sites(std::span<const PowerSite> sites, std::span<const std::uint8_t> absent = {});
   /// Other weights, the same positions. Much cheaper.
   Result<void> set_weights(std::span<const PowerSite> sites);
   /// One site anew. False where that is more than a local change (it meets another site, say): then set_sites() is due.
   bool change(std::uint32_t site, const PowerSite& now);
+  /// A site at a place that is absent, or at the end of the list; and none at a place any more. False as with change().
+  bool insert(std::uint32_t site, const PowerSite& now);
+  void erase(std::uint32_t site);
 
   std::span<const PowerSite> sites() const { return sites_; }
-  /// Per site: the site it coincides with, or 0xffffffff.
+  /// Per site: the site it coincides with, or 0xffffffff; an absent site is named by itself.
   std::span<const std::uint32_t> twins() const { return twin_; }
   /// Sites in the order in which they lie in memory: nearby cells are made one after the other.
   std::span<const std::uint32_t> order() const { return ground_.grid.order(); }
@@ -44,8 +48,13 @@ class CellWorkshop {
   /// change can change the cell.
   void make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
             std::vector<std::uint32_t>* borders = nullptr);
+  /// Makes all cells, which takes less than making each of them.
+  void make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders = nullptr);
 
  private:
+  void make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
+                  const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders);
+  bool has_room_for(std::uint32_t site, const Point3& position) const;
   void make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const;
   std::unique_ptr<CellBench> take_bench();
   void give_back(std::unique_ptr<CellBench> bench);
@@ -53,6 +62,7 @@ class CellWorkshop {
   CellGround ground_;
   std::vector<PowerSite> sites_;
   std::vector<std::uint32_t> twin_, participants_;
+  std::vector<std::uint8_t> absent_;
   bool has_twins_ = false;
   std::vector<std::unique_ptr<CellBench>> benches_;
   std::mutex mutex_;

@@ -14,8 +14,6 @@ namespace {
 constexpr double kTouchShare = 1e-14, kFirstTouchShare = 1e-15;
 // Within this share of the reach another order of the cuts may decide otherwise.
 constexpr double kTouchyShare = 1e-12;
-// Three planes whose normals span less than this meet too vaguely; the vertex stays where the cut has put it.
-constexpr double kLeastDeterminant = 1e-9;
 // A vertex of a start is put onto the domain's own corner within this share of the domain's size.
 constexpr double kSnapShare = 1e-9;
 
@@ -43,6 +41,9 @@ void Clipper::reserve(std::size_t vertices) {
   beyond_.resize(room);
   corners_.resize(room);
   taken_.resize(room, 0);
+  leaving_.resize(room);
+  fresh_.resize(room);
+  places_.resize(room);
 }
 
 void Clipper::measure_reach() {
@@ -57,6 +58,7 @@ void Clipper::measure_reach() {
     most = larger(most, x * x + y * y + z * z);
   }
   reach_squared_ = largest(most);
+  reach_ = std::sqrt(reach_squared_);
 }
 
 Clipper::Start::Start(const ConvexDomain& domain, const std::vector<std::uint32_t>& sides) {
@@ -89,8 +91,8 @@ Clipper::Start::Start(const ConvexDomain& domain, const std::vector<std::uint32_
     });
     vertices_.push_back(distance(*nearest, at) <= kSnapShare * size ? *nearest : at);
     const Corner& corner = shape.corners_[v];
-    corners_.push_back({corner.plane[0] - 6, corner.plane[1] - 6, corner.plane[2] - 6, corner.next[0], corner.next[1],
-                        corner.next[2]});
+    corners_.push_back(
+        {corner.plane[0] - 6, corner.plane[1] - 6, corner.plane[2] - 6, corner.next[0], corner.next[1], corner.next[2]});
   }
 }
 
@@ -111,7 +113,7 @@ void Clipper::start(const Start& from, const Point3& origin) {
     corners_[v] = {{corner[0], corner[1], corner[2]}, {corner[3], corner[4], corner[5]}, v};
   }
   measure_reach();
-  start_reach_ = std::sqrt(reach_squared_);
+  start_reach_ = reach_;
 }
 
 void Clipper::start_box(const Vector3& minimum, const Vector3& maximum) {
@@ -136,7 +138,7 @@ void Clipper::start_box(const Vector3& minimum, const Vector3& maximum) {
     else corners_[v] = {{corner.plane[0], corner.plane[2], corner.plane[1]}, {corner.next[0], corner.next[2], corner.next[1]}, v};
   }
   measure_reach();
-  start_reach_ = std::sqrt(reach_squared_);
+  start_reach_ = reach_;
 }
 
 void Clipper::copy(const Clipper& other) {
@@ -165,131 +167,116 @@ bool Clipper::judge(const Vector3& normal, double offset, double tolerance) {
   return largest(most) > tolerance;
 }
 
-// All vertices beyond that hang together with the seed; counts the edges between them and the others.
-std::uint32_t Clipper::take_connected(std::uint32_t seed, double tolerance) {
-  leaving_.clear();
-  leaving_.push_back(seed);
-  taken_[seed] = 1;
-  std::uint32_t edges = 0;
-  for (std::size_t i = 0; i < leaving_.size(); ++i) {
-    for (const std::uint32_t w : corners_[leaving_[i]].next) {
-      if (taken_[w]) continue;
-      if (beyond_[w] > tolerance) {
-        taken_[w] = 1;
-        leaving_.push_back(w);
-      } else {
-        ++edges;
-      }
-    }
+// Marks the vertices beyond; returns the number of edges between them and the others.
+std::uint32_t Clipper::take_beyond(double tolerance) {
+  leaving_count_ = 0;
+  for (std::uint32_t v = 0; v < size_; ++v) {
+    const bool leaves = beyond_[v] > tolerance;
+    taken_[v] = leaves;
+    leaving_[leaving_count_] = v;
+    leaving_count_ += leaves;
   }
-  return edges;
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < leaving_count_; ++i) {
+    for (const std::uint32_t w : corners_[leaving_[i]].next) kept += !taken_[w];
+  }
+  return kept;
 }
 
 // The edges from taken to kept vertices in order, counter-clockwise around the new face: along the part of each face that goes.
-bool Clipper::trace_rim() {
-  rim_.clear();
+// Each gets its fresh vertex. Returns their number.
+std::uint32_t Clipper::trace_rim() {
   std::uint32_t v = kNone, slot = 0;
-  for (const std::uint32_t candidate : leaving_) {
-    for (std::uint32_t k = 0; k < 3 && v == kNone; ++k) {
-      if (!taken_[corners_[candidate].next[k]]) {
-        v = candidate;
-        slot = k;
-      }
+  for (std::uint32_t i = 0; i < leaving_count_ && v == kNone; ++i) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (taken_[corners_[leaving_[i]].next[k]]) continue;
+      v = leaving_[i];
+      slot = k;
     }
-    if (v != kNone) break;
   }
-  if (v == kNone) return false;
+  if (v == kNone) return 0;
   const std::uint32_t first = v, first_slot = slot;
+  std::uint32_t count = 0;
   do {
-    rim_.push_back({corners_[v].next[slot], v, slot});
-    const std::uint32_t face = corners_[v].plane[kPrevious[slot]];
+    const Corner& corner = corners_[v];
+    const std::uint32_t u = corner.next[slot];
+    const auto& around = corners_[u].next;
+    const std::uint32_t face = corner.plane[kPrevious[slot]];
+    fresh_[count++] = {u, v, static_cast<std::uint32_t>(around[1] == v) + 2u * static_cast<std::uint32_t>(around[2] == v),
+                       corner.plane[kNext[slot]], face};
     slot = kNext[slot];
     while (taken_[corners_[v].next[slot]]) {
       v = corners_[v].next[slot];
       const auto& plane = corners_[v].plane;
-      const std::uint32_t k = plane[0] == face ? 0 : plane[1] == face ? 1 : 2;
-      slot = kPrevious[k];
+      slot = plane[0] == face ? kPrevious[0] : plane[1] == face ? kPrevious[1] : kPrevious[2];
     }
-  } while ((v != first || slot != first_slot) && rim_.size() <= 3 * std::size_t{size_});
-  return true;
+  } while ((v != first || slot != first_slot) && count < fresh_.size());
+  return count;
 }
 
-// Rounding has cut the kept part in two: the largest part stays, the others go too. Rare, so no care for speed.
-bool Clipper::take_in_islands() {
-  std::vector<std::uint32_t> part(size_, kNone), count;
-  for (std::uint32_t seed = 0; seed < size_; ++seed) {
-    if (taken_[seed] || part[seed] != kNone) continue;
-    const std::uint32_t number = static_cast<std::uint32_t>(count.size());
-    std::vector<std::uint32_t> open{seed};
-    part[seed] = number;
-    count.push_back(0);
-    while (!open.empty()) {
-      const std::uint32_t v = open.back();
-      open.pop_back();
-      ++count[number];
-      for (const std::uint32_t w : corners_[v].next) {
-        if (taken_[w] || part[w] != kNone) continue;
-        part[w] = number;
-        open.push_back(w);
+// Where the edges meet the plane: read from the ends before the first of those that leave is written over.
+void Clipper::place_fresh(std::uint32_t count) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t u = fresh_[i].kept, v = fresh_[i].removed;
+    const double inside = std::min(0.0, beyond_[u]), share = inside / (inside - beyond_[v]);
+    places_[i] = {x_[u] + share * (x_[v] - x_[u]), y_[u] + share * (y_[v] - y_[u]), z_[u] + share * (z_[v] - z_[u])};
+  }
+}
+
+// Rounding has torn what goes, or what stays, into parts: only the part around the farthest vertex goes, and of what stays the
+// largest part does. Rare, so no care for speed.
+void Clipper::untangle(double tolerance) {
+  const auto connected = [&](std::uint32_t seed, const auto& belongs, std::vector<std::uint8_t>& seen) {
+    std::vector<std::uint32_t> part{seed};
+    seen[seed] = 1;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      for (const std::uint32_t w : corners_[part[i]].next) {
+        if (seen[w] || !belongs(w)) continue;
+        seen[w] = 1;
+        part.push_back(w);
       }
     }
-  }
-  if (count.empty()) return false;
-  const auto largest_part = static_cast<std::uint32_t>(std::max_element(count.begin(), count.end()) - count.begin());
+    return part;
+  };
+  const auto farthest = std::max_element(beyond_.begin(), beyond_.begin() + size_) - beyond_.begin();
+  std::vector<std::uint8_t> seen(size_, 0);
+  connected(
+      static_cast<std::uint32_t>(farthest), [&](std::uint32_t w) { return beyond_[w] > tolerance; }, seen);
+  const std::vector<std::uint8_t> gone = seen;
+  std::vector<std::uint32_t> largest_part;
   for (std::uint32_t v = 0; v < size_; ++v) {
-    if (taken_[v] || part[v] == largest_part) continue;
-    taken_[v] = 1;
-    leaving_.push_back(v);
+    if (seen[v]) continue;
+    const auto part = connected(
+        v, [&](std::uint32_t w) { return !gone[w]; }, seen);
+    if (part.size() > largest_part.size()) largest_part = part;
   }
-  return trace_rim();
+  std::fill_n(taken_.begin(), size_, std::uint8_t{1});
+  for (const std::uint32_t v : largest_part) taken_[v] = 0;
+  leaving_count_ = 0;
+  for (std::uint32_t v = 0; v < size_; ++v) {
+    // A vertex that goes along without lying beyond counts as lying on the plane.
+    if (taken_[v]) beyond_[v] = std::max(beyond_[v], tolerance);
+    if (taken_[v]) leaving_[leaving_count_++] = v;
+  }
 }
 
-// New vertices on the edges of the rim, linked in a ring around the new face. They take the places of those that leave.
-void Clipper::close_rim(std::uint32_t plane) {
-  const std::uint32_t count = static_cast<std::uint32_t>(rim_.size());
-  reserve(size_ + count);
-  const auto place = [&](std::uint32_t i) {
-    return i < leaving_.size() ? leaving_[i] : size_ + i - static_cast<std::uint32_t>(leaving_.size());
-  };
-  // Everything of the leaving vertices is read before the first of them is written over.
-  order_.resize(2 * count);
-  number_.resize(count);
-  first_corner_.resize(count);
-  std::array<double, 3 * 64> stack_places;
-  std::vector<double> heap_places;
-  double* places = stack_places.data();
-  if (count > 64) {
-    heap_places.resize(3 * std::size_t{count});
-    places = heap_places.data();
-  }
+// Links the fresh vertices in a ring around the new face. They take the places of those that leave.
+void Clipper::close_rim(std::uint32_t plane, std::uint32_t count) {
+  const auto place = [&](std::uint32_t i) { return i < leaving_count_ ? leaving_[i] : size_ + i - leaving_count_; };
+  std::uint32_t before = place(count - 1), at = place(0);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Crossing& crossing = rim_[i];
-    const std::uint32_t u = crossing.kept, v = crossing.removed;
-    const Corner& corner = corners_[v];
-    order_[2 * i] = corner.plane[kNext[crossing.slot]];
-    order_[2 * i + 1] = corner.plane[kPrevious[crossing.slot]];
-    const double inside = std::min(0.0, beyond_[u]);
-    const double share = inside / (inside - beyond_[v]);
-    places[3 * i] = x_[u] + share * (x_[v] - x_[u]);
-    places[3 * i + 1] = y_[u] + share * (y_[v] - y_[u]);
-    places[3 * i + 2] = z_[u] + share * (z_[v] - z_[u]);
-    const Corner& other = corners_[u];
-    std::uint32_t t = 0;
-    while (t < 2 && !(other.next[t] == v && other.plane[t] != order_[2 * i] && other.plane[t] != order_[2 * i + 1])) ++t;
-    first_corner_[i] = t;
-  }
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t at = place(i);
-    corners_[rim_[i].kept].next[first_corner_[i]] = at;
-    corners_[at] = {{plane, order_[2 * i], order_[2 * i + 1]},
-                    {rim_[i].kept, place(i + 1 == count ? 0 : i + 1), place(i == 0 ? count - 1 : i - 1)},
-                    kNone};
-    x_[at] = places[3 * i];
-    y_[at] = places[3 * i + 1];
-    z_[at] = places[3 * i + 2];
+    const Fresh& fresh = fresh_[i];
+    const std::uint32_t after = i + 1 == count ? place(0) : place(i + 1);
+    corners_[fresh.kept].next[fresh.back] = at;
+    corners_[at] = {{plane, fresh.left, fresh.right}, {fresh.kept, after, before}, kNone};
+    x_[at] = places_[i].x;
+    y_[at] = places_[i].y;
+    z_[at] = places_[i].z;
     taken_[at] = 0;
+    before = at;
+    at = after;
   }
-  if (count > leaving_.size()) size_ += count - static_cast<std::uint32_t>(leaving_.size());
+  if (count > leaving_count_) size_ += count - leaving_count_;
 }
 
 void Clipper::move_vertex(std::uint32_t from, std::uint32_t to) {
@@ -305,8 +292,8 @@ void Clipper::move_vertex(std::uint32_t from, std::uint32_t to) {
 }
 
 // Fills the places that are still free from the end.
-void Clipper::remove_taken() {
-  for (std::size_t i = rim_.size(); i < leaving_.size(); ++i) {
+void Clipper::remove_taken(std::uint32_t fresh) {
+  for (std::uint32_t i = fresh; i < leaving_count_; ++i) {
     while (size_ > 0 && taken_[size_ - 1]) taken_[--size_] = 0;
     if (leaving_[i] >= size_) continue;
     move_vertex(size_ - 1, leaving_[i]);
@@ -315,33 +302,38 @@ void Clipper::remove_taken() {
   }
 }
 
+void Clipper::give_up_cut() {
+  for (std::uint32_t i = 0; i < leaving_count_; ++i) taken_[leaving_[i]] = 0;
+}
+
 bool Clipper::cut(const Vector3& normal, double offset, FaceKind kind, std::uint32_t index) {
   if (size_ == 0) return false;
   if (offset > 0 && offset * offset > reach_squared_) return true;
-  const double tolerance = kTouchShare * std::sqrt(reach_squared_) + kFirstTouchShare * start_reach_;
+  const double tolerance = kTouchShare * reach_ + kFirstTouchShare * start_reach_;
   if (!judge(normal, offset, tolerance)) return true;
-  std::uint32_t seed = 0;
-  for (std::uint32_t v = 1; v < size_; ++v) {
-    if (beyond_[v] > beyond_[seed]) seed = v;
+  reserve(2 * std::size_t{size_});
+  const std::uint32_t edges = take_beyond(tolerance);
+  std::uint32_t count = edges > 0 ? trace_rim() : 0;
+  if (count != edges) {
+    untangle(tolerance);
+    count = trace_rim();
   }
-  const std::uint32_t edges = take_connected(seed, tolerance);
-  bool has_rim = edges > 0 && trace_rim();
-  if (has_rim && rim_.size() != edges) has_rim = take_in_islands();
-  if (!has_rim) {
-    for (const std::uint32_t v : leaving_) taken_[v] = 0;
+  if (count == 0) {
+    give_up_cut();
     size_ = 0;
-    reach_squared_ = 0;
+    reach_squared_ = reach_ = 0;
     return false;
   }
-  if (rim_.size() < 3) {
+  if (count < 3) {
     // Only rounding comes to this: what would be left is no body, so the plane counts as touching.
-    for (const std::uint32_t v : leaving_) taken_[v] = 0;
+    give_up_cut();
     is_touchy_ = true;
     return true;
   }
   sides_.push_back({normal, offset, kind, index});
-  close_rim(static_cast<std::uint32_t>(sides_.size() - 1));
-  remove_taken();
+  place_fresh(count);
+  close_rim(static_cast<std::uint32_t>(sides_.size() - 1), count);
+  if (count < leaving_count_) remove_taken(count);
   measure_reach();
   return true;
 }
@@ -352,100 +344,6 @@ bool Clipper::cut(const Start& piece, const Point3& origin, double limit) {
     if (offset < limit && !cut(side.normal, offset, side.kind, side.index)) return false;
   }
   return size_ > 0;
-}
-
-// The point on three planes (Cramer's rule), the face of lowest rank first so that the bits do not depend on the history.
-bool Clipper::meeting_point(const Corner& corner, Point3& at) const {
-  const auto& p = corner.plane;
-  const std::uint32_t k = rank_[p[0]] < rank_[p[1]] ? (rank_[p[0]] < rank_[p[2]] ? 0 : 2) : (rank_[p[1]] < rank_[p[2]] ? 1 : 2);
-  const Side &a = sides_[p[k]], &b = sides_[p[kNext[k]]], &c = sides_[p[kPrevious[k]]];
-  const Vector3 bc = cross(b.normal, c.normal);
-  const double determinant = dot(a.normal, bc);
-  if (!(determinant > kLeastDeterminant)) return false;
-  at = (a.offset * bc + b.offset * cross(c.normal, a.normal) + c.offset * cross(a.normal, b.normal)) * (1 / determinant);
-  return true;
-}
-
-// Ranks of the sides by name; sides of one name keep their order.
-void Clipper::rank_sides() {
-  rank_.assign(sides_.size(), kNone);
-  order_.clear();
-  for (std::uint32_t v = 0; v < size_; ++v) {
-    for (const std::uint32_t p : corners_[v].plane) {
-      if (rank_[p] != kNone) continue;
-      rank_[p] = 0;
-      order_.push_back(p);
-    }
-  }
-  const auto is_before = [&](std::uint32_t a, std::uint32_t b) {
-    const Side &s = sides_[a], &t = sides_[b];
-    return s.kind != t.kind ? s.kind < t.kind : s.index != t.index ? s.index < t.index : a < b;
-  };
-  std::sort(order_.begin(), order_.end(), is_before);
-  for (std::uint32_t r = 0; r < order_.size(); ++r) rank_[order_[r]] = r;
-}
-
-bool Clipper::finish(Polyhedron& out) { return write(out, true); }
-void Clipper::finish_as_cut(Polyhedron& out) { write(out, false); }
-
-bool Clipper::write(Polyhedron& out, bool is_exact) {
-  out.clear();
-  if (size_ == 0) return true;
-  bool is_sharp = true;
-  rank_sides();
-  // The first corner of each face: where its two other faces have the lowest ranks.
-  first_corner_.assign(sides_.size(), kNone);
-  const auto key = [&](std::uint32_t corner) {
-    const auto& plane = corners_[corner / 3].plane;
-    const std::uint32_t k = corner % 3;
-    return (std::uint64_t{rank_[plane[kNext[k]]]} << 32) | rank_[plane[kPrevious[k]]];
-  };
-  for (std::uint32_t corner = 0; corner < 3 * size_; ++corner) {
-    std::uint32_t& first = first_corner_[corners_[corner / 3].plane[corner % 3]];
-    if (first == kNone || key(corner) < key(first)) first = corner;
-  }
-  number_.assign(size_, kNone);
-  const auto walk = [&](std::uint32_t p, std::uint32_t from) {
-    const Side& side = sides_[p];
-    PolyhedronFace face{side.normal, side.offset, side.kind, side.index, static_cast<std::uint32_t>(out.loops.size()), 0};
-    std::uint32_t v = from / 3, k = from % 3;
-    do {
-      if (number_[v] == kNone) {
-        number_[v] = static_cast<std::uint32_t>(out.vertices.size());
-        Point3 at{x_[v], y_[v], z_[v]};
-        if (is_exact && corners_[v].given == kNone && !meeting_point(corners_[v], at)) is_sharp = false;
-        out.vertices.push_back(at);
-        out.reach_squared = std::max(out.reach_squared, squared_norm(at));
-      }
-      out.loops.push_back(number_[v]);
-      v = corners_[v].next[kNext[k]];
-      const auto& plane = corners_[v].plane;
-      k = plane[0] == p ? 0 : plane[1] == p ? 1 : 2;
-    } while (3 * v + k != from && out.loops.size() <= 3 * std::size_t{size_});
-    face.count = static_cast<std::uint32_t>(out.loops.size()) - face.first;
-    out.faces.push_back(face);
-  };
-  for (const std::uint32_t p : order_) walk(p, first_corner_[p]);
-  if (out.loops.size() == 3 * std::size_t{size_}) return is_sharp;
-  // A face that rounding has split: the loops that are left, in the order of their corners.
-  std::vector<std::uint8_t> seen(3 * std::size_t{size_}, 0);
-  const auto mark = [&](std::uint32_t p, std::uint32_t from) {
-    std::uint32_t corner = from;
-    do {
-      seen[corner] = 1;
-      const std::uint32_t v = corners_[corner / 3].next[kNext[corner % 3]];
-      const auto& plane = corners_[v].plane;
-      corner = 3 * v + (plane[0] == p ? 0u : plane[1] == p ? 1u : 2u);
-    } while (!seen[corner]);
-  };
-  for (const std::uint32_t p : order_) mark(p, first_corner_[p]);
-  for (std::uint32_t corner = 0; corner < 3 * size_; ++corner) {
-    if (seen[corner]) continue;
-    const std::uint32_t p = corners_[corner / 3].plane[corner % 3];
-    mark(p, corner);
-    walk(p, corner);
-  }
-  return is_sharp;
 }
 
 }  // namespace bl

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/base/vector.h"
@@ -51,13 +52,16 @@ class Clipper {
   std::size_t side_count() const { return sides_.size(); }
   /// Largest squared distance of a vertex from the origin [m²].
   double reach_squared() const { return reach_squared_; }
+  double reach() const { return reach_; }
   /// Has some vertex come so near to a plane that the order of the cuts may show in the result?
   bool is_touchy() const { return is_touchy_; }
 
   /// The shape in a form that does not depend on the order of the cuts (unless it is touchy): faces by kind and index, loops
   /// from a fixed corner on, every vertex computed anew from its three planes. False where three planes meet so flatly that a
   /// vertex had to stay where the cuts have put it.
-  bool finish(Polyhedron& out);
+  /// Faces whose planes lie at `limit` [m] or farther may be left out, for who does not look beyond: the polyhedron is open then,
+  /// and its reach infinite.
+  bool finish(Polyhedron& out, double limit = std::numeric_limits<double>::infinity());
   /// The same with every vertex where the cuts have put it: good for shapes where many planes meet in one corner.
   void finish_as_cut(Polyhedron& out);
 
@@ -65,7 +69,7 @@ class Clipper {
   static constexpr std::uint32_t kNone = 0xffffffffu;
   /// The three faces that meet at a vertex, counter-clockwise seen from outside, and the neighbours: next[k] is reached along
   /// the edge that does not lie on face plane[k].
-  struct Corner {
+  struct alignas(32) Corner {
     std::array<std::uint32_t, 3> plane, next;
     std::uint32_t given;  ///< kNone, or: the vertex was there from the start and keeps its place
   };
@@ -75,33 +79,43 @@ class Clipper {
     FaceKind kind;
     std::uint32_t index;
   };
-  struct Crossing {
-    std::uint32_t kept, removed, slot;
+  /// A vertex that a cut makes on the edge from a vertex that stays to one that goes.
+  struct Fresh {
+    std::uint32_t kept, removed;
+    std::uint32_t back;         ///< place among the neighbours of `kept` where the new one goes
+    std::uint32_t left, right;  ///< faces of the edge: the next fresh vertex around the cut lies on `right` too
   };
 
   void reserve(std::size_t vertices);
   void measure_reach();
   bool judge(const Vector3& normal, double offset, double tolerance);
-  std::uint32_t take_connected(std::uint32_t seed, double tolerance);
-  bool trace_rim();
-  bool take_in_islands();
-  void close_rim(std::uint32_t plane);
-  void remove_taken();
+  std::uint32_t take_beyond(double tolerance);
+  std::uint32_t trace_rim();
+  void untangle(double tolerance);
+  void place_fresh(std::uint32_t count);
+  void close_rim(std::uint32_t plane, std::uint32_t count);
+  void remove_taken(std::uint32_t fresh);
+  void give_up_cut();
   void move_vertex(std::uint32_t from, std::uint32_t to);
   bool meeting_point(const Corner& corner, Point3& at) const;
   void rank_sides();
-  bool write(Polyhedron& out, bool is_exact);
+  bool write(Polyhedron& out, bool is_exact, double limit);
+  bool write_face(Polyhedron& out, std::uint32_t corner, bool is_exact);
+  void write_split_faces(Polyhedron& out, bool is_exact);
 
   std::uint32_t size_ = 0;
-  double reach_squared_ = 0, start_reach_ = 0;
+  double reach_squared_ = 0, reach_ = 0, start_reach_ = 0;
   bool is_touchy_ = false;
   std::vector<double> x_, y_, z_, beyond_;  // beyond_: signed distance from the plane that is being cut with
   std::vector<Corner> corners_;
   std::vector<Side> sides_;
-  std::vector<std::uint8_t> taken_;    // per vertex: goes with the cut under way
-  std::vector<std::uint32_t> leaving_;  // the vertices that go, as found
-  std::vector<Crossing> rim_;          // edges from kept to leaving vertices, in order around the cut
-  std::vector<std::uint32_t> rank_, order_, first_corner_, number_;
+  std::vector<std::uint8_t> taken_;     // per vertex: goes with the cut under way
+  std::vector<std::uint32_t> leaving_;  // the vertices that go: the first leaving_count_ of them
+  std::uint32_t leaving_count_ = 0;
+  std::vector<Fresh> fresh_;
+  std::vector<Point3> places_;  // of the fresh vertices
+  std::vector<std::uint32_t> rank_, order_, first_corner_, number_, loop_;
+  std::vector<std::uint64_t> keys_;
 };
 
 }  // namespace bl

@@ -1,4 +1,4 @@
-// The feedback loop: each weight follows its own error, with acceleration, limits and repair.
+// The steps of the fit: feedback, where each weight follows its own error, and Newton, where all follow the exact response.
 #include "core/geometry/demand_fit.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include "core/base/hash.h"
 #include "core/base/text.h"
 #include "core/geometry/fit_numbers.h"
+#include "core/geometry/fit_targets.h"
 #include "core/geometry/response_system.h"
 
 namespace bl {
@@ -19,6 +20,13 @@ constexpr double kMostGrowth = 2, kMostLoss = 0.5;
 constexpr double kRepair = 0.8;
 // Newton's step leaves at least this share of r³.
 constexpr double kLeastOfCube = 0.1;
+// Up to this share of the demands may be repaired one by one after a step that all others gain by.
+constexpr double kFewOffenders = 0.02;
+// Such a step has to bring the residual below this share, and below that one after the repair.
+constexpr double kFallWorthRepair = 0.5, kRepairedFall = 0.7;
+// A change of weight that moves no volume by more than this share of the tolerance is not made: what it would move stays as it
+// is, bit for bit, and need not be measured again.
+constexpr double kIdleShare = 0.02;
 // Newton's step is halved no further than this.
 constexpr double kLeastStep = 1.0 / 256;
 // Share of the diagonal step: the response matrix, scaled by its diagonal, has eigenvalues between 0 and 2.
@@ -38,31 +46,34 @@ Point3 place_inside(const Domain& domain, const Point3& position) {
 
 class Fit {
  public:
-  Fit(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
-      std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options)
-      : domain_(domain), options_(options), sites_(sites.begin(), sites.end()), free_(sites.size(), 1) {
-    for (std::size_t i = 0; i < locked.size(); ++i) free_[i] = locked[i] == 0;
-    report_.demands.assign(demands.begin(), demands.end());
+  Fit(const Domain& domain, std::span<const PowerSite> sites, FitTargets targets, const FitState& state,
+      const FitOptions& options)
+      : domain_(domain), options_(options), sites_(sites.begin(), sites.end()), targets_(std::move(targets)) {
     report_.state = state;
     if (report_.state.previous_move.size() != sites.size()) {
       report_.state = {};
       report_.state.previous_move.assign(sites.size(), 0);
     }
-    recognise(sites, demands);
+    recognise(sites);
     start_fresh_sites();
     keep_in_bounds();
   }
 
   Result<FitReport> run() {
-    PowerDiagram diagram;
+    PowerDiagram own;
+    PowerDiagram& diagram = options_.diagram != nullptr ? *options_.diagram : own;
     if (auto set = diagram.set_domain(domain_); !set) return set.error();
     CellOptions cells;
-    cells.with_shape = false;
+    cells.with_shape = cells.with_centroid = false;
     cells.pool = options_.pool;
     for (int step = 0; step < std::max(1, options_.steps); ++step) {
-      const auto measured = diagram.update(sites_, cells);
+      auto measured = diagram.update(sites_, cells);
       if (!measured) return measured.error();
-      if (step == 0) grant(*measured);
+      if (step == 0) {
+        targets_.grant(*measured, domain_.volume);
+        if (start_full()) measured = diagram.update(sites_, cells);
+        if (!measured) return measured.error();
+      }
       report_.steps = step + 1;
       judge(*measured);
       if (report_.is_met) break;
@@ -70,70 +81,73 @@ class Fit {
       keep_in_bounds();
     }
     for (const PowerSite& site : sites_) report_.weights.push_back(site.weight);
+    for (std::size_t k = 0; k < targets_.size(); ++k) report_.demands.push_back(targets_.aim(k));
+    report_.infeasible = targets_.infeasible();
+    report_.losses = targets_.losses();
     return std::move(report_);
   }
 
  private:
-  // Free sites without a weight yet: all of them alike where no site has one, else each by its own demand.
+  bool is_fitted(std::size_t i) const { return targets_.is_fitted(i); }
+  bool moves(std::size_t i) const { return is_fitted(i) && targets_.is_active(targets_.owner(i)); }
+  double missing(std::span<const CellMeasure> cells, std::size_t i) const {
+    const std::uint32_t k = targets_.owner(i);
+    return targets_.sites(k).size() == 1 ? targets_.aim(k) - cells[i].volume
+                                         : (targets_.aim(k) - targets_.total(k)) / static_cast<double>(targets_.sites(k).size());
+  }
+
+  // Sites without a weight yet: all of them alike where no site has one, else each by its own demand.
   void start_fresh_sites() {
     const bool all_fresh = std::none_of(sites_.begin(), sites_.end(), [](const PowerSite& s) { return s.weight > 0; });
-    std::vector<double> start;
-    if (all_fresh) start = initial_weights(domain_, sites_, report_.demands);
+    std::vector<double> parts(sites_.size(), 0), start;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
-      if (!free_[i] || sites_[i].weight > 0) continue;
-      sites_[i].weight = all_fresh ? start[i] : weight_of_volume(report_.demands[i]);
+      if (targets_.owner(i) != FitTargets::kNone) parts[i] = targets_.part(i);
     }
+    if (all_fresh) start = initial_weights(domain_, sites_, parts);
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (targets_.owner(i) == FitTargets::kNone || sites_[i].weight > 0) continue;
+      sites_[i].weight = all_fresh ? start[i] : weight_of_volume(parts[i]);
+    }
+  }
+
+  // Balls that take the whole domain never cut: all weights are raised alike, which changes no bisector, until none does.
+  // Otherwise the last corners, beyond the balls, would be won ever more slowly.
+  bool start_full() {
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (targets_.owner(i) != FitTargets::kNone && !is_fitted(i)) sites_[i].weight = 0;
+    }
+    if (!targets_.is_full()) return false;
+    double lift = 0;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (!is_fitted(i)) continue;
+      const double reach = domain_.size() + distance(sites_[i].position, domain_.centroid);
+      lift = std::max(lift, reach * reach - sites_[i].weight);
+    }
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (is_fitted(i)) sites_[i].weight += lift;
+    }
+    return lift > 0;
   }
 
   void keep_in_bounds() {
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       const double reach = kMostReach * (domain_.size() + distance(sites_[i].position, domain_.centroid));
-      if (free_[i]) sites_[i].weight = std::clamp(sites_[i].weight, 0.0, std::min(kLargestWeight, reach * reach));
+      if (targets_.owner(i) == FitTargets::kNone) continue;
+      sites_[i].weight = std::clamp(sites_[i].weight, 0.0, std::min(kLargestWeight, reach * reach));
     }
   }
-
-  // What can be granted: coincident sites get nothing, and the rest is scaled where it exceeds the domain.
-  void grant(std::span<const CellMeasure> cells) {
-    const std::vector<double> asked = report_.demands;
-    double wanted = 0, taken = 0;
-    for (std::size_t i = 0; i < sites_.size(); ++i) {
-      if (!free_[i]) {
-        taken += cells[i].volume;
-      } else if (cells[i].state == SiteState::coincident) {
-        report_.demands[i] = 0;
-      } else {
-        wanted += asked[i];
-      }
-    }
-    const double room = std::max(0.0, domain_.volume - taken);
-    if (wanted > room * (1 + 1e-12)) {
-      const double share = room / wanted;
-      for (std::size_t i = 0; i < sites_.size(); ++i) {
-        if (free_[i]) report_.demands[i] *= share;
-      }
-      report_.infeasible = "the demands exceed the domain: " + fixed(wanted, 1) + " m³ are asked for, " + fixed(room, 1) +
-                           " m³ are there; each site gets " + fixed(100 * share, 1) + " % of its demand";
-    }
-    for (std::uint32_t i = 0; i < sites_.size(); ++i) {
-      if (free_[i] && report_.demands[i] < asked[i]) report_.losses.push_back({i, asked[i], report_.demands[i]});
-      if (free_[i] && !(report_.demands[i] > 0)) sites_[i].weight = 0;
-    }
-  }
-
-  bool is_fitted(std::size_t i) const { return free_[i] && report_.demands[i] > 0; }
 
   void judge(std::span<const CellMeasure> cells) {
+    targets_.measure(cells);
     report_.volumes.resize(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) report_.volumes[i] = cells[i].volume;
     report_.error = 0;
     report_.worst_site = 0;
-    for (std::uint32_t i = 0; i < cells.size(); ++i) {
-      report_.volumes[i] = cells[i].volume;
-      if (!is_fitted(i)) continue;
-      const double error = std::abs(cells[i].volume - report_.demands[i]) / report_.demands[i];
-      if (error > report_.error) {
-        report_.error = error;
-        report_.worst_site = i;
-      }
+    for (std::uint32_t k = 0; k < targets_.size(); ++k) {
+      const double error = targets_.error(k);
+      if (!(error > report_.error)) continue;
+      report_.error = error;
+      report_.worst_site = k;
     }
     report_.is_met = report_.error <= options_.tolerance;
   }
@@ -141,7 +155,7 @@ class Fit {
   // Weight that brings an emptied cell back: with it the site wins at its own position (or at a place inside the domain).
   double repaired_weight(std::size_t i) const {
     const Point3 place = place_inside(domain_, sites_[i].position);
-    double best = 0.1 * weight_of_volume(report_.demands[i]);
+    double best = 0.1 * weight_of_volume(targets_.part(i));
     for (std::size_t j = 0; j < sites_.size(); ++j) {
       if (j != i) best = std::max(best, sites_[j].weight - kRepair * squared_norm(sites_[j].position - place));
     }
@@ -151,15 +165,16 @@ class Fit {
   // The change of weight [m²] that brings one cell to its demand while the others stay. A cell bounded by its neighbours
   // grows like the cube of the change, a free ball slower, so a cell far too small is led by its cube root, and one too
   // large by its volume: of the two estimates always the more careful one.
-  static double response_step(const CellMeasure& cell, double demand) {
-    const double linear = (demand - cell.volume) / cell.volume_by_own_weight;
-    if (demand <= cell.volume) return linear;
+  static double response_step(const CellMeasure& cell, double missing) {
+    const double linear = missing / cell.volume_by_own_weight;
+    if (missing <= 0) return linear;
     const double side = cube_root(cell.volume);
-    return std::min(linear, 3 * side * side * (cube_root(demand) - side) / cell.volume_by_own_weight);
+    return std::min(linear, 3 * side * side * (cube_root(cell.volume + missing) - side) / cell.volume_by_own_weight);
   }
 
   void move(std::span<const CellMeasure> cells) {
     if (options_.method == FitMethod::newton) return move_together(cells);
+    ++report_.iterations;
     if (options_.gain > 0) return move_by_gain(cells);
     move_alone(cells);
   }
@@ -170,8 +185,7 @@ class Fit {
     // Against the slope: the acceleration has overshot and starts again (O'Donoghue and Candès 2015).
     double agreement = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (is_fitted(i))
-        agreement += (report_.demands[i] - cells[i].volume) * state.previous_move[i] / std::max(1e-300, sites_[i].weight);
+      if (moves(i)) agreement += missing(cells, i) * state.previous_move[i] / std::max(1e-300, sites_[i].weight);
     }
     if (agreement < 0) state.momentum = 1;
     const double next = 0.5 * (1 + std::sqrt(1 + 4 * state.momentum * state.momentum));
@@ -180,7 +194,7 @@ class Fit {
     std::vector<double> weights(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
       weights[i] = sites_[i].weight;
-      if (!is_fitted(i)) continue;
+      if (!moves(i)) continue;
       if (!(cells[i].volume > 0) || !(cells[i].volume_by_own_weight > 0)) {
         // Emptied by its own last move: half of that back. Otherwise its neighbours did it.
         const double back = -0.5 * state.previous_move[i];
@@ -188,15 +202,15 @@ class Fit {
         state.previous_move[i] = 0;
         continue;
       }
+      const double part = targets_.part(i);
       const double cube = cube_of_radius(sites_[i].weight), stretch = 1.5 * std::sqrt(sites_[i].weight);
-      const double step = options_.damping * kStep * stretch * response_step(cells[i], report_.demands[i]);
+      const double step = options_.damping * kStep * stretch * response_step(cells[i], missing(cells, i));
       const double volume = cells[i].volume, per_volume = stretch / cells[i].volume_by_own_weight;
       const double least = std::max((kMostLoss - 1) * cube, (kMostLoss - 1) * volume * per_volume);
-      const double most =
-          std::min((kMostGrowth - 1) * cube, (kMostGrowth - 1) * std::max(volume, 0.1 * report_.demands[i]) * per_volume);
+      const double most = std::min((kMostGrowth - 1) * cube, (kMostGrowth - 1) * std::max(volume, 0.1 * part) * per_volume);
       const double move = std::clamp(step + share * state.previous_move[i], least, most);
       state.previous_move[i] = move;
-      weights[i] = std::max(weight_of_cube(cube + move), kLeastShare * weight_of_volume(report_.demands[i]));
+      weights[i] = std::max(weight_of_cube(cube + move), kLeastShare * weight_of_volume(part));
     }
     for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
   }
@@ -206,25 +220,48 @@ class Fit {
   void move_together(std::span<const CellMeasure> cells) {
     FitState& state = report_.state;
     double squares = 0, ratio = 1;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (!is_fitted(i)) continue;
-      const double error = cells[i].volume - report_.demands[i];
-      squares += error * error / report_.demands[i];
-      ratio = std::min(ratio, cells[i].volume / report_.demands[i]);
+    std::vector<std::uint32_t> offenders;
+    for (std::uint32_t k = 0; k < targets_.size(); ++k) {
+      if (targets_.sites(k).empty() || !(targets_.aim(k) > 0)) continue;
+      const double error = targets_.total(k) - targets_.aim(k), part = targets_.total(k) / targets_.aim(k);
+      squares += error * error / targets_.aim(k);
+      ratio = std::min(ratio, part);
+      if (part < state.least_ratio) offenders.push_back(k);
     }
-    const double residual = std::sqrt(squares);
-    if (state.residual >= 0 && state.share > kLeastStep &&
-        (ratio < state.least_ratio || residual > (1 - 0.1 * state.share) * state.residual)) {
-      state.share *= 0.5;
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (is_fitted(i)) follow(i, cube_of_radius(sites_[i].weight) - state.previous_move[i]);
+    const double residual = std::sqrt(squares), share = std::abs(state.share);
+    if (state.residual >= 0 && share > kLeastStep) {
+      const bool is_repaired = state.share < 0;
+      const bool falls = residual <= (is_repaired ? kRepairedFall : 1 - 0.1 * share) * state.residual;
+      const double most_repairs = std::max(1.0, kFewOffenders * static_cast<double>(targets_.size()));
+      // A full step that does all much good but a few: these are helped, and then it is judged again, more strictly.
+      if (!offenders.empty() && !is_repaired && share == options_.damping && residual <= kFallWorthRepair * state.residual &&
+          static_cast<double>(offenders.size()) <= most_repairs) {
+        return repair_offenders(offenders);
       }
-      return;
+      if (!falls || !offenders.empty()) return take_back(0.5 * share);
     }
     // A round of repair first; what is empty even then must not hold up the others.
-    if (ratio <= 0 && state.share > 0) return repair(cells);
+    if (ratio <= 0 && state.share != 0) return repair(cells);
     if (state.residual < 0) state.least_ratio = 0.5 * ratio;
     step_together(cells, residual);
+  }
+
+  void take_back(double share) {
+    report_.state.share = share;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      if (is_fitted(i)) follow(i, cube_of_radius(sites_[i].weight) - report_.state.previous_move[i]);
+    }
+  }
+
+  void repair_offenders(std::span<const std::uint32_t> offenders) {
+    report_.state.share = -report_.state.share;
+    for (const std::uint32_t k : offenders) {
+      for (const std::uint32_t i : targets_.sites(k)) {
+        const double before = cube_of_radius(sites_[i].weight);
+        sites_[i].weight = repaired_weight(i);
+        report_.state.previous_move[i] += cube_of_radius(sites_[i].weight) - before;
+      }
+    }
   }
 
   void repair(std::span<const CellMeasure> cells) {
@@ -239,42 +276,66 @@ class Fit {
 
   void step_together(std::span<const CellMeasure> cells, double residual) {
     FitState& state = report_.state;
-    std::vector<double> wanted(cells.size(), 0);
+    ++report_.iterations;
+    std::vector<double> wanted(targets_.size(), 0);
     std::vector<std::uint8_t> fitted(cells.size());
+    std::vector<std::uint32_t> unknown(cells.size(), FitTargets::kNone);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      fitted[i] = is_fitted(i);
-      if (fitted[i]) wanted[i] = report_.demands[i] - cells[i].volume;
+      fitted[i] = moves(i);
+      if (fitted[i]) unknown[i] = targets_.owner(i);
+    }
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+      if (!targets_.sites(k).empty() && targets_.is_active(k)) wanted[k] = targets_.aim(k) - targets_.total(k);
     }
     const std::vector<double> change =
-        ResponseSystem(sites_, cells, fitted).solve(wanted, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+        ResponseSystem(sites_, cells, fitted).solve(wanted, unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
     state.residual = residual;
     state.share = options_.damping;
     state.direction.assign(cells.size(), 0);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (fitted[i] && cells[i].volume > 0) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change[i];
+      const bool counts = fitted[i] && cells[i].volume > 0 && !is_idle(cells, i, std::abs(change[unknown[i]]));
+      if (counts) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change[unknown[i]];
       if (fitted[i]) follow(i, cube_of_radius(sites_[i].weight));
     }
+  }
+
+  // Would this change of weight [m²] move no volume by what anybody counts?
+  bool is_idle(std::span<const CellMeasure> cells, std::size_t i, double change) const {
+    const double enough = kIdleShare * options_.tolerance;
+    if (change * cells[i].volume_by_own_weight > enough * targets_.part(i)) return false;
+    for (const FacetArea& facet : cells[i].facets) {
+      if (facet.kind != FacetArea::Kind::site || !is_fitted(facet.index)) continue;
+      const double moved = change * facet.area / (2 * distance(sites_[i].position, sites_[facet.index].position));
+      if (moved > enough * targets_.part(facet.index)) return false;
+    }
+    return true;
   }
 
   // Goes the current share of the step from a place. The bounds bend the way, but less and less as the share shrinks.
   void follow(std::size_t i, double from) {
     FitState& state = report_.state;
+    state.previous_move[i] = 0;
+    if (state.direction[i] == 0) {
+      if (from != cube_of_radius(sites_[i].weight)) sites_[i].weight = weight_of_cube(from);
+      return;
+    }
     const double cube = std::max(from + state.share * state.direction[i], kLeastOfCube * from);
-    sites_[i].weight = std::max(weight_of_cube(cube), kLeastShare * weight_of_volume(report_.demands[i]));
+    sites_[i].weight = std::max(weight_of_cube(cube), kLeastShare * weight_of_volume(targets_.part(i)));
     state.previous_move[i] = cube_of_radius(sites_[i].weight) - from;
   }
 
   // Moves of the last call are comparable only while the problem is the same.
-  void recognise(std::span<const PowerSite> sites, std::span<const double> demands) {
+  void recognise(std::span<const PowerSite> sites) {
     Hash hash;
     for (const Domain::Piece& piece : domain_.pieces) {
       for (const Point3& v : piece.shape.vertices) hash.add(v);
     }
     for (std::size_t i = 0; i < sites.size(); ++i) {
+      const std::uint32_t k = targets_.owner(i);
       hash.add(sites[i].position);
-      hash.add(demands[i]);
-      hash.add(std::uint64_t{free_[i]});
-      if (!free_[i]) hash.add(sites[i].weight);
+      hash.add(std::uint64_t{k});
+      hash.add(k != FitTargets::kNone ? targets_.least(k) : sites[i].weight);
+      if (k != FitTargets::kNone) hash.add(targets_.most(k));
     }
     if (report_.state.problem != hash.value()) report_.state.residual = -1;
     report_.state.problem = hash.value();
@@ -283,18 +344,26 @@ class Fit {
   // The constant gain of 2007.
   void move_by_gain(std::span<const CellMeasure> cells) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (!is_fitted(i)) continue;
-      const double weight = sites_[i].weight + options_.gain * (report_.demands[i] - cells[i].volume);
-      sites_[i].weight = std::max(weight, kLeastShare * weight_of_volume(report_.demands[i]));
+      if (!moves(i)) continue;
+      const double weight = sites_[i].weight + options_.gain * missing(cells, i);
+      sites_[i].weight = std::max(weight, kLeastShare * weight_of_volume(targets_.part(i)));
     }
   }
 
   const Domain& domain_;
   FitOptions options_;
   std::vector<PowerSite> sites_;
-  std::vector<std::uint8_t> free_;
+  FitTargets targets_;
   FitReport report_;
 };
+
+Result<void> check(const FitOptions& options) {
+  if (!(options.gain >= 0) || !std::isfinite(options.gain) || !(options.damping > 0 && options.damping <= 1) ||
+      !(options.tolerance >= 0)) {
+    return Error{ErrorCode::out_of_range, "", "gain and tolerance have to be zero or more, damping between 0 and 1"};
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -308,11 +377,15 @@ Result<FitReport> adapt_weights(const Domain& domain, std::span<const PowerSite>
       return Error{ErrorCode::not_finite, "", "the demand of site " + std::to_string(i) + " is not a number"};
     if (demands[i] < 0) return Error{ErrorCode::out_of_range, "", "the demand of site " + std::to_string(i) + " is negative"};
   }
-  if (!(options.gain >= 0) || !std::isfinite(options.gain) || !(options.damping > 0 && options.damping <= 1) ||
-      !(options.tolerance >= 0)) {
-    return Error{ErrorCode::out_of_range, "", "gain and tolerance have to be zero or more, damping between 0 and 1"};
-  }
-  return Fit(domain, sites, demands, locked, state, options).run();
+  if (auto checked = check(options); !checked) return checked.error();
+  return Fit(domain, sites, FitTargets(demands, locked), state, options).run();
+}
+
+Result<FitReport> adapt_weights(const Domain& domain, const FitProblem& problem, const FitState& state,
+                                const FitOptions& options) {
+  if (auto checked = check_demands(problem); !checked) return checked.error();
+  if (auto checked = check(options); !checked) return checked.error();
+  return Fit(domain, problem.sites, FitTargets(problem), state, options).run();
 }
 
 }  // namespace bl

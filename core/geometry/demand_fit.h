@@ -1,4 +1,4 @@
-// Weights that meet demanded volumes: the feedback of 2007, made gain-free and robust.
+// Weights that meet demanded volumes, step by step: the feedback of 2007, made gain-free and robust, and a damped Newton.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/result.h"
+#include "core/geometry/fit_problem.h"
 #include "core/geometry/power_cells.h"
 
 namespace bl {
@@ -26,6 +27,7 @@ struct FitOptions {
   double tolerance = 0.01;  ///< stop when no site is farther from its (fitting) demand than this share of it
   double damping = 1;       ///< share of the step that is taken with gain 0, in (0, 1]
   ThreadPool* pool = nullptr;
+  PowerDiagram* diagram = nullptr;  ///< kept between calls it saves cells that cannot have changed; it changes no bit
 };
 
 /// What one call starts from besides weights. Plain data to be saved with the scene, so that a tick is a pure function of it.
@@ -35,25 +37,27 @@ struct FitState {
   double momentum = 1;                ///< feedback: counter of the acceleration (Nesterov's t); 1: starting afresh
   std::uint64_t problem = 0;          ///< hash of domain, positions, demands and locks that the fields below belong to
   double residual = -1;    ///< newton: sqrt(sum of (V - D)²/D) before the last move [m^1.5]; negative: no move to be judged
-  double share = 1;        ///< newton: share of the full step that the last move was; 0: emptied cells were repaired
+  double share = 1;        ///< newton: share of the full step that the last move was; negative: after it, a few cells that
+                           ///< it had nearly emptied were repaired; 0: emptied cells were repaired
   double least_ratio = 0;  ///< newton: smallest V/D that a step may lead to
   bool operator==(const FitState&) const = default;
 };
 
 /// A demand that cannot be met, and what it gets instead.
 struct DemandLoss {
-  std::uint32_t site = 0;
+  std::uint32_t site = 0;          ///< index of the demand: of the site, where each site has its own
   double demand = 0, granted = 0;  ///< [m³]
 };
 
 struct FitReport {
   std::vector<double> weights;     ///< [m²], to be used next
   FitState state;                  ///< to be handed to the next call
-  std::vector<double> demands;     ///< [m³] that were aimed at: as given, or scaled where infeasible
-  std::vector<double> volumes;     ///< [m³] at the last evaluation, which is of `weights` where `is_met`
-  double error = 0;                ///< largest |volume - demand| / demand of the sites that are free, at the last evaluation
-  std::uint32_t worst_site = 0;    ///< who has it
+  std::vector<double> demands;     ///< [m³] per demand, what was aimed at: as given, or scaled where infeasible
+  std::vector<double> volumes;     ///< [m³] per site at the last evaluation, which is of `weights` where `is_met`
+  double error = 0;                ///< largest |volume - demand| / demand of those that are free, at the last evaluation
+  std::uint32_t worst_site = 0;    ///< which demand has it
   int steps = 0;                   ///< evaluations made
+  int iterations = 0;              ///< steps begun: evaluations less those that judged a repair or a step taken back
   bool is_met = false;             ///< error <= tolerance: `weights` are those that were evaluated
   std::string infeasible;          ///< a sentence where the demands exceed the domain; empty otherwise
   std::vector<DemandLoss> losses;  ///< per site that gets less than it asked for
@@ -61,13 +65,17 @@ struct FitReport {
 
 /// Equal weights [m²] from which no site inside the domain is empty (the diagram is then an ordinary Voronoi diagram):
 /// a common radius from the mean demand, enlarged with the fill f by -ln(1-f)/f.
-std::vector<double> initial_weights(const Domain& domain, std::span<const PowerSite> sites,
-                                    std::span<const double> demands);
+std::vector<double> initial_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands);
 
 /// Takes up to `options.steps` steps from the weights of `sites` towards volume = demand [m³] for each site that is not
 /// locked (`locked` empty: all free). Weights of locked sites stay. Pure: the same arguments give the same bits.
 /// Demands whose sum exceeds what the domain holds are all scaled by one factor; the report names who loses how much.
 Result<FitReport> adapt_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
                                 std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options);
+
+/// The same for demands of groups of sites and between two bounds. The sum of a group meets its demand, all of its weights
+/// moving alike; a demand that lies between its bounds leaves its weights as they are. Demands are volumes here.
+Result<FitReport> adapt_weights(const Domain& domain, const FitProblem& problem, const FitState& state,
+                                const FitOptions& options);
 
 }  // namespace bl

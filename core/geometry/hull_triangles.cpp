@@ -2,6 +2,7 @@
 #include "core/geometry/hull_triangles.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
@@ -42,16 +43,16 @@ std::vector<std::array<std::uint32_t, 3>> tetrahedron(const std::vector<CgalPoin
 
 std::vector<std::array<std::uint32_t, 3>> triangles_of(const std::vector<CgalPoint>& points) {
   if (points.size() == 4) return tetrahedron(points);
-  std::vector<CgalPoint> corners;
-  std::vector<std::array<std::size_t, 3>> faces;
-  CGAL::convex_hull_3(points.begin(), points.end(), corners, faces);
-  std::vector<std::uint32_t> index;
-  for (const CgalPoint& corner : corners) {
-    index.push_back(static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), corner, is_less) - points.begin()));
-  }
+  // Into a mesh, not into lists: for lists the library takes planes that are constructed inexactly, and leaves out points.
+  CGAL::Surface_mesh<CgalPoint> hull;
+  CGAL::convex_hull_3(points.begin(), points.end(), hull);
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const auto& face : faces) {
-    std::array<std::uint32_t, 3> t{index[face[0]], index[face[1]], index[face[2]]};
+  for (const auto face : hull.faces()) {
+    std::array<std::uint32_t, 3> t{};
+    std::size_t i = 0;
+    for (const auto corner : hull.vertices_around_face(hull.halfedge(face)))
+      t[i++] = static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), hull.point(corner), is_less) -
+                                          points.begin());
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     triangles.push_back(t);
   }

@@ -54,8 +54,7 @@ Spread spread_of(const Domain& domain, std::span<const PowerSite> sites) {
 
 }  // namespace
 
-std::vector<double> initial_weights(const Domain& domain, std::span<const PowerSite> sites,
-                                    std::span<const double> demands) {
+std::vector<double> initial_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands) {
   double sum = 0;
   for (const double demand : demands) sum += std::max(0.0, demand);
   if (demands.empty() || sites.empty() || !(sum > 0) || !(domain.volume > 0)) return std::vector<double>(sites.size(), 0.0);

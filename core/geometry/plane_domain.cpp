@@ -109,7 +109,8 @@ Result<ConvexDomain> from_planes(std::span<const Plane> input) {
       }
     }
     clipper.finish_as_cut(shape);
-    if (std::any_of(shape.faces.begin(), shape.faces.end(), [](const PolyhedronFace& face) { return face.kind == FaceKind::frame; })) {
+    if (std::any_of(shape.faces.begin(), shape.faces.end(),
+                    [](const PolyhedronFace& face) { return face.kind == FaceKind::frame; })) {
       return Error{ErrorCode::geometry, "", "the boundary planes do not close: the space reaches farther than 1e8 m"};
     }
     const double box = distance(low, high);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <numeric>
 #include <string>
 
 #include "core/geometry/cell_workshop.h"
@@ -51,7 +52,8 @@ struct PowerDiagram::Workshop {
 
   bool asks_the_same(const CellOptions& options) const {
     return last.storey_height == options.storey_height && last.with_shape == options.with_shape &&
-           last.with_centroid == options.with_centroid && last.with_outlines == options.with_outlines && last.tessellation_depth == options.tessellation_depth &&
+           last.with_centroid == options.with_centroid && last.with_outlines == options.with_outlines &&
+           last.tessellation_depth == options.tessellation_depth &&
            std::equal(storey_heights.begin(), storey_heights.end(), options.storey_heights.begin(), options.storey_heights.end());
   }
 
@@ -87,11 +89,9 @@ struct PowerDiagram::Workshop {
     if (auto set = same_places ? workshop.set_weights(sites) : workshop.set_sites(sites); !set) return set.error();
     cells.resize(sites.size());
     borders.resize(sites.size());
-    made.assign(workshop.order().begin(), workshop.order().end());
-    for (std::uint32_t i = 0; i < sites.size(); ++i) {
-      if (workshop.twins()[i] != 0xffffffffu) made.push_back(i);
-    }
-    workshop.make(made, options, cells, borders.data());
+    made.resize(sites.size());
+    std::iota(made.begin(), made.end(), 0u);
+    workshop.make_all(options, cells, borders.data());
     return {};
   }
 

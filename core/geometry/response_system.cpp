@@ -1,6 +1,7 @@
 // Sparse symmetric system, one row per site.
 #include "core/geometry/response_system.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bl {
@@ -36,20 +37,36 @@ ResponseSystem::ResponseSystem(std::span<const PowerSite> sites, std::span<const
   }
 }
 
-void ResponseSystem::multiply(const std::vector<double>& x, std::vector<double>& result) const {
+void ResponseSystem::multiply(const std::vector<double>& x, std::vector<double>& result) {
+  std::fill(result.begin(), result.end(), 0);
   for (std::size_t i = 0; i < diagonal_.size(); ++i) {
-    double sum = diagonal_[i] * x[i];
-    for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) sum += value_[k] * x[column_[k]];
-    result[i] = sum;
+    if (!(diagonal_[i] > 0)) continue;
+    double sum = diagonal_[i] * x[unknown_of_[i]];
+    for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) sum += value_[k] * x[unknown_of_[column_[k]]];
+    result[unknown_of_[i]] += sum;
   }
 }
 
-std::vector<double> ResponseSystem::solve(std::span<const double> wanted, double tolerance) const {
-  const std::size_t count = diagonal_.size();
+std::vector<double> ResponseSystem::solve(std::span<const double> wanted, std::span<const std::uint32_t> unknown_of,
+                                          double tolerance) {
+  unknown_of_.assign(unknown_of.begin(), unknown_of.end());
+  const std::size_t count = wanted.size();
+  // The diagonal of the summed system; bonds within one unknown count into it.
+  std::vector<double> scale(count, 0);
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) {
+    if (!(diagonal_[i] > 0)) continue;
+    scale[unknown_of_[i]] += diagonal_[i];
+    for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
+      if (unknown_of_[column_[k]] == unknown_of_[i]) scale[unknown_of_[i]] += value_[k];
+    }
+  }
   std::vector<double> x(count, 0), residual(count, 0), scaled(count), direction, image(count);
-  for (std::size_t i = 0; i < count; ++i) residual[i] = diagonal_[i] > 0 ? wanted[i] : 0;
+  for (std::size_t u = 0; u < count; ++u) {
+    residual[u] = scale[u] > 0 ? wanted[u] : 0;
+    scale[u] = scale[u] > 0 ? 1 / scale[u] : 0;
+  }
   const auto precondition = [&] {
-    for (std::size_t i = 0; i < count; ++i) scaled[i] = diagonal_[i] > 0 ? residual[i] / diagonal_[i] : 0;
+    for (std::size_t u = 0; u < count; ++u) scaled[u] = residual[u] * scale[u];
   };
   precondition();
   direction = scaled;
@@ -60,13 +77,13 @@ std::vector<double> ResponseSystem::solve(std::span<const double> wanted, double
     const double curvature = product(direction, image);
     if (!(curvature > 0)) break;
     const double length = rest / curvature;
-    for (std::size_t k = 0; k < count; ++k) {
-      x[k] += length * direction[k];
-      residual[k] -= length * image[k];
+    for (std::size_t u = 0; u < count; ++u) {
+      x[u] += length * direction[u];
+      residual[u] -= length * image[u];
     }
     precondition();
     const double next = product(residual, scaled);
-    for (std::size_t k = 0; k < count; ++k) direction[k] = scaled[k] + (next / rest) * direction[k];
+    for (std::size_t u = 0; u < count; ++u) direction[u] = scaled[u] + (next / rest) * direction[u];
     rest = next;
   }
   return x;

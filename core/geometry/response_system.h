@@ -16,17 +16,20 @@ class ResponseSystem {
   /// `is_free` says per site whether its weight is an unknown; sites without volume take no part.
   ResponseSystem(std::span<const PowerSite> sites, std::span<const CellMeasure> cells, std::span<const std::uint8_t> is_free);
 
-  /// Changes of weight [m²] for wanted changes of volume [m³]: conjugate gradients, preconditioned by the diagonal, until the
-  /// scaled residual has shrunk by `tolerance`. Sequential, so the result depends on the arguments alone.
-  std::vector<double> solve(std::span<const double> wanted, double tolerance) const;
+  /// Changes of weight [m²] per unknown for wanted changes of volume [m³]. `unknown_of` gives, per site, the unknown that its
+  /// weight moves with: several sites may share one, and the sum of their volumes changes as wanted. Conjugate gradients,
+  /// preconditioned by the diagonal, until the scaled residual has shrunk by `tolerance`. Sequential, so the result depends on
+  /// the arguments alone.
+  std::vector<double> solve(std::span<const double> wanted, std::span<const std::uint32_t> unknown_of, double tolerance);
 
  private:
-  void multiply(const std::vector<double>& x, std::vector<double>& result) const;
+  void multiply(const std::vector<double>& x, std::vector<double>& result);
 
   std::vector<double> diagonal_;      // 0: no unknown
   std::vector<std::uint32_t> first_;  // row i: entries first_[i] .. first_[i + 1)
   std::vector<std::uint32_t> column_;
   std::vector<double> value_;
+  std::vector<std::uint32_t> unknown_of_;
 };
 
 }  // namespace bl

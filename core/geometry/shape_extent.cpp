@@ -33,7 +33,8 @@ bool is_in_face(const Polyhedron& cell, const PolyhedronFace& face, const Point3
 double highest_point(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double up) {
   const double radius = std::sqrt(squared_radius), tolerance = kTouchShare * radius;
   bool pole_inside = true;
-  for (const PolyhedronFace& face : cell.faces) pole_inside = pole_inside && up * face.normal.z * radius <= face.offset + tolerance;
+  for (const PolyhedronFace& face : cell.faces)
+    pole_inside = pole_inside && up * face.normal.z * radius <= face.offset + tolerance;
   if (pole_inside) return radius;
   double best = up * shape.point_inside.z;
   for (const Point3& v : cell.vertices) {

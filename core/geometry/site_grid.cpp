@@ -9,21 +9,25 @@ namespace bl {
 namespace {
 
 // Measured: fewer make more blocks to look at, more make more sites to look at.
-constexpr double kSitesPerBlock = 4;
+constexpr double kSitesPerBlock = 4.5;
 // More than so many times the even number of pairs that share a block, and a triangulation is faster.
 constexpr double kUnevenness = 40;
 
 }  // namespace
 
-const std::vector<SiteGrid::Offset>& SiteGrid::offsets() {
-  static const std::vector<Offset> table = [] {
+const std::vector<SiteGrid::Offset>& SiteGrid::offsets(unsigned eighth) {
+  const auto make = [](unsigned upper) {
     std::vector<Offset> made;
+    // Along one axis: from the lower or upper half of the home block to a block so many steps away.
+    const auto gap = [](bool is_upper, int steps) {
+      if (steps == 0) return 0.0;
+      return steps > 0 ? steps - 1 + (is_upper ? 0.0 : 0.5) : -steps - 1 + (is_upper ? 0.5 : 0.0);
+    };
     for (int z = -kFar; z <= kFar; ++z) {
       for (int y = -kFar; y <= kFar; ++y) {
         for (int x = -kFar; x <= kFar; ++x) {
-          const auto gap = [](int steps) { return std::max(0, std::abs(steps) - 1); };
-          const double squared = gap(x) * gap(x) + gap(y) * gap(y) + gap(z) * gap(z);
-          made.push_back({{x, y, z}, squared});
+          const double dx = gap((upper & 1u) != 0, x), dy = gap((upper & 2u) != 0, y), dz = gap((upper & 4u) != 0, z);
+          made.push_back({{x, y, z}, dx * dx + dy * dy + dz * dz});
         }
       }
     }
@@ -34,8 +38,9 @@ const std::vector<SiteGrid::Offset>& SiteGrid::offsets() {
       return centre(a) != centre(b) ? centre(a) < centre(b) : a.at < b.at;
     });
     return made;
-  }();
-  return table;
+  };
+  static const std::array<std::vector<Offset>, 8> tables{make(0), make(1), make(2), make(3), make(4), make(5), make(6), make(7)};
+  return tables[eighth];
 }
 
 std::array<int, 3> SiteGrid::block_of(const Point3& p) const {
@@ -63,7 +68,8 @@ void SiteGrid::build(std::span<const PowerSite> sites, std::span<const std::uint
   }
   origin_ = low;
   const Vector3 extent = high - low;
-  const double longest = std::max({extent.x, extent.y, extent.z}), wanted = std::max(1.0, static_cast<double>(participants.size()) / kSitesPerBlock);
+  const double longest = std::max({extent.x, extent.y, extent.z}),
+               wanted = std::max(1.0, static_cast<double>(participants.size()) / kSitesPerBlock);
   const auto steps = [&](double length) { return std::max(1.0, std::ceil(length / side_ * (1 + 1e-12))); };
   // The side that makes about as many blocks as wanted, whatever the shape of the box.
   side_ = longest > 0 ? longest : 1;
@@ -127,10 +133,29 @@ void SiteGrid::change(std::uint32_t site, const PowerSite& now) {
     return;
   }
   entry = {now.position, now.weight, site};
+  find_block_weight(block);
+}
+
+void SiteGrid::find_block_weight(std::size_t block) {
   block_weight_[block] = -std::numeric_limits<double>::infinity();
   for (std::uint32_t k = first_[block]; k < first_[block + 1]; ++k) {
-    block_weight_[block] = std::max(block_weight_[block], entries_[k].weight);
+    if (entries_[k].site != kNone) block_weight_[block] = std::max(block_weight_[block], entries_[k].weight);
   }
+}
+
+void SiteGrid::insert(std::uint32_t site, const PowerSite& now) {
+  if (slot_of_.size() <= site) slot_of_.resize(std::size_t{site} + 1, kNone);
+  slot_of_[site] = kNone;
+  largest_weight_ = std::max(largest_weight_, now.weight);
+  strays_.push_back({now.position, now.weight, site});
+}
+
+void SiteGrid::erase(std::uint32_t site) {
+  std::erase_if(strays_, [&](const Entry& stray) { return stray.site == site; });
+  const std::uint32_t slot = slot_of_[site];
+  if (slot == kNone || entries_[slot].site != site) return;
+  entries_[slot].site = kNone;
+  find_block_weight(index_of(block_of(entries_[slot].position)));
 }
 
 bool SiteGrid::has_site_within(const Point3& p, double limit, std::uint32_t self) const {

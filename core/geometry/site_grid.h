@@ -27,6 +27,10 @@ class SiteGrid {
   /// A participant has another weight, or another position, now. Cheap; after many moves to other blocks build() is due.
   void change(std::uint32_t site, const PowerSite& now);
 
+  /// A new participant, whose index may be beyond all others; and one that takes part no longer.
+  void insert(std::uint32_t site, const PowerSite& now);
+  void erase(std::uint32_t site);
+
   /// Are the sites spread so unevenly that a triangulation finds neighbours faster?
   bool is_uneven() const { return is_uneven_; }
   /// Have so many sites left their blocks that the grid should be built anew?
@@ -37,25 +41,37 @@ class SiteGrid {
   /// The participants have other weights now, but their old positions.
   void refresh_weights(std::span<const PowerSite> sites);
 
+  /// Place of a participant in that order.
+  std::uint32_t place_of(std::uint32_t site) const { return slot_of_[site]; }
+  /// A stretch of that order.
+  struct Range {
+    std::uint32_t begin = 0, end = 0;
+  };
+
   /// Calls consider(entry) for every other participant whose bisector with a site of this position and weight may lie nearer
-  /// than reach() [m], near blocks first. The bisector's distance from the position is (d² + weight - weight_j) / (2 d).
+  /// than reach() [m], near blocks first, and whose place is not in `skip`. The bisector's distance from the position is (d² +
+  /// weight - weight_j) / (2 d).
   template <class Reach, class Consider>
-  void search(const Point3& position, double weight, std::uint32_t self, Reach&& reach, Consider&& consider) const {
+  void search(const Point3& position, double weight, std::uint32_t self, Range skip, Reach&& reach, Consider&& consider) const {
     const auto home = block_of(position);
     for (const Entry& entry : strays_) {
       if (entry.site != self) consider(entry);
     }
     const double lighter = weight - largest_weight_;
-    for (const Offset& offset : offsets()) {
-      if (is_beyond(offset.squared_gap * side_ * side_, lighter, reach())) return;
+    const Vector3 middle{origin_.x + (home[0] + 0.5) * side_, origin_.y + (home[1] + 0.5) * side_,
+                         origin_.z + (home[2] + 0.5) * side_};
+    const unsigned eighth =
+        (position.x > middle.x ? 1u : 0u) + (position.y > middle.y ? 2u : 0u) + (position.z > middle.z ? 4u : 0u);
+    for (const Offset& offset : offsets(eighth)) {
+      if (is_beyond((1 - 1e-9) * offset.squared_gap * side_ * side_, lighter, reach())) return;
       const std::array<int, 3> block{home[0] + offset.at[0], home[1] + offset.at[1], home[2] + offset.at[2]};
       if (static_cast<unsigned>(block[0]) >= static_cast<unsigned>(count_[0]) ||
           static_cast<unsigned>(block[1]) >= static_cast<unsigned>(count_[1]) ||
           static_cast<unsigned>(block[2]) >= static_cast<unsigned>(count_[2]))
         continue;
-      visit_block(position, weight, self, block, reach, consider);
+      visit_block(position, weight, self, skip, block, reach, consider);
     }
-    search_far(position, weight, self, home, reach, consider);
+    search_far(position, weight, self, skip, home, reach, consider);
   }
 
   /// Is there another participant within this distance [m]?
@@ -67,11 +83,12 @@ class SiteGrid {
  private:
   struct Offset {
     std::array<int, 3> at;
-    double squared_gap;  ///< least squared distance between the two blocks, in sides
+    double squared_gap;  ///< least squared distance between an eighth of the home block and the block, in sides²
   };
   static constexpr int kFar = 5;
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  static const std::vector<Offset>& offsets();
+  /// Blocks around one of the eight corners of the home block, near ones first.
+  static const std::vector<Offset>& offsets(unsigned eighth);
 
   // Can no bisector of a site at least sqrt(squared_gap) away come nearer than reach? `lighter` is w - max w_j.
   static bool is_beyond(double squared_gap, double lighter, double reach) {
@@ -81,29 +98,31 @@ class SiteGrid {
   }
 
   std::array<int, 3> block_of(const Point3& p) const;
+  void find_block_weight(std::size_t block);
   std::size_t index_of(const std::array<int, 3>& block) const {
     return (static_cast<std::size_t>(block[2]) * count_[1] + block[1]) * count_[0] + block[0];
   }
 
   template <class Reach, class Consider>
-  void visit_block(const Point3& p, double weight, std::uint32_t self, const std::array<int, 3>& block, Reach&& reach,
+  void visit_block(const Point3& p, double weight, std::uint32_t self, Range skip, const std::array<int, 3>& block, Reach&& reach,
                    Consider&& consider) const {
     const std::size_t index = index_of(block);
     const std::uint32_t begin = first_[index], end = first_[index + 1];
-    if (begin == end) return;
+    if (begin == end || (begin >= skip.begin && end <= skip.end)) return;
     const Vector3 low{origin_.x + block[0] * side_, origin_.y + block[1] * side_, origin_.z + block[2] * side_};
     const double dx = std::max({0.0, low.x - p.x, p.x - low.x - side_}), dy = std::max({0.0, low.y - p.y, p.y - low.y - side_}),
                  dz = std::max({0.0, low.z - p.z, p.z - low.z - side_});
     // A hair less than the gap: a site on the border of its block may lie beyond it by rounding.
     if (is_beyond((1 - 1e-9) * (dx * dx + dy * dy + dz * dz), weight - block_weight_[index], reach())) return;
     for (std::uint32_t k = begin; k < end; ++k) {
+      if (k >= skip.begin && k < skip.end) continue;
       if (entries_[k].site != self && entries_[k].site != kNone) consider(entries_[k]);
     }
   }
 
   // All blocks that the table of offsets does not hold.
   template <class Reach, class Consider>
-  void search_far(const Point3& p, double weight, std::uint32_t self, const std::array<int, 3>& home, Reach&& reach,
+  void search_far(const Point3& p, double weight, std::uint32_t self, Range skip, const std::array<int, 3>& home, Reach&& reach,
                   Consider&& consider) const {
     std::array<int, 3> block{};
     for (block[2] = 0; block[2] < count_[2]; ++block[2]) {
@@ -111,7 +130,7 @@ class SiteGrid {
         const bool near_row = std::abs(block[2] - home[2]) <= kFar && std::abs(block[1] - home[1]) <= kFar;
         for (block[0] = 0; block[0] < count_[0]; ++block[0]) {
           if (near_row && std::abs(block[0] - home[0]) <= kFar) continue;
-          visit_block(p, weight, self, block, reach, consider);
+          visit_block(p, weight, self, skip, block, reach, consider);
         }
       }
     }
@@ -122,11 +141,11 @@ class SiteGrid {
   std::array<int, 3> count_{1, 1, 1};
   bool is_uneven_ = false;
   double largest_weight_ = 0;
-  std::vector<std::uint32_t> first_;   // block b: entries first_[b] .. first_[b + 1)
-  std::vector<double> block_weight_;   // largest weight in a block
-  std::vector<Entry> entries_;         // site kNone: it has moved to another block
+  std::vector<std::uint32_t> first_;  // block b: entries first_[b] .. first_[b + 1)
+  std::vector<double> block_weight_;  // largest weight in a block
+  std::vector<Entry> entries_;        // site kNone: it has moved to another block
   std::vector<std::uint32_t> order_, slot_of_;
-  std::vector<Entry> strays_;          // sites that have left their blocks
+  std::vector<Entry> strays_;  // sites that have left their blocks
 };
 
 }  // namespace bl

@@ -10,27 +10,15 @@
 
 #include "core/geometry/demand_fit.h"
 #include "core/geometry/power_cells.h"
+#include "tests/fuzz/nasty_sets.h"
 
 namespace {
 
 using bl::CellMeasure;
 using bl::ConvexDomain;
 using bl::Mesh;
-using bl::Point3;
 using bl::PowerSite;
-
-// Bytes one after the other; zeros once they are used up.
-class Bytes {
- public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-  std::uint8_t next() { return at_ < size_ ? data_[at_++] : std::uint8_t{0}; }
-  bool is_used_up() const { return at_ >= size_; }
-  double share() { return (next() + 256.0 * next()) / 65535.0; }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t size_, at_ = 0;
-};
+using bl::fuzz::Bytes;
 
 void demand(bool holds, const char* what) {
   if (holds) return;
@@ -49,47 +37,6 @@ bool is_closed(const Mesh& mesh) {
   std::sort(edges.begin(), edges.end());
   std::sort(twins.begin(), twins.end());
   return edges == twins && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
-}
-
-ConvexDomain make_domain(Bytes& bytes) {
-  const unsigned kind = bytes.next() % 4u;
-  const double shift = kind == 1 ? 10000 : 0;
-  const std::vector<Point3> square{{shift, 0, 0}, {shift + 10, 0, 0}, {shift + 10, 10, 0}, {shift, 10, 0}};
-  if (kind < 2) return bl::extrude(square, 0, 10).value();
-  if (kind == 2) return bl::extrude(square, 0, 0.1).value();
-  std::vector<Point3> points;
-  for (int i = 0; i < 9; ++i) {
-    const double x = 10 * bytes.share(), y = 10 * bytes.share();
-    points.push_back({x, y, 10 * bytes.share()});
-  }
-  const auto hull = bl::convex_hull(points);
-  return hull ? *hull : bl::extrude(square, 0, 10).value();
-}
-
-double make_weight(Bytes& bytes) {
-  static constexpr double kSpecial[] = {0, 1, 0.25, 3, -1, 1e-12, 1e12, 1e18, -1e18, 1e-300, 100, 25, 0.75, 2, 4, 1e4};
-  const std::uint8_t choice = bytes.next();
-  if (choice < 64) return kSpecial[choice % 16];
-  return choice < 224 ? 9 * bytes.share() : 1e3 * bytes.share() - 100;
-}
-
-std::vector<PowerSite> make_sites(Bytes& bytes, const ConvexDomain& domain) {
-  std::vector<PowerSite> sites;
-  while (!bytes.is_used_up() && sites.size() < 200) {
-    const std::uint8_t how = bytes.next();
-    Point3 p{bytes.share() * 14 - 2, bytes.share() * 14 - 2, bytes.share() * 14 - 2};
-    if (how & 1u) p = {std::round(p.x), std::round(p.y), std::round(p.z)};
-    if (how & 2u) p.z = 5;
-    if ((how & 12u) == 12u) p.y = p.x;
-    p.x += domain.minimum.x;
-    if ((how & 48u) == 48u && !sites.empty()) {
-      p = sites[bytes.next() % sites.size()].position;
-      if (how & 64u) p.x += 1e-4 * bytes.share();
-      if (how & 128u) p.z += 1e-5 * bytes.share();
-    }
-    sites.push_back({p, (how & 192u) == 64u && !sites.empty() ? sites.back().weight : make_weight(bytes)});
-  }
-  return sites;
 }
 
 void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
@@ -116,9 +63,9 @@ void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
-  const ConvexDomain domain = make_domain(bytes);
+  const ConvexDomain domain = bl::fuzz::make_domain(bytes);
   const std::uint8_t mode = bytes.next();
-  const std::vector<PowerSite> sites = make_sites(bytes, domain);
+  const std::vector<PowerSite> sites = bl::fuzz::make_sites(bytes, domain.minimum, 200);
   bl::CellOptions options;
   options.tessellation_depth = mode % 3;
   options.storey_height = 0.7;

@@ -66,6 +66,11 @@ run_fuzzers() {
           cp -- "$scene" "$corpus/$(printf '%s' "${scene#"$root/scenes/"}" | tr / -)"
         done
         ;;
+      case)    # the first byte says what the rest is: a fit as JSON, a fit as a table with a boundary
+        printf '1{"boundary": {"plan": [[0,0],[9,0],[9,9],[0,9]], "holes": [], "bottom": 0, "top": 9}, "sites": [[1,2,3],[4,5,6]], "weights": [1,0], "demands": [{"min": 1, "max": 2}, {"floor_area": 3, "storey_height": 3}], "groups": [[0],[1]], "locked": []}' >"$corpus/fit"
+        printf '0{"cases": [{"boundary": {"planes": [[-1,0,0,0],[0,-1,0,0],[0,0,-1,0],[1,1,1,9]]}, "sites": [[1,2,3]], "weights": [1e1]}]}' >"$corpus/cells"
+        printf '7x,y,z,weight,demand,demand_min,demand_max,group,name\n1,2,3,4,5,,,a,b\n2;3\n' >"$corpus/table"
+        ;;
     esac
     if "$root/build/fuzz/$fuzzer" -max_total_time="$1" -timeout=25 -rss_limit_mb=4096 -print_final_stats=1 \
       -artifact_prefix="$finds/$name-" "$corpus" >"$log" 2>&1 </dev/null; then

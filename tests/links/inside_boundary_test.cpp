@@ -44,6 +44,31 @@ TEST(InsideBoundary, LeavesTheInsideAloneAndWaitsForAShape) {
   EXPECT_FALSE(link.moves(End::to));
 }
 
+TEST(InsideBoundary, GoesToTheNearestOfThePieces) {
+  // Two boxes side by side, the second lower; they share the face at x = 10.
+  Table planes{{"x", "y", "z", "offset", "piece", "side"}, {}};
+  const auto add = [&](double low, double high, double top, double piece) {
+    const double number = 6 * piece;
+    planes.rows.push_back({-1.0, 0.0, 0.0, -low, piece, piece > 0 ? -1.0 : number});
+    planes.rows.push_back({1.0, 0.0, 0.0, high, piece, piece > 0 ? number + 1 : -1.0});
+    planes.rows.push_back({0.0, -1.0, 0.0, 0.0, piece, number + 2});
+    planes.rows.push_back({0.0, 1.0, 0.0, 10.0, piece, number + 3});
+    planes.rows.push_back({0.0, 0.0, -1.0, 0.0, piece, number + 4});
+    planes.rows.push_back({0.0, 0.0, 1.0, top, piece, number + 5});
+  };
+  add(0, 10, 20, 0);
+  add(10, 30, 6, 1);
+  const auto moved = [&](Point3 position) {
+    LinkCase link("inside_boundary");
+    link.set("margin", 1.0).from("boundary.planes", Shared<Table>(planes)).to("node.position", position);
+    EXPECT_EQ(link.run(), "");
+    return link.moves(End::to) ? link.move(End::to) : Vector3{};
+  };
+  expect_near(moved({20, 5, 7}), {0, 0, -2}, 1e-6);
+  expect_near(moved({11, 5, 19}), {-1, 0, 0}, 1e-6);
+  expect_near(moved({10, 5, 3}), {}, 1e-6);  // between the pieces there is no side to keep away from
+}
+
 TEST(InsideBoundary, AMarginWithoutRoomIsAnError) {
   EXPECT_EQ(inside({30, 20, 15}, 15.5).run(), "margin: a margin of 15.5 m leaves no room inside the boundary; make it smaller");
   EXPECT_EQ(inside({30, 20, 10}, 15).run(), "");  // room for the middle plane exactly

@@ -1,7 +1,6 @@
 // `bench`: how long a tick takes, where the time goes, and how that compares with the plain triangulation of the same sites.
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -13,11 +12,13 @@
 #include "core/geometry/power_neighbours.h"
 #include "core/geometry/yardstick.h"
 #include "core/session/session.h"
+#include "ui/cli/bench_tools.h"
 #include "ui/cli/bench_voropp.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/random_scene.h"
 #include "ui/cli/scene_loading.h"
+#include "ui/cli/solver_bench.h"
 #include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
@@ -40,48 +41,6 @@ struct Row {
   double triangulation = 0, cells = 0, volumes = 0;  // seconds of the solver's tick, dealt out (README.md)
   std::optional<double> yardstick, voropp;
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-double median_seconds(int repeat, const std::function<void()>& work) {
-  std::vector<double> seconds;
-  for (int r = 0; r < repeat; ++r) {
-    const double began = now();
-    work();
-    seconds.push_back(now() - began);
-  }
-  return median(std::move(seconds));
-}
-
-// The sites of the last tick as the geometry knows them.
-std::vector<PowerSite> sites_of(const State& state) {
-  std::vector<PowerSite> sites;
-  for (const VolumeRow& volume : volumes_of(state)) sites.push_back({volume.position, volume.weight});
-  return sites;
-}
-
-std::optional<ConvexDomain> domain_of(const State& state) {
-  std::optional<ConvexDomain> found;
-  const auto path = parse_port_path("boundary.planes");
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
-    const auto ref = state.plan->find(n, *path);
-    const auto* table = ref ? std::get_if<Shared<Table>>(&state.value(*ref)) : nullptr;
-    if (table == nullptr) continue;
-    if (found) return std::nullopt;  // several plots: there is no one domain to measure
-    std::vector<Plane> planes;
-    for (std::size_t r = 0; r < (*table)->rows.size(); ++r)
-      planes.push_back(
-          {{(*table)->number(r, "x"), (*table)->number(r, "y"), (*table)->number(r, "z")}, (*table)->number(r, "offset")});
-    auto domain = from_planes(planes);
-    if (!domain) return std::nullopt;
-    found = std::move(*domain);
-  }
-  return found;
-}
 
 // One evaluation of the diagram taken apart: triangulation, cells on top of it, and the rest (floor areas, meshes) on top of
 // that. The solver's own time is dealt out in these shares; it makes several evaluations in a tick, of which one has the rest.
@@ -217,7 +176,10 @@ std::optional<std::vector<BenchCase>> cases_of(const BenchOptions& options) {
 
 }  // namespace
 
-int bench_command(const BenchOptions& options) {
+int bench_command(const BenchOptions& given) {
+  if (given.is_solver) return solver_bench(given);
+  BenchOptions options = given;
+  if (options.repeat == 0) options.repeat = 3;
   const auto cases = cases_of(options);
   if (!cases) return kBadInput;
   catch_interrupts();

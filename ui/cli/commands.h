@@ -58,16 +58,30 @@ struct SchemaOptions {
 int schema_command(const SchemaOptions& options);
 
 struct CellsOptions {
-  std::string input, json;
+  std::string input, json, boundary;
   int threads = 1;
 };
 int cells_command(const CellsOptions& options);
 
+struct FitFileOptions {
+  std::string input, json, boundary;
+  std::string method = "newton";  ///< or "feedback"
+  double tolerance = 1e-6;        ///< largest relative error
+  int threads = 1;
+  int steps = 200;  ///< at most so many evaluations of the diagram
+};
+int fit_command(const FitFileOptions& options);
+
 struct BenchOptions {
   std::vector<std::string> scenes;
   std::vector<int> sites, threads;
-  int repeat = 3, ticks = 20;
+  int repeat = 0;  ///< 0: what suits the rows
+  int ticks = 20;
   std::string json;
+  bool is_solver = false, is_quick = false;  ///< the solver alone; small sizes only
+  std::vector<std::string> rows;             ///< of the solver's rows these only; empty: all
+  int seeds = 0;                             ///< of the solver's cold fits: so many random sets besides
+  std::string chart;                         ///< folder for the solver's charts; empty: none
 };
 int bench_command(const BenchOptions& options);
 

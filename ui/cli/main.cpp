@@ -118,19 +118,65 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
   s.footer("Example:\n  behaviourlinks schema --out scene.schema.json");
 }
 
+constexpr const char* kBoundaryHelp =
+    "Boundary of a file without one: JSON of a boundary, or of a case that has one; tables need it.";
+constexpr const char* kBoundaryFormsHelp =
+    "Boundary: {\"planes\": [[a, b, c, d], ...]}         holds a x + b y + c z <= d\n"
+    "          {\"vertices\": [[x, y, z], ...]}         their convex hull\n"
+    "          {\"plan\": [[x, y], ...], \"holes\": [[[x, y], ...], ...], \"bottom\": z, \"top\": z}\n"
+    "          {\"mesh\": {\"vertices\": [[x, y, z], ...], \"triangles\": [[i, j, k], ...]}}\n";
+
 void declare_cells(CLI::App& app, CellsOptions& o) {
   CLI::App& c = *app.add_subcommand("cells", "Computes the shrink-wrapped power cells of given sites and weights.");
-  c.add_option("input", o.input, "Boundary, sites and weights as JSON, in m and m2.")->type_name("FILE")->required();
+  c.add_option("input", o.input, "Boundary, sites and weights as JSON, or sites and weights as CSV, in m and m2.")
+      ->type_name("FILE")
+      ->required();
   c.add_option("--json", o.json, "Where the cells are written, in m2 and m3.")->type_name("OUT")->required();
+  c.add_option("--boundary", o.boundary, kBoundaryHelp)->type_name("FILE");
   add_threads(c, o.threads);
   c.footer(
-      "Input:  {\"boundary\": {\"planes\": [[a, b, c, d], ...]} or {\"vertices\": [[x, y, z], ...]},\n"
-      "         \"sites\": [[x, y, z], ...], \"weights\": [w, ...]}      a plane holds a x + b y + c z <= d\n"
-      "        or {\"cases\": [...]} with many of these\n"
+      "Input:  {\"boundary\": ..., \"sites\": [[x, y, z], ...], \"weights\": [w, ...]}\n"
+      "        or {\"cases\": [...]} with many of these; or a .csv with the columns x, y, z and weight (or radius)\n" +
+      std::string(kBoundaryFormsHelp) +
       "Output: {\"cells\": [{\"volume\", \"cell_volume\", \"surface_area\", \"spherical_area\",\n"
       "         \"facet_areas\": {\"plane:k\": area, \"site:j\": area}, \"centroid\", \"state\", \"reason\"}, ...]}\n"
-      "        in the order of the sites; with `vertices`, the planes that were found stand beside the cells\n\n"
+      "        in the order of the sites; where no planes were given, those that were found stand beside the cells\n\n"
       "Example:\n  behaviourlinks cells sites.json --json cells.json");
+}
+
+void declare_fit(CLI::App& app, FitFileOptions& o) {
+  CLI::App& c = *app.add_subcommand("fit", "Finds the weights with which sites have the volumes that they are to have.");
+  c.add_option("input", o.input, "Boundary, sites and demands as JSON, or sites and demands as CSV, in m, m2 and m3.")
+      ->type_name("FILE")
+      ->required();
+  c.add_option("--json", o.json, "Where weights, volumes and what became of the demands are written.")
+      ->type_name("OUT")
+      ->required();
+  c.add_option("--method", o.method, "newton: all sites together, few steps; feedback: each by its own error. Default: newton.")
+      ->type_name("METHOD")
+      ->check(CLI::IsMember({"newton", "feedback"}));
+  c.add_option("--tolerance", o.tolerance, "Largest relative error that counts as met. Default: 1e-6.")->type_name("T");
+  c.add_option("--steps", o.steps, "Gives up after so many evaluations of all cells. Default: 200.")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  c.add_option("--boundary", o.boundary, kBoundaryHelp)->type_name("FILE");
+  add_threads(c, o.threads);
+  c.footer(
+      "Input:  {\"boundary\": ..., \"sites\": [[x, y, z], ...], \"demands\": [demand, ...]} and, where wanted,\n"
+      "         \"weights\": [w, ...] to start from (not given, or 0: the solver starts by itself),\n"
+      "         \"groups\": [[i, j, ...], ...] that meet one demand together, \"locked\": [i, ...] that keep their weight;\n"
+      "        or {\"cases\": [...]} with many of these\n"
+      "        or a .csv with the columns x, y, z, demand or demand_min and demand_max, weight or radius, group, name\n"
+      "Demand: 1200 (m3), {\"min\": 900, \"max\": 1200} (either alone will do),\n"
+      "        {\"floor_area\": 400 or {\"min\", \"max\"}, \"storey_height\": 3} (m2 and m); for each site, null for a\n"
+      "        locked one, or with `groups` for each group; sites in no group keep their weight\n" +
+      std::string(kBoundaryFormsHelp) +
+      "Output: {\"weights\", \"volumes\", \"iterations\", \"evaluations\", \"max_relative_error\",\n"
+      "         \"status\": \"met\", \"infeasible\", \"step limit\" or \"cancelled\", \"reasons\": [sentence, ...],\n"
+      "         \"losses\": [{\"demand\", \"sites\", \"wanted\", \"had\"}, ...]}\n\n"
+      "Example:\n  behaviourlinks fit sites.json --json weights.json\n\n"
+      "Exit codes: 0 all demands met; 2 bad input; 3 some are not, with the best that was found written; 130 stopped by Ctrl-C, "
+      "with everything written.");
 }
 
 void declare_bench(CLI::App& app, BenchOptions& o) {
@@ -142,14 +188,30 @@ void declare_bench(CLI::App& app, BenchOptions& o) {
   c.add_option("--threads", o.threads, "Threads; several numbers give several rows. Default: 1.")
       ->type_name("K")
       ->check(CLI::Range(1, kMostThreads));
-  c.add_option("--repeat", o.repeat, "Measures so often and takes the median. Default: 3.")
+  c.add_option("--repeat", o.repeat, "Measures so often and takes the median. Default: 3, of the solver 5.")
       ->type_name("R")
       ->check(CLI::Range(1, 1000));
   c.add_option("--ticks", o.ticks, "Ticks of one measurement. Default: 20.")->type_name("N")->check(CLI::Range(1, 1000000));
   c.add_option("--json", o.json, "Writes the rows as JSON, times in seconds.")->type_name("FILE");
+  auto* solver = c.add_flag("--solver", o.is_solver,
+                            "Measures the solver without ticks: cells, fits, drags, growth, and the feedback on a scene.");
+  c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
+  c.add_option("--rows", o.rows, "Of the solver: these rows only.")
+      ->type_name("ROWS")
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "study"}))
+      ->needs(solver);
+  c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
+      ->type_name("K")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(solver);
+  c.add_option("--chart", o.chart, "Of the solver: writes growth.svg and feedback_newton.svg into a folder.")
+      ->type_name("DIR")
+      ->needs(solver);
   c.footer(
-      "Without scenes and --sites: 100 and 1000 random volumes.\n\nExample:\n  behaviourlinks bench --sites 100 1000 --threads 1 "
-      "2");
+      "Without scenes and --sites: 100 and 1000 random volumes; of the solver the sizes that suit each row, threads 1 and 2, "
+      "and\n"
+      "scenes/studies/sixty_volumes.json for the feedback.\n\nExample:\n  behaviourlinks bench --sites 100 1000 --threads 1 2\n"
+      "  behaviourlinks bench --solver --rows drag --sites 5000");
 }
 
 int run_program(int count, char** arguments) {
@@ -163,6 +225,7 @@ int run_program(int count, char** arguments) {
   DocsOptions docs;
   SchemaOptions schema;
   CellsOptions cells;
+  FitFileOptions fit;
   BenchOptions bench;
   declare_run(app, run);
   declare_new(app, fresh);
@@ -171,6 +234,7 @@ int run_program(int count, char** arguments) {
   declare_replay(app, replay);
   declare_bench(app, bench);
   declare_cells(app, cells);
+  declare_fit(app, fit);
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
   if (count > 1 && arguments[1][0] != '-' && std::find(names.begin(), names.end(), arguments[1]) == names.end()) {
@@ -195,6 +259,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("replay")) return replay_command(replay);
   if (app.got_subcommand("bench")) return bench_command(bench);
   if (app.got_subcommand("cells")) return cells_command(cells);
+  if (app.got_subcommand("fit")) return fit_command(fit);
   std::fputs(app.help().c_str(), stdout);
   return kDone;
 }

@@ -57,15 +57,6 @@ std::optional<PlanBoundary> load_plan(const NewOptions& o) {
     return std::nullopt;
   }
   for (const std::string& note : plan->notes) print_line("note: " + o.boundary + ": " + note);
-  if (!plan->is_convex && !o.use_hull) {
-    const double added = convex_hull_plan(*plan).added_area;
-    print_error(o.boundary,
-                {ErrorCode::geometry, plan->place,
-                 "the plan (" + fixed(plan->area, 1) +
-                     " m²) is not convex, and the solver takes convex plans only; its convex hull would add " + fixed(added, 1) +
-                     " m² (" + fixed(100 * added / plan->area, 1) + " %): take it with --hull, or draw another plan"});
-    return std::nullopt;
-  }
   return std::move(*plan);
 }
 
@@ -101,8 +92,9 @@ void print_figures(const NewOptions& o, const PlanBoundary& plan, const ScenePar
   double demand = 0;
   for (const NewVolume& volume : volumes_of(parts.programme)) demand += volume.demand;
   const double space = plan_area * parts.height, fill = demand / space;
-  const std::string added = plan.is_convex ? "" : ", of which the hull adds " + fixed(plan_area - plan.area, 1) + " m²";
-  print_line("boundary:  " + counted(parts.plan.size(), "corner") + ", " + fixed(plan_area, 1) + " m²" + added + ", " +
+  const std::string added = plan_area > plan.area ? ", of which the hull adds " + fixed(plan_area - plan.area, 1) + " m²" : "";
+  const std::string holes = parts.holes.empty() ? "" : " and " + counted(parts.holes.size(), "hole");
+  print_line("boundary:  " + counted(parts.plan.size(), "corner") + holes + ", " + fixed(plan_area, 1) + " m²" + added + ", " +
              shortest(parts.height) + " m high, " + fixed(space, 1) + " m³");
   print_line("place:     latitude " + fixed(plan.reference.latitude, 6) + "°, longitude " + fixed(plan.reference.longitude, 6) +
              "°, from " + plan.source_crs);
@@ -127,10 +119,12 @@ int new_command(const NewOptions& options) {
   auto programme = load_programme(options);
   if (!is_well || !plan || !programme) return kBadInput;
   const ConvexPlan hull = convex_hull_plan(*plan);
+  const bool takes_hull = options.use_hull && !plan->is_convex;
   SceneParts parts;
   parts.title = options.title.empty() ? file_stem(options.programme) : options.title;
   parts.reference = plan->reference;
-  parts.plan = plan->is_convex ? plan->outer : hull.ring;
+  parts.plan = takes_hull ? hull.ring : plan->outer;
+  if (!takes_hull) parts.holes = plan->holes;
   parts.height = options.height;
   parts.margin = options.margin;
   parts.programme = std::move(*programme);
@@ -156,7 +150,7 @@ int new_command(const NewOptions& options) {
     print_error(options.out, written.error());
     return kBadInput;
   }
-  print_figures(options, *plan, parts, plan->is_convex ? plan->area : hull.area);
+  print_figures(options, *plan, parts, takes_hull ? hull.area : plan->area);
   print_line("wrote " + options.out + ": " + counted(scene.nodes.size(), "node") + ", " + counted(scene.links.size(), "link") +
              "; next: behaviourlinks run " + options.out);
   return kDone;

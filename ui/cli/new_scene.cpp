@@ -60,7 +60,11 @@ class Builder {
   void fixtures() {
     Json plan = Json::array();
     for (const Point3& corner : parts_.plan) plan.push_back({corner.x, corner.y, 0.0});
-    node(kSite, {{"name", "Site"}, {"types", {{"boundary", {{"form", "plan"}, {"plan", plan}, {"height", parts_.height}}}}}});
+    Json boundary = {{"form", "plan"}, {"plan", plan}, {"height", parts_.height}};
+    for (std::size_t h = 0; h < parts_.holes.size(); ++h)
+      for (const Point3& corner : parts_.holes[h])
+        boundary["holes"].push_back({{"name", "hole " + std::to_string(h + 1)}, {"x", corner.x}, {"y", corner.y}});
+    node(kSite, {{"name", "Site"}, {"types", {{"boundary", boundary}}}});
     Json rows = Json::array();
     for (const ProgrammeRow& row : parts_.programme.rows)
       rows.push_back({{"use", row.use},
@@ -175,7 +179,7 @@ Result<Command> new_scene_command(const SceneParts& parts, const Registry& regis
   std::vector<std::pair<std::size_t, std::size_t>> neighbours;
   for (const WantedContact& contact : contacts)
     for (const std::size_t partner : contact.partners) neighbours.emplace_back(contact.hub, partner);
-  const auto points = spread_points(parts.plan, 0, parts.height, demands, parts.seed, neighbours);
+  const auto points = spread_points(parts.plan, 0, parts.height, demands, parts.seed, neighbours, parts.holes);
   if (!points) return points.error();
   // Millimetres are enough for a first position, and keep the file readable.
   const auto millimetres = [](double x) { return std::round(x * 1000) / 1000; };

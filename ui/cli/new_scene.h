@@ -15,7 +15,8 @@ namespace bl::cli {
 struct SceneParts {
   std::string title;
   GeoReference reference;
-  Ring plan;                      ///< convex, counter-clockwise
+  Ring plan;                      ///< counter-clockwise
+  std::vector<Ring> holes;        ///< clockwise
   double height = 0, margin = 0;  ///< [m]
   ProgrammeImport programme;
   std::uint64_t seed = 1;

@@ -9,9 +9,9 @@
 
 #include "core/base/hash.h"
 #include "core/base/random.h"
-#include "core/exchange/plan_ring.h"
+#include "core/exchange/ball_grid.h"
 #include "core/exchange/prism_samples.h"
-#include "core/exchange/site_grid.h"
+#include "core/geometry/plan_ring.h"
 
 namespace bl {
 namespace {
@@ -54,6 +54,20 @@ TEST(SpreadPoints, InsideAndApartInEveryShape) {
         const double spacing = std::cbrt(prism / static_cast<double>(count));
         EXPECT_GE(nearest_pair(*points), kSpreadSeparation * spacing) << count << " " << top;
       }
+}
+
+TEST(SpreadPoints, KeepsOutOfHoles) {
+  const std::vector<Ring> holes = {{{20, 20, 0}, {20, 60, 0}, {45, 60, 0}, {45, 20, 0}}, {{60, 10, 0}, {55, 70, 0}, {90, 40, 0}}};
+  for (const std::size_t count : {1u, 5u, 60u, 300u}) {
+    const auto points = spread_points(kSquare, 0, 20, mixed_volumes(count, 60000), 3, {}, holes);
+    ASSERT_TRUE(points) << points.error().text();
+    for (const Point3& p : *points) {
+      EXPECT_TRUE(ring_contains(kSquare, p));
+      for (const Ring& hole : holes) EXPECT_FALSE(ring_contains(hole, p)) << p.x << " " << p.y;
+    }
+  }
+  const std::vector<Ring> beyond = {{{90, 10, 0}, {110, 10, 0}, {110, 20, 0}}};
+  EXPECT_EQ(spread_points(kSquare, 0, 20, std::vector<double>{1}, 3, {}, beyond).error().place, "holes/0");
 }
 
 TEST(SpreadPoints, OnePointStandsInTheMiddle) {
@@ -133,7 +147,7 @@ TEST(SpreadPoints, Errors) {
 }
 
 TEST(PrismSamples, CoverThePlanEvenly) {
-  const auto samples = prism_samples(kEll, 0, 10, 36000, 1);
+  const auto samples = prism_samples(std::vector<Ring>{kEll}, 0, 10, 36000, 1);
   std::size_t arm = 0;
   for (const Point3& p : samples) {
     EXPECT_TRUE(ring_contains(kEll, p));
@@ -143,13 +157,13 @@ TEST(PrismSamples, CoverThePlanEvenly) {
   EXPECT_NEAR(static_cast<double>(arm), 16000, 150);
 }
 
-TEST(SiteGrid, AgreesWithLookingAtAll) {
+TEST(BallGrid, AgreesWithLookingAtAll) {
   Random random(3);
   std::vector<BallSite> sites;
   for (int i = 0; i < 200; ++i)
     sites.push_back(
         {{random.uniform(0, 50), random.uniform(0, 20), random.uniform(0, 10)}, i % 40 == 0 ? 12.0 : random.uniform(0, 2)});
-  const SiteGrid grid(sites, 3);
+  const BallGrid grid(sites, 3);
   for (int k = 0; k < 2000; ++k) {
     const Point3 p{random.uniform(-20, 70), random.uniform(-20, 40), random.uniform(-20, 30)};
     std::size_t best = 0;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tests/core/geometry/geometry_support.h"
 
@@ -51,6 +52,23 @@ TEST(ConvexDomain, HullsOfRandomPointsAreClosed) {
     ASSERT_TRUE(planes.ok()) << planes.error().text();
     EXPECT_NEAR(planes->volume, hull->volume, 1e-9);
     EXPECT_TRUE(is_closed(to_mesh(*planes)));
+  }
+}
+
+TEST(ConvexDomain, HullsHoldTheirPointsThoughFacesAreFlatWithinRounding) {
+  // The corners of a ring of straight pieces: eight of them lie in one plane, but for rounding.
+  for (const int around : {8, 12, 40}) {
+    std::vector<Point3> points;
+    for (int i = 0; i < around; ++i) {
+      for (int j = 0; j < 5; ++j) {
+        const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * (j + 0.5) / 5,
+                     radius = 10 + 3 * std::cos(b);
+        points.push_back({radius * std::cos(a), radius * std::sin(a), 3 * std::sin(b)});
+      }
+    }
+    const auto domain = convex_hull(points);
+    ASSERT_TRUE(domain.ok()) << domain.error().text();
+    for (const Point3& p : points) EXPECT_TRUE(domain->contains(p, 1e-9)) << around << ": " << p.x << " " << p.y << " " << p.z;
   }
 }
 

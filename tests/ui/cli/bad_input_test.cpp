@@ -68,10 +68,12 @@ TEST(BadInput, AllProblemsAreListedErrorsFirst) {
 
 TEST(BadInput, BoundariesThatAreNone) {
   const Workplace place;
-  for (const auto& [boundary, said] :
-       {std::pair<const char*, const char*>{R"({"points": [[0, 0, 0], [9, 0, 0], [0, 9, 0]]})", "at least 4"},
-        {R"({"form": "plan", "plan": [[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 9, 0]]})", "cross"},
-        {R"({"form": "plan", "plan": [[0, 0, 0], [9, 0, 0], [2, 2, 0], [0, 9, 0]]})", "convex"}}) {
+  for (
+      const auto& [boundary, said] :
+      {std::pair<const char*, const char*>{R"({"points": [[0, 0, 0], [9, 0, 0], [0, 9, 0]]})", "at least 4"},
+       {R"({"form": "plan", "plan": [[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 9, 0]]})", "cross"},
+       {R"({"form": "plan", "plan": [[0, 0, 0], [9, 0, 0], [0, 9, 0]], "holes": [{"x": 8, "y": 8}, {"x": 9, "y": 8}, {"x": 8, "y": 9}]})",
+        "outside the plan"}}) {
     place.write("s.json", scene_text(volume_text("a", "[2, 2, 5]"), "", boundary));
     const Outcome check = place.run({"check", "s.json"});
     EXPECT_EQ(check.code, 2) << boundary;

@@ -74,7 +74,8 @@ TEST(Cells, BadInputHasAPlace) {
         {cube + R"(, "sites": [[0, 0, 0]]})", "i.json: weights: `weights` is missing"},
         {R"({"boundary": {"vertices": [[0,0,0],[1,0,0],[0,1,0]]}, "sites": [], "weights": []})", "i.json: boundary/vertices: "},
         {R"({"boundary": {"planes": [[1,0,0,1]]}, "sites": [], "weights": []})", "i.json: boundary/planes: "},
-        {R"({"boundary": {}, "sites": [], "weights": []})", "i.json: boundary: expects `planes` or `vertices`"}}) {
+        {R"({"boundary": {}, "sites": [], "weights": []})",
+         "i.json: boundary: expects `planes`, `vertices`, `plan` or `mesh`"}}) {
     place.write("i.json", text);
     const Outcome outcome = place.run({"cells", "i.json", "--json", "o.json"});
     EXPECT_EQ(outcome.code, 2) << text;

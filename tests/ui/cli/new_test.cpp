@@ -16,6 +16,10 @@ constexpr const char* kCrossing =
 constexpr const char* kCorner =
     R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
         "coordinates": [[[85000, 446000], [85060, 446000], [85060, 446020], [85020, 446020], [85020, 446050], [85000, 446050], [85000, 446000]]]})";
+constexpr const char* kCourt =
+    R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
+        "coordinates": [[[85000, 446000], [85060, 446000], [85060, 446050], [85000, 446050], [85000, 446000]],
+                        [[85020, 446015], [85040, 446015], [85040, 446035], [85020, 446035], [85020, 446015]]]})";
 constexpr const char* kBrief =
     "use;floor_area_m2;count;storey_height_m;adjacent_to\nhousing;400;6;3;school\nschool;900;1;3,6;\nshop;300;2;4;housing\n";
 
@@ -72,17 +76,36 @@ TEST_F(New, KeepsWhatExists) {
 
 TEST_F(New, RefusesPlansThatItCannotTake) {
   place.write("crossing.geojson", kCrossing);
-  place.write("corner.geojson", kCorner);
   const Outcome crossing = make({}, "crossing.geojson");
   EXPECT_EQ(crossing.code, 2);
   EXPECT_NE(crossing.err.find("cross"), std::string::npos) << crossing.err;
-  const Outcome corner = make({}, "corner.geojson");
-  EXPECT_EQ(corner.code, 2);
-  EXPECT_NE(corner.err.find("its convex hull would add 600.0 m²"), std::string::npos) << corner.err;
   EXPECT_FALSE(std::filesystem::exists(place.path("scene.json")));
-  const Outcome hull = make({"--hull"}, "corner.geojson");
+}
+
+TEST_F(New, TakesPlansAsTheyAre) {
+  place.write("corner.geojson", kCorner);
+  const Outcome corner = make({}, "corner.geojson");
+  ASSERT_EQ(corner.code, 0) << corner.err;
+  EXPECT_NE(corner.out.find("boundary:  6 corners, 1800.0 m², 30 m high, 54000.0 m³"), std::string::npos) << corner.out;
+  EXPECT_EQ(place.run({"check", "scene.json"}).code, 0);
+  const Outcome hull = make({"--hull", "--force"}, "corner.geojson");
   EXPECT_EQ(hull.code, 0) << hull.err;
   EXPECT_NE(hull.out.find("of which the hull adds 600.0 m²"), std::string::npos) << hull.out;
+}
+
+TEST_F(New, KeepsTheHolesOfAPlan) {
+  place.write("court.geojson", kCourt);
+  const Outcome made = make({}, "court.geojson");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("boundary:  4 corners and 1 hole, 2600.0 m²"), std::string::npos) << made.out;
+  const nlohmann::json scene = place.json("scene.json");
+  for (const auto& node : scene["nodes"]) {
+    if (node["id"] == "site") { EXPECT_EQ(node["types"]["boundary"]["holes"].size(), 4u); }
+    if (!node.contains("position") || !node["types"].contains("smart_volume")) continue;
+    const double x = node["position"][0], y = node["position"][1];
+    // Around the middle of the site, where the court is 20 m by 20 m.
+    EXPECT_FALSE(std::abs(x) < 10 && std::abs(y) < 10) << node["id"];
+  }
 }
 
 TEST_F(New, SaysWhatIsMissingInTheProgramme) {

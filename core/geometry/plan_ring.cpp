@@ -1,5 +1,5 @@
 // Ring geometry in plain doubles: rings come in local metres, where rounding stays far below a millimetre.
-#include "core/exchange/plan_ring.h"
+#include "core/geometry/plan_ring.h"
 
 #include <algorithm>
 #include <cmath>

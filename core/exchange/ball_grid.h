@@ -16,10 +16,10 @@ struct BallSite {
 };
 
 /// An index over sites that stay where they are as long as the grid is used.
-class SiteGrid {
+class BallGrid {
  public:
   /// `cube`: side of the cubes [m], about the mean distance of sites.
-  SiteGrid(std::span<const BallSite> sites, double cube);
+  BallGrid(std::span<const BallSite> sites, double cube);
 
   struct Hit {
     std::size_t site = 0;

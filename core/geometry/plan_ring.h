@@ -1,4 +1,4 @@
-// Plane geometry of closed rings of points: area, orientation, crossings, nearness and the convex hull.
+// Plane geometry of closed rings of points, the outlines of plans: area, orientation, crossings, nearness and the convex hull.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // A grid in one flat array; the search goes outward shell by shell until nothing nearer can come.
-#include "core/exchange/site_grid.h"
+#include "core/exchange/ball_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ constexpr double kLargeRadius = 2;        // [cubes] few sites can be as large i
 constexpr std::size_t kCubesPerSite = 8;  // bounds the memory where the sites fill little of their bounding box
 }  // namespace
 
-SiteGrid::SiteGrid(std::span<const BallSite> sites, double cube) : sites_(sites), cube_(cube) {
+BallGrid::BallGrid(std::span<const BallSite> sites, double cube) : sites_(sites), cube_(cube) {
   Point3 high = sites[0].at;
   low_ = high;
   for (const BallSite& site : sites) {
@@ -41,21 +41,21 @@ SiteGrid::SiteGrid(std::span<const BallSite> sites, double cube) : sites_(sites)
   for (std::size_t i = 0; i < sites.size(); ++i) members_[next[cube_of[i]]++] = i;
 }
 
-std::size_t SiteGrid::cube_index(long long x, long long y, long long z) const {
+std::size_t BallGrid::cube_index(long long x, long long y, long long z) const {
   return static_cast<std::size_t>((z * counts_[1] + y) * counts_[0] + x);
 }
 
-long long SiteGrid::coordinate(double value, double low, long long count) const {
+long long BallGrid::coordinate(double value, double low, long long count) const {
   return std::clamp(static_cast<long long>((value - low) / cube_), 0LL, count - 1);
 }
 
-void SiteGrid::consider(const Point3& point, std::size_t site, Hit& hit) const {
+void BallGrid::consider(const Point3& point, std::size_t site, Hit& hit) const {
   const double power = squared_norm(point - sites_[site].at) - sites_[site].radius * sites_[site].radius;
   if (power < hit.power || (power == hit.power && site < hit.site)) hit = {site, power};
 }
 
 // Looks at the cubes that are `shell` cubes away from the centre; false where the grid has none.
-bool SiteGrid::visit_shell(const Point3& point, const long long (&centre)[3], long long shell, Hit& hit) const {
+bool BallGrid::visit_shell(const Point3& point, const long long (&centre)[3], long long shell, Hit& hit) const {
   bool any = false;
   long long from[3], to[3];
   for (int k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ bool SiteGrid::visit_shell(const Point3& point, const long long (&centre)[3], lo
   return any;
 }
 
-SiteGrid::Hit SiteGrid::nearest(const Point3& point) const {
+BallGrid::Hit BallGrid::nearest(const Point3& point) const {
   Hit hit{sites_.size(), std::numeric_limits<double>::infinity()};
   for (const std::size_t site : large_) consider(point, site, hit);
   const long long centre[3] = {coordinate(point.x, low_.x, counts_[0]), coordinate(point.y, low_.y, counts_[1]),
@@ -91,7 +91,7 @@ SiteGrid::Hit SiteGrid::nearest(const Point3& point) const {
   return hit;
 }
 
-bool SiteGrid::crowded(std::size_t site, double limit) const {
+bool BallGrid::crowded(std::size_t site, double limit) const {
   const Point3& p = sites_[site].at;
   const long long centre[3] = {coordinate(p.x, low_.x, counts_[0]), coordinate(p.y, low_.y, counts_[1]),
                                coordinate(p.z, low_.z, counts_[2])};

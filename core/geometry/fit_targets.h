@@ -1,0 +1,66 @@
+// The demands of a fit, as they are aimed at: which sites each has, what it may have, what it has.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry/demand_fit.h"
+
+namespace bl {
+
+/// Bounds that make sense, sites that are there and belong to one demand only; or an error that names what is wrong.
+Result<void> check_demands(const FitProblem& problem);
+
+/// Demands with their sites. A demand without sites (a locked site's, say) takes no part.
+class FitTargets {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  /// One demand per site.
+  FitTargets(std::span<const double> demands, std::span<const std::uint8_t> locked);
+  explicit FitTargets(const FitProblem& problem);
+
+  std::size_t size() const { return least_.size(); }
+  std::span<const std::uint32_t> sites(std::size_t target) const {
+    return std::span(members_).subspan(first_[target], first_[target + 1] - first_[target]);
+  }
+  /// The demand that a site belongs to, or kNone.
+  std::uint32_t owner(std::size_t site) const { return owner_[site]; }
+  /// Is the site's weight to be found?
+  bool is_fitted(std::size_t site) const { return owner_[site] != kNone && most_[owner_[site]] > 0; }
+  double least(std::size_t target) const { return least_[target]; }
+  double most(std::size_t target) const { return most_[target]; }
+  /// A site's part of what its demand aims at [m³].
+  double part(std::size_t site) const {
+    const std::uint32_t k = owner_[site];
+    return aim_[k] / static_cast<double>(first_[k + 1] - first_[k]);
+  }
+
+  /// What can be granted: coincident sites bring nothing, and all demands are scaled alike where their least sum exceeds what
+  /// the others (locked, or of no demand) leave of the domain.
+  void grant(std::span<const CellMeasure> cells, double domain_volume);
+  const std::string& infeasible() const { return infeasible_; }
+  const std::vector<DemandLoss>& losses() const { return losses_; }
+  /// Do the demands take the whole domain, so that no surface is left free?
+  bool is_full() const { return is_full_; }
+
+  /// Sums volumes per demand, and finds what each aims at: the nearer bound where it is out of bounds.
+  void measure(std::span<const CellMeasure> cells);
+  double total(std::size_t target) const { return total_[target]; }
+  double aim(std::size_t target) const { return aim_[target]; }
+  /// Has its weights to move: it is out of bounds, or at one of them.
+  bool is_active(std::size_t target) const { return is_active_[target] != 0; }
+  double error(std::size_t target) const;
+
+ private:
+  std::vector<double> least_, most_, total_, aim_;
+  std::vector<std::uint32_t> first_, members_, owner_;
+  std::vector<std::uint8_t> is_active_;
+  std::string infeasible_;
+  std::vector<DemandLoss> losses_;
+  bool is_full_ = false;
+};
+
+}  // namespace bl

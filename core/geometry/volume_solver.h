@@ -1,0 +1,62 @@
+// The warm door of the fit: sites that are dragged, added, removed and re-demanded while every volume keeps its demand.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/base/parallel.h"
+#include "core/base/result.h"
+#include "core/geometry/domain.h"
+#include "core/geometry/volume_fit.h"
+
+namespace bl {
+
+struct SolveOptions {
+  double tolerance = 1e-3;  ///< of the largest relative error
+  int most_rounds = 30;     ///< of a local solve; after them everything is fitted anew
+  ThreadPool* pool = nullptr;
+};
+
+/// What a solve did.
+struct SolveReport {
+  FitStatus status = FitStatus::met;
+  double error = 0;  ///< largest relative error; of cells that were not made anew, with their volumes as predicted
+  int rounds = 0;    ///< linear systems solved
+  std::size_t cells_made = 0;
+  bool was_local = true;  ///< false: everything was fitted anew
+  std::vector<std::string> reasons;
+};
+
+/// Holds sites with one demand on each. Between solves sites change; a solve then does what the changes ask for, no more:
+/// cells next to a change are made anew; all weights follow the known response of all volumes; and a cell is measured again only
+/// where its bisectors have swept so much of it that the response could be wrong by a share of the tolerance.
+/// Deterministic: the same calls give the same bits, with any number of threads.
+class VolumeSolver {
+ public:
+  VolumeSolver();
+  ~VolumeSolver();
+  VolumeSolver(VolumeSolver&&) noexcept;
+  VolumeSolver& operator=(VolumeSolver&&) noexcept;
+
+  /// Sites with their demands [m³]; weights that are not positive are found.
+  Result<void> start(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands);
+  Result<void> move(std::uint32_t site, const Point3& position);
+  Result<void> set_demand(std::uint32_t site, double demand);
+  /// The index of the new site: a place that a removed one has left, or the end.
+  Result<std::uint32_t> add(const Point3& position, double demand);
+  Result<void> remove(std::uint32_t site);
+
+  Result<SolveReport> solve(const SolveOptions& options = {});
+
+  /// Per place; a removed site has weight and volume 0.
+  std::span<const PowerSite> sites() const;
+  std::span<const double> volumes() const;
+  std::span<const double> demands() const;
+
+ private:
+  struct Desk;
+  std::unique_ptr<Desk> desk_;
+};
+
+}  // namespace bl

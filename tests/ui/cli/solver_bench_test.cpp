@@ -1,0 +1,87 @@
+// The bench of the solver measures every kind of row, and what it measures does not depend on the number of threads.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "tests/ui/cli/program.h"
+
+namespace bl::test {
+
+namespace {
+
+std::string study_scene() { return scene_text(volume_text("a", "[8, 0, 8]") + "," + volume_text("b", "[-8, 0, 8]", "2000")); }
+
+TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
+  const Workplace place;
+  place.write("study.json", study_scene());
+  const Outcome outcome = place.run({"bench", "--solver", "--quick", "--seeds", "2", "--sites", "60", "--json", "rows.json",
+                                     "--chart", "charts", "study.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("Machine: ")) << outcome.out;
+  const auto all = place.json("rows.json");
+  EXPECT_TRUE(all["machine"].get<std::string>().find("core") != std::string::npos);
+  std::map<std::string, int> kinds;
+  std::map<std::string, std::set<std::string>> hashes;  // of rows that differ in their threads only
+  std::map<std::string, std::set<int>> threads;
+  for (const auto& row : all["rows"]) {
+    const std::string kind = row["rows"];
+    ++kinds[kind];
+    if (kind == "growth") {
+      EXPECT_EQ(row["diagram_hash"].get<std::string>().size(), 16u) << row;
+      EXPECT_EQ(row["fit_hash"].get<std::string>().size(), 16u) << row;
+      continue;
+    }
+    EXPECT_EQ(row["hash"].get<std::string>().size(), 16u) << row;
+    EXPECT_NE(outcome.out.find(row["hash"].get<std::string>()), std::string::npos) << row;
+    if (!row.contains("threads")) continue;
+    const std::string work = kind + row.value("balls", "") + row["sites"].dump() + row["fill_percent"].dump();
+    hashes[work].insert(row["hash"].get<std::string>());
+    threads[work].insert(row["threads"].get<int>());
+  }
+  EXPECT_EQ(kinds, (std::map<std::string, int>{
+                       {"diagram", 2}, {"wrapped", 4}, {"fit", 5}, {"seeds", 5}, {"drag", 8}, {"growth", 1}, {"study", 3}}));
+  EXPECT_EQ(hashes.size(), 7u);
+  for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
+  for (const auto& [work, found] : threads) EXPECT_EQ(found, (std::set<int>{1, 2})) << work;
+}
+
+TEST(SolverBench, FitsAreMetAndDragsKeepTheirTolerance) {
+  const Workplace place;
+  const Outcome outcome =
+      place.run({"bench", "--solver", "--quick", "--rows", "fit", "drag", "--sites", "80", "--json", "rows.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto all = place.json("rows.json");
+  EXPECT_EQ(all["rows"].size(), 13u);
+  for (const auto& row : all["rows"]) {
+    if (row["rows"] == "fit") {
+      EXPECT_EQ(row["status"], "met") << row;
+      EXPECT_LE(row["largest_relative_error"].get<double>(), 1e-6) << row;
+    } else {
+      EXPECT_LE(row["largest_error_percent"].get<double>(), 0.1) << row;
+    }
+  }
+}
+
+TEST(SolverBench, ChartsAreWholeDrawings) {
+  const Workplace place;
+  const Outcome outcome = place.run({"bench", "--solver", "--quick", "--rows", "growth", "study", "--sites", "30", "60",
+                                     "--chart", "charts", "--json", "rows.json", "--threads", "1"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("sixty_volumes"), std::string::npos) << "there is no such study in the folder";
+  const std::string growth = place.text("charts/growth.svg");
+  EXPECT_TRUE(growth.starts_with("<svg ")) << growth.substr(0, 80);
+  EXPECT_NE(growth.find("</svg>"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(place.path("charts/feedback_newton.svg")));
+}
+
+TEST(SolverBench, ItsOptionsWantTheSolver) {
+  const Workplace place;
+  EXPECT_EQ(place.run({"bench", "--quick"}).code, 2);
+  EXPECT_EQ(place.run({"bench", "--solver", "--rows", "cells"}).code, 2);
+  EXPECT_EQ(place.run({"bench", "--solver", "--seeds", "0"}).code, 2);
+}
+
+}  // namespace
+
+}  // namespace bl::test

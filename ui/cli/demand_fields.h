@@ -1,0 +1,16 @@
+// Reads what sites are to have: demands of single sites or of groups, and sites that keep their weight.
+#pragma once
+
+#include "core/define/json_text.h"
+#include "core/exchange/site_table.h"
+#include "ui/cli/site_case.h"
+
+namespace bl::cli {
+
+/// Fills in the demands of a case whose boundary and sites were read, from `demands`, `groups` and `locked`.
+Result<void> read_demands(const Json& json, SiteCase& into);
+
+/// The same from the columns of a table.
+Result<void> read_demands(const SiteTable& table, SiteCase& into);
+
+}  // namespace bl::cli

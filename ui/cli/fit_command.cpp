@@ -1,0 +1,212 @@
+// `fit`: the weights that give sites, or groups of them, the volumes or floor areas that they are to have.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/define/json_text.h"
+#include "core/file/file_io.h"
+#include "core/geometry/fit_text.h"
+#include "ui/cli/commands.h"
+#include "ui/cli/interrupt.h"
+#include "ui/cli/json_fields.h"
+#include "ui/cli/scene_loading.h"
+#include "ui/cli/site_case.h"
+#include "ui/cli/terminal.h"
+
+namespace bl::cli {
+
+namespace {
+
+constexpr std::size_t kMostLines = 10;  // of one kind, on the terminal; the file has all
+
+// Three digits, whatever the size: for people.
+std::string rough(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return text;
+}
+
+Json number_or_null(double number) { return std::isfinite(number) ? Json(number) : Json(); }
+
+Json fit_json(const VolumeFit& fit, const FitProblem& problem) {
+  Json losses = Json::array();
+  for (const VolumeLoss& loss : fit.losses)
+    losses.push_back({{"demand", loss.demand},
+                      {"sites", problem.demands[loss.demand].sites},
+                      {"wanted", number_or_null(loss.wanted)},
+                      {"had", number_or_null(loss.had)}});
+  return {{"weights", fit.weights},
+          {"volumes", fit.volumes},
+          {"iterations", fit.iterations},
+          {"evaluations", fit.evaluations},
+          {"max_relative_error", number_or_null(fit.max_relative_error)},
+          {"status", std::string(name_of(fit.status))},
+          {"reasons", fit.reasons},
+          {"losses", std::move(losses)}};
+}
+
+// What is said of cases that an interrupt left no time for: they keep what they came with.
+VolumeFit not_begun(const FitProblem& problem) {
+  VolumeFit fit;
+  for (const PowerSite& site : problem.sites) fit.weights.push_back(site.weight);
+  fit.max_relative_error = std::numeric_limits<double>::quiet_NaN();  // nobody knows
+  fit.status = FitStatus::cancelled;
+  fit.reasons.emplace_back("was not begun");
+  return fit;
+}
+
+// "2, 5, 7": the sites of a demand by number or name.
+std::string sites_text(const VolumeDemand& demand, const SiteCase& c) {
+  std::string text;
+  for (std::size_t i = 0; i < demand.sites.size(); ++i) {
+    if (i == 6) return text + ", ...";
+    text += (i > 0 ? ", " : "") + (c.names.empty() ? std::to_string(demand.sites[i]) : c.names[demand.sites[i]]);
+  }
+  return text;
+}
+
+class FitRun {
+ public:
+  explicit FitRun(const FitFileOptions& options) : options_(options) {}
+
+  int execute() {
+    if (!are_options_sound()) return kBadInput;
+    const auto input = load_site_cases({options_.input, options_.boundary, options_.json}, CasePurpose::fit);
+    if (!input) return kBadInput;
+    catch_interrupts();
+    ThreadPool pool(options_.threads);
+    pool_ = &pool;
+    if (!fit_all(*input) || !write(*input)) return kBadInput;
+    for (std::size_t i = 0; i < fits_.size(); ++i) tell(input->cases[i], fits_[i]);
+    summarise();
+    if (is_interrupted()) return interrupt_exit_code();
+    return met_ == fits_.size() ? kDone : kNotMet;
+  }
+
+ private:
+  bool are_options_sound() const {
+    if (options_.tolerance > 0 && options_.tolerance < 1) return true;
+    print_error("", {ErrorCode::out_of_range, "--tolerance",
+                     "must be more than 0 and less than 1 (1e-6 is a millionth), found " + shortest(options_.tolerance)});
+    return false;
+  }
+
+  bool fit_all(const SiteCases& input) {
+    bool is_all_well = true;
+    Progress progress;
+    for (std::size_t i = 0; i < input.cases.size(); ++i) {
+      const std::string label =
+          input.is_list ? "case " + std::to_string(i + 1) + " of " + std::to_string(input.cases.size()) + ", " : "";
+      auto fit =
+          is_interrupted() ? Result<VolumeFit>(not_begun(input.cases[i].problem)) : fit_one(input.cases[i], label, progress);
+      if (!fit) print_error(options_.input, fit.error().within(input.cases[i].place));
+      is_all_well &= fit.ok();
+      if (fit) fits_.push_back(std::move(*fit));
+    }
+    return is_all_well;
+  }
+
+  Result<VolumeFit> fit_one(const SiteCase& c, const std::string& label, Progress& progress) const {
+    VolumeFitOptions how;
+    how.method = options_.method == "feedback" ? FitMethod::feedback : FitMethod::newton;
+    how.tolerance = options_.tolerance;
+    how.most_steps = options_.steps;
+    how.pool = pool_;
+    how.progress = [&](int steps, double error) {
+      if (progress.is_due())
+        progress.show(label + "step " + std::to_string(steps) + ", largest error " + fixed(100 * error, 4) + " %");
+      return !is_interrupted();
+    };
+    return fit_volumes(c.boundary.domain, c.problem, how);
+  }
+
+  bool write(const SiteCases& input) const {
+    Json results = Json::array();
+    for (std::size_t i = 0; i < fits_.size(); ++i) results.push_back(fit_json(fits_[i], input.cases[i].problem));
+    const Json output = input.is_list ? Json{{"cases", std::move(results)}} : std::move(results.front());
+    const auto written = write_file(options_.json, write_json(output) + "\n");
+    if (!written) print_error(options_.json, written.error());
+    return written.ok();
+  }
+
+  // Why a case is not met, and who goes without.
+  void tell(const SiteCase& c, const VolumeFit& fit) {
+    worst_error_ = std::max(worst_error_, fit.max_relative_error);
+    evaluations_ += fit.evaluations;
+    iterations_ += fit.iterations;
+    if (fit.status == FitStatus::met) {
+      ++met_;
+      return;
+    }
+    std::vector<std::string> reasons = fit.reasons;
+    if (reasons.empty()) reasons.push_back(own_reason(c, fit));
+    for (std::size_t i = 0; i < reasons.size() && i < kMostLines; ++i)
+      print_error(options_.input, {ErrorCode::infeasible, c.place, with_names(reasons[i], c.names)});
+    if (reasons.size() > kMostLines)
+      print_error(options_.input,
+                  {ErrorCode::infeasible, c.place,
+                   "and " + std::to_string(reasons.size() - kMostLines) + " more reasons, all in " + options_.json});
+    print_losses(c, fit);
+  }
+
+  std::string own_reason(const SiteCase& c, const VolumeFit& fit) const {
+    std::string state = "the largest relative error is " + rough(fit.max_relative_error);
+    if (fit.worst_demand < c.problem.demands.size()) {
+      const VolumeDemand& demand = c.problem.demands[fit.worst_demand];
+      state += ", of demand " + std::to_string(fit.worst_demand) + (demand.sites.size() == 1 ? " (site " : " (sites ") +
+               sites_text(demand, c) + ")";
+    }
+    const std::string effort = counted(static_cast<std::size_t>(fit.evaluations), "evaluation");
+    if (fit.status == FitStatus::cancelled) return "stopped after " + effort + "; " + state;
+    if (fit.status == FitStatus::infeasible) return "the demands cannot be met together; " + state;
+    return "not met after " + effort + "; " + state + ": give it more by --steps" +
+           (options_.method == "feedback" ? ", or take --method newton" : "");
+  }
+
+  static void print_losses(const SiteCase& c, const VolumeFit& fit) {
+    if (fit.losses.empty()) return;
+    std::vector<VolumeLoss> losses = fit.losses;
+    std::stable_sort(losses.begin(), losses.end(),
+                     [](const VolumeLoss& a, const VolumeLoss& b) { return a.wanted - a.had > b.wanted - b.had; });
+    if (!c.place.empty()) print_line(c.place + ":");
+    TextTable table({{"demand", true}, {"sites"}, {"wanted", true}, {"had", true}, {"short by %", true}});
+    for (std::size_t i = 0; i < losses.size() && i < kMostLines; ++i) {
+      const VolumeLoss& loss = losses[i];
+      const VolumeDemand& demand = c.problem.demands[loss.demand];
+      const std::string unit = demand.kind == VolumeDemand::Kind::volume ? " m³" : " m²";
+      table.add({std::to_string(loss.demand), sites_text(demand, c), rough(loss.wanted) + unit, rough(loss.had) + unit,
+                 loss.wanted > 0 ? fixed(100 * (loss.wanted - loss.had) / loss.wanted, 2) : ""});
+    }
+    table.print();
+    if (losses.size() > kMostLines) print_line("and " + std::to_string(losses.size() - kMostLines) + " more");
+  }
+
+  void summarise() const {
+    const std::string effort = counted(static_cast<std::size_t>(iterations_), "step") + " and " +
+                               counted(static_cast<std::size_t>(evaluations_), "evaluation") + ", largest relative error " +
+                               rough(worst_error_);
+    const bool is_met = met_ == fits_.size();
+    const std::string head = fits_.size() == 1 ? std::string(name_of(fits_.front().status))
+                                               : std::to_string(met_) + " of " + counted(fits_.size(), "case") + " met";
+    print_line(coloured(head + " after " + effort, is_met ? Colour::green : Colour::red));
+  }
+
+  const FitFileOptions& options_;
+  ThreadPool* pool_ = nullptr;
+  std::vector<VolumeFit> fits_;
+  std::size_t met_ = 0;
+  long long iterations_ = 0, evaluations_ = 0;
+  double worst_error_ = 0;
+};
+
+}  // namespace
+
+int fit_command(const FitFileOptions& options) { return FitRun(options).execute(); }
+
+}  // namespace bl::cli
