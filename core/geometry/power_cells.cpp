@@ -16,6 +16,8 @@ namespace {
 
 // Where more than this share of the sites has changed, all cells are made anew.
 constexpr double kManyChanges = 0.2;
+// A bisector this little beyond a ball still counts as near it.
+constexpr double kSlack = 1 + 1e-9;
 
 Result<void> check_options(std::span<const PowerSite> sites, const Domain& domain, const CellOptions& options) {
   if (options.tessellation_depth > kDeepestTessellation) {
@@ -45,6 +47,7 @@ struct PowerDiagram::Workshop {
   std::vector<CellMeasure> cells;
   std::vector<std::vector<std::uint32_t>> borders;
   std::vector<std::uint32_t> changed, made, empty;
+  std::vector<PowerSite> old;  // of the changed sites
   std::vector<std::uint8_t> is_marked;
   std::vector<double> storey_heights;
   CellOptions last;
@@ -63,8 +66,74 @@ struct PowerDiagram::Workshop {
     made.push_back(site);
   }
 
-  // Only what the changed sites can have touched: themselves, their neighbours before and after, and cells that have been empty.
+  // A cell that a changed site has swallowed whole borders on nothing any more, so nobody's new borders tell of it. Either some
+  // neighbour has lost it (mark_lost), or all of the domain went over, its own position with it.
+  void mark_swallowed(std::span<const PowerSite> sites) {
+    for (std::uint32_t i = 0; i < sites.size(); ++i) {
+      if (is_marked[i]) continue;
+      const PowerSite& own = sites[i];
+      const auto outweighs = [&](std::uint32_t j) {
+        return squared_norm(own.position - sites[j].position) - sites[j].weight <= -own.weight;
+      };
+      // The position of a site outside says nothing.
+      if (cells[i].state == SiteState::outside || std::any_of(changed.begin(), changed.end(), outweighs)) mark(i);
+    }
+  }
+
+  // Cells that are cut only as far as their balls reach do not border on each other both ways: who may have been cut, or may
+  // be now, is whose ball the bisector comes near.
+  void mark_reached(std::span<const PowerSite> sites) {
+    for (std::uint32_t i = 0; i < sites.size(); ++i) {
+      if (is_marked[i]) continue;
+      const PowerSite& own = sites[i];
+      if (!(own.weight > 0)) continue;
+      const auto reaches = [&](const PowerSite& other) {
+        const double squared = squared_norm(own.position - other.position), sum = squared + (own.weight - other.weight);
+        return sum <= 0 || sum * sum <= 4 * squared * own.weight * kSlack;
+      };
+      // A ball of half the domain's size is none: its cell is made whole.
+      const double size = workshop.domain().size();
+      bool is_near = 4 * own.weight * kSlack > size * size;
+      for (std::size_t k = 0; k < changed.size() && !is_near; ++k) is_near = reaches(sites[changed[k]]) || reaches(old[k]);
+      if (is_near) mark(i);
+    }
+  }
+
+  // Sites that have bordered on a cell and do so no more.
+  void mark_lost(std::span<const std::uint32_t> before, std::span<const FacetArea> facets, std::uint32_t site) {
+    for (const std::uint32_t j : before) {
+      if (!std::binary_search(borders[site].begin(), borders[site].end(), j)) mark(j);
+    }
+    // Where the order of the cuts may show, the borders name more sites than have a facet.
+    for (const FacetArea& facet : facets) {
+      const auto is_same = [&](const FacetArea& now) { return now.kind == facet.kind && now.index == facet.index; };
+      if (facet.kind != FaceKind::site || is_marked[facet.index]) continue;
+      if (std::none_of(cells[site].facets.begin(), cells[site].facets.end(), is_same)) mark(facet.index);
+    }
+  }
+
+  // Makes what is marked from place `done` of `made` on, and what is found to be touched thereby.
+  void make_marked(std::size_t done, const CellOptions& options) {
+    while (done < made.size()) {
+      const std::size_t end = made.size();
+      std::sort(made.begin() + static_cast<std::ptrdiff_t>(done), made.end());
+      std::vector<std::vector<std::uint32_t>> before;
+      std::vector<std::vector<FacetArea>> facets;
+      for (std::size_t k = done; k < end; ++k) {
+        before.push_back(borders[made[k]]);
+        facets.push_back(cells[made[k]].facets);
+      }
+      workshop.make(std::span(made).subspan(done, end - done), options, cells, borders.data());
+      for (std::size_t k = done; k < end; ++k) mark_lost(before[k - done], facets[k - done], made[k]);
+      done = end;
+    }
+  }
+
+  // Only what the changed sites can have touched: themselves, their neighbours before and after, cells that have been empty, and
+  // cells that are swallowed.
   bool update_locally(std::span<const PowerSite> sites, const CellOptions& options) {
+    old.clear();
+    for (const std::uint32_t site : changed) old.push_back(workshop.sites()[site]);
     for (const std::uint32_t site : changed) {
       if (!workshop.change(site, sites[site])) return false;
     }
@@ -80,8 +149,12 @@ struct PowerDiagram::Workshop {
     for (std::size_t k = 0; k < done; ++k) {
       for (const std::uint32_t j : borders[changed[k]]) mark(j);
     }
-    std::sort(made.begin() + static_cast<std::ptrdiff_t>(done), made.end());
-    workshop.make(std::span(made).subspan(done), options, cells, borders.data());
+    if (options.with_shape) {
+      mark_swallowed(sites);
+    } else {
+      mark_reached(sites);
+    }
+    make_marked(done, options);
     return true;
   }
 
