@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "core/geometry/domain_makers.h"
 #include "tests/core/geometry/geometry_support.h"
 
 namespace bl::test {
@@ -406,6 +407,49 @@ TEST(CellComplex, OneSiteOfThousandsTouchesAFewElements) {
   EXPECT_EQ(live.complex.work().cells_read, 5000u);
   EXPECT_EQ(live.complex.work().elements_made, 0u);
   EXPECT_TRUE(live.complex.change().changed.empty());
+}
+
+/// An L of two by two metres without its far corner, one metre high.
+Domain corner_building() {
+  const std::vector<Point3> plan{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+  return extrude_plan(plan, {}, 0, 1).value();
+}
+
+// By hand: the pieces of the domain and the faces between them are not to be seen.
+TEST(CellComplex, PiecesOfTheDomainDoNotShow) {
+  Live live(corner_building());
+  live.update({{{0.5, 0.5, 0.5}, 0.1}});
+  EXPECT_EQ(live.complex.count(Kind::facet), 8u);
+  EXPECT_EQ(live.complex.count(Kind::edge), 18u);
+  EXPECT_EQ(live.complex.count(Kind::vertex), 12u);
+  expect_whole(live.complex, "corner building");
+  double surface = 0;
+  for (const ElementName& name : live.complex.names(Kind::facet)) surface += live.complex.area(name);
+  EXPECT_NEAR(surface, 2 * 3 + 8, 1e-12);
+  // A facet that runs through all pieces is one, of several polygons.
+  live.update({{{0.5, 0.5, 0.3}, 0.1}, {{0.5, 0.5, 0.7}, 0.1}});
+  EXPECT_NEAR(live.complex.area(named("{0,1}")), 3, 1e-12);
+  EXPECT_GT(live.complex.polygons(named("{0,1}")).size(), 1u);
+  EXPECT_EQ(live.complex.incident({Kind::facet, named("{0,1}")}, Kind::edge).size(), 6u);
+  EXPECT_EQ(live.complex.incident({Kind::facet, named("{0,1}")}, Kind::vertex).size(), 6u);
+  expect_whole(live.complex, "corner building of two storeys");
+}
+
+TEST(CellComplex, UpdatesFollowInDomainsOfSeveralPieces) {
+  const Domain domain = corner_building();
+  Live live(domain);
+  Random random(41);
+  std::vector<PowerSite> sites = random_sites(70, 42, 0, 0.02);
+  for (PowerSite& site : sites) site.position = {2 * site.position.x, 2 * site.position.y, site.position.z};
+  for (int step = 0; step < 60; ++step) {
+    PowerSite& site = sites[random.below(sites.size())];
+    if (step % 2 == 0) site.position = random_point(random, {0, 0, 0}, {2, 2, 1});
+    else site.weight = random.uniform(-0.02, 0.05);
+    live.update(sites);
+    ASSERT_EQ(live.complex.listing(), rebuilt(domain, sites)) << step;
+    if (step % 15 == 0) expect_whole(live.complex, "pieces");
+  }
+  expect_symmetric(live.complex);
 }
 
 TEST(CellComplex, RefusesWhatItCannotRead) {
