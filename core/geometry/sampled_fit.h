@@ -20,7 +20,7 @@ struct SampledFitOptions {
   int most_steps = 100;     ///< evaluations of the diagram at most
   ThreadPool* pool = nullptr;
   /// Called after each evaluation with the steps made and the largest error; false stops the fit with what it has.
-  std::function<bool(int steps, double error)> progress;
+  std::function<bool(int steps, double error)> progress = {};
 };
 
 struct SampledSteps {

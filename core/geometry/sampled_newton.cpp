@@ -187,8 +187,8 @@ std::string SampledNewton::resolution_text() const {
   }
   if (site == FitTargets::kNone) return "";
   return "sample lines " + fixed(cells_.step, 3) + " m apart know the volume of site " + std::to_string(site) + " to " +
-         fixed(100 * worst, 3) + " % only, which is coarser than the tolerance of " + shortest(100 * options_.tolerance) +
-         " %: take more samples or a larger tolerance";
+         fixed(100 * worst, 3) + " % only, which is coarser than the tolerance of " + shortest(options_.tolerance) +
+         ": take more samples or a larger tolerance";
 }
 
 // Damped Newton. The last move is judged by what it led to: taken back by half where it went too far (Kitagawa, Mérigot and
