@@ -48,6 +48,10 @@ struct SmartVolumesSolver {
     Point3 centroid;
     MeshPointer mesh;
   };
+  // Cells of the last tick: those that no change has touched are not made again.
+  struct Kept {
+    PowerDiagram fitted, shown;
+  };
   struct Out {
     std::int64_t count = 0;
     double total_demand = 0, total_volume = 0, boundary_volume = 0, fill = 0, largest_error = 0, total_floor_area = 0;
@@ -213,13 +217,20 @@ struct SmartVolumesSolver {
       names.push_back(member.id);
     }
     start_newcomers(*domain, sites, wanted);
-    const FitOptions options{
-        .method = in.method, .gain = in.gain, .steps = in.steps, .tolerance = in.tolerance, .pool = tick.pool};
+    Kept own;
+    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
+    const FitOptions options{.method = in.method,
+                             .gain = in.gain,
+                             .steps = in.steps,
+                             .tolerance = in.tolerance,
+                             .pool = tick.pool,
+                             .diagram = &kept.fitted};
     const auto fit = adapt_weights(*domain, sites, wanted, {}, last_state(in, sets.members), options);
     if (!fit) return Error{fit.error().code, "members", with_names(fit.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit->weights[i];
-    const auto cells = power_cells(
-        *domain, sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
+    if (auto set = kept.shown.set_domain(*domain); !set) return set.error().within("boundary");
+    const auto cells = kept.shown.update(
+        sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
     if (!cells) return Error{cells.error().code, "members", with_names(cells.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) {
       Reply& reply = out.replies.emplace_back(reply_of((*cells)[i], wanted[i], sites[i].weight, names));

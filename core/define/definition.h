@@ -17,10 +17,29 @@
 
 namespace bl {
 
+/// Where a set evaluation keeps what it has worked out, to work less in the next tick. It is no state: it is neither saved nor
+/// hashed, and an evaluation has to give the same bits with an empty one.
+class Memo {
+ public:
+  /// What was kept, or a new T.
+  template <class T>
+  T& of() {
+    static const char tag = 0;
+    if (tag_ != &tag) held_ = std::make_shared<T>();
+    tag_ = &tag;
+    return *static_cast<T*>(held_.get());
+  }
+
+ private:
+  std::shared_ptr<void> held_;
+  const char* tag_ = nullptr;
+};
+
 /// What an evaluation may know of the moment: the tick's number and the pool to compute with. No clock, no order.
 struct Tick {
   std::int64_t index = 0;
   ThreadPool* pool = nullptr;  ///< only set evaluations (solvers) may use it; nullptr means one thread
+  Memo* memo = nullptr;        ///< only for set evaluations, and only where somebody keeps it
 };
 
 /// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; the others choose a value.

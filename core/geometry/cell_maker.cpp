@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/shape_measure.h"
+
 namespace bl {
 
 namespace {
@@ -57,32 +59,32 @@ void CellMaker::begin(const CellGround& ground, std::uint32_t site) {
   }
 }
 
-// Cuts by one bisector if it may come within reach; false where nothing is left.
-bool CellMaker::cut_by(const PowerSite& own, const PowerSite& other, std::uint32_t index) {
-  const Vector3 to = other.position - own.position;
-  const double squared = squared_norm(to), sum = squared + (own.weight - other.weight), reach = this->reach();
-  if (sum > 0 && sum * sum >= 4 * squared * (reach * reach)) return true;
-  const double d = std::sqrt(squared);
-  return cell_.cut(to / d, sum / (2 * d), FaceKind::site, index);
-}
-
 void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
   const PowerSite& own = ground.sites[site];
-  const std::uint32_t place = ground.grid.place_of(site);
+  const Point3 centre = own.position;
+  const double weight = own.weight;
+  double reach = this->reach(), four_reach_squared = 4 * reach * reach;
+  const auto cut_by = [&](const Point3& position, double other_weight, std::uint32_t index) {
+    const Vector3 to = position - centre;
+    const double squared = squared_norm(to), sum = squared + (weight - other_weight);
+    if (sum > 0 && sum * sum >= squared * four_reach_squared) return;
+    const double d = std::sqrt(squared);
+    cell_.cut(to / d, sum / (2 * d), FaceKind::site, index);
+    reach = this->reach();
+    four_reach_squared = 4 * reach * reach;
+  };
   // A site that has a border with a site that is done is known to all its neighbours that are done. One that has none may be
   // swallowed by them, which they do not know: then they are searched like the others.
   SiteGrid::Range skip;
   if (!known_.empty()) {
-    for (std::uint32_t k = known_[place - run_.begin]; k != kNone; k = links_[k].next) {
+    for (std::uint32_t k = known_[ground.grid.place_of(site) - run_.begin]; k != kNone; k = links_[k].next) {
       if (links_[k].is_sure) skip = run_;
-      cut_by(own, ground.sites[links_[k].site], links_[k].site);
+      cut_by(ground.sites[links_[k].site].position, ground.sites[links_[k].site].weight, links_[k].site);
     }
   }
   ground.grid.search(
-      own.position, own.weight, site, skip, [&] { return reach(); },
-      [&](const SiteGrid::Entry& entry) {
-        cut_by(own, {entry.position, entry.weight}, entry.site);
-      });
+      centre, weight, site, skip, [&] { return reach; },
+      [&](const SiteGrid::Entry& entry) { cut_by(entry.position, entry.weight, entry.site); });
 }
 
 void CellMaker::start_run(const CellGround& ground, std::uint32_t first_place, std::uint32_t count) {
@@ -130,6 +132,13 @@ void CellMaker::cut_in_order(const CellGround& ground, std::uint32_t site) {
   }
 }
 
+// Without the faces beyond the ball where that is enough to measure by.
+bool CellMaker::finish(Clipper& shape, Polyhedron& out) {
+  const bool is_sharp = shape.finish(out, limit_);
+  const bool is_enough = limit_ == kUnlimited || shape.is_empty() || (!out.faces.empty() && is_centre_apart(out, limit_));
+  return is_enough ? is_sharp : shape.finish(out);
+}
+
 Polyhedron& CellMaker::next_part() {
   if (part_count_ == parts_.size()) parts_.emplace_back();
   return parts_[part_count_++];
@@ -142,7 +151,7 @@ void CellMaker::keep_parts(const CellGround& ground, const Point3& origin) {
     if (squared_gap(origin, shape.minimum, shape.maximum) > cell_.reach_squared()) continue;
     piece_.copy(cell_);
     if (!piece_.cut(ground.pieces[k], origin, kUnlimited)) continue;
-    piece_.finish(next_part());
+    finish(piece_, next_part());
   }
 }
 
@@ -165,13 +174,13 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
     cut_by_search(ground, site);
   }
   Polyhedron& outline = ground.domain.is_convex() ? next_part() : outline_;
-  const bool is_vague = !cell_.finish(outline);
+  const bool is_vague = !finish(cell_, outline);
   const bool is_sure = !is_vague && !cell_.is_touchy();
   if (!is_in_order && !is_sure) {
     // Here the order of the cuts may show: they are made again in an order that depends on the sites alone.
     gather(ground, site, cell_.is_empty() ? kUnlimited : kNearlyReached * reach());
     cut_in_order(ground, site);
-    cell_.finish(outline);
+    finish(cell_, outline);
     for (const Candidate& candidate : candidates_) borders_.push_back(candidate.site);
   } else {
     for (const PolyhedronFace& face : outline.faces) {

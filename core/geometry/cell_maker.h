@@ -53,12 +53,12 @@ class CellMaker {
   };
   void remember(const CellGround& ground, std::uint32_t site, bool is_sure);
   void begin(const CellGround& ground, std::uint32_t site);
-  bool cut_by(const PowerSite& own, const PowerSite& other, std::uint32_t index);
   void cut_by_search(const CellGround& ground, std::uint32_t site);
   void cut_in_order(const CellGround& ground, std::uint32_t site);
   void gather(const CellGround& ground, std::uint32_t site, double reach);
   void keep_parts(const CellGround& ground, const Point3& origin);
   double reach() const;
+  bool finish(Clipper& shape, Polyhedron& out);
   Polyhedron& next_part();
 
   Clipper cell_, piece_;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Facets below this share of the cell's squared reach are slivers of rounding: they carry no name.
+// Facets below this share of the shape's squared reach are slivers of rounding: they carry no name.
 constexpr double kSliverShare = 1e-14;
 // A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
 constexpr double kInsideShare = 1e-6;
@@ -46,8 +46,8 @@ void add_facet(FaceKind kind, std::uint32_t index, double area, std::vector<Face
   }
 }
 
-void gather_facets(const Polyhedron& part, const ShapeMeasure& shape, CellMeasure& out) {
-  const double sliver = kSliverShare * part.reach_squared;
+void gather_facets(const Polyhedron& part, double squared_radius, const ShapeMeasure& shape, CellMeasure& out) {
+  const double sliver = kSliverShare * std::min(part.reach_squared, squared_radius);
   for (std::size_t k = 0; k < part.faces.size(); ++k) {
     const PolyhedronFace& face = part.faces[k];
     const bool is_surface = face.kind == FaceKind::plane || face.kind == FaceKind::site;
@@ -133,7 +133,7 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
     out.volume += shape.volume;
     out.spherical_area += shape.spherical_area;
     moment += shape.volume * shape.centroid;
-    gather_facets(parts[k], shape, out);
+    gather_facets(parts[k], site.weight, shape, out);
   }
   if (!(out.volume > 0)) return;
   const Point3 centroid = parts.size() == 1 ? bench.shapes[0].centroid : moment / out.volume;

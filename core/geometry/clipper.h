@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/base/vector.h"
@@ -58,7 +59,9 @@ class Clipper {
   /// The shape in a form that does not depend on the order of the cuts (unless it is touchy): faces by kind and index, loops
   /// from a fixed corner on, every vertex computed anew from its three planes. False where three planes meet so flatly that a
   /// vertex had to stay where the cuts have put it.
-  bool finish(Polyhedron& out);
+  /// Faces whose planes lie at `limit` [m] or farther may be left out, for who does not look beyond: the polyhedron is open then,
+  /// and its reach infinite.
+  bool finish(Polyhedron& out, double limit = std::numeric_limits<double>::infinity());
   /// The same with every vertex where the cuts have put it: good for shapes where many planes meet in one corner.
   void finish_as_cut(Polyhedron& out);
 
@@ -96,7 +99,7 @@ class Clipper {
   void move_vertex(std::uint32_t from, std::uint32_t to);
   bool meeting_point(const Corner& corner, Point3& at) const;
   void rank_sides();
-  bool write(Polyhedron& out, bool is_exact);
+  bool write(Polyhedron& out, bool is_exact, double limit);
   bool write_face(Polyhedron& out, std::uint32_t corner, bool is_exact);
   void write_split_faces(Polyhedron& out, bool is_exact);
 

@@ -76,6 +76,8 @@ class Fit {
       }
       report_.steps = step + 1;
       judge(*measured);
+      report_.evaluated.clear();
+      for (const PowerSite& site : sites_) report_.evaluated.push_back(site.weight);
       if (report_.is_met) break;
       move(*measured);
       keep_in_bounds();

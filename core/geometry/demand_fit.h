@@ -51,6 +51,7 @@ struct DemandLoss {
 
 struct FitReport {
   std::vector<double> weights;     ///< [m²], to be used next
+  std::vector<double> evaluated;   ///< [m²], those of the last evaluation
   FitState state;                  ///< to be handed to the next call
   std::vector<double> demands;     ///< [m³] per demand, what was aimed at: as given, or scaled where infeasible
   std::vector<double> volumes;     ///< [m³] per site at the last evaluation, which is of `weights` where `is_met`

@@ -54,21 +54,25 @@ struct Place {
 // piece outside contributes a sector of the disc: with θ the angle of (a-q)·(b-q) + i n·(a×b), the area ρ²θ/2; and to the solid
 // angle of what lies outside the ball that of the triangle q a b, seen from the centre, less that of the sector:
 // Ω - (1 - |h|/r) θ with tan(Ω/2) = h n·(a×b) / (|h| (|a||b| + |h|(|a|+|b|) + a·b)) (van Oosterom and Strackee 1983).
-// Edges inside the ball leave the solid angle alone, so a centre on a facet, an edge or a corner is no special case.
+// Edges inside the ball leave this solid angle alone, so a centre on a facet, an edge or a corner is no special case. The other
+// way round, the solid angle of what lies inside the ball is that of the triangles of edges inside, plus the sectors; it spares
+// whatever lies beyond the ball, but is no good where the centre lies almost on a facet.
 class FacetSum {
  public:
-  FacetSum(const Vector3& normal, double offset, double squared_radius, AngleSum* solid)
+  /// `solid` (or null) sums half the solid angle of the triangles: of edges inside the ball, or of edges outside it.
+  FacetSum(const Vector3& normal, double offset, double squared_radius, AngleSum* solid, bool counts_inside = false)
       : normal_(normal),
         offset_(offset),
         squared_radius_(squared_radius),
         squared_disc_(squared_radius - offset * offset),
-        solid_(solid) {}
+        inner_solid_(counts_inside ? solid : nullptr),
+        outer_solid_(counts_inside ? nullptr : solid) {}
 
   /// Does the plane cut the ball at all?
   bool has_disc() const { return squared_disc_ > 0; }
 
   void add_edge(const Place& a, const Place& b, bool is_forward) {
-    if (a.is_inside && b.is_inside) return inside(a.at, b.at);
+    if (a.is_inside && b.is_inside) return inside(a.at, a.norm, b.at, b.norm);
     if (!has_disc()) return outside(a.at, a.norm, b.at, b.norm);
     // Where the edge pierces the ball is worked out in one direction only: both of its faces get the same bits.
     const Place &low = is_forward ? a : b, &high = is_forward ? b : a;
@@ -80,13 +84,14 @@ class FacetSum {
     const double root = std::sqrt(rest), radius = std::sqrt(squared_radius_);
     const auto pierced = [&](double numerator) { return low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along; };
     const Point3 entry = low.is_inside ? low.at : pierced(-t - root), exit = high.is_inside ? high.at : pierced(-t + root);
+    const double entry_norm = low.is_inside ? low.norm : radius, exit_norm = high.is_inside ? high.norm : radius;
     if (is_forward) {
       if (!low.is_inside) outside(low.at, low.norm, entry, radius);
-      inside(entry, exit);
+      inside(entry, entry_norm, exit, exit_norm);
       if (!high.is_inside) outside(exit, radius, high.at, high.norm);
     } else {
       if (!high.is_inside) outside(high.at, high.norm, exit, radius);
-      inside(exit, entry);
+      inside(exit, exit_norm, entry, entry_norm);
       if (!low.is_inside) outside(entry, radius, low.at, low.norm);
     }
   }
@@ -107,22 +112,25 @@ class FacetSum {
   bool with_moment = false;
 
  private:
-  void inside(const Point3& a, const Point3& b) {
+  void add_triangle(AngleSum* solid, double area_twice, double a_norm, double b_norm, double cosine) const {
+    const double height = std::abs(offset_);
+    solid->add((a_norm * b_norm + height * (a_norm + b_norm) + cosine) / squared_radius_,
+               (offset_ < 0 ? -area_twice : area_twice) / squared_radius_);
+  }
+
+  void inside(const Point3& a, double a_norm, const Point3& b, double b_norm) {
     const double area_twice = dot(normal_, cross(a, b));
     meets_edge_ = true;
     doubled_ += area_twice;
+    if (inner_solid_ != nullptr) add_triangle(inner_solid_, area_twice, a_norm, b_norm, dot(a, b));
     if (with_moment) moment += (area_twice / 6) * (a + b - (2 * offset_) * normal_);
   }
 
   void outside(const Point3& a, double a_norm, const Point3& b, double b_norm) {
-    const double area_twice = dot(normal_, cross(a, b)) / squared_radius_, cosine = dot(a, b);
-    if (solid_ != nullptr) {
-      const double height = std::abs(offset_);
-      solid_->add((a_norm * b_norm + height * (a_norm + b_norm) + cosine) / squared_radius_,
-                  offset_ < 0 ? -area_twice : area_twice);
-    }
+    const double area_twice = dot(normal_, cross(a, b)), cosine = dot(a, b);
+    if (outer_solid_ != nullptr) add_triangle(outer_solid_, area_twice, a_norm, b_norm, cosine);
     if (!has_disc()) return;
-    outer_.add((cosine - offset_ * offset_) / squared_radius_, area_twice);
+    outer_.add((cosine - offset_ * offset_) / squared_radius_, area_twice / squared_radius_);
     if (!with_moment) return;
     const Vector3 p = a - offset_ * normal_, q = b - offset_ * normal_;
     const double p_norm = norm(p), q_norm = norm(q);
@@ -132,7 +140,7 @@ class FacetSum {
 
   Vector3 normal_;
   double offset_, squared_radius_, squared_disc_;
-  AngleSum* solid_;
+  AngleSum *inner_solid_, *outer_solid_;
   AngleSum outer_;
   double doubled_ = 0;
   bool meets_edge_ = false;

@@ -14,6 +14,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 // Shapes below this share of their cell (or of the ball's box) are a touch, not a volume.
 constexpr double kTouchingShare = 1e-14;
+// Nearer to a facet's plane than this share of the radius, the centre sees the facet's edges at angles of pure rounding.
+constexpr double kApartShare = 1e-3;
 
 double polygon_area(const Polyhedron& cell, const PolyhedronFace& face) {
   const auto loop = cell.loop(face);
@@ -45,6 +47,11 @@ void measure_unwrapped(const Polyhedron& cell, double cell_volume, bool with_cen
 
 }  // namespace
 
+bool is_centre_apart(const Polyhedron& cell, double radius) {
+  return std::all_of(cell.faces.begin(), cell.faces.end(),
+                     [&](const PolyhedronFace& face) { return std::abs(face.offset) > kApartShare * radius; });
+}
+
 void measure_shape(const Polyhedron& cell, double squared_radius, double cell_volume, bool with_centroid, ShapeMeasure& out) {
   out.areas.clear();
   out.volume = out.spherical_area = 0;
@@ -56,13 +63,20 @@ void measure_shape(const Polyhedron& cell, double squared_radius, double cell_vo
   thread_local std::vector<Place> places;
   places.clear();
   for (const Point3& v : cell.vertices) places.push_back(Place::of(v, squared_radius));
-  AngleSum solid;  // half of the solid angle of what lies outside the ball, before the sectors are taken off
+  const bool counts_inside = is_centre_apart(cell, radius);
+  AngleSum solid;  // half of the solid angle of the triangles
   double cones = 0, facets = 0, sectors = 0;
+  bool is_centre_inside = true;
   Vector3 moment, area_vector, mean;
   for (const PolyhedronFace& face : cell.faces) {
+    is_centre_inside = is_centre_inside && face.offset > 0;
     // A plane through the centre is seen edge-on: no solid angle.
-    FacetSum sum(face.normal, face.offset, squared_radius, face.offset != 0 ? &solid : nullptr);
+    FacetSum sum(face.normal, face.offset, squared_radius, face.offset != 0 ? &solid : nullptr, counts_inside);
     sum.with_moment = with_centroid;
+    if (counts_inside && !sum.has_disc()) {
+      out.areas.push_back(0);
+      continue;
+    }
     const auto loop = cell.loop(face);
     std::uint32_t from = loop[face.count - 1];
     for (const std::uint32_t to : loop) {
@@ -80,7 +94,8 @@ void measure_shape(const Polyhedron& cell, double squared_radius, double cell_vo
     area_vector += sum.area * face.normal;
     moment += (face.offset / 4) * facet_moment;
   }
-  const double free = 2 * solid.value() - sectors;
+  const double free =
+      counts_inside ? (is_centre_inside ? 4 * kPi : 0) - 2 * solid.value() - sectors : 2 * solid.value() - sectors;
   // Without facets it is a whole ball or nothing.
   out.spherical_area = squared_radius * (facets > 0 ? std::clamp(free, 0.0, 4 * kPi) : free > 2 * kPi ? 4 * kPi : 0);
   out.volume = std::clamp((cones + radius * out.spherical_area) / 3, 0.0, cell_volume);

@@ -18,6 +18,9 @@ struct ShapeMeasure {
   Point3 point_inside;
 };
 
+/// Is the centre so far from the planes of all faces that faces beyond the ball (offset >= radius) need not be there?
+bool is_centre_apart(const Polyhedron& cell, double radius);
+
 /// `squared_radius` [m²] positive; `cell_volume` [m³] is that of the whole polyhedron, or infinite where nobody knows it.
 /// Without `with_centroid` the centroid and the point inside are not worked out.
 void measure_shape(const Polyhedron& cell, double squared_radius, double cell_volume, bool with_centroid, ShapeMeasure& out);

@@ -40,12 +40,14 @@ class Attempt {
       demand.least *= demand.storey_height;
       demand.most *= demand.storey_height;
     }
-    if (auto done = fit(has_floors_ ? std::max(options_.tolerance, 1e-4) : options_.tolerance); !done) return done.error();
-    for (int k = 0; has_floors_ && k < kMostCorrections && !result_.is_cancelled; ++k) {
+    // Volumes a little closer than floor areas have to be, so that these have room to miss.
+    const double tolerance = has_floors_ ? 0.3 * options_.tolerance : options_.tolerance;
+    if (auto done = fit(tolerance); !done) return done.error();
+    for (int k = 0; has_floors_ && k < kMostCorrections && result_.last.is_met && result_.last.infeasible.empty(); ++k) {
       auto corrected = correct_floors();
       if (!corrected) return corrected.error();
       if (*corrected) break;
-      if (auto done = fit(std::max(options_.tolerance, 1e-4)); !done) return done.error();
+      if (auto done = fit(tolerance); !done) return done.error();
     }
     return finish();
   }
@@ -64,6 +66,8 @@ class Attempt {
                     .tolerance = tolerance,
                     .pool = options_.pool,
                     .diagram = &diagram_};
+    // A corrected demand goes on from the weights that were found.
+    if (!result_.last.evaluated.empty()) problem_.sites = evaluated();
     FitState state;
     double best = 1e300;
     int since = 0;
@@ -86,8 +90,12 @@ class Attempt {
     }
   }
 
-  // The sites with the weights that were last evaluated: `volumes` are of these.
-  const std::vector<PowerSite>& evaluated() const { return problem_.sites; }
+  // The sites with the weights that were last evaluated.
+  std::vector<PowerSite> evaluated() const {
+    std::vector<PowerSite> sites = problem_.sites;
+    for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = result_.last.evaluated[i];
+    return sites;
+  }
 
   Result<std::vector<CellMeasure>> measure() const {
     CellOptions cells;
@@ -143,10 +151,8 @@ class Attempt {
     if (!cells) return cells.error();
     fit.iterations = result_.iterations;
     fit.evaluations = result_.evaluations;
-    for (std::size_t i = 0; i < evaluated().size(); ++i) {
-      fit.weights.push_back(evaluated()[i].weight);
-      fit.volumes.push_back((*cells)[i].volume);
-    }
+    fit.weights = result_.last.evaluated;
+    for (const CellMeasure& cell : *cells) fit.volumes.push_back(cell.volume);
     for (std::uint32_t k = 0; k < asked_.demands.size(); ++k) {
       const VolumeDemand& demand = asked_.demands[k];
       const double has = had(k, *cells), bound = std::clamp(has, demand.least, demand.most);
@@ -182,6 +188,11 @@ class Attempt {
 
   void explain(std::span<const CellMeasure> cells, VolumeFit& fit) const {
     if (!result_.last.infeasible.empty()) fit.reasons.push_back(result_.last.infeasible);
+    if (fit.status == FitStatus::step_limit && !has_floors_) {
+      fit.reasons.push_back("not met after " + std::to_string(fit.evaluations) +
+                            (fit.evaluations == 1 ? " evaluation" : " evaluations") + ", with an error of " +
+                            shortest(fit.max_relative_error) + " at " + sites_text(asked_.demands[fit.worst_demand]));
+    }
     for (std::uint32_t i = 0; i < cells.size() && fit.reasons.size() < kMostReasons; ++i) {
       if (cells[i].state == SiteState::coincident) fit.reasons.push_back("site " + std::to_string(i) + " " + cells[i].reason);
     }
@@ -203,10 +214,6 @@ class Attempt {
       fit.reasons.push_back(text);
     }
     if (more > 0) fit.reasons.push_back("and " + std::to_string(more) + " more demands that are not met");
-    if (fit.status == FitStatus::step_limit && !has_floors_) {
-      fit.reasons.push_back("stopped after " + std::to_string(fit.evaluations) + " evaluations with an error of " +
-                            shortest(fit.max_relative_error) + " at " + sites_text(asked_.demands[fit.worst_demand]));
-    }
   }
 
   const Domain& domain_;

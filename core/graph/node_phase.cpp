@@ -46,7 +46,7 @@ void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool) {
         if (!definition.evaluate || !definition.sets.empty()) continue;
         if (state.is_evaluated && same_inputs(definition, state.values, frozen.nodes[n].types[t].values)) continue;
         std::vector<Value> values = state.values;
-        auto done = definition.evaluate(values, {}, Tick{next.tick, nullptr});
+        auto done = definition.evaluate(values, {}, Tick{.index = next.tick});
         accept(definition, state, std::move(values), std::move(done), place_of(next, n, t));
       }
   });
@@ -60,7 +60,8 @@ struct Reply {
   const SetPlan* writer;
 };
 
-void evaluate_type_sets(State& next, std::span<const SetPlan> plans, ThreadPool& pool, std::vector<Reply>& replies) {
+void evaluate_type_sets(State& next, std::span<const SetPlan> plans, ThreadPool& pool, SetMemos& memos,
+                        std::vector<Reply>& replies) {
   const std::uint32_t n = plans.front().node, t = plans.front().type;
   const TypificationDefinition& definition = *next.plan->nodes[n].types[t].definition;
   TypeState& state = next.nodes[n].types[t];
@@ -76,7 +77,7 @@ void evaluate_type_sets(State& next, std::span<const SetPlan> plans, ThreadPool&
     }
   }
   std::vector<Value> values = state.values;
-  auto done = definition.evaluate(values, sets, Tick{next.tick, &pool});
+  auto done = definition.evaluate(values, sets, Tick{next.tick, &pool, &memos[{next.plan->nodes[n].id, definition.id}]});
   const bool is_good = done.ok();
   accept(definition, state, std::move(values), std::move(done), place_of(next, n, t));
   if (!is_good) return;
@@ -93,13 +94,13 @@ void evaluate_type_sets(State& next, std::span<const SetPlan> plans, ThreadPool&
 
 }  // namespace
 
-void evaluate_sets(State& next, ThreadPool& pool) {
+void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos) {
   const auto& plans = next.plan->sets;
   std::vector<Reply> replies;
   for (std::size_t begin = 0; begin < plans.size();) {
     std::size_t end = begin;
     while (end < plans.size() && plans[end].node == plans[begin].node && plans[end].type == plans[begin].type) ++end;
-    evaluate_type_sets(next, std::span(plans).subspan(begin, end - begin), pool, replies);
+    evaluate_type_sets(next, std::span(plans).subspan(begin, end - begin), pool, memos, replies);
     begin = end;
   }
   std::map<PortRef, const SetPlan*> owner;

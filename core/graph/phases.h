@@ -1,6 +1,11 @@
 // The phases of a tick as functions from the frozen state to the next one.
 #pragma once
 
+#include <map>
+#include <string>
+#include <utility>
+
+#include "core/define/definition.h"
 #include "core/graph/state.h"
 
 namespace bl {
@@ -11,8 +16,10 @@ void evaluate_links(const State& frozen, State& next, ThreadPool& pool);
 void resolve_proposals(const State& frozen, State& next, ThreadPool& pool);
 /// Phase 5: typifications without sets, where an input changed. Parallel over nodes.
 void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool);
+/// What typifications with sets keep from tick to tick, by node and type id; no state.
+using SetMemos = std::map<std::pair<std::string, std::string>, Memo>;
 /// Phase 6: typifications with sets, in ascending node id; all read what phase 5 left, then all replies are written.
-void evaluate_sets(State& next, ThreadPool& pool);
+void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos);
 /// Phase 7: residuals, calm count and hash.
 void commit(State& next);
 

@@ -1,8 +1,6 @@
 // Runs the phases of a tick in their order.
 #include "core/graph/simulation.h"
 
-#include "core/graph/phases.h"
-
 namespace bl {
 
 Simulation::Simulation(const Registry& registry, int threads, double (*now)()) : registry_(&registry), pool_(threads), now_(now) {
@@ -38,7 +36,7 @@ void Simulation::step() {
   lap(times_.resolve);
   evaluate_nodes(frozen, *next, pool_);
   lap(times_.nodes);
-  evaluate_sets(*next, pool_);
+  evaluate_sets(*next, pool_, memos_);
   lap(times_.solve);
   commit(*next);
   lap(times_.commit);

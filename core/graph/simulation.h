@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/graph/phases.h"
 #include "core/graph/state.h"
 
 namespace bl {
@@ -38,6 +39,7 @@ class Simulation {
   double (*now_)();
   std::shared_ptr<const State> state_;
   PhaseTimes times_;
+  SetMemos memos_;
 };
 
 }  // namespace bl
