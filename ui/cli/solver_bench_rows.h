@@ -78,6 +78,9 @@ std::vector<PowerSite> without_weights(std::vector<PowerSite> sites);
 /// Log-uniform over a factor of 20; their sum is `fill` of the unit cube.
 std::vector<double> random_demands(int count, double fill, std::uint64_t seed = 20070);
 
+/// Volumes, neighbours and facet areas, nothing else.
+CellOptions plain_cells(ThreadPool* pool = nullptr);
+
 std::string hash_of(std::span<const double> volumes);
 std::string hash_of(std::span<const CellMeasure> cells);
 
