@@ -100,6 +100,8 @@ BenchTables bench_cold_fit(const SolverBench& bench);
 BenchTables bench_drag(const SolverBench& bench);
 /// Time and memory over the number of sites.
 BenchTables bench_growth(const SolverBench& bench);
+/// The cell complex kept live while one site changes.
+BenchTables bench_complex(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 
