@@ -1,6 +1,7 @@
 // Weights to start from, such that no site begins without a cell.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/demand_fit.h"
 #include "core/geometry/fit_numbers.h"
@@ -52,6 +53,56 @@ Spread spread_of(const Domain& domain, std::span<const PowerSite> sites) {
   return spread;
 }
 
+// Nearest point of a polygon in space to p; its corners are counter-clockwise around the normal.
+Point3 nearest_on_face(const ConvexDomain& shape, std::size_t k, const Point3& p) {
+  const Plane& plane = shape.planes[k];
+  const auto& loop = shape.faces[k];
+  Point3 best = p + (plane.offset - dot(plane.normal, p)) * plane.normal;
+  bool is_inside = true;
+  double least = std::numeric_limits<double>::infinity();
+  Point3 on_rim = best;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Point3 a = shape.vertices[loop[i]], along = shape.vertices[loop[(i + 1) % loop.size()]] - a;
+    is_inside = is_inside && dot(plane.normal, cross(along, best - a)) >= 0;
+    const Point3 on_edge = a + std::clamp(dot(p - a, along) / std::max(1e-300, squared_norm(along)), 0.0, 1.0) * along;
+    if (squared_norm(p - on_edge) < least) {
+      least = squared_norm(p - on_edge);
+      on_rim = on_edge;
+    }
+  }
+  return is_inside ? best : on_rim;
+}
+
+// Squared distance of a point from the nearest of the domain's pieces, each shrunk about its centroid [m²].
+double squared_gap(const Domain& domain, const Point3& point) {
+  constexpr double kShrink = 0.8;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Domain::Piece& piece : domain.pieces) {
+    const ConvexDomain& shape = piece.shape;
+    const Point3 p = shape.centroid + (1 / kShrink) * (point - shape.centroid);
+    if (shape.contains(p)) return 0;
+    for (std::size_t k = 0; k < shape.planes.size(); ++k) {
+      if (dot(shape.planes[k].normal, p) < shape.planes[k].offset) continue;
+      least = std::min(least, kShrink * kShrink * squared_norm(p - nearest_on_face(shape, k, p)));
+    }
+  }
+  return least;
+}
+
+// Is the domain in several pieces, and are the sites about as wide spread as it is, some of them outside?
+bool is_spread_over_pieces(const Domain& domain, std::span<const PowerSite> sites) {
+  Vector3 low = sites[0].position, high = low;
+  bool all_inside = true;
+  for (const PowerSite& site : sites) {
+    const Point3& p = site.position;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    all_inside = all_inside && domain.contains(p);
+  }
+  const double extent = distance(low, high);
+  return !all_inside && !domain.is_convex() && extent > 0.4 * domain.size() && extent < 2 * domain.size();
+}
+
 }  // namespace
 
 std::vector<double> initial_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands) {
@@ -61,6 +112,12 @@ std::vector<double> initial_weights(const Domain& domain, std::span<const PowerS
   const double fill = std::clamp(sum / domain.volume, 1e-9, 0.98);
   const double volume = sum / static_cast<double>(demands.size()) * (minus_log_of_rest(fill) / fill);
   std::vector<double> weights(sites.size(), weight_of_volume(volume));
+  if (is_spread_over_pieces(domain, sites)) {
+    // Each site wins the point of the shrunken pieces that is nearest to it: there no other can have less power, since none is
+    // nearer to them than its own gap says. So cells begin where their sites are, in all pieces, and not too thin.
+    for (std::size_t i = 0; i < sites.size(); ++i) weights[i] += squared_gap(domain, sites[i].position);
+    return weights;
+  }
   const Spread spread = spread_of(domain, sites);
   if (!spread.is_needed) return weights;
   const Point3& centre = domain.largest_piece().centroid;

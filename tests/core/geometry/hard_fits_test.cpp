@@ -73,6 +73,8 @@ TEST(HardFits, AllOfThemAreMet) {
   expect_met("most sites outside, 100 %", placed(1, outside));
   FitScene plan = fit_scene(many(), 0.7, 35);
   plan.domain = zoo_domain(4);
+  refill(plan, 0.7);
+  expect_met("plan with a hole, and sites there", plan);
   Random random(5);
   for (PowerSite& site : plan.problem.sites) {
     while (!plan.domain.contains(site.position)) site.position = random_point(random, {0, 0, 0}, {1, 1, 1});
