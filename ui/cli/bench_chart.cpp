@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <span>
 
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/furniture.h"
@@ -20,7 +20,7 @@ using report::pixels;
 
 // One panel alone is wider, as its legend has to find room.
 constexpr double kPanelWidth = 400, kOnePanelWidth = 640;
-constexpr double kHeight = 292, kTop = 68, kBottom = 46, kLeft = 56, kRight = 18;
+constexpr double kHeight = 292, kTop = 68, kBottom = 46, kLeft = 56, kRight = 28;
 constexpr const char* kRule = "#d9d5ca";
 
 // One logarithmic axis: where it begins and ends, and what is written on it.
@@ -39,7 +39,10 @@ double round_up(double value) {
   return std::max(round_down(2 * below), round_down(2.5 * below));
 }
 
-Axis axis_of(const ChartPanel& panel, const std::function<double(const ChartLine::Point&)>& pick, double also) {
+using Pick = double ChartLine::Point::*;
+
+// `also`: a figure that is to be seen as well.
+Axis axis_of(std::span<const ChartPanel> panels, Pick pick, double also) {
   double low = 1e300, high = 0;
   const auto take = [&](double value) {
     if (!(value > 0)) return;
@@ -47,9 +50,11 @@ Axis axis_of(const ChartPanel& panel, const std::function<double(const ChartLine
     high = std::max(high, value);
   };
   take(also);
-  for (const ChartLine& line : panel.lines) {
-    for (const ChartLine::Point& point : line.points) {
-      if (point.x > 0 && point.y > 0) take(pick(point));
+  for (const ChartPanel& panel : panels) {
+    for (const ChartLine& line : panel.lines) {
+      for (const ChartLine::Point& point : line.points) {
+        if (point.x > 0 && point.y > 0) take(point.*pick);
+      }
     }
   }
   if (!(high > 0)) return {};
@@ -78,15 +83,13 @@ std::string mark_text(double value) {
 
 class PanelDrawing {
  public:
-  PanelDrawing(Markup& svg, const ChartPanel& panel, double left, double width)
+  PanelDrawing(Markup& svg, const ChartPanel& panel, const Axis& x, double left, double width)
       : svg_(svg),
         panel_(panel),
         left_(left + kLeft),
         right_(left + width - kRight),
-        x_(axis_of(
-            panel, [](const ChartLine::Point& p) { return p.x; }, 0)),
-        y_(axis_of(
-            panel, [](const ChartLine::Point& p) { return p.y; }, panel.limit)) {}
+        x_(x),
+        y_(axis_of(std::span(&panel, 1), &ChartLine::Point::y, panel.limit)) {}
 
   void draw() {
     draw_axes();
@@ -166,9 +169,11 @@ std::string draw_chart(const Chart& chart) {
   const double width = chart.panels.size() == 1 ? kOnePanelWidth : kPanelWidth;
   report::open_picture(svg, width * static_cast<double>(chart.panels.size()), kHeight, chart.id, chart.title, chart.description);
   if (!chart.panels.empty()) draw_legend(svg, chart.panels.front().lines);
+  // Side by side, the panels are read across.
+  const Axis x = axis_of(chart.panels, &ChartLine::Point::x, 0);
   double left = 0;
   for (const ChartPanel& panel : chart.panels) {
-    PanelDrawing(svg, panel, left, width).draw();
+    PanelDrawing(svg, panel, x, left, width).draw();
     left += width;
   }
   svg.close();

@@ -8,6 +8,7 @@
 #include "core/file/file_io.h"
 #include "core/geometry/power_cells.h"
 #include "ui/cli/commands.h"
+#include "ui/cli/complex_json.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/json_fields.h"
 #include "ui/cli/site_case.h"
@@ -44,28 +45,36 @@ Json side_planes(const Domain& domain) {
   return planes;
 }
 
-Result<Json> solved(const SiteCase& input, ThreadPool& pool) {
+Result<Json> solved(const SiteCase& input, bool with_complex, ThreadPool& pool) {
   const Domain& domain = input.boundary.domain;
   CellOptions options;
   options.storey_height = domain.maximum.z - domain.minimum.z;  // floor areas are not written: one storey
   options.pool = &pool;
-  const auto cells = power_cells(domain, input.problem.sites, options);
+  options.with_outlines = with_complex;
+  PowerDiagram diagram;
+  if (auto set = diagram.set_domain(domain); !set) return set.error().within(input.place);
+  const auto cells = diagram.update(input.problem.sites, options);
   if (!cells) return cells.error().within(input.place);
   Json result = Json::object();
   result["cells"] = Json::array();
   for (const CellMeasure& cell : *cells) result["cells"].push_back(cell_json(cell));
   if (!input.boundary.has_given_planes) result["planes"] = side_planes(domain);
+  if (with_complex) {
+    auto complex = complex_json(diagram, input.problem.sites);
+    if (!complex) return complex.error().within(input.place);
+    result["complex"] = std::move(*complex);
+  }
   return result;
 }
 
 // All cases up to an interrupt, or all of what is wrong with them.
-std::optional<Json> all_cases(const SiteCases& input, const std::string& file, ThreadPool& pool) {
+std::optional<Json> all_cases(const SiteCases& input, const CellsOptions& options, ThreadPool& pool) {
   bool is_all_well = true;
   Progress progress;
   Json results = Json::array();
   for (std::size_t i = 0; i < input.cases.size() && !is_interrupted(); ++i) {
-    auto result = solved(input.cases[i], pool);
-    if (!result) print_error(file, result.error());
+    auto result = solved(input.cases[i], options.with_complex, pool);
+    if (!result) print_error(options.input, result.error());
     is_all_well &= result.ok();
     if (result) results.push_back(std::move(*result));
     progress.show("case " + std::to_string(i + 1) + " of " + std::to_string(input.cases.size()));
@@ -81,7 +90,7 @@ int cells_command(const CellsOptions& options) {
   if (!input) return kBadInput;
   catch_interrupts();
   ThreadPool pool(options.threads);
-  const auto output = all_cases(*input, options.input, pool);
+  const auto output = all_cases(*input, options, pool);
   if (!output) return kBadInput;
   if (auto written = write_file(options.json, write_json(*output) + "\n"); !written) {
     print_error(options.json, written.error());

@@ -60,6 +60,7 @@ int schema_command(const SchemaOptions& options);
 struct CellsOptions {
   std::string input, json, boundary;
   int threads = 1;
+  bool with_complex = false;
 };
 int cells_command(const CellsOptions& options);
 

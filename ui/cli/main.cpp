@@ -133,6 +133,7 @@ void declare_cells(CLI::App& app, CellsOptions& o) {
       ->required();
   c.add_option("--json", o.json, "Where the cells are written, in m2 and m3.")->type_name("OUT")->required();
   c.add_option("--boundary", o.boundary, kBoundaryHelp)->type_name("FILE");
+  c.add_flag("--complex", o.with_complex, "Writes the facets, edges and vertices between the unshrunk cells as well.");
   add_threads(c, o.threads);
   c.footer(
       "Input:  {\"boundary\": ..., \"sites\": [[x, y, z], ...], \"weights\": [w, ...]}\n"
@@ -140,7 +141,11 @@ void declare_cells(CLI::App& app, CellsOptions& o) {
       std::string(kBoundaryFormsHelp) +
       "Output: {\"cells\": [{\"volume\", \"cell_volume\", \"surface_area\", \"spherical_area\",\n"
       "         \"facet_areas\": {\"plane:k\": area, \"site:j\": area}, \"centroid\", \"state\", \"reason\"}, ...]}\n"
-      "        in the order of the sites; where no planes were given, those that were found stand beside the cells\n\n"
+      "        in the order of the sites; where no planes were given, those that were found stand beside the cells\n"
+      "        --complex: {\"complex\": {\"vertices\": [{\"name\", \"position\"}], \"edges\": [{\"name\", \"length\", "
+      "\"vertices\"}],\n"
+      "         \"facets\": [{\"name\", \"area\", \"edges\", \"polygons\"}]}}; a name such as {3,7,#2} is the sites and\n"
+      "         sides that meet there\n\n"
       "Example:\n  behaviourlinks cells sites.json --json cells.json");
 }
 
@@ -198,7 +203,7 @@ void declare_bench(CLI::App& app, BenchOptions& o) {
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "study"}))
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "study"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")

@@ -21,13 +21,6 @@ struct CellCase {
 // Wider than the unit cube's diagonal, so that no ball cuts.
 constexpr double kNoBalls = 3;
 
-CellOptions cell_options(ThreadPool* pool) {
-  CellOptions options;
-  options.with_shape = options.with_centroid = false;
-  options.pool = pool;
-  return options;
-}
-
 BenchTable cell_table(const std::string& name, const std::string& heading) {
   return {name,
           heading,
@@ -41,6 +34,7 @@ BenchTable cell_table(const std::string& name, const std::string& heading) {
            {"/CGAL", "ratio_to_cgal"},
            {"/Voro++", "ratio_to_voropp"},
            {"/1 thread", "ratio_to_one_thread"},
+           {"least/1", "least_ratio_to_one_thread"},
            {"CGAL ms", "cgal_milliseconds"},
            {"Voro++ ms", "voropp_milliseconds"},
            {"differs by", "differs_from_voropp"},
@@ -51,7 +45,7 @@ BenchTable cell_table(const std::string& name, const std::string& heading) {
 std::vector<CellMeasure> cells_from_nothing(const Domain& domain, std::span<const PowerSite> sites, ThreadPool& pool) {
   PowerDiagram diagram;
   (void)diagram.set_domain(domain);
-  const auto cells = diagram.update(sites, cell_options(&pool));
+  const auto cells = diagram.update(sites, plain_cells(&pool));
   return cells ? std::vector<CellMeasure>(cells->begin(), cells->end()) : std::vector<CellMeasure>();
 }
 
@@ -77,7 +71,7 @@ std::vector<Contender> contenders_of(const Domain& domain, const CellCase& set,
     contenders.push_back({[&domain, &set, &pool] {
                             PowerDiagram diagram;
                             (void)diagram.set_domain(domain);
-                            (void)diagram.update(set.sites, cell_options(pool.get()));
+                            (void)diagram.update(set.sites, plain_cells(pool.get()));
                           },
                           {},
                           {}});
@@ -111,6 +105,7 @@ Result<void> measure(const SolverBench& bench, const CellCase& set, BenchTable& 
                figure(1e3 * contenders[t].least.of(count), 3), figure(1e6 * seconds / static_cast<double>(cells.size()), 2),
                ratio(seconds, cgal.median.of(count)), voropp ? ratio(seconds, voropp->median.of(count)) : no_figure(),
                count > 1 && threads.front() == 1 ? ratio(seconds, contenders.front().median.wall) : no_figure(),
+               count > 1 && threads.front() == 1 ? ratio(contenders[t].least.wall, contenders.front().least.wall) : no_figure(),
                figure(1e3 * cgal.median.of(count), 3), voropp ? figure(1e3 * voropp->median.of(count), 3) : no_figure(),
                difference(domain, set, cells), word(hash_of(cells))});
   }
@@ -124,7 +119,7 @@ double lift_to_fill(const std::vector<PowerSite>& sites, double fill) {
   double low = 0, high = 2 * square;
   for (int step = 0; step < 12; ++step) {
     const double middle = 0.5 * (low + high);
-    const auto cells = power_cells(domain, lifted(sites, middle), cell_options(nullptr));
+    const auto cells = power_cells(domain, lifted(sites, middle), plain_cells());
     if (!cells) break;
     (totals_of(*cells).volume < fill * domain.volume ? low : high) = middle;
   }

@@ -36,13 +36,12 @@ Result<GrowthRow> measure(const SolverBench& bench, int count) {
   const Domain domain = unit_cube();
   const FitProblem problem = fit_problem(count, kGrowthFill);
   const auto plain = random_sites(count), sites = lifted(plain, 3);
-  CellOptions options;
-  options.with_shape = options.with_centroid = false;
   std::vector<Contender> contenders(2);
   contenders[0].work = [&] {
     PowerDiagram diagram;
     (void)diagram.set_domain(domain);
-    if (const auto cells = diagram.update(sites, options); cells && row.diagram_hash.empty()) row.diagram_hash = hash_of(*cells);
+    if (const auto cells = diagram.update(sites, plain_cells()); cells && row.diagram_hash.empty())
+      row.diagram_hash = hash_of(*cells);
   };
   contenders[1].work = [&] {
     if (const auto fit = fit_volumes(domain, problem, {}); fit && row.fit_hash.empty()) row.fit_hash = hash_of(fit->volumes);

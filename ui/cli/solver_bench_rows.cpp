@@ -109,6 +109,13 @@ std::vector<double> random_demands(int count, double fill, std::uint64_t seed) {
   return demands;
 }
 
+CellOptions plain_cells(ThreadPool* pool) {
+  CellOptions options;
+  options.with_shape = options.with_centroid = false;
+  options.pool = pool;
+  return options;
+}
+
 std::string hash_of(std::span<const double> volumes) {
   Hash hash;
   for (const double volume : volumes) hash.add(volume);

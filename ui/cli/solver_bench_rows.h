@@ -78,6 +78,9 @@ std::vector<PowerSite> without_weights(std::vector<PowerSite> sites);
 /// Log-uniform over a factor of 20; their sum is `fill` of the unit cube.
 std::vector<double> random_demands(int count, double fill, std::uint64_t seed = 20070);
 
+/// Volumes, neighbours and facet areas, nothing else.
+CellOptions plain_cells(ThreadPool* pool = nullptr);
+
 std::string hash_of(std::span<const double> volumes);
 std::string hash_of(std::span<const CellMeasure> cells);
 
@@ -97,6 +100,8 @@ BenchTables bench_cold_fit(const SolverBench& bench);
 BenchTables bench_drag(const SolverBench& bench);
 /// Time and memory over the number of sites.
 BenchTables bench_growth(const SolverBench& bench);
+/// The cell complex kept live while one site changes.
+BenchTables bench_complex(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 

@@ -205,6 +205,31 @@ TEST(PowerCellLaws, ThreadsAndHistoryChangeNoBit) {
   }
 }
 
+// A site that grows or jumps may swallow others whole, which then border on nobody.
+TEST(PowerCellLaws, LocalChangesEndWhereMakingAnewEnds) {
+  for (const bool is_whole : {true, false}) {
+    CellOptions options;
+    options.with_shape = is_whole;
+    Random random(61);
+    auto sites = random_sites(60, 62, 0.001, 0.02);
+    PowerDiagram diagram;
+    ASSERT_TRUE(diagram.set_domain(unit_cube()).ok());
+    std::size_t made = 0;
+    for (int step = 0; step < 400; ++step) {
+      PowerSite& site = sites[random.below(sites.size())];
+      if (step % 2 == 0) site.position = random_point(random, {-0.1, -0.1, -0.1}, {1.1, 1.1, 1.1});
+      else site.weight = random.uniform(-0.01, step % 3 == 0 ? 0.2 : 0.02);
+      ASSERT_TRUE(diagram.update(sites, options).ok());
+      made += diagram.made().size();
+      const auto anew = power_cells(unit_cube(), sites, options).value();
+      for (std::size_t i = 0; i < sites.size(); ++i) {
+        ASSERT_TRUE(same_bits(diagram.cells()[i], anew[i])) << is_whole << " " << step << " " << i;
+      }
+    }
+    EXPECT_LT(made, 400u * 45u);
+  }
+}
+
 // Radii chosen exactly at the distance of a vertex, an edge or a plane, where a topological formula would stumble.
 TEST(PowerCellLaws, TangentBallsAreContinuous) {
   const ConvexDomain domain = skew_domain();

@@ -30,6 +30,23 @@ TEST(Cells, BallAndHalfCubes) {
   EXPECT_EQ(cases[1]["cells"][0]["state"], "alive");
 }
 
+TEST(Cells, ComplexNamesWhatLiesBetweenTheCells) {
+  const Workplace place;
+  place.write("i.json", std::string("{") + kCube + R"(, "sites": [[0.25, 0.5, 0.5], [0.75, 0.5, 0.5]], "weights": [9, 9]})");
+  ASSERT_EQ(place.run({"cells", "i.json", "--json", "o.json", "--complex"}).code, 0);
+  const nlohmann::json complex = place.json("o.json")["complex"];
+  EXPECT_EQ(complex["vertices"].size(), 12u);
+  EXPECT_EQ(complex["edges"].size(), 20u);
+  EXPECT_EQ(complex["facets"].size(), 11u);
+  EXPECT_EQ(complex["facets"][0]["name"], "{0,1}");
+  EXPECT_NEAR(complex["facets"][0]["area"].get<double>(), 1, 1e-15);
+  EXPECT_EQ(complex["facets"][0]["edges"], nlohmann::json::parse(R"(["{0,1,#2}", "{0,1,#3}", "{0,1,#4}", "{0,1,#5}"])"));
+  EXPECT_EQ(complex["facets"][0]["polygons"][0].size(), 4u);
+  EXPECT_EQ(complex["vertices"][0], nlohmann::json::parse(R"({"name": "{0,1,#2,#4}", "position": [0.5, 0, 0]})"));
+  ASSERT_EQ(place.run({"cells", "i.json", "--json", "o.json"}).code, 0);
+  EXPECT_FALSE(place.json("o.json").contains("complex"));
+}
+
 TEST(Cells, VerticesGiveThePlanesThatWereFound) {
   const Workplace place;
   place.write(

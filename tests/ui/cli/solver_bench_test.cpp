@@ -39,8 +39,10 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
     hashes[work].insert(row["hash"].get<std::string>());
     threads[work].insert(row["threads"].get<int>());
   }
-  EXPECT_EQ(kinds, (std::map<std::string, int>{
-                       {"diagram", 2}, {"wrapped", 4}, {"fit", 5}, {"seeds", 5}, {"drag", 8}, {"growth", 1}, {"study", 3}}));
+  EXPECT_EQ(
+      kinds,
+      (std::map<std::string, int>{
+          {"diagram", 2}, {"wrapped", 4}, {"fit", 5}, {"seeds", 5}, {"drag", 8}, {"growth", 1}, {"complex", 2}, {"study", 3}}));
   EXPECT_EQ(hashes.size(), 7u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
   for (const auto& [work, found] : threads) EXPECT_EQ(found, (std::set<int>{1, 2})) << work;

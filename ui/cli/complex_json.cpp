@@ -1,0 +1,53 @@
+// Every element of a cell complex with its name, its measure and what bounds it.
+#include "ui/cli/complex_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/geometry/cell_complex.h"
+
+namespace bl::cli {
+
+namespace {
+
+Json point_json(const Point3& p) { return {p.x, p.y, p.z}; }
+
+Json names_json(const std::vector<ElementName>& names) {
+  Json list = Json::array();
+  for (const ElementName& name : names) list.push_back(name.text());
+  return list;
+}
+
+Json polygons_json(const std::vector<std::vector<Point3>>& polygons) {
+  Json list = Json::array();
+  for (const auto& polygon : polygons) {
+    Json points = Json::array();
+    for (const Point3& p : polygon) points.push_back(point_json(p));
+    list.push_back(std::move(points));
+  }
+  return list;
+}
+
+}  // namespace
+
+Result<Json> complex_json(const PowerDiagram& diagram, std::span<const PowerSite> sites) {
+  CellComplex complex;
+  if (auto built = complex.update(diagram, sites); !built) return built.error();
+  Json vertices = Json::array(), edges = Json::array(), facets = Json::array();
+  for (const ElementName& name : complex.names(ElementKind::vertex)) {
+    vertices.push_back({{"name", name.text()}, {"position", point_json(*complex.position(name))}});
+  }
+  for (const ElementName& name : complex.names(ElementKind::edge)) {
+    edges.push_back({{"name", name.text()},
+                     {"length", complex.length(name)},
+                     {"vertices", names_json(complex.incident({ElementKind::edge, name}, ElementKind::vertex))}});
+  }
+  for (const ElementName& name : complex.names(ElementKind::facet)) {
+    facets.push_back({{"name", name.text()},
+                      {"area", complex.area(name)},
+                      {"edges", names_json(complex.incident({ElementKind::facet, name}, ElementKind::edge))},
+                      {"polygons", polygons_json(complex.polygons(name))}});
+  }
+  return Json{{"vertices", std::move(vertices)}, {"edges", std::move(edges)}, {"facets", std::move(facets)}};
+}
+
+}  // namespace bl::cli
