@@ -48,6 +48,7 @@ class Attempt {
     const double tolerance = has_floors_ ? 0.3 * options_.tolerance : options_.tolerance;
     if (auto done = fit(tolerance); !done) return done.error();
     for (int k = 0; has_floors_ && k < kMostCorrections && result_.last.is_met && result_.last.infeasible.empty(); ++k) {
+      if (result_.evaluations >= options_.most_steps) break;
       auto corrected = correct_floors();
       if (!corrected) return corrected.error();
       if (*corrected) break;
