@@ -48,6 +48,7 @@ void add_facet(FaceKind kind, std::uint32_t index, double area, std::vector<Face
 
 void gather_facets(const Polyhedron& part, double squared_radius, const ShapeMeasure& shape, CellMeasure& out) {
   const double sliver = kSliverShare * std::min(part.reach_squared, squared_radius);
+  if (out.facets.empty()) out.facets.reserve(part.faces.size());
   for (std::size_t k = 0; k < part.faces.size(); ++k) {
     const PolyhedronFace& face = part.faces[k];
     const bool is_surface = face.kind == FaceKind::plane || face.kind == FaceKind::site;

@@ -1,7 +1,12 @@
 // Cutting a convex polyhedron by planes, with one decision per vertex.
 #include "core/geometry/clipper.h"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -21,13 +26,23 @@ constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
 
 // Vertices are worked through two at a time; the arrays are padded with copies of the last one.
 typedef double Lanes __attribute__((vector_size(16), aligned(8)));
-constexpr std::size_t kLanes = 2;
+typedef std::int64_t Answers __attribute__((vector_size(16)));
+constexpr std::uint32_t kLanes = 2;
 constexpr std::size_t padded(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
+inline Lanes all(double value) { return Lanes{value, value}; }
 inline Lanes load(const double* from) { return *reinterpret_cast<const Lanes*>(from); }
 inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 inline Lanes smaller(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 inline double largest(const Lanes& a) { return std::max(a[0], a[1]); }
+// A bit per lane of a comparison.
+inline std::uint64_t bits_of(const Answers& answers) {
+#if defined(__SSE2__)
+  return static_cast<std::uint64_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(answers)));
+#else
+  return (answers[0] != 0 ? 1u : 0u) | (answers[1] != 0 ? 2u : 0u);
+#endif
+}
 inline double smallest(const Lanes& a) { return std::min(a[0], a[1]); }
 
 }  // namespace
@@ -40,10 +55,18 @@ void Clipper::reserve(std::size_t vertices) {
   z_.resize(room);
   beyond_.resize(room);
   corners_.resize(room);
-  taken_.resize(room, 0);
+  squared_.resize(room);
+  taken_.resize(room / 64 + 1);
   leaving_.resize(room);
-  fresh_.resize(room);
-  places_.resize(room);
+  rim_.resize(3 * room);
+  fresh_.resize(3 * room);
+}
+
+void Clipper::set_place(std::uint32_t vertex, const Point3& at) {
+  x_[vertex] = at.x;
+  y_[vertex] = at.y;
+  z_[vertex] = at.z;
+  squared_[vertex] = squared_norm(at);
 }
 
 void Clipper::measure_reach() {
@@ -51,12 +74,10 @@ void Clipper::measure_reach() {
     x_[v] = x_[size_ - 1];
     y_[v] = y_[size_ - 1];
     z_[v] = z_[size_ - 1];
+    squared_[v] = squared_[size_ - 1];
   }
   Lanes most{0, 0};
-  for (std::size_t v = 0; v < size_; v += kLanes) {
-    const Lanes x = load(&x_[v]), y = load(&y_[v]), z = load(&z_[v]);
-    most = larger(most, x * x + y * y + z * z);
-  }
+  for (std::size_t v = 0; v < size_; v += kLanes) most = larger(most, load(&squared_[v]));
   reach_squared_ = largest(most);
   reach_ = std::sqrt(reach_squared_);
 }
@@ -106,9 +127,7 @@ void Clipper::start(const Start& from, const Point3& origin) {
     sides_.push_back({side.normal, dot(side.normal, side.anchor - origin), side.kind, side.index});
   }
   for (std::uint32_t v = 0; v < size_; ++v) {
-    x_[v] = from.vertices_[v].x - origin.x;
-    y_[v] = from.vertices_[v].y - origin.y;
-    z_[v] = from.vertices_[v].z - origin.z;
+    set_place(v, from.vertices_[v] - origin);
     const auto& corner = from.corners_[v];
     corners_[v] = {{corner[0], corner[1], corner[2]}, {corner[3], corner[4], corner[5]}, v};
   }
@@ -130,9 +149,7 @@ void Clipper::start_box(const Vector3& minimum, const Vector3& maximum) {
   for (std::uint32_t k = 0; k < 6; ++k) sides_.push_back({planes[k].normal, planes[k].offset, FaceKind::frame, k});
   for (std::uint32_t v = 0; v < 8; ++v) {
     const bool east = (v & 1u) != 0, north = (v & 2u) != 0, up = (v & 4u) != 0;
-    x_[v] = east ? maximum.x : minimum.x;
-    y_[v] = north ? maximum.y : minimum.y;
-    z_[v] = up ? maximum.z : minimum.z;
+    set_place(v, {east ? maximum.x : minimum.x, north ? maximum.y : minimum.y, up ? maximum.z : minimum.z});
     Corner corner{{east ? 1u : 0u, north ? 3u : 2u, up ? 5u : 4u}, {v ^ 1u, v ^ 2u, v ^ 4u}, v};
     if ((east != north) != up) corners_[v] = corner;  // an odd number of positive sides: x, y, z is counter-clockwise
     else corners_[v] = {{corner.plane[0], corner.plane[2], corner.plane[1]}, {corner.next[0], corner.next[2], corner.next[1]}, v};
@@ -147,6 +164,7 @@ void Clipper::copy(const Clipper& other) {
   std::copy_n(other.x_.begin(), size_, x_.begin());
   std::copy_n(other.y_.begin(), size_, y_.begin());
   std::copy_n(other.z_.begin(), size_, z_.begin());
+  std::copy_n(other.squared_.begin(), size_, squared_.begin());
   std::copy_n(other.corners_.begin(), size_, corners_.begin());
   sides_ = other.sides_;
   is_touchy_ = other.is_touchy_;
@@ -154,73 +172,86 @@ void Clipper::copy(const Clipper& other) {
   if (size_ > 0) measure_reach();
 }
 
-// Signed distances of all vertices from the plane. Is one of them beyond?
+// Signed distances of all vertices from the plane; those beyond are taken. Is there one?
 bool Clipper::judge(const Vector3& normal, double offset, double tolerance) {
-  Lanes most{-1e300, -1e300}, nearest{1e300, 1e300};
-  for (std::size_t v = 0; v < size_; v += kLanes) {
-    const Lanes beyond = load(&x_[v]) * normal.x + load(&y_[v]) * normal.y + load(&z_[v]) * normal.z - offset;
-    *reinterpret_cast<Lanes*>(&beyond_[v]) = beyond;
-    most = larger(most, beyond);
-    nearest = smaller(nearest, larger(beyond, -beyond));
+  const double *const x = x_.data(), *const y = y_.data(), *const z = z_.data();
+  double* const out = beyond_.data();
+  const Lanes along_x = all(normal.x), along_y = all(normal.y), along_z = all(normal.z), far = all(offset), most = all(tolerance);
+  Lanes nearest = all(1e300);
+  std::uint64_t any = 0;
+  for (std::uint32_t first = 0; first < size_; first += 64) {
+    const std::uint32_t end = std::min(size_, first + 64);
+    std::uint64_t taken = 0;
+    for (std::uint32_t v = first; v < end; v += kLanes) {
+      const Lanes beyond = load(x + v) * along_x + load(y + v) * along_y + load(z + v) * along_z - far;
+      *reinterpret_cast<Lanes*>(out + v) = beyond;
+      nearest = smaller(nearest, larger(beyond, -beyond));
+      taken |= bits_of(beyond > most) << (v - first);
+    }
+    // Copies of the last vertex pad the arrays.
+    if (end % 64 != 0) taken &= (std::uint64_t{1} << (end % 64)) - 1;
+    taken_[first / 64] = taken;
+    any |= taken;
   }
   if (smallest(nearest) <= tolerance * (kTouchyShare / kTouchShare)) is_touchy_ = true;
-  return largest(most) > tolerance;
+  return any != 0;
 }
 
-// Marks the vertices beyond; returns the number of edges between them and the others.
-std::uint32_t Clipper::take_beyond(double tolerance) {
-  leaving_count_ = 0;
-  for (std::uint32_t v = 0; v < size_; ++v) {
-    const bool leaves = beyond_[v] > tolerance;
-    taken_[v] = leaves;
-    leaving_[leaving_count_] = v;
-    leaving_count_ += leaves;
-  }
-  std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < leaving_count_; ++i) {
-    for (const std::uint32_t w : corners_[leaving_[i]].next) kept += !taken_[w];
-  }
-  return kept;
-}
-
-// The edges from taken to kept vertices in order, counter-clockwise around the new face: along the part of each face that goes.
-// Each gets its fresh vertex. Returns their number.
-std::uint32_t Clipper::trace_rim() {
-  std::uint32_t v = kNone, slot = 0;
-  for (std::uint32_t i = 0; i < leaving_count_ && v == kNone; ++i) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      if (taken_[corners_[leaving_[i]].next[k]]) continue;
-      v = leaving_[i];
-      slot = k;
+// Lists the vertices that go, and the edges from them to vertices that stay, in any order. Returns the number of these edges.
+std::uint32_t Clipper::find_rim() {
+  const std::uint64_t* const taken = taken_.data();
+  const Corner* const corners = corners_.data();
+  std::uint32_t *const leaving = leaving_.data(), *const rim = rim_.data();
+  std::uint32_t count = 0, leaving_count = 0;
+  for (std::uint32_t first = 0; first < size_; first += 64) {
+    for (std::uint64_t bits = taken[first / 64]; bits != 0; bits &= bits - 1) {
+      const std::uint32_t v = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+      leaving[leaving_count++] = v;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t u = corners[v].next[k];
+        rim[count] = 4 * v + k;
+        count += (~taken[u / 64] >> (u % 64)) & 1u;
+      }
     }
   }
-  if (v == kNone) return 0;
-  const std::uint32_t first = v, first_slot = slot;
-  std::uint32_t count = 0;
-  do {
-    const Corner& corner = corners_[v];
-    const std::uint32_t u = corner.next[slot];
-    const auto& around = corners_[u].next;
-    const std::uint32_t face = corner.plane[kPrevious[slot]];
-    fresh_[count++] = {u, v, static_cast<std::uint32_t>(around[1] == v) + 2u * static_cast<std::uint32_t>(around[2] == v),
-                       corner.plane[kNext[slot]], face};
-    slot = kNext[slot];
-    while (taken_[corners_[v].next[slot]]) {
-      v = corners_[v].next[slot];
-      const auto& plane = corners_[v].plane;
-      slot = plane[0] == face ? kPrevious[0] : plane[1] == face ? kPrevious[1] : kPrevious[2];
-    }
-  } while ((v != first || slot != first_slot) && count < fresh_.size());
+  leaving_count_ = leaving_count;
   return count;
 }
 
-// Where the edges meet the plane: read from the ends before the first of those that leave is written over.
+// A fresh vertex for each edge of the rim.
 void Clipper::place_fresh(std::uint32_t count) {
+  if (left_of_.size() < sides_.size()) left_of_.resize(2 * sides_.size(), 0);
+  const double *const x = x_.data(), *const y = y_.data(), *const z = z_.data(), *const beyond = beyond_.data();
+  const Corner* const corners = corners_.data();
+  const std::uint32_t* const rim = rim_.data();
+  std::uint32_t* const left_of = left_of_.data();
+  Fresh* const all_fresh = fresh_.data();
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t u = fresh_[i].kept, v = fresh_[i].removed;
-    const double inside = std::min(0.0, beyond_[u]), share = inside / (inside - beyond_[v]);
-    places_[i] = {x_[u] + share * (x_[v] - x_[u]), y_[u] + share * (y_[v] - y_[u]), z_[u] + share * (z_[v] - z_[u])};
+    Fresh& fresh = all_fresh[i];
+    const std::uint32_t v = rim[i] / 4, k = rim[i] % 4, u = corners[v].next[k];
+    const auto& around = corners[u].next;
+    const double inside = std::min(0.0, beyond[u]), share = inside / (inside - beyond[v]);
+    fresh.at = {x[u] + share * (x[v] - x[u]), y[u] + share * (y[v] - y[u]), z[u] + share * (z[v] - z[u])};
+    fresh.kept = u;
+    fresh.back = static_cast<std::uint32_t>(around[1] == v) + 2u * static_cast<std::uint32_t>(around[2] == v);
+    fresh.left = corners[v].plane[kNext[k]];
+    fresh.right = corners[v].plane[kPrevious[k]];
+    left_of[fresh.left] = i;
   }
+}
+
+// Do the fresh vertices, each followed by the one that has its right face on the left, make one ring around what goes?
+bool Clipper::is_ring(std::uint32_t count) const {
+  const std::uint32_t* const left_of = left_of_.data();
+  const Fresh* const fresh = fresh_.data();
+  std::uint32_t at = 0, steps = 0;
+  do {
+    const std::uint32_t face = fresh[at].right;
+    at = left_of[face];
+    if (at >= count || fresh[at].left != face) return false;
+    ++steps;
+  } while (at != 0 && steps < count);
+  return at == 0 && steps == count;
 }
 
 // Rounding has torn what goes, or what stays, into parts: only the part around the farthest vertex goes, and of what stays the
@@ -250,39 +281,41 @@ void Clipper::untangle(double tolerance) {
         v, [&](std::uint32_t w) { return !gone[w]; }, seen);
     if (part.size() > largest_part.size()) largest_part = part;
   }
-  std::fill_n(taken_.begin(), size_, std::uint8_t{1});
-  for (const std::uint32_t v : largest_part) taken_[v] = 0;
-  leaving_count_ = 0;
+  for (std::uint32_t v = 0; v < size_; ++v) taken_[v / 64] |= std::uint64_t{1} << (v % 64);
+  for (const std::uint32_t v : largest_part) taken_[v / 64] &= ~(std::uint64_t{1} << (v % 64));
   for (std::uint32_t v = 0; v < size_; ++v) {
     // A vertex that goes along without lying beyond counts as lying on the plane.
-    if (taken_[v]) beyond_[v] = std::max(beyond_[v], tolerance);
-    if (taken_[v]) leaving_[leaving_count_++] = v;
+    if (is_taken(v)) beyond_[v] = std::max(beyond_[v], tolerance);
   }
 }
 
 // Links the fresh vertices in a ring around the new face. They take the places of those that leave.
 void Clipper::close_rim(std::uint32_t plane, std::uint32_t count) {
-  const auto place = [&](std::uint32_t i) { return i < leaving_count_ ? leaving_[i] : size_ + i - leaving_count_; };
-  std::uint32_t before = place(count - 1), at = place(0);
+  std::uint32_t* const places = leaving_.data();
+  const std::uint32_t* const left_of = left_of_.data();
+  const Fresh* const all_fresh = fresh_.data();
+  Corner* const corners = corners_.data();
+  for (std::uint32_t i = leaving_count_; i < count; ++i) places[i] = size_ + i - leaving_count_;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Fresh& fresh = fresh_[i];
-    const std::uint32_t after = i + 1 == count ? place(0) : place(i + 1);
-    corners_[fresh.kept].next[fresh.back] = at;
-    corners_[at] = {{plane, fresh.left, fresh.right}, {fresh.kept, after, before}, kNone};
-    x_[at] = places_[i].x;
-    y_[at] = places_[i].y;
-    z_[at] = places_[i].z;
-    taken_[at] = 0;
-    before = at;
-    at = after;
+    const Fresh& fresh = all_fresh[i];
+    const std::uint32_t at = places[i], after = places[left_of[fresh.right]];
+    corners[fresh.kept].next[fresh.back] = at;
+    Corner& corner = corners[at];
+    corner.plane = {plane, fresh.left, fresh.right};
+    corner.next[0] = fresh.kept;
+    corner.next[1] = after;
+    corner.given = kNone;
+    corners[after].next[2] = at;
+    set_place(at, fresh.at);
   }
-  if (count > leaving_count_) size_ += count - leaving_count_;
+  size_ += std::max(count, leaving_count_) - leaving_count_;
 }
 
 void Clipper::move_vertex(std::uint32_t from, std::uint32_t to) {
   x_[to] = x_[from];
   y_[to] = y_[from];
   z_[to] = z_[from];
+  squared_[to] = squared_[from];
   corners_[to] = corners_[from];
   for (const std::uint32_t w : corners_[to].next) {
     for (std::uint32_t& back : corners_[w].next) {
@@ -291,19 +324,17 @@ void Clipper::move_vertex(std::uint32_t from, std::uint32_t to) {
   }
 }
 
-// Fills the places that are still free from the end.
+// Fills the places that are still free from the end. Places before `fresh` in the list of those that leave are filled already.
 void Clipper::remove_taken(std::uint32_t fresh) {
-  for (std::uint32_t i = fresh; i < leaving_count_; ++i) {
-    while (size_ > 0 && taken_[size_ - 1]) taken_[--size_] = 0;
-    if (leaving_[i] >= size_) continue;
-    move_vertex(size_ - 1, leaving_[i]);
-    taken_[leaving_[i]] = 0;
-    --size_;
+  std::uint32_t last = leaving_count_;  // the list ascends: what leaves at the end of the arrays is at the end of the list
+  for (std::uint32_t i = fresh; i < last; ++i) {
+    while (i < last && leaving_[last - 1] == size_ - 1) {
+      --last;
+      --size_;
+    }
+    if (i == last) return;
+    move_vertex(--size_, leaving_[i]);
   }
-}
-
-void Clipper::give_up_cut() {
-  for (std::uint32_t i = 0; i < leaving_count_; ++i) taken_[leaving_[i]] = 0;
 }
 
 bool Clipper::cut(const Vector3& normal, double offset, FaceKind kind, std::uint32_t index) {
@@ -312,26 +343,26 @@ bool Clipper::cut(const Vector3& normal, double offset, FaceKind kind, std::uint
   const double tolerance = kTouchShare * reach_ + kFirstTouchShare * start_reach_;
   if (!judge(normal, offset, tolerance)) return true;
   reserve(2 * std::size_t{size_});
-  const std::uint32_t edges = take_beyond(tolerance);
-  std::uint32_t count = edges > 0 ? trace_rim() : 0;
-  if (count != edges) {
+  std::uint32_t count = find_rim();
+  place_fresh(count);
+  bool is_sound = count > 0 && is_ring(count);
+  if (!is_sound && count > 0) {
     untangle(tolerance);
-    count = trace_rim();
+    count = find_rim();
+    place_fresh(count);
+    is_sound = count > 0 && is_ring(count);
   }
   if (count == 0) {
-    give_up_cut();
     size_ = 0;
     reach_squared_ = reach_ = 0;
     return false;
   }
-  if (count < 3) {
+  if (count < 3 || !is_sound) {
     // Only rounding comes to this: what would be left is no body, so the plane counts as touching.
-    give_up_cut();
     is_touchy_ = true;
     return true;
   }
   sides_.push_back({normal, offset, kind, index});
-  place_fresh(count);
   close_rim(static_cast<std::uint32_t>(sides_.size() - 1), count);
   if (count < leaving_count_) remove_taken(count);
   measure_reach();

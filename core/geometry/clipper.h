@@ -86,41 +86,53 @@ class Clipper {
   };
   /// A vertex that a cut makes on the edge from a vertex that stays to one that goes.
   struct Fresh {
-    std::uint32_t kept, removed;
+    Point3 at;
+    std::uint32_t kept;
     std::uint32_t back;         ///< place among the neighbours of `kept` where the new one goes
     std::uint32_t left, right;  ///< faces of the edge: the next fresh vertex around the cut lies on `right` too
   };
 
   void reserve(std::size_t vertices);
+  void set_place(std::uint32_t vertex, const Point3& at);
   void measure_reach();
   bool judge(const Vector3& normal, double offset, double tolerance);
-  std::uint32_t take_beyond(double tolerance);
-  std::uint32_t trace_rim();
-  void untangle(double tolerance);
+  bool is_taken(std::uint32_t vertex) const { return (taken_[vertex / 64] >> (vertex % 64) & 1u) != 0; }
+  std::uint32_t find_rim();
   void place_fresh(std::uint32_t count);
+  bool is_ring(std::uint32_t count) const;
+  void untangle(double tolerance);
   void close_rim(std::uint32_t plane, std::uint32_t count);
   void remove_taken(std::uint32_t fresh);
-  void give_up_cut();
   void move_vertex(std::uint32_t from, std::uint32_t to);
   bool meeting_point(const Corner& corner, Point3& at) const;
   void rank_sides();
   bool write(Polyhedron& out, bool is_exact, double limit);
-  bool write_face(Polyhedron& out, std::uint32_t corner, bool is_exact);
-  void write_split_faces(Polyhedron& out, bool is_exact);
+  void write_face(Polyhedron& out, std::uint32_t corner);
+  void write_split_faces(Polyhedron& out);
+  bool write_vertices(Polyhedron& out, bool is_exact) const;
 
   std::uint32_t size_ = 0;
   double reach_squared_ = 0, reach_ = 0, start_reach_ = 0;
   bool is_touchy_ = false;
-  std::vector<double> x_, y_, z_, beyond_;  // beyond_: signed distance from the plane that is being cut with
+  std::vector<double> x_, y_, z_;
+  std::vector<double> squared_;  // distances from the origin [m²]
+  std::vector<double> beyond_;   // signed distances from the plane that is being cut with [m]
   std::vector<Corner> corners_;
   std::vector<Side> sides_;
-  std::vector<std::uint8_t> taken_;     // per vertex: goes with the cut under way
+  std::vector<std::uint64_t> taken_;    // a bit per vertex: goes with the cut under way
   std::vector<std::uint32_t> leaving_;  // the vertices that go: the first leaving_count_ of them
   std::uint32_t leaving_count_ = 0;
+  std::vector<std::uint32_t> rim_;  // edges from vertices that go to vertices that stay: vertex * 4 + place among its neighbours
   std::vector<Fresh> fresh_;
-  std::vector<Point3> places_;  // of the fresh vertices
-  std::vector<std::uint32_t> rank_, order_, first_corner_, number_, loop_;
-  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint32_t> left_of_;  // per face: the fresh vertex that has it on its left
+  // What is worked out when the shape is written: ranks of the sides, numbers of the vertices in the order in which they are seen.
+  struct Key {
+    std::int32_t name;
+    std::uint32_t side;
+  };
+  std::vector<Key> keys_;
+  std::vector<std::uint32_t> rank_, order_, first_corner_, number_, loop_, seen_;
+  std::uint32_t seen_count_ = 0;
 };
 
 }  // namespace bl

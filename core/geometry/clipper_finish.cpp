@@ -11,6 +11,9 @@ namespace {
 // Three planes whose normals span less than this meet too vaguely; the vertex stays where the cut has put it.
 constexpr double kLeastDeterminant = 1e-9;
 
+// Fewer faces are ranked faster by comparing each with each.
+constexpr std::uint32_t kManyFaces = 64;
+
 constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
 
 }  // namespace
@@ -18,7 +21,9 @@ constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
 // The point on three planes (Cramer's rule), the face of lowest rank first so that the bits do not depend on the history.
 bool Clipper::meeting_point(const Corner& corner, Point3& at) const {
   const auto& p = corner.plane;
-  const std::uint32_t k = rank_[p[0]] < rank_[p[1]] ? (rank_[p[0]] < rank_[p[2]] ? 0 : 2) : (rank_[p[1]] < rank_[p[2]] ? 1 : 2);
+  const std::uint32_t r0 = rank_[p[0]], r1 = rank_[p[1]], r2 = rank_[p[2]];
+  const std::uint32_t k = (static_cast<std::uint32_t>(r1 < r0) & static_cast<std::uint32_t>(r1 < r2)) +
+                          2u * (static_cast<std::uint32_t>(r2 < r0) & static_cast<std::uint32_t>(r2 < r1));
   const Side &a = sides_[p[k]], &b = sides_[p[kNext[k]]], &c = sides_[p[kPrevious[k]]];
   const Vector3 bc = cross(b.normal, c.normal);
   const double determinant = dot(a.normal, bc);
@@ -32,59 +37,85 @@ void Clipper::rank_sides() {
   const std::size_t count = sides_.size();
   rank_.resize(count);
   first_corner_.assign(count, kNone);
-  for (std::uint32_t corner = 0; corner < 3 * size_; ++corner) first_corner_[corners_[corner / 3].plane[corner % 3]] = corner;
-  order_.clear();
-  keys_.clear();
-  for (std::uint32_t p = 0; p < count; ++p) {
-    if (first_corner_[p] == kNone) continue;
-    const std::uint64_t key = (std::uint64_t{static_cast<std::uint8_t>(sides_[p].kind)} << 32) | sides_[p].index;
-    std::size_t at = order_.size();
-    order_.push_back(p);
-    keys_.push_back(key);
-    // By insertion: there are few, and those of the start come in order.
-    for (; at > 0 && keys_[at - 1] > key; --at) {
-      keys_[at] = keys_[at - 1];
-      order_[at] = order_[at - 1];
-    }
-    keys_[at] = key;
-    order_[at] = p;
+  std::uint32_t* const first_corner = first_corner_.data();
+  for (std::uint32_t v = 0; v < size_; ++v) {
+    const auto& plane = corners_[v].plane;
+    first_corner[plane[0]] = 3 * v;
+    first_corner[plane[1]] = 3 * v + 1;
+    first_corner[plane[2]] = 3 * v + 2;
   }
-  for (std::uint32_t r = 0; r < order_.size(); ++r) rank_[order_[r]] = r;
+  keys_.resize(count);
+  std::uint32_t faces = 0;
+  for (std::uint32_t p = 0; p < count; ++p) {
+    // Kind and index as one number: no side's index comes near 2^30, but that of inner faces, which all share one.
+    const auto kind = static_cast<std::uint32_t>(sides_[p].kind);
+    keys_[faces] = {static_cast<std::int32_t>((kind << 30 | (sides_[p].index & 0x3fffffffu)) ^ 0x80000000u), p};
+    faces += first_corner[p] != kNone;
+  }
+  order_.resize(faces);
+  if (faces > kManyFaces) {
+    std::sort(keys_.begin(), keys_.begin() + faces,
+              [](const Key& a, const Key& b) { return a.name != b.name ? a.name < b.name : a.side < b.side; });
+    for (std::uint32_t r = 0; r < faces; ++r) rank_[keys_[r].side] = r;
+  } else {
+    // By counting, without a branch that depends on the names.
+    for (std::uint32_t r = 0; r < faces; ++r) {
+      const std::int32_t name = keys_[r].name;
+      std::uint32_t rank = 0;
+      for (std::uint32_t q = 0; q < faces; ++q) {
+        rank += static_cast<std::uint32_t>(keys_[q].name < name) |
+                (static_cast<std::uint32_t>(keys_[q].name == name) & static_cast<std::uint32_t>(q < r));
+      }
+      rank_[keys_[r].side] = rank;
+    }
+  }
+  for (std::uint32_t r = 0; r < faces; ++r) order_[rank_[keys_[r].side]] = keys_[r].side;
 }
 
-// One loop, from the corner on where the face that follows around it has the lowest rank.
-bool Clipper::write_face(Polyhedron& out, std::uint32_t corner, bool is_exact) {
-  bool is_sharp = true;
-  const std::uint32_t p = corners_[corner / 3].plane[corner % 3];
-  const Side& side = sides_[p];
-  PolyhedronFace face{side.normal, side.offset, side.kind, side.index, static_cast<std::uint32_t>(out.loops.size()), 0};
-  std::uint32_t v = corner / 3, k = corner % 3, lowest = kNone, first = 0, count = 0;
+// One loop, from the corner on where the face that follows around it has the lowest rank. Vertices are numbered as they come.
+void Clipper::write_face(Polyhedron& out, std::uint32_t corner) {
+  const Corner* const corners = corners_.data();
+  const std::uint32_t* const rank = rank_.data();
+  std::uint32_t *const loop = loop_.data(), *const number = number_.data(), *const seen = seen_.data();
+  const std::uint32_t p = corners[corner / 3].plane[corner % 3];
+  const std::uint32_t most = static_cast<std::uint32_t>(loop_.size()), start = corner / 3;
+  std::uint32_t v = start, k = corner % 3, count = 0;
+  std::uint64_t lowest = ~std::uint64_t{0};  // rank and place of the lowest so far as one number
   do {
-    const Corner& at = corners_[v];
-    const std::uint32_t rank = rank_[at.plane[kNext[k]]];
-    first = rank < lowest ? count : first;
-    lowest = std::min(lowest, rank);
-    loop_[count++] = v;
+    const Corner& at = corners[v];
+    lowest = std::min(lowest, std::uint64_t{rank[at.plane[kNext[k]]]} << 32 | count);
+    loop[count++] = v;
     v = at.next[kNext[k]];
-    const auto& plane = corners_[v].plane;
-    k = static_cast<std::uint32_t>(plane[1] == p) + 2u * static_cast<std::uint32_t>(plane[2] == p);
-  } while (3 * v + k != corner && count < loop_.size());
-  out.loops.resize(face.first + count);
+    k = static_cast<std::uint32_t>(corners[v].plane[1] == p) + 2u * static_cast<std::uint32_t>(corners[v].plane[2] == p);
+  } while (v != start && count < most);
+  const std::uint32_t first = static_cast<std::uint32_t>(lowest), begin = static_cast<std::uint32_t>(out.loops.size());
+  out.loops.resize(begin + count);
+  std::uint32_t* const to = out.loops.data() + begin;
+  std::uint32_t seen_count = seen_count_;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t w = loop_[first];
-    first = first + 1 == count ? 0 : first + 1;
-    std::uint32_t& number = number_[w];
-    if (number == kNone) {
-      number = static_cast<std::uint32_t>(out.vertices.size());
-      Point3 at{x_[w], y_[w], z_[w]};
-      if (is_exact && corners_[w].given == kNone && !meeting_point(corners_[w], at)) is_sharp = false;
-      out.vertices.push_back(at);
-      out.reach_squared = std::max(out.reach_squared, squared_norm(at));
-    }
-    out.loops[face.first + i] = number;
+    const std::uint32_t place = first + i, w = loop[place < count ? place : place - count];
+    seen[seen_count] = w;
+    const bool is_new = number[w] == kNone;
+    number[w] = is_new ? seen_count : number[w];
+    seen_count += is_new;
+    to[i] = number[w];
   }
-  face.count = count;
-  out.faces.push_back(face);
+  seen_count_ = seen_count;
+  const Side& side = sides_[p];
+  out.faces.push_back({side.normal, side.offset, side.kind, side.index, begin, count});
+}
+
+// The vertices that the loops have come by, in that order.
+bool Clipper::write_vertices(Polyhedron& out, bool is_exact) const {
+  bool is_sharp = true;
+  out.vertices.resize(seen_count_);
+  for (std::uint32_t i = 0; i < seen_count_; ++i) {
+    const std::uint32_t v = seen_[i];
+    Point3 at{x_[v], y_[v], z_[v]};
+    if (is_exact && corners_[v].given == kNone && !meeting_point(corners_[v], at)) is_sharp = false;
+    out.vertices[i] = at;
+    out.reach_squared = std::max(out.reach_squared, squared_norm(at));
+  }
   return is_sharp;
 }
 
@@ -97,25 +128,25 @@ bool Clipper::write(Polyhedron& out, bool is_exact, double limit) {
   rank_sides();
   number_.assign(size_, kNone);
   loop_.resize(std::size_t{size_} + 1);
-  bool is_sharp = true, is_open = false;
+  seen_.resize(std::size_t{size_} + 1);
+  seen_count_ = 0;
+  bool is_open = false;
   for (const std::uint32_t p : order_) {
     if (sides_[p].offset < limit) {
-      is_sharp = write_face(out, first_corner_[p], is_exact) && is_sharp;
+      write_face(out, first_corner_[p]);
     } else {
       is_open = true;
     }
   }
-  if (is_open) {
-    out.reach_squared = std::numeric_limits<double>::infinity();
-    return is_sharp;
-  }
-  if (out.loops.size() == 3 * std::size_t{size_}) return is_sharp;
-  write_split_faces(out, is_exact);
-  return false;
+  const bool is_split = !is_open && out.loops.size() != 3 * std::size_t{size_};
+  if (is_split) write_split_faces(out);
+  const bool is_sharp = write_vertices(out, is_exact);
+  if (is_open) out.reach_squared = std::numeric_limits<double>::infinity();
+  return is_sharp && !is_split;
 }
 
 // Faces that rounding has split: the loops that are left, in the order of their corners.
-void Clipper::write_split_faces(Polyhedron& out, bool is_exact) {
+void Clipper::write_split_faces(Polyhedron& out) {
   std::vector<std::uint8_t> seen(3 * std::size_t{size_}, 0);
   const auto mark = [&](std::uint32_t from) {
     const std::uint32_t p = corners_[from / 3].plane[from % 3];
@@ -131,7 +162,7 @@ void Clipper::write_split_faces(Polyhedron& out, bool is_exact) {
   for (std::uint32_t corner = 0; corner < 3 * size_; ++corner) {
     if (seen[corner]) continue;
     mark(corner);
-    write_face(out, corner, is_exact);
+    write_face(out, corner);
   }
 }
 

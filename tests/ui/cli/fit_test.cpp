@@ -98,7 +98,7 @@ TEST(Fit, TooMuchIsWrittenWithItsLosses) {
   EXPECT_EQ(fit["status"], "infeasible");
   EXPECT_GE(fit["reasons"].size(), 1u);
   ASSERT_EQ(fit["losses"].size(), 2u);
-  EXPECT_EQ(fit["losses"][0]["sites"], nlohmann::json({fit["losses"][0]["demand"]}));
+  EXPECT_EQ(fit["losses"][0]["sites"], nlohmann::json::array({fit["losses"][0]["demand"]}));
   for (const auto& loss : fit["losses"]) EXPECT_GT(loss["wanted"].get<double>(), loss["had"].get<double>());
   EXPECT_NEAR(fit["volumes"][0].get<double>() + fit["volumes"][1].get<double>(), 1000, 1);
 }
