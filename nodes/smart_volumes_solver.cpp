@@ -6,9 +6,9 @@
 #include "core/base/hash.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
-#include "core/geometry/demand_fit.h"
 #include "core/geometry/domain_table.h"
 #include "core/geometry/fit_text.h"
+#include "core/geometry/volume_tick.h"
 
 namespace bl {
 namespace {
@@ -23,8 +23,9 @@ struct SmartVolumesSolver {
   struct In {
     Selection members{{}, "smart_volume", {}}, boundary{{}, "boundary", {}};
     Method method = Method::newton;
+    Metric metric = Metric::power;
     double gain = 0, tolerance = 0.005;
-    int steps = 4, tessellation_depth = 1;
+    int steps = 4, tessellation_depth = 1, resolution = 64;
     Memory last;
   };
   struct Member {
@@ -48,10 +49,6 @@ struct SmartVolumesSolver {
     Point3 centroid;
     MeshPointer mesh;
   };
-  // Cells of the last tick: those that no change has touched are not made again.
-  struct Kept {
-    PowerDiagram fitted, shown;
-  };
   struct Out {
     std::int64_t count = 0;
     double total_demand = 0, total_volume = 0, boundary_volume = 0, fill = 0, largest_error = 0, total_floor_area = 0;
@@ -73,6 +70,15 @@ struct SmartVolumesSolver {
          {{Method::feedback, "feedback", "Each weight follows the error of its own volume, as in 2007, with acceleration."},
           {Method::newton, "newton", "All weights together follow the exact response of all volumes; a few steps at any fill."}})
         .doc("How the weights are adapted.");
+    t.in(&In::metric, "metric",
+         {{Metric::power, "power", "Squared distance less squared radius: flat walls, measured exactly."},
+          {Metric::additive, "additive", "Distance less radius: walls are hyperboloids. Sampled, without meshes."},
+          {Metric::multiplicative, "multiplicative", "Distance over radius: walls are spheres. Sampled, without meshes."}})
+        .doc("The distance that divides the boundary. Other metrics than the power distance are sampled, and take Newton steps.");
+    t.in(&In::resolution, "resolution")
+        .range(8, 256)
+        .soft(32, 128)
+        .doc("Sample lines along the longest side of the boundary, for metrics that are sampled.");
     t.in(&In::gain, "gain")
         .unit(Unit::per_metre)
         .range(0, 1000)
@@ -150,14 +156,6 @@ struct SmartVolumesSolver {
     return domain ? domain : Result<Domain>(domain.error().within("boundary"));
   }
 
-  // Newcomers among settled ones start small, so that they push nobody out; where all are new, the fit starts them all alike.
-  static void start_newcomers(const Domain& domain, std::span<PowerSite> sites, std::span<const double> wanted) {
-    if (std::none_of(sites.begin(), sites.end(), [](const PowerSite& s) { return s.weight > 0; })) return;
-    for (std::size_t i = 0; i < sites.size(); ++i)
-      if (!(sites[i].weight > 0))
-        sites[i].weight = 0.5 * initial_weights(domain, sites.subspan(i, 1), wanted.subspan(i, 1)).front();
-  }
-
   static Reply reply_of(const CellMeasure& cell, double wanted, double weight, std::span<const std::string> names) {
     Reply reply{wanted,
                 weight,
@@ -216,26 +214,16 @@ struct SmartVolumesSolver {
       storey_heights.push_back(member.storey_height);
       names.push_back(member.id);
     }
-    start_newcomers(*domain, sites, wanted);
-    Kept own;
-    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
-    const FitOptions options{.method = in.method,
-                             .gain = in.gain,
-                             .steps = in.steps,
-                             .tolerance = in.tolerance,
-                             .pool = tick.pool,
-                             .diagram = &kept.fitted};
-    const auto fit = adapt_weights(*domain, sites, wanted, {}, last_state(in, sets.members), options);
-    if (!fit) return Error{fit.error().code, "members", with_names(fit.error().message, names)};
-    for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit->weights[i];
-    if (auto set = kept.shown.set_domain(*domain); !set) return set.error().within("boundary");
-    const auto cells = kept.shown.update(
-        sites, {.storey_heights = storey_heights, .tessellation_depth = in.tessellation_depth, .pool = tick.pool});
-    if (!cells) return Error{cells.error().code, "members", with_names(cells.error().message, names)};
+    VolumeTick::Kept own;
+    VolumeTick::Kept& kept = tick.memo != nullptr ? tick.memo->of<VolumeTick::Kept>() : own;
+    const VolumeTick now{in.metric,    in.resolution,         in.method,      in.gain,  in.steps,
+                         in.tolerance, in.tessellation_depth, storey_heights, tick.pool};
+    const auto done = now.run(*domain, sites, wanted, last_state(in, sets.members), kept);
+    if (!done) return Error{done.error().code, "members", with_names(done.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      Reply& reply = out.replies.emplace_back(reply_of((*cells)[i], wanted[i], sites[i].weight, names));
-      if (!fit->state.previous_move.empty()) reply.last_step = fit->state.previous_move[i];
-      if (!fit->state.direction.empty()) reply.last_direction = fit->state.direction[i];
+      Reply& reply = out.replies.emplace_back(reply_of(done->cells[i], wanted[i], sites[i].weight, names));
+      if (!done->state.previous_move.empty()) reply.last_step = done->state.previous_move[i];
+      if (!done->state.direction.empty()) reply.last_direction = done->state.direction[i];
       out.count += reply.volume > 0 ? 1 : 0;
       out.total_demand += reply.wanted;
       out.total_volume += reply.volume;
@@ -245,8 +233,9 @@ struct SmartVolumesSolver {
       out.worst = sets.members[i].id;
     }
     out.fill = out.total_volume / out.boundary_volume;
-    out.memory = memory_of(fit->state);
-    out.message = losses_text(fit->losses, out.total_demand, names);
+    out.memory = memory_of(done->state);
+    out.message = losses_text(done->losses, out.total_demand, names);
+    if (!done->note.empty()) out.message += (out.message.empty() ? "" : "; ") + with_names(done->note, names);
     return out;
   }
 };

@@ -78,6 +78,7 @@ std::string_view name_of(Metric metric) {
 }
 
 struct SampledDiagram::Ground {
+  int samples = 0;  // 0: no lines yet
   Domain domain;
   SampleFrame frame;
   std::array<SampleLines, 3> lines;
@@ -249,17 +250,20 @@ Result<void> SampledDiagram::set_domain(const Domain& domain, int samples, Threa
     return Error{ErrorCode::geometry, "", "the domain is empty: make it with convex_hull, from_planes, extrude or from_mesh"};
   }
   if (auto checked = check_samples(samples); !checked) return checked.error();
+  if (ground_->samples == samples && ground_->domain == domain) return {};
+  ground_->samples = 0;
   ground_->domain = domain;
   const Vector3 extent = domain.maximum - domain.minimum;
   ground_->frame = tilted_frame(domain, std::max({extent.x, extent.y, extent.z}) / samples);
   for (std::size_t k = 0; k < 3; ++k) ground_->lines[k].build(domain, ground_->frame, k, pool);
+  ground_->samples = samples;
   return {};
 } catch (const std::exception& problem) {
   return Error{ErrorCode::internal, "", std::string("the sample lines failed: ") + problem.what()};
 }
 
 Result<SampledCells> SampledDiagram::measure(std::span<const PowerSite> sites, const SampleOptions& options) const try {
-  if (ground_->domain.pieces.empty()) return Error{ErrorCode::missing, "", "the sampled diagram has no domain yet"};
+  if (ground_->samples == 0) return Error{ErrorCode::missing, "", "the sampled diagram has no domain yet"};
   if (auto checked = check_input(ground_->domain, sites, options); !checked) return checked.error();
   return ground_->measure(sites, options);
 } catch (const std::exception& problem) {

@@ -63,6 +63,7 @@ class SampledDiagram {
   SampledDiagram(SampledDiagram&&) noexcept;
   SampledDiagram& operator=(SampledDiagram&&) noexcept;
 
+  /// Makes the lines, unless they are there from the last call.
   Result<void> set_domain(const Domain& domain, int samples, ThreadPool* pool = nullptr);
   /// `options.samples` is that of the domain.
   Result<SampledCells> measure(std::span<const PowerSite> sites, const SampleOptions& options) const;

@@ -45,7 +45,11 @@ SampledNewton::Options newton_options(const SampledFitOptions& options) {
 class Attempt {
  public:
   Attempt(const Domain& domain, const FitProblem& problem, const SampledFitOptions& options)
-      : domain_(domain), asked_(problem), problem_(problem), options_(options) {}
+      : domain_(domain),
+        asked_(problem),
+        problem_(problem),
+        options_(options),
+        diagram_(options.diagram != nullptr ? *options.diagram : own_) {}
 
   Result<VolumeFit> run() {
     if (auto set = diagram_.set_domain(domain_, options_.samples, options_.pool); !set) return set.error();
@@ -201,7 +205,8 @@ class Attempt {
   const FitProblem& asked_;
   FitProblem problem_;
   const SampledFitOptions& options_;
-  SampledDiagram diagram_;
+  SampledDiagram own_;
+  SampledDiagram& diagram_;
   std::optional<SampledNewton> newton_;
   VolumeFit fit_;
   bool has_floors_ = false, is_cancelled_ = false;
@@ -237,7 +242,8 @@ Result<SampledSteps> adapt_sampled_weights(const Domain& domain, std::span<const
       return Error{ErrorCode::not_finite, "", "the demand of site " + std::to_string(i) + " is not a number"};
     if (demands[i] < 0) return Error{ErrorCode::out_of_range, "", "the demand of site " + std::to_string(i) + " is negative"};
   }
-  SampledDiagram diagram;
+  SampledDiagram own;
+  SampledDiagram& diagram = options.diagram != nullptr ? *options.diagram : own;
   if (auto set = diagram.set_domain(domain, options.samples, options.pool); !set) return set.error();
   if (auto checked = check_sites(sites); !checked) return checked.error();
   SampledNewton newton(domain, diagram, sites, FitTargets(demands, locked), state, newton_options(options));

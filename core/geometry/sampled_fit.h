@@ -19,6 +19,7 @@ struct SampledFitOptions {
                             ///< within its declared error, and the report says so
   int most_steps = 100;     ///< evaluations of the diagram at most
   ThreadPool* pool = nullptr;
+  SampledDiagram* diagram = nullptr;  ///< kept between calls it saves the making of the domain's lines; it changes no bit
   /// Called after each evaluation with the steps made and the largest error; false stops the fit with what it has.
   std::function<bool(int steps, double error)> progress = {};
 };

@@ -86,6 +86,31 @@ INSTANTIATE_TEST_SUITE_P(
       return std::to_string(test.param.count) + "At" + std::to_string(static_cast<int>(100 * test.param.share));
     });
 
+TEST(SmartVolumesSolver, MeetsItsDemandsUnderOtherMetrics) {
+  for (const std::string metric : {"additive", "multiplicative"}) {
+    const std::string settings = R"("resolution": 48, "tolerance": 0.01, "metric": ")" + metric + "\"";
+    World world = World::from_text(with_solver(kPlan, crowd(12, 24000, 0.7, 3), settings), 2);
+    ASSERT_TRUE(world.settle(60)) << metric;
+    EXPECT_EQ(world.node_error("solver", "smart_volumes_solver"), "");
+    EXPECT_LE(world.number("solver", "smart_volumes_solver.largest_error"), 0.01) << metric;
+    EXPECT_NEAR(world.number("solver", "smart_volumes_solver.fill"), 0.7, 0.01) << metric;
+    // What the samples cannot tell is said, with the volume's name.
+    EXPECT_NE(world.text("solver", "smart_volumes_solver.message").find("know the volume of `v1"), std::string::npos);
+    EXPECT_EQ(world.submit(command<SetPort>({.node = "solver", .port = {"smart_volumes_solver.tolerance"}, .value = {"0.2"}})),
+              "");
+    world.tick(3);
+    EXPECT_EQ(world.text("solver", "smart_volumes_solver.message"), "") << metric;
+    // Back to the exact cells.
+    EXPECT_EQ(world.submit(command<SetPort>({.node = "solver", .port = {"smart_volumes_solver.metric"}, .value = {"\"power\""}})),
+              "");
+    EXPECT_EQ(world.submit(command<SetPort>({.node = "solver", .port = {"smart_volumes_solver.tolerance"}, .value = {"0.001"}})),
+              "");
+    ASSERT_TRUE(world.settle(60)) << metric;
+    EXPECT_LE(world.number("solver", "smart_volumes_solver.largest_error"), 0.001);
+    EXPECT_EQ(world.text("solver", "smart_volumes_solver.message"), "") << metric;
+  }
+}
+
 TEST(SmartVolumesSolver, SaysWhatCannotBeHadAndWhoLosesIt) {
   const std::string nodes = node_text("a", "[10, 15, 10]", "smart_volume", R"("demand": 20000)") + "," +
                             node_text("b", "[30, 15, 10]", "smart_volume", R"("demand": 10000)");

@@ -36,7 +36,8 @@ inline std::vector<double> volumes_of(const Domain& domain, std::vector<PowerSit
   CellOptions options;
   options.with_shape = options.with_centroid = false;
   std::vector<double> volumes;
-  for (const CellMeasure& cell : power_cells(domain, sites, options).value()) volumes.push_back(cell.volume);
+  const auto cells = power_cells(domain, sites, options).value();
+  for (const CellMeasure& cell : cells) volumes.push_back(cell.volume);
   return volumes;
 }
 

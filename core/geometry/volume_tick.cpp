@@ -1,0 +1,62 @@
+// The two ways of a tick: exact cells of the power metric, sampled ones of the others.
+#include "core/geometry/volume_tick.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace bl {
+
+namespace {
+
+void start_newcomers(const Domain& domain, std::span<PowerSite> sites, std::span<const double> wanted) {
+  if (std::none_of(sites.begin(), sites.end(), [](const PowerSite& s) { return s.weight > 0; })) return;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (!(sites[i].weight > 0)) {
+      sites[i].weight = 0.5 * initial_weights(domain, sites.subspan(i, 1), wanted.subspan(i, 1)).front();
+    }
+  }
+}
+
+void take_weights(const FitReport& fit, std::span<PowerSite> sites) {
+  for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit.weights[i];
+}
+
+}  // namespace
+
+Result<VolumeTick::Outcome> VolumeTick::run(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted,
+                                            const FitState& state, Kept& kept) const {
+  start_newcomers(domain, sites, wanted);
+  return metric == Metric::power ? run_exact(domain, sites, wanted, state, kept)
+                                 : run_sampled(domain, sites, wanted, state, kept);
+}
+
+Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vector<PowerSite>& sites,
+                                                  std::span<const double> wanted, const FitState& state, Kept& kept) const {
+  const FitOptions options{
+      .method = method, .gain = gain, .steps = steps, .tolerance = tolerance, .pool = pool, .diagram = &kept.fitted};
+  auto fit = adapt_weights(domain, sites, wanted, {}, state, options);
+  if (!fit) return fit.error();
+  take_weights(*fit, sites);
+  if (auto set = kept.shown.set_domain(domain); !set) return set.error();
+  const auto cells =
+      kept.shown.update(sites, {.storey_heights = storey_heights, .tessellation_depth = tessellation_depth, .pool = pool});
+  if (!cells) return cells.error();
+  return Outcome{std::move(fit->state), std::move(fit->losses), "", *cells};
+}
+
+Result<VolumeTick::Outcome> VolumeTick::run_sampled(const Domain& domain, std::vector<PowerSite>& sites,
+                                                    std::span<const double> wanted, const FitState& state, Kept& kept) const {
+  // Weights that the power metric has left below zero are no radii.
+  for (PowerSite& site : sites) site.weight = std::max(0.0, site.weight);
+  const SampledFitOptions options{
+      .metric = metric, .samples = samples, .tolerance = tolerance, .most_steps = steps, .pool = pool, .diagram = &kept.lines};
+  auto fit = adapt_sampled_weights(domain, sites, wanted, {}, state, options);
+  if (!fit) return fit.error();
+  take_weights(fit->report, sites);
+  auto cells = kept.lines.measure(sites, {.metric = metric, .samples = samples, .storey_heights = storey_heights, .pool = pool});
+  if (!cells) return cells.error();
+  kept.sampled = std::move(*cells);
+  return Outcome{std::move(fit->report.state), std::move(fit->report.losses), std::move(fit->resolution), kept.sampled.cells};
+}
+
+}  // namespace bl

@@ -1,0 +1,50 @@
+// What one tick of a SmartVolumes solver does: some steps of the fit, then the cells, under any metric.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry/demand_fit.h"
+#include "core/geometry/sampled_fit.h"
+
+namespace bl {
+
+struct VolumeTick {
+  Metric metric = Metric::power;
+  int samples = 64;                      ///< not for the power metric, which is exact
+  FitMethod method = FitMethod::newton;  ///< power metric only: the others always take Newton steps
+  double gain = 0;                       ///< [1/m], as in FitOptions
+  int steps = 4;
+  double tolerance = 0.005;
+  int tessellation_depth = 1;
+  std::span<const double> storey_heights = {};  ///< [m], per site
+  ThreadPool* pool = nullptr;
+
+  /// Cells and lines of the last tick: what no change has touched is not made again. It changes no bit.
+  struct Kept {
+    PowerDiagram fitted, shown;
+    SampledDiagram lines;
+    SampledCells sampled;
+  };
+
+  struct Outcome {
+    FitState state;
+    std::vector<DemandLoss> losses;
+    std::string note;                    ///< a sentence where samples are too coarse for the tolerance; empty otherwise
+    std::span<const CellMeasure> cells;  ///< in `kept`, valid until its next use
+  };
+
+  /// Moves the weights of `sites` towards `wanted` [m³] and measures their cells. Newcomers among settled sites start small, so
+  /// that they push nobody out; where all are new, the fit starts them all alike.
+  Result<Outcome> run(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted, const FitState& state,
+                      Kept& kept) const;
+
+ private:
+  Result<Outcome> run_exact(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted,
+                            const FitState& state, Kept& kept) const;
+  Result<Outcome> run_sampled(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted,
+                              const FitState& state, Kept& kept) const;
+};
+
+}  // namespace bl
