@@ -63,7 +63,7 @@ class SiteGrid {
     const unsigned eighth =
         (position.x > middle.x ? 1u : 0u) + (position.y > middle.y ? 2u : 0u) + (position.z > middle.z ? 4u : 0u);
     for (const Offset& offset : offsets(eighth)) {
-      if (is_beyond((1 - 1e-9) * offset.squared_gap * side_ * side_, lighter, reach())) return;
+      if (is_beyond((1 - 1e-9) * offset.squared_gap * side_ * side_, lighter, reach())) break;
       const std::array<int, 3> block{home[0] + offset.at[0], home[1] + offset.at[1], home[2] + offset.at[2]};
       if (static_cast<unsigned>(block[0]) >= static_cast<unsigned>(count_[0]) ||
           static_cast<unsigned>(block[1]) >= static_cast<unsigned>(count_[1]) ||
@@ -71,6 +71,8 @@ class SiteGrid {
         continue;
       visit_block(position, weight, self, skip, block, reach, consider);
     }
+    // The table's own corners are farther than the nearest blocks that it does not hold.
+    if (is_beyond((1 - 1e-9) * kFar * kFar * side_ * side_, lighter, reach())) return;
     search_far(position, weight, self, skip, home, reach, consider);
   }
 

@@ -61,8 +61,15 @@ inline SiteSet zoo_set(int kind, std::size_t count, std::uint64_t seed) {
   const double mean = spacing * spacing * std::pow(2.0, random.uniform(-4, 2));
   const auto any_weight = [&] { return mean * random.uniform(0.2, 1.8); };
   const auto add = [&](const Point3& p, double weight) { set.sites.push_back({p, weight}); };
+  const auto add_any = [&] {
+    const Point3 p = anywhere();
+    add(p, any_weight());
+  };
   const auto fill = [&](auto&& place, auto&& weight) {
-    for (std::size_t i = 0; i < count; ++i) add(place(i), weight(i));
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point3 p = place(i);  // one after the other: the same set with every compiler
+      add(p, weight(i));
+    }
   };
   const int steps = std::max(1, static_cast<int>(std::cbrt(static_cast<double>(count)) + 0.01));
   const auto lattice = [&](auto&& weight) {
@@ -157,12 +164,12 @@ inline SiteSet zoo_set(int kind, std::size_t count, std::uint64_t seed) {
     }
     case 14:
       set.name = "one";
-      add(anywhere(), any_weight());
+      add_any();
       break;
     case 15:
       set.name = "two";
-      add(anywhere(), any_weight());
-      add(anywhere(), any_weight());
+      add_any();
+      add_any();
       break;
     case 16: {
       set.name = "on faces, edges and corners";
