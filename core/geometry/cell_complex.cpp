@@ -13,7 +13,6 @@ namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = ComplexStore::kNone;
 // Corners nearer than this share of the domain's size may be one place, cells thinner than it are none. A million roundings:
 // lattices stay lattices after they have been moved about, and no person sees an edge of this length.
 constexpr double kMergeShare = 1e-9;
