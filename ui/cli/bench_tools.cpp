@@ -54,6 +54,13 @@ std::string compiler_name() {
 #endif
 }
 
+Clocks time_of(const std::function<void()>& work, int calls) {
+  const Clocks before = clocks_now();
+  for (int k = 0; k < calls; ++k) work();
+  const Clocks after = clocks_now();
+  return {(after.wall - before.wall) / calls, (after.processor - before.processor) / calls};
+}
+
 }  // namespace
 
 double median(std::vector<double> values) {
@@ -86,16 +93,15 @@ void take_turns(std::vector<Contender>& contenders, int rounds, double turn_seco
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t c = 0; c < contenders.size(); ++c) {
       if (!next()) return;
-      if (calls[c] == 0) {  // the first call fills caches, and says how many of them are a turn
-        const double began = now();
-        contenders[c].work();
-        calls[c] = static_cast<int>(std::clamp(turn_seconds / std::max(1e-7, now() - began), 1.0, 1e5));
+      const bool is_first = calls[c] == 0;
+      if (is_first) calls[c] = 1;
+      Clocks each = time_of(contenders[c].work, calls[c]);
+      if (is_first && each.wall < turn_seconds) {  // that one filled caches, and says how many of them are a turn
+        calls[c] = static_cast<int>(std::clamp(turn_seconds / std::max(1e-7, each.wall), 1.0, 1e5));
+        each = time_of(contenders[c].work, calls[c]);
       }
-      const Clocks before = clocks_now();
-      for (int k = 0; k < calls[c]; ++k) contenders[c].work();
-      const Clocks after = clocks_now();
-      wall[c].push_back((after.wall - before.wall) / calls[c]);
-      processor[c].push_back((after.processor - before.processor) / calls[c]);
+      wall[c].push_back(each.wall);
+      processor[c].push_back(each.processor);
       contenders[c].median = {median(wall[c]), median(processor[c])};
       contenders[c].least = {*std::min_element(wall[c].begin(), wall[c].end()),
                              *std::min_element(processor[c].begin(), processor[c].end())};

@@ -39,11 +39,14 @@ DragCase drag_case(const SolverBench& bench, int count, double fill) {
   drag.domain = unit_cube();
   drag.sites = without_weights(random_sites(count));
   drag.demands = random_demands(count, fill);
-  const auto is_nearer = [](const PowerSite& a, const PowerSite& b) {
-    return squared_norm(a.position - kBegin) < squared_norm(b.position - kBegin);
-  };
-  const auto nearest = std::min_element(drag.sites.begin(), drag.sites.end(), is_nearer);
-  drag.dragged = static_cast<std::uint32_t>(nearest - drag.sites.begin());
+  // The nearest to the beginning of those that are no smaller than the mean: a small one would disturb few others.
+  double nearest = 1e300;
+  for (std::uint32_t i = 0; i < drag.sites.size(); ++i) {
+    const double away = squared_norm(drag.sites[i].position - kBegin);
+    if (drag.demands[i] * count < fill || !(away < nearest)) continue;
+    nearest = away;
+    drag.dragged = i;
+  }
   if (bench.options.is_quick) drag.frames = 6;
   if (count > 5000) drag.check_every = 6;
   return drag;
