@@ -203,7 +203,8 @@ void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
   for (const PolyhedronFace& face : outline.faces) {
     if (face.kind == FaceKind::site) faces_.push_back(face.index);
   }
-  std::sort(faces_.begin(), faces_.end());
+  // Faces come by index, but for those that rounding has split.
+  if (!std::is_sorted(faces_.begin(), faces_.end())) std::sort(faces_.begin(), faces_.end());
   faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
   borders_.insert(borders_.end(), faces_.begin(), faces_.end());
   if (!is_sure) {

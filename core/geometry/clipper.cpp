@@ -1,14 +1,12 @@
 // Cutting a convex polyhedron by planes, with one decision per vertex.
 #include "core/geometry/clipper.h"
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
+
+#include "core/geometry/lane_pair.h"
 
 namespace bl {
 
@@ -25,27 +23,14 @@ constexpr double kSnapShare = 1e-9;
 constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
 
 // Vertices are worked through two at a time; the arrays are padded with copies of the last one.
-typedef double Lanes __attribute__((vector_size(16), aligned(8)));
-typedef std::int64_t Answers __attribute__((vector_size(16)));
 constexpr std::uint32_t kLanes = 2;
 constexpr std::size_t padded(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
-inline Lanes all(double value) { return Lanes{value, value}; }
-inline Lanes load(const double* from) { return *reinterpret_cast<const Lanes*>(from); }
-inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-inline Lanes smaller(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-inline double largest(const Lanes& a) { return std::max(a[0], a[1]); }
-// A bit per lane of a comparison.
-inline std::uint64_t bits_of(const Answers& answers) {
-#if defined(__SSE2__)
-  return static_cast<std::uint64_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(answers)));
-#else
-  return (answers[0] != 0 ? 1u : 0u) | (answers[1] != 0 ? 2u : 0u);
-#endif
-}
-inline double smallest(const Lanes& a) { return std::min(a[0], a[1]); }
-
 }  // namespace
+
+// An edge to a vertex where it is the one in slot `slot_back`; and that slot again.
+std::uint32_t Clipper::edge_to(std::uint32_t vertex, std::uint32_t slot_back) { return 4 * vertex + kPrevious[slot_back]; }
+std::uint32_t Clipper::slot_back(std::uint32_t edge) { return kNext[edge % 4]; }
 
 void Clipper::reserve(std::size_t vertices) {
   if (vertices + kLanes <= x_.size()) return;
@@ -76,9 +61,9 @@ void Clipper::measure_reach() {
     z_[v] = z_[size_ - 1];
     squared_[v] = squared_[size_ - 1];
   }
-  Lanes most{0, 0};
-  for (std::size_t v = 0; v < size_; v += kLanes) most = larger(most, load(&squared_[v]));
-  reach_squared_ = largest(most);
+  LanePair most = in_both_lanes(0);
+  for (std::size_t v = 0; v < size_; v += kLanes) most = larger_of(most, lanes_at(&squared_[v]));
+  reach_squared_ = largest_lane(most);
   reach_ = std::sqrt(reach_squared_);
 }
 
@@ -150,9 +135,13 @@ void Clipper::start_box(const Vector3& minimum, const Vector3& maximum) {
   for (std::uint32_t v = 0; v < 8; ++v) {
     const bool east = (v & 1u) != 0, north = (v & 2u) != 0, up = (v & 4u) != 0;
     set_place(v, {east ? maximum.x : minimum.x, north ? maximum.y : minimum.y, up ? maximum.z : minimum.z});
-    Corner corner{{east ? 1u : 0u, north ? 3u : 2u, up ? 5u : 4u}, {v ^ 1u, v ^ 2u, v ^ 4u}, v};
-    if ((east != north) != up) corners_[v] = corner;  // an odd number of positive sides: x, y, z is counter-clockwise
-    else corners_[v] = {{corner.plane[0], corner.plane[2], corner.plane[1]}, {corner.next[0], corner.next[2], corner.next[1]}, v};
+    const std::uint32_t x = east ? 1 : 0, y = north ? 3 : 2, z = up ? 5 : 4;
+    // Around a vertex with an odd number of positive sides x, y, z is counter-clockwise; around its neighbours x, z, y is.
+    if ((east != north) != up) {
+      corners_[v] = {{x, y, z}, {edge_to(v ^ 1u, 0), edge_to(v ^ 2u, 2), edge_to(v ^ 4u, 1)}, v};
+    } else {
+      corners_[v] = {{x, z, y}, {edge_to(v ^ 1u, 0), edge_to(v ^ 4u, 2), edge_to(v ^ 2u, 1)}, v};
+    }
   }
   measure_reach();
   start_reach_ = reach_;
@@ -176,24 +165,25 @@ void Clipper::copy(const Clipper& other) {
 bool Clipper::judge(const Vector3& normal, double offset, double tolerance) {
   const double *const x = x_.data(), *const y = y_.data(), *const z = z_.data();
   double* const out = beyond_.data();
-  const Lanes along_x = all(normal.x), along_y = all(normal.y), along_z = all(normal.z), far = all(offset), most = all(tolerance);
-  Lanes nearest = all(1e300);
+  const LanePair along_x = in_both_lanes(normal.x), along_y = in_both_lanes(normal.y), along_z = in_both_lanes(normal.z),
+                 far = in_both_lanes(offset), most = in_both_lanes(tolerance);
+  LanePair nearest = in_both_lanes(1e300);
   std::uint64_t any = 0;
   for (std::uint32_t first = 0; first < size_; first += 64) {
     const std::uint32_t end = std::min(size_, first + 64);
     std::uint64_t taken = 0;
     for (std::uint32_t v = first; v < end; v += kLanes) {
-      const Lanes beyond = load(x + v) * along_x + load(y + v) * along_y + load(z + v) * along_z - far;
-      *reinterpret_cast<Lanes*>(out + v) = beyond;
-      nearest = smaller(nearest, larger(beyond, -beyond));
+      const LanePair beyond = lanes_at(x + v) * along_x + lanes_at(y + v) * along_y + lanes_at(z + v) * along_z - far;
+      put_lanes(out + v, beyond);
+      nearest = smaller_of(nearest, larger_of(beyond, -beyond));
       taken |= bits_of(beyond > most) << (v - first);
     }
-    // Copies of the last vertex pad the arrays.
-    if (end % 64 != 0) taken &= (std::uint64_t{1} << (end % 64)) - 1;
+    // The copies behind the last vertex do not count.
+    taken &= lowest_bits(end - first);
     taken_[first / 64] = taken;
     any |= taken;
   }
-  if (smallest(nearest) <= tolerance * (kTouchyShare / kTouchShare)) is_touchy_ = true;
+  if (smallest_lane(nearest) <= tolerance * (kTouchyShare / kTouchShare)) is_touchy_ = true;
   return any != 0;
 }
 
@@ -208,7 +198,7 @@ std::uint32_t Clipper::find_rim() {
       const std::uint32_t v = first + static_cast<std::uint32_t>(std::countr_zero(bits));
       leaving[leaving_count++] = v;
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t u = corners[v].next[k];
+        const std::uint32_t u = end_of(corners[v].next[k]);
         rim[count] = 4 * v + k;
         count += (~taken[u / 64] >> (u % 64)) & 1u;
       }
@@ -228,12 +218,11 @@ void Clipper::place_fresh(std::uint32_t count) {
   Fresh* const all_fresh = fresh_.data();
   for (std::uint32_t i = 0; i < count; ++i) {
     Fresh& fresh = all_fresh[i];
-    const std::uint32_t v = rim[i] / 4, k = rim[i] % 4, u = corners[v].next[k];
-    const auto& around = corners[u].next;
+    const std::uint32_t v = rim[i] / 4, k = rim[i] % 4, edge = corners[v].next[k], u = end_of(edge);
     const double inside = std::min(0.0, beyond[u]), share = inside / (inside - beyond[v]);
     fresh.at = {x[u] + share * (x[v] - x[u]), y[u] + share * (y[v] - y[u]), z[u] + share * (z[v] - z[u])};
     fresh.kept = u;
-    fresh.back = static_cast<std::uint32_t>(around[1] == v) + 2u * static_cast<std::uint32_t>(around[2] == v);
+    fresh.back = slot_back(edge);
     fresh.left = corners[v].plane[kNext[k]];
     fresh.right = corners[v].plane[kPrevious[k]];
     left_of[fresh.left] = i;
@@ -261,7 +250,8 @@ void Clipper::untangle(double tolerance) {
     std::vector<std::uint32_t> part{seed};
     seen[seed] = 1;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      for (const std::uint32_t w : corners_[part[i]].next) {
+      for (const std::uint32_t edge : corners_[part[i]].next) {
+        const std::uint32_t w = end_of(edge);
         if (seen[w] || !belongs(w)) continue;
         seen[w] = 1;
         part.push_back(w);
@@ -299,13 +289,13 @@ void Clipper::close_rim(std::uint32_t plane, std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const Fresh& fresh = all_fresh[i];
     const std::uint32_t at = places[i], after = places[left_of[fresh.right]];
-    corners[fresh.kept].next[fresh.back] = at;
+    corners[fresh.kept].next[fresh.back] = edge_to(at, 0);
     Corner& corner = corners[at];
     corner.plane = {plane, fresh.left, fresh.right};
-    corner.next[0] = fresh.kept;
-    corner.next[1] = after;
+    corner.next[0] = edge_to(fresh.kept, fresh.back);
+    corner.next[1] = edge_to(after, 2);
     corner.given = kNone;
-    corners[after].next[2] = at;
+    corners[after].next[2] = edge_to(at, 1);
     set_place(at, fresh.at);
   }
   size_ += std::max(count, leaving_count_) - leaving_count_;
@@ -317,10 +307,9 @@ void Clipper::move_vertex(std::uint32_t from, std::uint32_t to) {
   z_[to] = z_[from];
   squared_[to] = squared_[from];
   corners_[to] = corners_[from];
-  for (const std::uint32_t w : corners_[to].next) {
-    for (std::uint32_t& back : corners_[w].next) {
-      if (back == from) back = to;
-    }
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t edge = corners_[to].next[k];
+    corners_[end_of(edge)].next[slot_back(edge)] = edge_to(to, k);
   }
 }
 

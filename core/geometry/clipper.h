@@ -72,8 +72,9 @@ class Clipper {
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  /// The three faces that meet at a vertex, counter-clockwise seen from outside, and the neighbours: next[k] is reached along
-  /// the edge that does not lie on face plane[k].
+  /// The three faces that meet at a vertex, counter-clockwise seen from outside, and the edges: the one in slot k does not lie on
+  /// face plane[k]. An edge is kept as 4 * vertex + slot: the vertex at its other end, and the slot there of the edge that follows
+  /// around the face on the left, so that a walk around a face reads one number per corner.
   struct alignas(32) Corner {
     std::array<std::uint32_t, 3> plane, next;
     std::uint32_t given;  ///< kNone, or: the vertex was there from the start and keeps its place
@@ -88,7 +89,7 @@ class Clipper {
   struct Fresh {
     Point3 at;
     std::uint32_t kept;
-    std::uint32_t back;         ///< place among the neighbours of `kept` where the new one goes
+    std::uint32_t back;         ///< slot of `kept` whose edge leads to the new one
     std::uint32_t left, right;  ///< faces of the edge: the next fresh vertex around the cut lies on `right` too
   };
 
@@ -96,6 +97,9 @@ class Clipper {
   void set_place(std::uint32_t vertex, const Point3& at);
   void measure_reach();
   bool judge(const Vector3& normal, double offset, double tolerance);
+  static std::uint32_t end_of(std::uint32_t edge) { return edge / 4; }
+  static std::uint32_t edge_to(std::uint32_t vertex, std::uint32_t slot_back);
+  static std::uint32_t slot_back(std::uint32_t edge);
   bool is_taken(std::uint32_t vertex) const { return (taken_[vertex / 64] >> (vertex % 64) & 1u) != 0; }
   std::uint32_t find_rim();
   void place_fresh(std::uint32_t count);
@@ -107,7 +111,7 @@ class Clipper {
   bool meeting_point(const Corner& corner, Point3& at) const;
   void rank_sides();
   bool write(Polyhedron& out, bool is_exact, double limit);
-  void write_face(Polyhedron& out, std::uint32_t corner);
+  void write_face(Polyhedron& out, std::uint32_t first_edge);
   void write_split_faces(Polyhedron& out);
   bool write_vertices(Polyhedron& out, bool is_exact) const;
 
@@ -122,7 +126,7 @@ class Clipper {
   std::vector<std::uint64_t> taken_;    // a bit per vertex: goes with the cut under way
   std::vector<std::uint32_t> leaving_;  // the vertices that go: the first leaving_count_ of them
   std::uint32_t leaving_count_ = 0;
-  std::vector<std::uint32_t> rim_;  // edges from vertices that go to vertices that stay: vertex * 4 + place among its neighbours
+  std::vector<std::uint32_t> rim_;  // edges from vertices that go to vertices that stay: 4 * vertex that goes + slot there
   std::vector<Fresh> fresh_;
   std::vector<std::uint32_t> left_of_;  // per face: the fresh vertex that has it on its left
   // What is worked out when the shape is written: ranks of the sides, numbers of the vertices in the order in which they are seen.
@@ -131,7 +135,7 @@ class Clipper {
     std::uint32_t side;
   };
   std::vector<Key> keys_;
-  std::vector<std::uint32_t> rank_, order_, first_corner_, number_, loop_, seen_;
+  std::vector<std::uint32_t> rank_, order_, first_edge_, number_, loop_, seen_;
   std::uint32_t seen_count_ = 0;
 };
 

@@ -36,13 +36,11 @@ bool Clipper::meeting_point(const Corner& corner, Point3& at) const {
 void Clipper::rank_sides() {
   const std::size_t count = sides_.size();
   rank_.resize(count);
-  first_corner_.assign(count, kNone);
-  std::uint32_t* const first_corner = first_corner_.data();
+  first_edge_.assign(count, kNone);
+  std::uint32_t* const first_edge = first_edge_.data();
   for (std::uint32_t v = 0; v < size_; ++v) {
     const auto& plane = corners_[v].plane;
-    first_corner[plane[0]] = 3 * v;
-    first_corner[plane[1]] = 3 * v + 1;
-    first_corner[plane[2]] = 3 * v + 2;
+    for (std::uint32_t k = 0; k < 3; ++k) first_edge[plane[k]] = 4 * v + kNext[k];
   }
   keys_.resize(count);
   std::uint32_t faces = 0;
@@ -50,7 +48,7 @@ void Clipper::rank_sides() {
     // Kind and index as one number: no side's index comes near 2^30, but that of inner faces, which all share one.
     const auto kind = static_cast<std::uint32_t>(sides_[p].kind);
     keys_[faces] = {static_cast<std::int32_t>((kind << 30 | (sides_[p].index & 0x3fffffffu)) ^ 0x80000000u), p};
-    faces += first_corner[p] != kNone;
+    faces += first_edge[p] != kNone;
   }
   order_.resize(faces);
   if (faces > kManyFaces) {
@@ -73,21 +71,19 @@ void Clipper::rank_sides() {
 }
 
 // One loop, from the corner on where the face that follows around it has the lowest rank. Vertices are numbered as they come.
-void Clipper::write_face(Polyhedron& out, std::uint32_t corner) {
+void Clipper::write_face(Polyhedron& out, std::uint32_t first_edge) {
   const Corner* const corners = corners_.data();
   const std::uint32_t* const rank = rank_.data();
   std::uint32_t *const loop = loop_.data(), *const number = number_.data(), *const seen = seen_.data();
-  const std::uint32_t p = corners[corner / 3].plane[corner % 3];
-  const std::uint32_t most = static_cast<std::uint32_t>(loop_.size()), start = corner / 3;
-  std::uint32_t v = start, k = corner % 3, count = 0;
+  const std::uint32_t most = static_cast<std::uint32_t>(loop_.size());
+  std::uint32_t edge = first_edge, count = 0;
   std::uint64_t lowest = ~std::uint64_t{0};  // rank and place of the lowest so far as one number
   do {
-    const Corner& at = corners[v];
-    lowest = std::min(lowest, std::uint64_t{rank[at.plane[kNext[k]]]} << 32 | count);
+    const std::uint32_t v = edge / 4, slot = edge % 4;
+    lowest = std::min(lowest, std::uint64_t{rank[corners[v].plane[slot]]} << 32 | count);
     loop[count++] = v;
-    v = at.next[kNext[k]];
-    k = static_cast<std::uint32_t>(corners[v].plane[1] == p) + 2u * static_cast<std::uint32_t>(corners[v].plane[2] == p);
-  } while (v != start && count < most);
+    edge = corners[v].next[slot];
+  } while (edge != first_edge && count < most);
   const std::uint32_t first = static_cast<std::uint32_t>(lowest), begin = static_cast<std::uint32_t>(out.loops.size());
   out.loops.resize(begin + count);
   std::uint32_t* const to = out.loops.data() + begin;
@@ -101,7 +97,7 @@ void Clipper::write_face(Polyhedron& out, std::uint32_t corner) {
     to[i] = number[w];
   }
   seen_count_ = seen_count;
-  const Side& side = sides_[p];
+  const Side& side = sides_[corners[first_edge / 4].plane[kPrevious[first_edge % 4]]];
   out.faces.push_back({side.normal, side.offset, side.kind, side.index, begin, count});
 }
 
@@ -133,7 +129,7 @@ bool Clipper::write(Polyhedron& out, bool is_exact, double limit) {
   bool is_open = false;
   for (const std::uint32_t p : order_) {
     if (sides_[p].offset < limit) {
-      write_face(out, first_corner_[p]);
+      write_face(out, first_edge_[p]);
     } else {
       is_open = true;
     }
@@ -147,22 +143,16 @@ bool Clipper::write(Polyhedron& out, bool is_exact, double limit) {
 
 // Faces that rounding has split: the loops that are left, in the order of their corners.
 void Clipper::write_split_faces(Polyhedron& out) {
-  std::vector<std::uint8_t> seen(3 * std::size_t{size_}, 0);
-  const auto mark = [&](std::uint32_t from) {
-    const std::uint32_t p = corners_[from / 3].plane[from % 3];
-    std::uint32_t corner = from;
-    do {
-      seen[corner] = 1;
-      const std::uint32_t v = corners_[corner / 3].next[kNext[corner % 3]];
-      const auto& plane = corners_[v].plane;
-      corner = 3 * v + (plane[0] == p ? 0u : plane[1] == p ? 1u : 2u);
-    } while (!seen[corner]);
+  std::vector<std::uint8_t> seen(4 * std::size_t{size_}, 0);
+  const auto mark = [&](std::uint32_t edge) {
+    for (; !seen[edge]; edge = corners_[edge / 4].next[edge % 4]) seen[edge] = 1;
   };
-  for (const std::uint32_t p : order_) mark(first_corner_[p]);
+  for (const std::uint32_t p : order_) mark(first_edge_[p]);
   for (std::uint32_t corner = 0; corner < 3 * size_; ++corner) {
-    if (seen[corner]) continue;
-    mark(corner);
-    write_face(out, corner);
+    const std::uint32_t edge = 4 * (corner / 3) + kNext[corner % 3];
+    if (seen[edge]) continue;
+    mark(edge);
+    write_face(out, edge);
   }
 }
 
