@@ -15,8 +15,8 @@ constexpr double kUnevenness = 40;
 
 }  // namespace
 
-const std::vector<SiteGrid::Offset>& SiteGrid::offsets(unsigned eighth) {
-  const auto make = [](unsigned upper) {
+const std::vector<SiteGrid::Offset>& SiteGrid::offsets(unsigned eighth, bool is_half) {
+  const auto make = [](unsigned upper, bool is_from_home) {
     std::vector<Offset> made;
     // Along one axis: from the lower or upper half of the home block to a block so many steps away.
     const auto gap = [](bool is_upper, int steps) {
@@ -26,6 +26,8 @@ const std::vector<SiteGrid::Offset>& SiteGrid::offsets(unsigned eighth) {
     for (int z = -kFar; z <= kFar; ++z) {
       for (int y = -kFar; y <= kFar; ++y) {
         for (int x = -kFar; x <= kFar; ++x) {
+          const bool is_before = z != 0 ? z < 0 : y != 0 ? y < 0 : x < 0;
+          if (is_from_home && is_before) continue;
           const double dx = gap((upper & 1u) != 0, x), dy = gap((upper & 2u) != 0, y), dz = gap((upper & 4u) != 0, z);
           made.push_back({{x, y, z}, dx * dx + dy * dy + dz * dz});
         }
@@ -39,8 +41,12 @@ const std::vector<SiteGrid::Offset>& SiteGrid::offsets(unsigned eighth) {
     });
     return made;
   };
-  static const std::array<std::vector<Offset>, 8> tables{make(0), make(1), make(2), make(3), make(4), make(5), make(6), make(7)};
-  return tables[eighth];
+  static const std::array<std::vector<Offset>, 16> tables = [&] {
+    std::array<std::vector<Offset>, 16> made;
+    for (unsigned k = 0; k < 16; ++k) made[k] = make(k % 8, k >= 8);
+    return made;
+  }();
+  return tables[eighth + (is_half ? 8 : 0)];
 }
 
 std::array<int, 3> SiteGrid::block_of(const Point3& p) const {
@@ -54,7 +60,9 @@ void SiteGrid::build(std::span<const PowerSite> sites, std::span<const std::uint
   strays_.clear();
   slot_of_.assign(sites.size(), kNone);
   order_.resize(participants.size());
-  entries_.resize(participants.size());
+  for (std::vector<double>* numbers : {&x_, &y_, &z_, &weight_}) numbers->resize(participants.size() + 1);
+  site_.resize(participants.size() + 1);
+  remove_entry(static_cast<std::uint32_t>(participants.size()));
   is_uneven_ = false;
   largest_weight_ = -std::numeric_limits<double>::infinity();
   Vector3 low, high;
@@ -92,11 +100,25 @@ void SiteGrid::build(std::span<const PowerSite> sites, std::span<const std::uint
   std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
   for (std::size_t k = 0; k < participants.size(); ++k) {
     const std::uint32_t site = participants[k], slot = at[block[k]]++;
-    entries_[slot] = {sites[site].position, sites[site].weight, site};
+    set_entry(slot, {sites[site].position, sites[site].weight, site});
     slot_of_[site] = slot;
     order_[slot] = site;
     block_weight_[block[k]] = std::max(block_weight_[block[k]], sites[site].weight);
   }
+}
+
+void SiteGrid::set_entry(std::uint32_t place, const Entry& entry) {
+  x_[place] = entry.position.x;
+  y_[place] = entry.position.y;
+  z_[place] = entry.position.z;
+  weight_[place] = entry.weight;
+  site_[place] = entry.site;
+}
+
+// The position stays: it tells the block.
+void SiteGrid::remove_entry(std::uint32_t place) {
+  weight_[place] = -std::numeric_limits<double>::infinity();
+  site_[place] = kNone;
 }
 
 void SiteGrid::refresh_weights(std::span<const PowerSite> sites) {
@@ -109,9 +131,9 @@ void SiteGrid::refresh_weights(std::span<const PowerSite> sites) {
   for (std::size_t b = 0; b < block_weight_.size(); ++b) {
     block_weight_[b] = kLightest;
     for (std::uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
-      if (entries_[k].site == kNone) continue;
-      entries_[k].weight = sites[entries_[k].site].weight;
-      block_weight_[b] = std::max(block_weight_[b], entries_[k].weight);
+      if (site_[k] == kNone) continue;
+      weight_[k] = sites[site_[k]].weight;
+      block_weight_[b] = std::max(block_weight_[b], weight_[k]);
     }
     largest_weight_ = std::max(largest_weight_, block_weight_[b]);
   }
@@ -125,26 +147,26 @@ void SiteGrid::change(std::uint32_t site, const PowerSite& now) {
       return;
     }
   }
-  Entry& entry = entries_[slot_of_[site]];
-  const std::size_t block = index_of(block_of(entry.position));
+  const std::uint32_t slot = slot_of_[site];
+  const std::size_t block = index_of(block_of(entry(slot).position));
   // What lies outside of all blocks belongs to none: the search reckons with the borders of a block.
   const Vector3 high = origin_ + side_ * Vector3{double(count_[0]), double(count_[1]), double(count_[2])};
   const Point3& p = now.position;
   const bool is_in_box =
       p.x >= origin_.x && p.y >= origin_.y && p.z >= origin_.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
   if (!is_in_box || index_of(block_of(p)) != block) {
-    entry.site = kNone;
+    remove_entry(slot);
     strays_.push_back({now.position, now.weight, site});
     return;
   }
-  entry = {now.position, now.weight, site};
+  set_entry(slot, {now.position, now.weight, site});
   find_block_weight(block);
 }
 
 void SiteGrid::find_block_weight(std::size_t block) {
   block_weight_[block] = -std::numeric_limits<double>::infinity();
   for (std::uint32_t k = first_[block]; k < first_[block + 1]; ++k) {
-    if (entries_[k].site != kNone) block_weight_[block] = std::max(block_weight_[block], entries_[k].weight);
+    block_weight_[block] = std::max(block_weight_[block], weight_[k]);
   }
 }
 
@@ -158,9 +180,9 @@ void SiteGrid::insert(std::uint32_t site, const PowerSite& now) {
 void SiteGrid::erase(std::uint32_t site) {
   std::erase_if(strays_, [&](const Entry& stray) { return stray.site == site; });
   const std::uint32_t slot = site < slot_of_.size() ? slot_of_[site] : kNone;
-  if (slot == kNone || entries_[slot].site != site) return;
-  entries_[slot].site = kNone;
-  find_block_weight(index_of(block_of(entries_[slot].position)));
+  if (slot == kNone || site_[slot] != site) return;
+  remove_entry(slot);
+  find_block_weight(index_of(block_of(entry(slot).position)));
 }
 
 bool SiteGrid::has_site_within(const Point3& p, double limit, std::uint32_t self) const {
@@ -187,12 +209,10 @@ std::uint32_t SiteGrid::least_power(const Point3& p) const {
       for (block[0] = 0; block[0] < count_[0]; ++block[0]) {
         const std::size_t index = index_of(block);
         const Vector3 low{origin_.x + block[0] * side_, origin_.y + block[1] * side_, origin_.z + block[2] * side_};
-        const double dx = std::max({0.0, low.x - p.x, p.x - low.x - side_}),
-                     dy = std::max({0.0, low.y - p.y, p.y - low.y - side_}),
-                     dz = std::max({0.0, low.z - p.z, p.z - low.z - side_});
+        const double dx = gap(low.x - p.x), dy = gap(low.y - p.y), dz = gap(low.z - p.z);
         if ((1 - 1e-9) * (dx * dx + dy * dy + dz * dz) - block_weight_[index] > best) continue;
         for (std::uint32_t k = first_[index]; k < first_[index + 1]; ++k) {
-          if (entries_[k].site != kNone) consider(entries_[k]);
+          if (site_[k] != kNone) consider(entry(k));
         }
       }
     }

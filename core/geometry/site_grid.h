@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/geometry/lane_pair.h"
 #include "core/geometry/power_cells.h"
 
 namespace bl {
@@ -63,14 +65,18 @@ class SiteGrid {
                          origin_.z + (home[2] + 0.5) * side_};
     const unsigned eighth =
         (position.x > middle.x ? 1u : 0u) + (position.y > middle.y ? 2u : 0u) + (position.z > middle.z ? 4u : 0u);
-    for (const Offset& offset : offsets(eighth)) {
-      if (is_beyond((1 - 1e-9) * offset.squared_gap * side_ * side_, lighter, reach())) break;
+    // Where all places before the home block are left out, the blocks before it need not even be looked at.
+    const bool is_half = skip.begin == 0 && skip.end >= first_[index_of(home)];
+    for (const Offset& offset : offsets(eighth, is_half)) {
+      // A hair less than the gap: a site on the border of its block may lie beyond it by rounding.
+      const double squared_gap = (1 - 1e-9) * offset.squared_gap * side_ * side_;
+      if (is_beyond(squared_gap, lighter, reach())) break;
       const std::array<int, 3> block{home[0] + offset.at[0], home[1] + offset.at[1], home[2] + offset.at[2]};
       if (static_cast<unsigned>(block[0]) >= static_cast<unsigned>(count_[0]) ||
           static_cast<unsigned>(block[1]) >= static_cast<unsigned>(count_[1]) ||
           static_cast<unsigned>(block[2]) >= static_cast<unsigned>(count_[2]))
         continue;
-      visit_block(position, weight, self, skip, block, reach, consider);
+      visit_block(position, weight, self, skip, block, squared_gap, reach, consider);
     }
     // The table's own corners are farther than the nearest blocks that it does not hold.
     if (is_beyond((1 - 1e-9) * kFar * kFar * side_ * side_, lighter, reach())) return;
@@ -90,7 +96,7 @@ class SiteGrid {
       for (int y = low[1]; y <= high[1]; ++y) {
         const std::uint32_t end = first_[index_of({high[0], y, z}) + 1];
         for (std::uint32_t k = first_[index_of({low[0], y, z})]; k < end; ++k) {
-          if (entries_[k].site != kNone) consider(entries_[k]);
+          if (site_[k] != kNone) consider(entry(k));
         }
       }
     }
@@ -106,8 +112,8 @@ class SiteGrid {
   };
   static constexpr int kFar = 5;
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  /// Blocks around one of the eight corners of the home block, near ones first.
-  static const std::vector<Offset>& offsets(unsigned eighth);
+  /// Blocks around one of the eight corners of the home block, near ones first: all, or those from the home block on.
+  static const std::vector<Offset>& offsets(unsigned eighth, bool is_half);
 
   // Can no bisector of a site at least sqrt(squared_gap) away come nearer than reach? `lighter` is w - max w_j.
   static bool is_beyond(double squared_gap, double lighter, double reach) {
@@ -116,6 +122,9 @@ class SiteGrid {
     return least > 0 && least * least >= 4 * squared_gap * reach * reach;
   }
 
+  // Distance along an axis from a block that begins so far away.
+  double gap(double to_begin) const { return std::max(0.0, std::max(to_begin, -to_begin - side_)); }
+
   std::array<int, 3> block_of(const Point3& p) const;
   void find_block_weight(std::size_t block);
   std::size_t index_of(const std::array<int, 3>& block) const {
@@ -123,16 +132,12 @@ class SiteGrid {
   }
 
   template <class Reach, class Consider>
-  void visit_block(const Point3& p, double weight, std::uint32_t self, Range skip, const std::array<int, 3>& block, Reach&& reach,
+  void visit_block(const Point3& p, double weight, std::uint32_t self, Range skip, const std::array<int, 3>& block, double squared_gap, Reach&& reach,
                    Consider&& consider) const {
     const std::size_t index = index_of(block);
     const std::uint32_t begin = first_[index], end = first_[index + 1];
     if (begin == end || (begin >= skip.begin && end <= skip.end)) return;
-    const Vector3 low{origin_.x + block[0] * side_, origin_.y + block[1] * side_, origin_.z + block[2] * side_};
-    const double dx = std::max({0.0, low.x - p.x, p.x - low.x - side_}), dy = std::max({0.0, low.y - p.y, p.y - low.y - side_}),
-                 dz = std::max({0.0, low.z - p.z, p.z - low.z - side_});
-    // A hair less than the gap: a site on the border of its block may lie beyond it by rounding.
-    if (is_beyond((1 - 1e-9) * (dx * dx + dy * dy + dz * dz), weight - block_weight_[index], reach())) return;
+    if (is_beyond(squared_gap, weight - block_weight_[index], reach())) return;
     const std::uint32_t before = std::clamp(skip.begin, begin, end), after = std::clamp(skip.end, before, end);
     visit_entries(p, weight, self, begin, before, reach, consider);
     visit_entries(p, weight, self, after, end, reach, consider);
@@ -142,21 +147,33 @@ class SiteGrid {
   template <class Reach, class Consider>
   void visit_entries(const Point3& p, double weight, std::uint32_t self, std::uint32_t begin, std::uint32_t end, Reach&& reach,
                      Consider&& consider) const {
-    constexpr std::uint32_t kMost = 32;
-    std::array<std::uint32_t, kMost> near;
-    for (std::uint32_t from = begin; from < end; from += kMost) {
-      const double four_reach_squared = 4 * reach() * reach();
-      std::uint32_t count = 0;
-      for (std::uint32_t k = from; k < std::min(end, from + kMost); ++k) {
-        const Entry& entry = entries_[k];
-        const double squared = squared_norm(entry.position - p), sum = squared + (weight - entry.weight);
-        const bool is_far = (sum > 0) & (sum * sum >= squared * four_reach_squared);
-        near[count] = k;
-        count += !is_far & (entry.site != self) & (entry.site != kNone);
+    for (std::uint32_t from = begin; from < end; from += 64) {
+      for (std::uint64_t near = sift(p, weight, from, std::min(end - from, 64u), reach()); near != 0; near &= near - 1) {
+        const std::uint32_t k = from + static_cast<std::uint32_t>(std::countr_zero(near));
+        if (site_[k] != self) consider(entry(k));
       }
-      for (std::uint32_t k = 0; k < count; ++k) consider(entries_[near[k]]);
     }
   }
+
+  // A bit for each of up to 64 entries whose bisector may lie nearer than the reach. The weight of none is so small that it
+  // never does.
+  std::uint64_t sift(const Point3& p, double weight, std::uint32_t from, std::uint32_t count, double reach) const {
+    const double *const x = x_.data() + from, *const y = y_.data() + from, *const z = z_.data() + from,
+                 *const weights = weight_.data() + from;
+    const LanePair at_x = in_both_lanes(p.x), at_y = in_both_lanes(p.y), at_z = in_both_lanes(p.z), own = in_both_lanes(weight),
+                   four_reach_squared = in_both_lanes(4 * reach * reach), zero = in_both_lanes(0);
+    std::uint64_t far = 0;
+    for (std::uint32_t k = 0; k < count; k += 2) {
+      const LanePair dx = lanes_at(x + k) - at_x, dy = lanes_at(y + k) - at_y, dz = lanes_at(z + k) - at_z,
+                     squared = dx * dx + dy * dy + dz * dz, sum = squared + (own - lanes_at(weights + k));
+      far |= bits_of((sum > zero) & (sum * sum >= squared * four_reach_squared)) << k;
+    }
+    return ~far & lowest_bits(count);
+  }
+
+  Entry entry(std::uint32_t place) const { return {{x_[place], y_[place], z_[place]}, weight_[place], site_[place]}; }
+  void set_entry(std::uint32_t place, const Entry& entry);
+  void remove_entry(std::uint32_t place);
 
   // All blocks that the table of offsets does not hold.
   template <class Reach, class Consider>
@@ -168,7 +185,9 @@ class SiteGrid {
         const bool near_row = std::abs(block[2] - home[2]) <= kFar && std::abs(block[1] - home[1]) <= kFar;
         for (block[0] = 0; block[0] < count_[0]; ++block[0]) {
           if (near_row && std::abs(block[0] - home[0]) <= kFar) continue;
-          visit_block(p, weight, self, skip, block, reach, consider);
+          const Vector3 low{origin_.x + block[0] * side_, origin_.y + block[1] * side_, origin_.z + block[2] * side_};
+          const double dx = gap(low.x - p.x), dy = gap(low.y - p.y), dz = gap(low.z - p.z);
+          visit_block(p, weight, self, skip, block, (1 - 1e-9) * (dx * dx + dy * dy + dz * dz), reach, consider);
         }
       }
     }
@@ -181,7 +200,8 @@ class SiteGrid {
   double largest_weight_ = 0;
   std::vector<std::uint32_t> first_;  // block b: entries first_[b] .. first_[b + 1)
   std::vector<double> block_weight_;  // largest weight in a block
-  std::vector<Entry> entries_;        // site kNone: it has moved to another block
+  std::vector<double> x_, y_, z_, weight_;  // of the entries, and one more that is none
+  std::vector<std::uint32_t> site_;         // kNone: it has moved to another block
   std::vector<std::uint32_t> order_, slot_of_;
   std::vector<Entry> strays_;  // sites that have left their blocks
 };
