@@ -38,6 +38,13 @@ Result<void> check_options(std::span<const PowerSite> sites, const Domain& domai
   return {};
 }
 
+Error no_domain() {
+  return {ErrorCode::geometry, "", "the domain is empty: make it with convex_hull, from_planes, extrude or from_mesh"};
+}
+Error failure(const std::exception& problem) {
+  return {ErrorCode::internal, "", std::string("the power cells failed: ") + problem.what()};
+}
+
 }  // namespace
 
 struct PowerDiagram::Workshop {
@@ -191,9 +198,7 @@ PowerDiagram::PowerDiagram(PowerDiagram&&) noexcept = default;
 PowerDiagram& PowerDiagram::operator=(PowerDiagram&&) noexcept = default;
 
 Result<void> PowerDiagram::set_domain(const Domain& domain) {
-  if (domain.pieces.empty()) {
-    return Error{ErrorCode::geometry, "", "the domain is empty: make it with convex_hull, from_planes, extrude or from_mesh"};
-  }
+  if (domain.pieces.empty()) return no_domain();
   if (workshop_->is_whole && workshop_->workshop.domain() == domain) return {};
   workshop_->workshop.set_domain(domain);
   workshop_->cells.clear();
@@ -209,15 +214,23 @@ Result<std::span<const CellMeasure>> PowerDiagram::update(std::span<const PowerS
   if (auto done = workshop_->update(sites, options); !done) return done.error();
   return std::span<const CellMeasure>(workshop_->cells);
 } catch (const std::exception& problem) {
-  return Error{ErrorCode::internal, "", std::string("the power cells failed: ") + problem.what()};
+  return failure(problem);
 }
 
-Result<std::vector<CellMeasure>> power_cells(const Domain& domain, std::span<const PowerSite> sites, const CellOptions& options) {
-  PowerDiagram diagram;
-  if (auto set = diagram.set_domain(domain); !set) return set.error();
-  const auto cells = diagram.update(sites, options);
-  if (!cells) return cells.error();
-  return std::vector<CellMeasure>(cells->begin(), cells->end());
+// Nothing is kept for a next time.
+Result<std::vector<CellMeasure>> power_cells(const Domain& domain, std::span<const PowerSite> sites,
+                                             const CellOptions& options) try {
+  if (domain.pieces.empty()) return no_domain();
+  if (auto checked = check_sites(sites); !checked) return checked.error();
+  if (auto checked = check_options(sites, domain, options); !checked) return checked.error();
+  CellWorkshop workshop;
+  workshop.set_domain(domain);
+  if (auto set = workshop.set_sites(sites); !set) return set.error();
+  std::vector<CellMeasure> cells(sites.size());
+  workshop.make_all(options, cells);
+  return cells;
+} catch (const std::exception& problem) {
+  return failure(problem);
 }
 
 std::string_view name_of(SiteState state) {

@@ -41,14 +41,6 @@ BenchTable cell_table(const std::string& name, const std::string& heading) {
            {"hash", "hash", true}}};
 }
 
-// Everything anew, as the first call of a program has it: memory, search structure, cells.
-std::vector<CellMeasure> cells_from_nothing(const Domain& domain, std::span<const PowerSite> sites, ThreadPool& pool) {
-  PowerDiagram diagram;
-  (void)diagram.set_domain(domain);
-  const auto cells = diagram.update(sites, plain_cells(&pool));
-  return cells ? std::vector<CellMeasure>(cells->begin(), cells->end()) : std::vector<CellMeasure>();
-}
-
 // Largest difference of a volume, as a share of the mean.
 BenchCell difference([[maybe_unused]] const Domain& domain, [[maybe_unused]] const CellCase& set,
                      [[maybe_unused]] std::span<const CellMeasure> cells) {
@@ -68,13 +60,8 @@ std::vector<Contender> contenders_of(const Domain& domain, const CellCase& set,
                                      const std::vector<std::unique_ptr<ThreadPool>>& pools) {
   std::vector<Contender> contenders;
   for (const auto& pool : pools) {
-    contenders.push_back({[&domain, &set, &pool] {
-                            PowerDiagram diagram;
-                            (void)diagram.set_domain(domain);
-                            (void)diagram.update(set.sites, plain_cells(pool.get()));
-                          },
-                          {},
-                          {}});
+    // Everything anew each time: memory, search structure, cells.
+    contenders.push_back({[&domain, &set, &pool] { (void)power_cells(domain, set.sites, plain_cells(pool.get())); }, {}, {}});
   }
   contenders.push_back({[&set] { (void)plain_triangulation(set.plain); }, {}, {}});
 #ifdef BL_VOROPP
@@ -96,8 +83,9 @@ Result<void> measure(const SolverBench& bench, const CellCase& set, BenchTable& 
   const Contender* voropp = contenders.size() > threads.size() + 1 ? &contenders.back() : nullptr;
   const auto ratio = [](double mine, double other) { return figure(mine / other, 2); };
   for (std::size_t t = 0; t < threads.size(); ++t) {
-    const auto cells = cells_from_nothing(domain, set.sites, *pools[t]);
-    if (cells.empty()) return Error{ErrorCode::internal, "", "the cells could not be made"};
+    const auto made = power_cells(domain, set.sites, plain_cells(pools[t].get()));
+    if (!made) return made.error();
+    const std::vector<CellMeasure>& cells = *made;
     const int count = threads[t];
     const double seconds = contenders[t].median.of(count);
     table.add({word(set.balls), figure(cells.size()), figure(static_cast<std::size_t>(count)),
