@@ -27,6 +27,8 @@ constexpr double kFallWorthRepair = 0.5, kRepairedFall = 0.7;
 // A change of weight that moves no volume by more than this share of the tolerance is not made: what it would move stays as it
 // is, bit for bit, and need not be measured again.
 constexpr double kIdleShare = 0.02;
+// Farther from the demands than this, a step of Newton's is careful with growth.
+constexpr double kFarError = 1.6;
 // Newton's step is halved no further than this.
 constexpr double kLeastStep = 1.0 / 256;
 // Share of the diagonal step: the response matrix, scaled by its diagonal, has eigenvalues between 0 and 2.
@@ -314,21 +316,40 @@ class Fit {
     for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
   }
 
+  // What the linear response is asked for, per demand [m³]. Far from the demands growth is asked for by the 2/3 power of what it
+  // is short: the large ones grow all at once, into the same small neighbours, and would empty them. What all together ask for
+  // stays what it was: in a full domain anything else has no solution.
+  std::vector<double> wanted_changes() const {
+    std::vector<double> wanted(targets_.size(), 0);
+    double lost = 0, volume = 0;
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+      if (targets_.sites(k).empty() || !targets_.is_active(k)) continue;
+      const double total = targets_.total(k), missing = targets_.aim(k) - total;
+      wanted[k] = missing;
+      if (report_.error > kFarError && missing > 0 && total > 0) {
+        const double side = cube_root(targets_.aim(k) / total);
+        wanted[k] = 1.5 * total * (side * side - 1);
+      }
+      lost += missing - wanted[k];
+      volume += total;
+    }
+    for (std::size_t k = 0; k < targets_.size() && lost > 0 && volume > 0; ++k) {
+      if (!targets_.sites(k).empty() && targets_.is_active(k)) wanted[k] += lost / volume * targets_.total(k);
+    }
+    return wanted;
+  }
+
   void step_together(std::span<const CellMeasure> cells, double residual) {
     FitState& state = report_.state;
     ++report_.iterations;
-    std::vector<double> wanted(targets_.size(), 0);
     std::vector<std::uint8_t> fitted(cells.size());
     std::vector<std::uint32_t> unknown(cells.size(), FitTargets::kNone);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       fitted[i] = moves(i);
       if (fitted[i]) unknown[i] = targets_.owner(i);
     }
-    for (std::size_t k = 0; k < targets_.size(); ++k) {
-      if (!targets_.sites(k).empty() && targets_.is_active(k)) wanted[k] = targets_.aim(k) - targets_.total(k);
-    }
     const std::vector<double> change =
-        ResponseSystem(sites_, cells, fitted).solve(wanted, unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+        ResponseSystem(sites_, cells, fitted).solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
     state.residual = residual;
     state.share = options_.damping;
     state.direction.assign(cells.size(), 0);

@@ -132,22 +132,21 @@ class Attempt {
     return sites;
   }
 
-  Result<std::vector<CellMeasure>> measure() const {
+  // The cells of the weights that were last evaluated; where no floors count, they are still there. Valid until the next call.
+  Result<std::span<const CellMeasure>> measure() {
     CellOptions cells;
     cells.pool = options_.pool;
     cells.with_shape = has_floors_;
     cells.with_centroid = false;
-    std::vector<double> storeys;
-    if (has_floors_) {
-      storeys.assign(problem_.sites.size(), domain_.maximum.z - domain_.minimum.z);
-      for (const VolumeDemand& demand : asked_.demands) {
-        for (const std::uint32_t i : demand.sites) {
-          if (demand.kind == VolumeDemand::Kind::floor_area) storeys[i] = demand.storey_height;
-        }
+    if (!has_floors_) return diagram_.update(evaluated(), cells);
+    std::vector<double> storeys(problem_.sites.size(), domain_.maximum.z - domain_.minimum.z);
+    for (const VolumeDemand& demand : asked_.demands) {
+      for (const std::uint32_t i : demand.sites) {
+        if (demand.kind == VolumeDemand::Kind::floor_area) storeys[i] = demand.storey_height;
       }
-      cells.storey_heights = storeys;
     }
-    return power_cells(domain_, evaluated(), cells);
+    cells.storey_heights = storeys;
+    return with_floors_.update(evaluated(), cells);
   }
 
   // Asks for other volumes where floor areas miss their demand. True where all are met, or nothing can be bettered.
@@ -255,7 +254,7 @@ class Attempt {
   const FitProblem& asked_;
   FitProblem problem_;
   const VolumeFitOptions& options_;
-  PowerDiagram diagram_;
+  PowerDiagram diagram_, with_floors_;
   Outcome result_;
   bool has_floors_ = false;
 };
