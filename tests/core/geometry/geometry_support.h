@@ -50,6 +50,12 @@ inline bool is_closed(const Mesh& mesh) {
   return edges == twins && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
+/// In a box of ten metres: 0 lives, 1 lies at its place and is lighter, 2 is swallowed by it, 3 lies outside and out of reach,
+/// 4 reaches in from outside, 5 has no ball.
+inline std::vector<PowerSite> sites_in_every_state() {
+  return {{{5, 5, 5}, 4}, {{5, 5, 5}, 1}, {{5.1, 5, 5}, 0.01}, {{20, 5, 5}, 1}, {{10.5, 9, 9}, 1}, {{1, 1, 1}, 0}};
+}
+
 /// Power distance of a point to a site.
 inline double power(const PowerSite& site, const Point3& x) { return squared_norm(x - site.position) - site.weight; }
 
