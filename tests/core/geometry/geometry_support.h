@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <span>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "core/base/random.h"
 #include "core/geometry/power_cells.h"
+#include "tests/support/reference_files.h"
 
 namespace bl::test {
 
@@ -65,12 +65,6 @@ inline std::vector<CellMeasure> cells_of(const ConvexDomain& domain, std::span<c
   auto cells = power_cells(domain, sites, options);
   EXPECT_TRUE(cells.ok()) << (cells.ok() ? "" : cells.error().text());
   return cells.ok() ? *cells : std::vector<CellMeasure>{};
-}
-
-/// Reference files beside the checkout; empty where they are not there.
-inline std::filesystem::path shared_file(const char* name) {
-  const std::filesystem::path path = std::filesystem::path(BL_SOURCE_DIR) / ".." / "shared" / name;
-  return std::filesystem::exists(path) ? path : std::filesystem::path{};
 }
 
 }  // namespace bl::test
