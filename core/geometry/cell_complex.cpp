@@ -123,7 +123,7 @@ void CellComplex::Body::update(const PowerDiagram& diagram, std::span<const Powe
   store.notes.clear();
   store.keeps_notes = !is_first;
   ComplexUpdate step(store);
-  step.replace(std::move(fresh));
+  step.replace(std::move(fresh), same_tolerance);
   work.cells_visited = step.cells_visited();
   work.elements_made = step.elements_made();
   if (is_first) {

@@ -194,7 +194,7 @@ std::vector<std::string> CellComplex::verify() const {
   for (const auto& [label, cell] : store.cell_of_label) {
     fresh.emplace_back(again.body_->store.add_cell(label), store.cells[cell].view);
   }
-  ComplexUpdate(again.body_->store).replace(std::move(fresh));
+  ComplexUpdate(again.body_->store).replace(std::move(fresh), false);
   if (again.listing() != listing()) recount.say("built anew, the complex is another");
   if (!store.is_convex) return recount.complaints;
   for (const auto& [label, cell] : store.cell_of_label) {

@@ -230,20 +230,27 @@ std::vector<std::uint32_t> ComplexStore::pieces(ElementKind kind, const ElementN
   return found;
 }
 
-std::vector<Point3> ComplexStore::geometry(const ElementKey& element) const {
-  std::vector<std::vector<Point3>> parts;
-  for (const std::uint32_t piece : pieces(element.kind, element.name)) {
-    std::vector<Point3> part;
-    if (element.kind == ElementKind::vertex) part = {nodes[piece].position};
-    if (element.kind == ElementKind::edge) {
-      part = {nodes[segments[piece].ends[0]].position, nodes[segments[piece].ends[1]].position};
-      std::sort(part.begin(), part.end(), comes_before);
-    }
-    if (element.kind == ElementKind::facet) {
-      for (const std::uint32_t node : polygons[piece].loop) part.push_back(nodes[node].position);
-    }
-    parts.push_back(std::move(part));
+// The numbers of one node, segment or polygon.
+std::vector<Point3> ComplexStore::geometry_of_piece(ElementKind kind, std::uint32_t piece) const {
+  if (kind == ElementKind::vertex) return {nodes[piece].position};
+  std::vector<Point3> part;
+  if (kind == ElementKind::edge) {
+    part = {nodes[segments[piece].ends[0]].position, nodes[segments[piece].ends[1]].position};
+    if (comes_before(part[1], part[0])) std::swap(part[0], part[1]);
+  } else {
+    part.reserve(polygons[piece].loop.size());
+    for (const std::uint32_t node : polygons[piece].loop) part.push_back(nodes[node].position);
   }
+  return part;
+}
+
+std::vector<Point3> ComplexStore::geometry(const ElementKey& element) const {
+  if (element.kind == ElementKind::cell) return {};
+  const auto [begin, end] = names(element.kind).equal_range(element.name);
+  if (begin == end) return {};
+  if (std::next(begin) == end) return geometry_of_piece(element.kind, begin->second);
+  std::vector<std::vector<Point3>> parts;
+  for (auto at = begin; at != end; ++at) parts.push_back(geometry_of_piece(element.kind, at->second));
   std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), comes_before);
   });

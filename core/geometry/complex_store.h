@@ -98,6 +98,7 @@ class ComplexStore {
 
  private:
   void note(ElementKind kind, const ElementName& name);
+  std::vector<Point3> geometry_of_piece(ElementKind kind, std::uint32_t piece) const;
   static Index::iterator enter(Index& index, std::size_t& count, const ElementName& name, std::uint32_t piece);
   static void leave(Index& index, std::size_t& count, Index::iterator entry);
   void remove_segment(std::uint32_t segment);

@@ -350,28 +350,8 @@ void ComplexUpdate::make_polygons() {
   pair_by_place(alone);
 }
 
-void ComplexUpdate::replace(std::vector<std::pair<std::uint32_t, CellView>> fresh) {
-  for (const auto& [cell, view] : fresh) store_.cells[cell].is_replaced = true;
-  for (const auto& [cell, view] : fresh) {
-    const std::vector<std::uint32_t> old = store_.cells[cell].node;
-    for (const std::uint32_t node : old) {
-      if (node != kNone && store_.nodes[node].is_used) dissolve(node);
-    }
-  }
-  for (auto& [cell, view] : fresh) store_.set_view(cell, std::move(view));
-  for (const auto& [cell, view] : fresh) {
-    store_.cells[cell].is_replaced = false;
-    for (std::uint32_t c = 0; c < store_.cells[cell].view.corners.size(); ++c) loosen({cell, c});
-  }
-  // Corners that have missed their key in a replaced cell may find it now, or something near.
-  for (const auto& [cell, view] : fresh) {
-    for (const std::uint32_t other : store_.cells[cell].named_by) {
-      for (std::uint32_t c = 0; c < store_.cells[other].is_odd.size(); ++c) {
-        if (store_.cells[other].is_odd[c]) dissolve(store_.cells[other].node[c]);
-      }
-    }
-  }
-  for (const auto& [cell, view] : fresh) visited_.push_back(cell);
+void ComplexUpdate::replace(std::vector<std::pair<std::uint32_t, CellView>> fresh, bool keeps_corners) {
+  exchange_views(std::move(fresh), keeps_corners);
   find_places();
   for (const std::uint32_t cell : visited_) {
     for (const CellView::Face& face : store_.cells[cell].view.faces) read_face(cell, face);

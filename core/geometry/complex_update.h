@@ -15,7 +15,8 @@ namespace bl {
 class ComplexUpdate {
  public:
   explicit ComplexUpdate(ComplexStore& store) : store_(store) {}
-  void replace(std::vector<std::pair<std::uint32_t, CellView>> fresh);
+  /// `keeps_corners`: corners that are the same, bit for bit, keep their places; not where the tolerance is another.
+  void replace(std::vector<std::pair<std::uint32_t, CellView>> fresh, bool keeps_corners);
 
   std::size_t cells_visited() const { return visited_.size(); }
   std::size_t elements_made() const { return elements_made_; }
@@ -35,6 +36,11 @@ class ComplexUpdate {
     auto operator<=>(const EdgeLabel&) const = default;
   };
 
+  void exchange_views(std::vector<std::pair<std::uint32_t, CellView>> fresh, bool keeps_corners);
+  void exchange_view(std::uint32_t cell, CellView view, std::span<const std::uint32_t> same);
+  std::vector<std::vector<std::uint32_t>> let_go(const std::vector<std::pair<std::uint32_t, CellView>>& fresh,
+                                                 bool keeps_corners);
+  bool is_single(std::uint32_t cell, std::uint32_t corner) const;
   void dissolve(std::uint32_t node);
   void loosen(const Corner& corner);
   void join(std::uint32_t loose, const Corner& other);

@@ -434,14 +434,7 @@ Result<void> check(const FitOptions& options) {
 
 Result<FitReport> adapt_weights(const Domain& domain, std::span<const PowerSite> sites, std::span<const double> demands,
                                 std::span<const std::uint8_t> locked, const FitState& state, const FitOptions& options) {
-  if (demands.size() != sites.size() || (!locked.empty() && locked.size() != sites.size())) {
-    return Error{ErrorCode::out_of_range, "", "there has to be one demand, and one lock or none, for each site"};
-  }
-  for (std::size_t i = 0; i < demands.size(); ++i) {
-    if (!std::isfinite(demands[i]))
-      return Error{ErrorCode::not_finite, "", "the demand of site " + std::to_string(i) + " is not a number"};
-    if (demands[i] < 0) return Error{ErrorCode::out_of_range, "", "the demand of site " + std::to_string(i) + " is negative"};
-  }
+  if (auto checked = check_demands(sites.size(), demands, locked); !checked) return checked.error();
   if (auto checked = check(options); !checked) return checked.error();
   return Fit(domain, sites, FitTargets(demands, locked), state, options).run();
 }

@@ -81,13 +81,7 @@ std::string ElementName::text() const {
   return text + "}";
 }
 
-std::strong_ordering ElementName::operator<=>(const ElementName& other) const {
-  const std::size_t shared = std::min(size_, other.size_);
-  for (std::size_t i = 0; i < shared; ++i) {
-    if (const auto order = (*this)[i] <=> other[i]; order != 0) return order;
-  }
-  return size_ <=> other.size_;
-}
+std::strong_ordering ElementName::compare_rest(const ElementName& other) const { return rest_ <=> other.rest_; }
 
 Result<ElementName> ElementName::parse(std::string_view text) {
   const auto refused = [&](const std::string& what) {

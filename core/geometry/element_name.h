@@ -44,13 +44,24 @@ class ElementName {
   std::vector<std::uint32_t> sites() const;
   std::string text() const;
 
-  bool operator==(const ElementName& other) const { return (*this <=> other) == 0; }
-  std::strong_ordering operator<=>(const ElementName& other) const;
+  bool operator==(const ElementName& other) const {
+    return size_ == other.size_ && first_ == other.first_ && rest_ == other.rest_;
+  }
+  std::strong_ordering operator<=>(const ElementName& other) const {
+    // The places behind a short name hold zeros, and so may a label: then the size decides.
+    for (std::size_t i = 0; i < kInside; ++i) {
+      if (first_[i].code == other.first_[i].code) continue;
+      if (i >= size_ || i >= other.size_) break;
+      return first_[i].code <=> other.first_[i].code;
+    }
+    return size_ <= kInside || other.size_ <= kInside ? size_ <=> other.size_ : compare_rest(other);
+  }
 
  private:
   // Four labels are what general position asks for; more only where cells are lined up.
   static constexpr std::size_t kInside = 4;
   void assign(std::vector<ElementLabel>& labels);
+  std::strong_ordering compare_rest(const ElementName& other) const;
   std::uint32_t size_ = 0;
   std::array<ElementLabel, kInside> first_{};
   std::vector<ElementLabel> rest_;

@@ -46,6 +46,20 @@ Result<void> check_demands(const FitProblem& problem) {
   return {};
 }
 
+Result<void> check_demands(std::size_t site_count, std::span<const double> demands, std::span<const std::uint8_t> locked) {
+  if (demands.size() != site_count || (!locked.empty() && locked.size() != site_count)) {
+    return Error{ErrorCode::out_of_range, "", "there has to be one demand, and one lock or none, for each site"};
+  }
+  for (std::size_t i = 0; i < demands.size(); ++i) {
+    const auto refused = [&](ErrorCode code, const char* what) {
+      return Error{code, "", "the demand of site " + std::to_string(i) + what};
+    };
+    if (!std::isfinite(demands[i])) return refused(ErrorCode::not_finite, " is not a number");
+    if (demands[i] < 0) return refused(ErrorCode::out_of_range, " is negative");
+  }
+  return {};
+}
+
 FitTargets::FitTargets(std::span<const double> demands, std::span<const std::uint8_t> locked)
     : least_(demands.begin(), demands.end()),
       most_(least_),

@@ -12,6 +12,8 @@ namespace bl {
 
 /// Bounds that make sense, sites that are there and belong to one demand only; or an error that names what is wrong.
 Result<void> check_demands(const FitProblem& problem);
+/// The same for one demand per site, `locked` or not; no `locked`: none is.
+Result<void> check_demands(std::size_t site_count, std::span<const double> demands, std::span<const std::uint8_t> locked);
 
 /// Demands with their sites. A demand without sites (a locked site's, say) takes no part.
 class FitTargets {

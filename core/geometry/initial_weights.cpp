@@ -30,20 +30,29 @@ struct Spread {
   Point3 middle;
 };
 
+// The box around the sites, of which there is at least one; and whether the domain holds them all.
+struct SiteBox {
+  Vector3 low, high;
+  bool all_inside = true;
+
+  SiteBox(const Domain& domain, std::span<const PowerSite> sites) : low(sites[0].position), high(low) {
+    for (const PowerSite& site : sites) {
+      const Point3& p = site.position;
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      all_inside = all_inside && domain.contains(p);
+    }
+  }
+  double extent() const { return distance(low, high); }
+};
+
 Spread spread_of(const Domain& domain, std::span<const PowerSite> sites) {
   Spread spread;
   if (sites.size() < 2) spread.is_needed = !sites.empty() && !domain.contains(sites[0].position);
-  Vector3 low = sites[0].position, high = low;
-  bool all_inside = true;
-  for (const PowerSite& site : sites) {
-    const Point3& p = site.position;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    all_inside = all_inside && domain.contains(p);
-  }
-  spread.middle = 0.5 * (low + high);
-  const double extent = distance(low, high);
-  if (all_inside && (extent > 0.4 * domain.size() || sites.size() < 2)) return spread;
+  const SiteBox box(domain, sites);
+  spread.middle = 0.5 * (box.low + box.high);
+  const double extent = box.extent();
+  if (box.all_inside && (extent > 0.4 * domain.size() || sites.size() < 2)) return spread;
   spread.is_needed = true;
   const ConvexDomain& room = domain.largest_piece();
   spread.s = extent > 1e-6 * domain.size() ? domain.size() / extent : 1;
@@ -91,16 +100,9 @@ double squared_gap(const Domain& domain, const Point3& point) {
 
 // Is the domain in several pieces, and are the sites about as wide spread as it is, some of them outside?
 bool is_spread_over_pieces(const Domain& domain, std::span<const PowerSite> sites) {
-  Vector3 low = sites[0].position, high = low;
-  bool all_inside = true;
-  for (const PowerSite& site : sites) {
-    const Point3& p = site.position;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    all_inside = all_inside && domain.contains(p);
-  }
-  const double extent = distance(low, high);
-  return !all_inside && !domain.is_convex() && extent > 0.4 * domain.size() && extent < 2 * domain.size();
+  const SiteBox box(domain, sites);
+  const double extent = box.extent();
+  return !box.all_inside && !domain.is_convex() && extent > 0.4 * domain.size() && extent < 2 * domain.size();
 }
 
 }  // namespace

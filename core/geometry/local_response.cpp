@@ -25,7 +25,8 @@ void LocalResponse::reset(std::size_t count) {
 void LocalResponse::resize(std::size_t count) {
   rows_.resize(count);
   is_active_.assign(count, 0);
-  for (auto* values : {&change_, &residual_, &scaled_, &direction_, &image_, &shift_}) values->assign(count, 0);
+  vectors_.assign(count);
+  shift_.assign(count, 0);
 }
 
 void LocalResponse::set_row(std::uint32_t site, std::span<const PowerSite> sites, const CellMeasure& cell,
@@ -104,49 +105,26 @@ void LocalResponse::multiply(std::span<const std::uint32_t> active, const std::v
 const std::vector<double>& LocalResponse::solve(std::span<const std::uint32_t> active, std::span<const double> demand,
                                                 std::span<const double> volume, double enough) {
   // Everything outside of the selection is zero and stays so: the product reads it.
-  std::fill(direction_.begin(), direction_.end(), 0);
-  double rest = 0;
-  const auto precondition = [&](double& sum) {
-    bool is_enough = true;
-    sum = 0;
-    for (const std::uint32_t i : active) {
-      scaled_[i] = residual_[i] / diagonal(i);
-      sum += residual_[i] * scaled_[i];
-      is_enough = is_enough && std::abs(residual_[i]) <= enough * demand[i];
-    }
-    return is_enough;
-  };
-  for (const std::uint32_t i : active) {
-    change_[i] = 0;
-    residual_[i] = demand[i] - volume[i];
-  }
-  bool is_enough = precondition(rest);
-  for (const std::uint32_t i : active) direction_[i] = scaled_[i];
-  for (int iteration = 0; iteration < kMostIterations && !is_enough; ++iteration) {
-    multiply(active, direction_, image_);
-    double curvature = 0;
-    for (const std::uint32_t i : active) curvature += direction_[i] * image_[i];
-    if (!(curvature > 0)) break;
-    const double length = rest / curvature;
-    for (const std::uint32_t i : active) {
-      change_[i] += length * direction_[i];
-      residual_[i] -= length * image_[i];
-    }
-    double next = 0;
-    is_enough = precondition(next);
-    for (const std::uint32_t i : active) direction_[i] = scaled_[i] + (next / rest) * direction_[i];
-    rest = next;
-  }
-  return change_;
+  std::fill(vectors_.direction.begin(), vectors_.direction.end(), 0);
+  for (const std::uint32_t i : active) vectors_.residual[i] = demand[i] - volume[i];
+  conjugate_gradients(
+      active, vectors_, kMostIterations,
+      [&](const std::vector<double>& x, std::vector<double>& image) { multiply(active, x, image); },
+      [&](std::uint32_t i, double residual) { return residual / diagonal(i); },
+      [&](double, double) {
+        return std::all_of(active.begin(), active.end(),
+                           [&](std::uint32_t i) { return std::abs(vectors_.residual[i]) <= enough * demand[i]; });
+      });
+  return vectors_.solution;
 }
 
 double LocalResponse::largest_sweep(std::span<const std::uint32_t> active, std::span<const double> volume) {
   double most = 0;
   for (const std::uint32_t i : active) is_active_[i] = 1;
   for (const std::uint32_t i : active) {
-    double swept = rows_[i].free * std::abs(change_[i]);
+    double swept = rows_[i].free * std::abs(vectors_.solution[i]);
     for (const Bond& bond : rows_[i].bonds) {
-      swept += bond.value * std::abs(change_[i] - (is_active_[bond.other] ? change_[bond.other] : 0));
+      swept += bond.value * std::abs(vectors_.solution[i] - (is_active_[bond.other] ? vectors_.solution[bond.other] : 0));
     }
     most = std::max(most, swept / volume[i]);
   }
@@ -159,13 +137,13 @@ void LocalResponse::apply(std::span<const std::uint32_t> active, double share, s
   touched_.assign(active.begin(), active.end());
   for (const std::uint32_t i : active) is_active_[i] = 1;
   for (const std::uint32_t i : active) {
-    const double change = share * change_[i];
+    const double change = share * vectors_.solution[i];
     volume[i] += rows_[i].free * change;
     if (rows_[i].free > 0) shift_[i] = std::max(shift_[i], rows_[i].lever * std::abs(change));
     for (const Bond& bond : rows_[i].bonds) {
       // Between two active sites the border moves by the difference; both rows see to their own side.
       const bool both = is_active_[bond.other] != 0;
-      const double difference = change - (both ? share * change_[bond.other] : 0);
+      const double difference = change - (both ? share * vectors_.solution[bond.other] : 0);
       volume[i] += bond.value * difference;
       shift_[i] = std::max(shift_[i], bond.lever * std::abs(difference));
       if (both) continue;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/conjugate_gradients.h"
 #include "core/geometry/power_cells.h"
 
 namespace bl {
@@ -56,7 +57,8 @@ class LocalResponse {
   std::vector<Row> rows_;
   std::vector<std::uint8_t> is_active_;
   std::vector<std::uint32_t> active_, touched_;
-  std::vector<double> change_, residual_, scaled_, direction_, image_, shift_;
+  GradientVectors vectors_;  // solution: the last change of weights [m²]
+  std::vector<double> shift_;
 };
 
 }  // namespace bl

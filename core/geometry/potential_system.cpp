@@ -1,6 +1,11 @@
 // Conjugate gradients on the bonds between sampled cells.
 #include "core/geometry/potential_system.h"
 
+#include <ranges>
+#include <utility>
+
+#include "core/geometry/conjugate_gradients.h"
+
 namespace bl {
 
 namespace {
@@ -9,12 +14,6 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr int kMostIterations = 2000;
 // Takes the constant vector out of the kernel where there is no free surface, as a share of the diagonal.
 constexpr double kPin = 1e-9;
-
-double product(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
 
 // Bonds between unknowns; what binds an unknown to a site that stays is on the diagonal only.
 struct System {
@@ -63,30 +62,15 @@ std::vector<double> solve_potentials(const SampledCells& cells, std::span<const 
                                      std::span<const double> wanted, double tolerance) {
   const std::size_t count = wanted.size();
   const System system(cells, unknown_of, count);
-  std::vector<double> x(count, 0), residual(count), scaled(count), direction, image(count);
-  const auto precondition = [&] {
-    for (std::size_t u = 0; u < count; ++u) scaled[u] = system.diagonal[u] > 0 ? residual[u] / system.diagonal[u] : 0;
-  };
-  for (std::size_t u = 0; u < count; ++u) residual[u] = system.diagonal[u] > 0 ? wanted[u] : 0;
-  precondition();
-  direction = scaled;
-  double rest = product(residual, scaled);
-  const double enough = tolerance * tolerance * rest;
-  for (int i = 0; i < kMostIterations && rest > enough; ++i) {
-    system.multiply(direction, image);
-    const double curvature = product(direction, image);
-    if (!(curvature > 0)) break;
-    const double length = rest / curvature;
-    for (std::size_t u = 0; u < count; ++u) {
-      x[u] += length * direction[u];
-      residual[u] -= length * image[u];
-    }
-    precondition();
-    const double next = product(residual, scaled);
-    for (std::size_t u = 0; u < count; ++u) direction[u] = scaled[u] + (next / rest) * direction[u];
-    rest = next;
-  }
-  return x;
+  GradientVectors vectors;
+  vectors.assign(count);
+  for (std::size_t u = 0; u < count; ++u) vectors.residual[u] = system.diagonal[u] > 0 ? wanted[u] : 0;
+  conjugate_gradients(
+      std::views::iota(std::size_t{0}, count), vectors, kMostIterations,
+      [&](const std::vector<double>& x, std::vector<double>& image) { system.multiply(x, image); },
+      [&](std::size_t u, double residual) { return system.diagonal[u] > 0 ? residual / system.diagonal[u] : 0; },
+      [&](double rest, double first) { return !(rest > tolerance * tolerance * first); });
+  return std::move(vectors.solution);
 }
 
 }  // namespace bl

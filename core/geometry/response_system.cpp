@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <utility>
+
+#include "core/geometry/conjugate_gradients.h"
 
 namespace bl {
 
@@ -11,12 +15,6 @@ namespace {
 constexpr int kMostIterations = 2000;
 // With no free surface at all the system has the constant vector in its kernel; this share of the diagonal takes it out.
 constexpr double kPin = 1e-9;
-
-double product(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
 
 }  // namespace
 
@@ -60,33 +58,18 @@ std::vector<double> ResponseSystem::solve(std::span<const double> wanted, std::s
       if (unknown_of_[column_[k]] == unknown_of_[i]) scale[unknown_of_[i]] += value_[k];
     }
   }
-  std::vector<double> x(count, 0), residual(count, 0), scaled(count), direction, image(count);
+  GradientVectors vectors;
+  vectors.assign(count);
   for (std::size_t u = 0; u < count; ++u) {
-    residual[u] = scale[u] > 0 ? wanted[u] : 0;
+    vectors.residual[u] = scale[u] > 0 ? wanted[u] : 0;
     scale[u] = scale[u] > 0 ? 1 / scale[u] : 0;
   }
-  const auto precondition = [&] {
-    for (std::size_t u = 0; u < count; ++u) scaled[u] = residual[u] * scale[u];
-  };
-  precondition();
-  direction = scaled;
-  double rest = product(residual, scaled);
-  const double enough = tolerance * tolerance * rest;
-  for (int i = 0; i < kMostIterations && rest > enough; ++i) {
-    multiply(direction, image);
-    const double curvature = product(direction, image);
-    if (!(curvature > 0)) break;
-    const double length = rest / curvature;
-    for (std::size_t u = 0; u < count; ++u) {
-      x[u] += length * direction[u];
-      residual[u] -= length * image[u];
-    }
-    precondition();
-    const double next = product(residual, scaled);
-    for (std::size_t u = 0; u < count; ++u) direction[u] = scaled[u] + (next / rest) * direction[u];
-    rest = next;
-  }
-  return x;
+  conjugate_gradients(
+      std::views::iota(std::size_t{0}, count), vectors, kMostIterations,
+      [&](const std::vector<double>& x, std::vector<double>& image) { multiply(x, image); },
+      [&](std::size_t u, double residual) { return residual * scale[u]; },
+      [&](double rest, double first) { return !(rest > tolerance * tolerance * first); });
+  return std::move(vectors.solution);
 }
 
 }  // namespace bl

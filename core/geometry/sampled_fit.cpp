@@ -9,6 +9,7 @@
 
 #include "core/base/text.h"
 #include "core/geometry/cell_workshop.h"
+#include "core/geometry/fit_outcome.h"
 #include "core/geometry/fit_targets.h"
 #include "core/geometry/sampled_newton.h"
 
@@ -20,15 +21,6 @@ namespace {
 constexpr int kMostCorrections = 12;
 // No smaller error for so many evaluations, and the fit is going nowhere.
 constexpr int kStalled = 25;
-// Reasons that are written out; more are counted.
-constexpr std::size_t kMostReasons = 20;
-
-std::string sites_text(const VolumeDemand& demand) {
-  if (demand.sites.size() == 1) return "site " + std::to_string(demand.sites.front());
-  std::string text = "the group of sites";
-  for (std::size_t i = 0; i < demand.sites.size() && i < 6; ++i) text += (i == 0 ? " " : ", ") + std::to_string(demand.sites[i]);
-  return demand.sites.size() > 6 ? text + " and " + std::to_string(demand.sites.size() - 6) + " more" : text;
-}
 
 Result<void> check(const SampledFitOptions& options) {
   if (options.most_steps < 1) return Error{ErrorCode::out_of_range, "", "a fit takes at least one step"};
@@ -53,17 +45,12 @@ class Attempt {
 
   Result<VolumeFit> run() {
     if (auto set = diagram_.set_domain(domain_, options_.samples, options_.pool); !set) return set.error();
-    for (VolumeDemand& demand : problem_.demands) {
-      if (demand.kind != VolumeDemand::Kind::floor_area) continue;
-      has_floors_ = true;
-      demand.least *= demand.storey_height;
-      demand.most *= demand.storey_height;
-    }
+    has_floors_ = ask_for_volumes(problem_);
     if (auto done = fit(); !done) return done.error();
     for (int k = 0; has_floors_ && k < kMostCorrections && !is_cancelled_ && fit_.evaluations < options_.most_steps; ++k) {
       const auto cells = measure_storeys();
       if (!cells) return cells.error();
-      if (correct_floors(cells->cells)) break;
+      if (correct_floors(asked_, cells->cells, options_.tolerance, problem_)) break;
       if (auto done = fit(); !done) return done.error();
     }
     return finish();
@@ -89,46 +76,12 @@ class Attempt {
   }
 
   Result<SampledCells> measure_storeys() const {
-    std::vector<double> storeys(problem_.sites.size(), domain_.maximum.z - domain_.minimum.z);
-    for (const VolumeDemand& demand : asked_.demands) {
-      for (const std::uint32_t i : demand.sites) {
-        if (demand.kind == VolumeDemand::Kind::floor_area) storeys[i] = demand.storey_height;
-      }
-    }
+    const std::vector<double> storeys = storey_heights_of(domain_, asked_);
     return diagram_.measure(problem_.sites, {.metric = options_.metric,
                                              .samples = options_.samples,
                                              .storey_heights = storeys,
                                              .with_storeys = has_floors_,
                                              .pool = options_.pool});
-  }
-
-  // Asks for other volumes where floor areas miss their demand. True where all are met, or nothing can be bettered.
-  bool correct_floors(std::span<const CellMeasure> cells) {
-    bool all_met = true;
-    for (std::size_t k = 0; k < problem_.demands.size(); ++k) {
-      const VolumeDemand& asked = asked_.demands[k];
-      if (asked.kind != VolumeDemand::Kind::floor_area) continue;
-      double floors = 0, volume = 0;
-      for (const std::uint32_t i : asked.sites) {
-        floors += cells[i].floor_area;
-        volume += cells[i].volume;
-      }
-      const double bound = std::clamp(floors, asked.least, asked.most);
-      if (std::abs(floors - bound) <= options_.tolerance * bound || !(floors > 0)) continue;
-      all_met = false;
-      // Less than in proportion: a smaller change is less likely to jump past a storey.
-      const double factor = std::clamp(bound / floors, 0.7, 1.4);
-      problem_.demands[k].least = problem_.demands[k].most = volume * (0.4 + 0.6 * factor);
-    }
-    return all_met;
-  }
-
-  double had(const VolumeDemand& demand, std::span<const CellMeasure> cells) const {
-    double sum = 0;
-    for (const std::uint32_t i : demand.sites) {
-      sum += demand.kind == VolumeDemand::Kind::floor_area ? cells[i].floor_area : cells[i].volume;
-    }
-    return sum;
   }
 
   Result<VolumeFit> finish() {
@@ -149,7 +102,8 @@ class Attempt {
       fit_.max_relative_error = error;
       fit_.worst_demand = k;
     }
-    const bool cannot = !newton_->targets().infeasible().empty() || !newton_->targets().losses().empty() || is_held_up(cells);
+    const bool cannot =
+        !newton_->targets().infeasible().empty() || !newton_->targets().losses().empty() || is_held_up(asked_, cells);
     fit_.status = is_cancelled_         ? FitStatus::cancelled
                   : fit_.losses.empty() ? FitStatus::met
                   : cannot              ? FitStatus::infeasible
@@ -158,43 +112,12 @@ class Attempt {
     return std::move(fit_);
   }
 
-  // Does a demand fail because its sites have no cell, or because sites of fixed weight leave it no room?
-  bool is_held_up(std::span<const CellMeasure> cells) const {
-    std::size_t demanded = 0;
-    for (const VolumeDemand& demand : asked_.demands) demanded += demand.sites.size();
-    const bool has_fixed = problem_.sites.size() > demanded;
-    return std::any_of(asked_.demands.begin(), asked_.demands.end(), [&](const VolumeDemand& demand) {
-      const double has = had(demand, cells);
-      return demand.least > 0 && has < 0.5 * demand.least && (has_fixed || has == 0) && demand.kind == VolumeDemand::Kind::volume;
-    });
-  }
-
   void explain(std::span<const CellMeasure> cells) {
     std::vector<std::string>& reasons = fit_.reasons;
     const FitTargets& targets = newton_->targets();
     if (!targets.infeasible().empty()) reasons.push_back(targets.infeasible());
     if (const std::string text = newton_->resolution_text(); !text.empty()) reasons.push_back(text);
-    for (std::uint32_t i = 0; i < cells.size() && reasons.size() < kMostReasons; ++i) {
-      if (cells[i].state == SiteState::coincident) reasons.push_back("site " + std::to_string(i) + " " + cells[i].reason);
-    }
-    std::size_t more = 0;
-    for (const VolumeLoss& loss : fit_.losses) {
-      if (reasons.size() >= kMostReasons) {
-        ++more;
-        continue;
-      }
-      const VolumeDemand& demand = asked_.demands[loss.demand];
-      const bool is_floor = demand.kind == VolumeDemand::Kind::floor_area;
-      std::string text = sites_text(demand) + " has " + shortest(loss.had) + (is_floor ? " m² of floor" : " m³") +
-                         " instead of " + shortest(loss.wanted);
-      const CellMeasure& cell = cells[demand.sites.front()];
-      if (!cell.reason.empty() && demand.sites.size() == 1) text += ": " + cell.reason;
-      if (is_floor && loss.had > 0 && fit_.status == FitStatus::step_limit) {
-        text += ": floor areas jump when a storey comes or goes, so this one cannot be met more closely";
-      }
-      reasons.push_back(text);
-    }
-    if (more > 0) reasons.push_back("and " + std::to_string(more) + " more demands that are not met");
+    explain_losses(asked_, cells, fit_);
     if (fit_.status == FitStatus::step_limit && !has_floors_) {
       reasons.push_back("stopped after " + std::to_string(fit_.evaluations) + " evaluations with an error of " +
                         shortest(fit_.max_relative_error) + " at " + sites_text(asked_.demands[fit_.worst_demand]));
@@ -234,14 +157,7 @@ Result<SampledSteps> adapt_sampled_weights(const Domain& domain, std::span<const
                                            std::span<const double> demands, std::span<const std::uint8_t> locked,
                                            const FitState& state, const SampledFitOptions& options) try {
   if (auto checked = check(options); !checked) return checked.error();
-  if (demands.size() != sites.size() || (!locked.empty() && locked.size() != sites.size())) {
-    return Error{ErrorCode::out_of_range, "", "there has to be one demand, and one lock or none, for each site"};
-  }
-  for (std::size_t i = 0; i < demands.size(); ++i) {
-    if (!std::isfinite(demands[i]))
-      return Error{ErrorCode::not_finite, "", "the demand of site " + std::to_string(i) + " is not a number"};
-    if (demands[i] < 0) return Error{ErrorCode::out_of_range, "", "the demand of site " + std::to_string(i) + " is negative"};
-  }
+  if (auto checked = check_demands(sites.size(), demands, locked); !checked) return checked.error();
   SampledDiagram own;
   SampledDiagram& diagram = options.diagram != nullptr ? *options.diagram : own;
   if (auto set = diagram.set_domain(domain, options.samples, options.pool); !set) return set.error();

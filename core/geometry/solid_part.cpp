@@ -177,6 +177,7 @@ Vector3 area_vector(const Polygon& polygon) {
   return 0.5 * sum;
 }
 
+// Sutherland and Hodgman (1974), for one plane.
 Polygon clipped(const Polygon& polygon, const Plane& plane) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

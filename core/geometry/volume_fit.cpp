@@ -10,6 +10,7 @@
 
 #include "core/base/text.h"
 #include "core/geometry/cell_workshop.h"
+#include "core/geometry/fit_outcome.h"
 #include "core/geometry/fit_targets.h"
 
 namespace bl {
@@ -22,15 +23,6 @@ constexpr int kMostCorrections = 25;
 constexpr int kStalled = 40;
 // The same with weights to start from: there is another way.
 constexpr int kStalledWarm = 15;
-// Reasons that are written out; more are counted.
-constexpr std::size_t kMostReasons = 20;
-
-std::string sites_text(const VolumeDemand& demand) {
-  if (demand.sites.size() == 1) return "site " + std::to_string(demand.sites.front());
-  std::string text = "the group of sites";
-  for (std::size_t i = 0; i < demand.sites.size() && i < 6; ++i) text += (i == 0 ? " " : ", ") + std::to_string(demand.sites[i]);
-  return demand.sites.size() > 6 ? text + " and " + std::to_string(demand.sites.size() - 6) + " more" : text;
-}
 
 class Attempt {
  public:
@@ -38,20 +30,15 @@ class Attempt {
       : domain_(domain), asked_(problem), problem_(problem), options_(options) {}
 
   Result<VolumeFit> run() {
-    for (VolumeDemand& demand : problem_.demands) {
-      if (demand.kind != VolumeDemand::Kind::floor_area) continue;
-      has_floors_ = true;
-      demand.least *= demand.storey_height;
-      demand.most *= demand.storey_height;
-    }
+    has_floors_ = ask_for_volumes(problem_);
     // Volumes a little closer than floor areas have to be, so that these have room to miss.
     const double tolerance = has_floors_ ? 0.3 * options_.tolerance : options_.tolerance;
     if (auto done = fit(tolerance); !done) return done.error();
     for (int k = 0; has_floors_ && k < kMostCorrections && result_.last.is_met && result_.last.infeasible.empty(); ++k) {
       if (result_.evaluations >= options_.most_steps) break;
-      auto corrected = correct_floors();
-      if (!corrected) return corrected.error();
-      if (*corrected) break;
+      const auto cells = measure();
+      if (!cells) return cells.error();
+      if (correct_floors(asked_, *cells, options_.tolerance, problem_)) break;
       if (auto done = fit(tolerance); !done) return done.error();
     }
     return finish();
@@ -139,44 +126,9 @@ class Attempt {
     cells.with_shape = has_floors_;
     cells.with_centroid = false;
     if (!has_floors_) return diagram_.update(evaluated(), cells);
-    std::vector<double> storeys(problem_.sites.size(), domain_.maximum.z - domain_.minimum.z);
-    for (const VolumeDemand& demand : asked_.demands) {
-      for (const std::uint32_t i : demand.sites) {
-        if (demand.kind == VolumeDemand::Kind::floor_area) storeys[i] = demand.storey_height;
-      }
-    }
+    const std::vector<double> storeys = storey_heights_of(domain_, asked_);
     cells.storey_heights = storeys;
     return with_floors_.update(evaluated(), cells);
-  }
-
-  // Asks for other volumes where floor areas miss their demand. True where all are met, or nothing can be bettered.
-  Result<bool> correct_floors() {
-    const auto cells = measure();
-    if (!cells) return cells.error();
-    bool all_met = true;
-    for (std::size_t k = 0; k < problem_.demands.size(); ++k) {
-      if (asked_.demands[k].kind != VolumeDemand::Kind::floor_area) continue;
-      double floors = 0, volume = 0;
-      for (const std::uint32_t i : asked_.demands[k].sites) {
-        floors += (*cells)[i].floor_area;
-        volume += (*cells)[i].volume;
-      }
-      const double bound = std::clamp(floors, asked_.demands[k].least, asked_.demands[k].most);
-      if (std::abs(floors - bound) <= options_.tolerance * bound || !(floors > 0)) continue;
-      all_met = false;
-      // By the cube root of what is missing: a smaller change is less likely to jump past a storey.
-      const double factor = std::clamp(bound / floors, 0.7, 1.4);
-      problem_.demands[k].least = problem_.demands[k].most = volume * (0.4 + 0.6 * factor);
-    }
-    return all_met;
-  }
-
-  double had(std::size_t k, std::span<const CellMeasure> cells) const {
-    double sum = 0;
-    for (const std::uint32_t i : asked_.demands[k].sites) {
-      sum += asked_.demands[k].kind == VolumeDemand::Kind::floor_area ? cells[i].floor_area : cells[i].volume;
-    }
-    return sum;
   }
 
   Result<VolumeFit> finish() {
@@ -189,35 +141,20 @@ class Attempt {
     for (const CellMeasure& cell : *cells) fit.volumes.push_back(cell.volume);
     for (std::uint32_t k = 0; k < asked_.demands.size(); ++k) {
       const VolumeDemand& demand = asked_.demands[k];
-      const double has = had(k, *cells), bound = std::clamp(has, demand.least, demand.most);
+      const double has = had(demand, *cells), bound = std::clamp(has, demand.least, demand.most);
       const double error = bound > 0 ? std::abs(has - bound) / bound : has > 0 ? 1.0 : 0.0;
       if (error > options_.tolerance) fit.losses.push_back({k, bound, has});
       if (!(error > fit.max_relative_error)) continue;
       fit.max_relative_error = error;
       fit.worst_demand = k;
     }
-    fit.status = result_.is_cancelled                                                                     ? FitStatus::cancelled
-                 : fit.losses.empty()                                                                     ? FitStatus::met
-                 : !result_.last.infeasible.empty() || !result_.last.losses.empty() || is_held_up(*cells) ? FitStatus::infeasible
-                                                                                                          : FitStatus::step_limit;
+    fit.status = result_.is_cancelled ? FitStatus::cancelled
+                 : fit.losses.empty() ? FitStatus::met
+                 : !result_.last.infeasible.empty() || !result_.last.losses.empty() || is_held_up(asked_, *cells)
+                     ? FitStatus::infeasible
+                     : FitStatus::step_limit;
     explain(*cells, fit);
     return fit;
-  }
-
-  // Does a demand fail because its sites have no cell, or because sites of fixed weight leave it no room?
-  bool is_held_up(std::span<const CellMeasure> cells) const {
-    const bool has_fixed = problem_.sites.size() > demanded_sites();
-    return std::any_of(asked_.demands.begin(), asked_.demands.end(), [&](const VolumeDemand& demand) {
-      double sum = 0;
-      for (const std::uint32_t i : demand.sites) sum += cells[i].volume;
-      return demand.least > 0 && sum < 0.5 * demand.least && (has_fixed || sum == 0) && demand.kind == VolumeDemand::Kind::volume;
-    });
-  }
-
-  std::size_t demanded_sites() const {
-    std::size_t count = 0;
-    for (const VolumeDemand& demand : asked_.demands) count += demand.sites.size();
-    return count;
   }
 
   void explain(std::span<const CellMeasure> cells, VolumeFit& fit) const {
@@ -227,27 +164,7 @@ class Attempt {
                             (fit.evaluations == 1 ? " evaluation" : " evaluations") + ", with an error of " +
                             shortest(fit.max_relative_error) + " at " + sites_text(asked_.demands[fit.worst_demand]));
     }
-    for (std::uint32_t i = 0; i < cells.size() && fit.reasons.size() < kMostReasons; ++i) {
-      if (cells[i].state == SiteState::coincident) fit.reasons.push_back("site " + std::to_string(i) + " " + cells[i].reason);
-    }
-    std::size_t more = 0;
-    for (const VolumeLoss& loss : fit.losses) {
-      if (fit.reasons.size() >= kMostReasons) {
-        ++more;
-        continue;
-      }
-      const VolumeDemand& demand = asked_.demands[loss.demand];
-      const bool is_floor = demand.kind == VolumeDemand::Kind::floor_area;
-      std::string text = sites_text(demand) + " has " + shortest(loss.had) + (is_floor ? " m² of floor" : " m³") +
-                         " instead of " + shortest(loss.wanted);
-      const CellMeasure& cell = cells[demand.sites.front()];
-      if (!cell.reason.empty() && demand.sites.size() == 1) text += ": " + cell.reason;
-      if (is_floor && loss.had > 0 && fit.status == FitStatus::step_limit) {
-        text += ": floor areas jump when a storey comes or goes, so this one cannot be met more closely";
-      }
-      fit.reasons.push_back(text);
-    }
-    if (more > 0) fit.reasons.push_back("and " + std::to_string(more) + " more demands that are not met");
+    explain_losses(asked_, cells, fit);
   }
 
   const Domain& domain_;

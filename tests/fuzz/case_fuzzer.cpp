@@ -1,22 +1,16 @@
 // Feeds bytes to the reader of the cases of `cells` and `fit`; what it accepts must be measured and fitted without a fault.
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include "core/geometry/power_cells.h"
+#include "tests/fuzz/require.h"
 #include "ui/cli/site_case.h"
 
 namespace {
 
 using bl::cli::CasePurpose;
-
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "case fuzzer: %s\n", what);
-  std::abort();
-}
+using bl::fuzz::require;
 
 // Work is bounded, so that the fuzzer looks for faults and not for patience.
 bool is_small(const bl::cli::SiteCase& c) { return c.problem.sites.size() <= 40 && c.boundary.domain.pieces.size() <= 20; }

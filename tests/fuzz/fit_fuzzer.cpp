@@ -2,8 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -11,6 +9,7 @@
 #include "core/geometry/power_cells.h"
 #include "core/geometry/volume_fit.h"
 #include "tests/fuzz/nasty_sets.h"
+#include "tests/fuzz/require.h"
 
 namespace {
 
@@ -21,12 +20,7 @@ using bl::VolumeDemand;
 using bl::VolumeFit;
 using bl::VolumeFitOptions;
 using bl::fuzz::Bytes;
-
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "fit fuzzer: %s\n", what);
-  std::abort();
-}
+using bl::fuzz::require;
 
 // A convex domain, or an L with a hole.
 Domain make_solid(Bytes& bytes) {

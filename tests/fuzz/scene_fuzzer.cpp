@@ -1,17 +1,12 @@
 // Feeds bytes to the scene reader; what it accepts must save, load again, run and be saved in mid-run.
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 #include "core/session/session.h"
+#include "tests/fuzz/require.h"
 
 namespace {
 
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "scene fuzzer: %s\n", what);
-  std::abort();
-}
+using bl::fuzz::require;
 
 // Work is bounded, so that the fuzzer looks for faults and not for patience.
 bool is_small(const bl::Scene& scene) { return scene.nodes.size() <= 40 && scene.links.size() <= 20; }

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
 #include "core/geometry/demand_fit.h"
 #include "core/geometry/power_cells.h"
 #include "tests/fuzz/nasty_sets.h"
+#include "tests/fuzz/require.h"
 
 namespace {
 
@@ -19,12 +18,7 @@ using bl::ConvexDomain;
 using bl::Mesh;
 using bl::PowerSite;
 using bl::fuzz::Bytes;
-
-void demand(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "broken law: %s\n", what);
-  std::abort();
-}
+using bl::fuzz::require;
 
 bool is_closed(const Mesh& mesh) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, twins;
@@ -43,20 +37,20 @@ void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
   for (const double number :
        {cell.volume, cell.cell_volume, cell.surface_area, cell.spherical_area, cell.floor_area, cell.footprint, cell.height,
         cell.bottom, cell.volume_by_own_weight, cell.centroid.x, cell.centroid.y, cell.centroid.z}) {
-    demand(std::isfinite(number), "every number is finite");
+    require(std::isfinite(number), "every number is finite");
   }
-  demand(cell.volume >= 0 && cell.volume <= cell.cell_volume, "the shape is part of the cell");
-  demand(cell.height >= 0 && cell.height <= (domain.maximum.z - domain.minimum.z) * (1 + 1e-6),
-         "the shape is no higher than the domain");
-  demand(cell.footprint <= 1e-6 + 1.000001 * (domain.maximum.x - domain.minimum.x) * (domain.maximum.y - domain.minimum.y),
-         "footprint");
-  demand(cell.reason.empty() == (cell.state == bl::SiteState::alive), "whoever does not live has a reason");
-  demand((cell.mesh != nullptr) == (cell.volume > 0), "each volume has a mesh");
+  require(cell.volume >= 0 && cell.volume <= cell.cell_volume, "the shape is part of the cell");
+  require(cell.height >= 0 && cell.height <= (domain.maximum.z - domain.minimum.z) * (1 + 1e-6),
+          "the shape is no higher than the domain");
+  require(cell.footprint <= 1e-6 + 1.000001 * (domain.maximum.x - domain.minimum.x) * (domain.maximum.y - domain.minimum.y),
+          "footprint");
+  require(cell.reason.empty() == (cell.state == bl::SiteState::alive), "whoever does not live has a reason");
+  require((cell.mesh != nullptr) == (cell.volume > 0), "each volume has a mesh");
   if (!cell.mesh) return;
-  demand(is_closed(*cell.mesh), "meshes are closed");
+  require(is_closed(*cell.mesh), "meshes are closed");
   const double volume = bl::enclosed_volume(*cell.mesh);
-  demand(std::isfinite(volume), "mesh vertices are finite");
-  demand(volume >= -1e-9 * domain.volume && volume <= cell.volume + 1e-6 * domain.volume, "the mesh lies in the shape");
+  require(std::isfinite(volume), "mesh vertices are finite");
+  require(volume >= -1e-9 * domain.volume && volume <= cell.volume + 1e-6 * domain.volume, "the mesh lies in the shape");
 }
 
 }  // namespace
@@ -70,19 +64,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.tessellation_depth = mode % 3;
   options.storey_height = 0.7;
   const auto cells = bl::power_cells(domain, sites, options);
-  demand(cells.ok() && cells->size() == sites.size(), "every site gets a record");
+  require(cells.ok() && cells->size() == sites.size(), "every site gets a record");
   for (const CellMeasure& cell : *cells) check_cell(cell, domain);
   const bl::CellTotals totals = bl::totals_of(*cells);
-  demand(totals.alive + totals.hidden + totals.outside + totals.coincident + totals.starved == sites.size(), "states add up");
-  demand(sites.empty() || std::abs(totals.cell_volume - domain.volume) <= 1e-6 * domain.volume, "cells tile the domain");
+  require(totals.alive + totals.hidden + totals.outside + totals.coincident + totals.starved == sites.size(), "states add up");
+  require(sites.empty() || std::abs(totals.cell_volume - domain.volume) <= 1e-6 * domain.volume, "cells tile the domain");
   if ((mode & 128u) != 0 && sites.size() <= 40) {
     const std::vector<double> demands(sites.size(), 0.5 * domain.volume / static_cast<double>(sites.size() + 1));
     bl::FitOptions fit;
     fit.steps = 6;
     fit.method = (mode & 64u) != 0 ? bl::FitMethod::newton : bl::FitMethod::feedback;
     const auto fitted = bl::adapt_weights(domain, sites, demands, {}, {}, fit);
-    demand(fitted.ok() && fitted->weights.size() == sites.size(), "a fit always answers");
-    for (const double weight : fitted->weights) demand(std::isfinite(weight), "weights are finite");
+    require(fitted.ok() && fitted->weights.size() == sites.size(), "a fit always answers");
+    for (const double weight : fitted->weights) require(std::isfinite(weight), "weights are finite");
   }
   return 0;
 }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <span>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "core/base/random.h"
 #include "core/geometry/power_cells.h"
+#include "tests/support/reference_files.h"
 
 namespace bl::test {
 
@@ -50,6 +50,12 @@ inline bool is_closed(const Mesh& mesh) {
   return edges == twins && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
+/// In a box of ten metres: 0 lives, 1 lies at its place and is lighter, 2 is swallowed by it, 3 lies outside and out of reach,
+/// 4 reaches in from outside, 5 has no ball.
+inline std::vector<PowerSite> sites_in_every_state() {
+  return {{{5, 5, 5}, 4}, {{5, 5, 5}, 1}, {{5.1, 5, 5}, 0.01}, {{20, 5, 5}, 1}, {{10.5, 9, 9}, 1}, {{1, 1, 1}, 0}};
+}
+
 /// Power distance of a point to a site.
 inline double power(const PowerSite& site, const Point3& x) { return squared_norm(x - site.position) - site.weight; }
 
@@ -59,12 +65,6 @@ inline std::vector<CellMeasure> cells_of(const ConvexDomain& domain, std::span<c
   auto cells = power_cells(domain, sites, options);
   EXPECT_TRUE(cells.ok()) << (cells.ok() ? "" : cells.error().text());
   return cells.ok() ? *cells : std::vector<CellMeasure>{};
-}
-
-/// Reference files beside the checkout; empty where they are not there.
-inline std::filesystem::path shared_file(const char* name) {
-  const std::filesystem::path path = std::filesystem::path(BL_SOURCE_DIR) / ".." / "shared" / name;
-  return std::filesystem::exists(path) ? path : std::filesystem::path{};
 }
 
 }  // namespace bl::test

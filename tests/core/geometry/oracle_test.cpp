@@ -64,13 +64,20 @@ void compare(const nlohmann::json& wanted, const CellMeasure& cell, Worst& worst
   EXPECT_NEAR(got, facets, 1e-11 * std::max(1e-2, facets)) << "a facet too many or too few";
 }
 
+// The cases of all files of reference values.
+nlohmann::json reference_cases(const std::string& name) {
+  auto cases = nlohmann::json::array();
+  for (const auto& path : reference_files(name)) {
+    const auto all = nlohmann::json::parse(std::ifstream(path));
+    cases.insert(cases.end(), all.at("cases").begin(), all.at("cases").end());
+  }
+  return cases;
+}
+
 TEST(Oracle, EveryCellMatchesTheQuadrature) {
-  const auto path = shared_file("oracle/cells.json");
-  if (path.empty()) GTEST_SKIP() << "the reference values (../shared/oracle) are not here";
-  const auto all = nlohmann::json::parse(std::ifstream(path));
   Worst worst;
   int cells_checked = 0;
-  for (const auto& scene : all.at("cases")) {
+  for (const auto& scene : reference_cases("cells")) {
     SCOPED_TRACE(scene.at("name").get<std::string>());
     const auto domain = domain_of(scene.at("boundary"));
     ASSERT_TRUE(domain.ok()) << domain.error().text();
@@ -82,17 +89,15 @@ TEST(Oracle, EveryCellMatchesTheQuadrature) {
       ++cells_checked;
     }
   }
+  EXPECT_GE(cells_checked, 39);  // those of our own file
   RecordProperty("cells", cells_checked);
   std::printf("%d cells; worst relative error: volume %.1e, facet %.1e, spherical %.1e\n", cells_checked, worst.volume,
               worst.facet, worst.sphere);
 }
 
 TEST(Oracle, FittedWeightsGiveTheDemandedVolumes) {
-  const auto path = shared_file("oracle/fits.json");
-  if (path.empty()) GTEST_SKIP() << "the reference values (../shared/oracle) are not here";
-  const auto all = nlohmann::json::parse(std::ifstream(path));
   double worst = 0;
-  for (const auto& scene : all.at("cases")) {
+  for (const auto& scene : reference_cases("fits")) {
     SCOPED_TRACE(scene.at("name").get<std::string>());
     const auto domain = domain_of(scene.at("boundary"));
     ASSERT_TRUE(domain.ok()) << domain.error().text();
@@ -125,10 +130,7 @@ Packing read_packing(const std::filesystem::path& path) {
   return packing;
 }
 
-TEST(Oracle, PackingOfUnequalSpheres) {
-  const auto path = shared_file("data/laguerre/voro_pack_six_cube_poly.txt");
-  const auto table = shared_file("data/laguerre/voro_pack_six_cube_poly_volumes.csv");
-  if (path.empty() || table.empty()) GTEST_SKIP() << "the packing (../shared/data/laguerre) is not here";
+void expect_volumes(const std::filesystem::path& path, const std::filesystem::path& table) {
   const Packing packing = read_packing(path);
   ASSERT_EQ(packing.sites.size(), 159u);
   const ConvexDomain domain = box({-3, -3, 0}, {3, 3, 6});
@@ -162,9 +164,7 @@ TEST(Oracle, PackingOfUnequalSpheres) {
   EXPECT_EQ(rows, 156);
 }
 
-TEST(Oracle, PackingWithSwallowedSpheres) {
-  const auto path = shared_file("data/laguerre/voro_pack_six_cube_poly.txt");
-  if (path.empty()) GTEST_SKIP() << "the packing (../shared/data/laguerre) is not here";
+void expect_swallowed(const std::filesystem::path& path) {
   Packing packing = read_packing(path);
   for (std::size_t i = 7; i < packing.sites.size(); i += 8) packing.sites[i].weight = 1.6 * 1.6;
   const auto cells = cells_of(box({-3, -3, 0}, {3, 3, 6}), packing.sites);
@@ -176,6 +176,68 @@ TEST(Oracle, PackingWithSwallowedSpheres) {
   EXPECT_EQ(totals.outside, 3u);
   EXPECT_NEAR(totals.cell_volume, 216, 1e-10);
   for (const CellMeasure& cell : cells) EXPECT_EQ(cell.reason.empty(), cell.state == SiteState::alive);
+}
+
+// Places along one line with weights of their own, and how long the cell of each is within (0, 1): by comparing all with all.
+struct Row {
+  std::vector<double> places, weights, lengths;
+};
+
+Row random_row(Random& random, std::size_t count, double largest_weight) {
+  Row row;
+  for (std::size_t i = 0; i < count; ++i) {
+    row.places.push_back((static_cast<double>(i) + random.uniform(0.2, 0.8)) / static_cast<double>(count));
+    row.weights.push_back(random.uniform(0, largest_weight));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    double low = 0, high = 1;
+    for (std::size_t j = 0; j < count; ++j) {
+      if (j == i) continue;
+      const double apart = row.places[j] - row.places[i];
+      const double border = 0.5 * (row.places[i] + row.places[j] + (row.weights[i] - row.weights[j]) / apart);
+      if (apart < 0) low = std::max(low, border);
+      else high = std::min(high, border);
+    }
+    row.lengths.push_back(std::max(0.0, high - low));
+  }
+  return row;
+}
+
+// Weights that are sums along the axes make boxes of all cells, and swallow whole layers of sites.
+void expect_boxes(const Row& x, const Row& y, const Row& z, int& swallowed) {
+  std::vector<PowerSite> sites;
+  std::vector<double> volumes;
+  for (std::size_t i = 0; i < x.places.size(); ++i) {
+    for (std::size_t j = 0; j < y.places.size(); ++j) {
+      for (std::size_t k = 0; k < z.places.size(); ++k) {
+        sites.push_back({{x.places[i], y.places[j], z.places[k]}, x.weights[i] + y.weights[j] + z.weights[k]});
+        volumes.push_back(x.lengths[i] * y.lengths[j] * z.lengths[k]);
+      }
+    }
+  }
+  const auto cells = cells_of(unit_cube(), sites);
+  EXPECT_NEAR(totals_of(cells).cell_volume, 1, 1e-12);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    EXPECT_NEAR(cells[i].cell_volume, volumes[i], 1e-13) << i;
+    EXPECT_EQ(cells[i].state == SiteState::hidden, volumes[i] == 0) << i << " " << name_of(cells[i].state);
+    swallowed += volumes[i] == 0;
+  }
+}
+
+TEST(Oracle, PackingsOfUnequalSpheres) {
+  Random random(71);
+  int swallowed = 0;
+  for (int round = 0; round < 10; ++round) {
+    const Row x = random_row(random, 6, 0.06), y = random_row(random, 5, 0.06), z = random_row(random, 5, 0.06);
+    expect_boxes(x, y, z, swallowed);
+  }
+  EXPECT_GT(swallowed, 100);
+  EXPECT_LT(swallowed, 1200);
+  // A packing that others have measured, where the shared folder is.
+  const auto path = shared_file("data/laguerre/voro_pack_six_cube_poly.txt");
+  const auto table = shared_file("data/laguerre/voro_pack_six_cube_poly_volumes.csv");
+  if (!path.empty() && !table.empty()) expect_volumes(path, table);
+  if (!path.empty()) expect_swallowed(path);
 }
 
 }  // namespace

@@ -67,16 +67,9 @@ TEST(PowerCells, LowShapesHaveOneFloorAtMidHeight) {
 }
 
 TEST(PowerCells, EveryStateSaysWhy) {
-  const std::vector<PowerSite> sites{
-      {{5, 5, 5}, 4},       // 0 lives
-      {{5, 5, 5}, 1},       // 1 same place, lighter
-      {{5.1, 5, 5}, 0.01},  // 2 swallowed by 0
-      {{20, 5, 5}, 1},      // 3 outside, out of reach
-      {{10.5, 9, 9}, 1},    // 4 outside, reaches in
-      {{1, 1, 1}, 0},       // 5 no ball
-      {{1, 1, 3}, 1},       // 6 lives
-      {{1, 1, 3}, 1},       // 7 same as 6
-  };
+  std::vector<PowerSite> sites = sites_in_every_state();
+  sites.push_back({{1, 1, 3}, 1});  // 6 lives
+  sites.push_back({{1, 1, 3}, 1});  // 7 same as 6
   const auto cells = cells_of(box({0, 0, 0}, {10, 10, 10}), sites);
   const auto expect = [&](std::size_t i, SiteState state, const char* word) {
     EXPECT_EQ(cells[i].state, state) << i << " " << name_of(cells[i].state);

@@ -306,30 +306,20 @@ TEST(SampledDiagram, ThreadsLeaveNoTrace) {
 }
 
 TEST(SampledDiagram, EveryStateSaysWhy) {
-  const std::vector<PowerSite> sites{
-      {{5, 5, 5}, 4},         // 0 lives
-      {{5, 5, 5}, 1},         // 1 same place, lighter
-      {{5.1, 5, 5}, 0.01},    // 2 swallowed by 0
-      {{20, 5, 5}, 1},        // 3 outside, out of reach
-      {{10.5, 9, 9}, 1},      // 4 outside, reaches in
-      {{1, 1, 1}, 0},         // 5 no ball
-      {{2, 8, 8}, 0.000001},  // 6 smaller than the samples see
-  };
+  std::vector<PowerSite> sites = sites_in_every_state();
+  sites.push_back({{2, 8, 8}, 0.000001});
   const SampledCells cells = sampled(box({0, 0, 0}, {10, 10, 10}), sites, Metric::additive, 40);
-  EXPECT_EQ(cells.cells[0].state, SiteState::alive);
-  EXPECT_EQ(cells.cells[0].reason, "");
-  EXPECT_EQ(cells.cells[1].state, SiteState::coincident);
-  EXPECT_EQ(cells.cells[1].reason, "lies at the position of site 0, which is heavier or comes first");
-  EXPECT_EQ(cells.cells[2].state, SiteState::hidden);
-  EXPECT_EQ(cells.cells[2].reason, "swallowed: site 0 outweighs it at its position");
-  EXPECT_EQ(cells.cells[3].state, SiteState::outside);
-  EXPECT_EQ(cells.cells[3].reason, "lies outside the domain; its cell lies outside the domain");
-  EXPECT_EQ(cells.cells[4].state, SiteState::outside);
-  EXPECT_EQ(cells.cells[4].reason, "lies outside the domain; its cell reaches in");
-  EXPECT_EQ(cells.cells[5].state, SiteState::starved);
-  EXPECT_EQ(cells.cells[5].reason, "its weight is not positive, so it has no ball");
-  EXPECT_EQ(cells.cells[6].state, SiteState::starved);
-  EXPECT_EQ(cells.cells[6].reason, "its shape slips between the sample lines, which are 0.250 m apart: take more samples");
+  const auto expect = [&](std::size_t i, SiteState state, const char* reason) {
+    EXPECT_EQ(cells.cells[i].state, state) << i << " " << name_of(cells.cells[i].state);
+    EXPECT_EQ(cells.cells[i].reason, reason) << i;
+  };
+  expect(0, SiteState::alive, "");
+  expect(1, SiteState::coincident, "lies at the position of site 0, which is heavier or comes first");
+  expect(2, SiteState::hidden, "swallowed: site 0 outweighs it at its position");
+  expect(3, SiteState::outside, "lies outside the domain; its cell lies outside the domain");
+  expect(4, SiteState::outside, "lies outside the domain; its cell reaches in");
+  expect(5, SiteState::starved, "its weight is not positive, so it has no ball");
+  expect(6, SiteState::starved, "its shape slips between the sample lines, which are 0.250 m apart: take more samples");
   // Divided by no radius every distance is infinite, so there is no cell either.
   const SampledCells divided = sampled(box({0, 0, 0}, {10, 10, 10}), sites, Metric::multiplicative, 40);
   EXPECT_EQ(divided.cells[5].state, SiteState::hidden);

@@ -207,28 +207,31 @@ TEST(VolumeFit, ThreadsChangeNoBit) {
   }
 }
 
+void expect_weights(const nlohmann::json& given) {
+  SCOPED_TRACE(given.at("name").get<std::string>());
+  std::vector<Plane> planes;
+  for (const auto& p : given.at("boundary").at("planes")) planes.push_back({{p[0], p[1], p[2]}, p[3]});
+  FitScene scene{from_planes(planes).value(), {}};
+  for (std::uint32_t i = 0; i < given.at("sites").size(); ++i) {
+    const auto& p = given["sites"][i];
+    scene.problem.sites.push_back({{p[0], p[1], p[2]}, 0});
+    scene.problem.demands.push_back({{i}, given["demands"][i], given["demands"][i]});
+  }
+  VolumeFitOptions options;
+  options.tolerance = 1e-11;
+  const VolumeFit fit = fit_of(scene, options);
+  EXPECT_EQ(fit.status, FitStatus::met) << fit.max_relative_error;
+  const double size = scene.domain.size();
+  for (std::size_t i = 0; i < fit.weights.size(); ++i) {
+    EXPECT_NEAR(fit.weights[i], given["weights"][i].get<double>(), 1e-8 * size * size) << i;
+  }
+}
+
 TEST(VolumeFit, WeightsOfTheReference) {
-  const auto path = shared_file("oracle/fits.json");
-  if (path.empty()) GTEST_SKIP() << "the reference values (../shared/oracle) are not here";
-  const auto all = nlohmann::json::parse(std::ifstream(path));
-  for (const auto& given : all.at("cases")) {
-    SCOPED_TRACE(given.at("name").get<std::string>());
-    std::vector<Plane> planes;
-    for (const auto& p : given.at("boundary").at("planes")) planes.push_back({{p[0], p[1], p[2]}, p[3]});
-    FitScene scene{from_planes(planes).value(), {}};
-    for (std::uint32_t i = 0; i < given.at("sites").size(); ++i) {
-      const auto& p = given["sites"][i];
-      scene.problem.sites.push_back({{p[0], p[1], p[2]}, 0});
-      scene.problem.demands.push_back({{i}, given["demands"][i], given["demands"][i]});
-    }
-    VolumeFitOptions options;
-    options.tolerance = 1e-11;
-    const VolumeFit fit = fit_of(scene, options);
-    EXPECT_EQ(fit.status, FitStatus::met) << fit.max_relative_error;
-    const double size = scene.domain.size();
-    for (std::size_t i = 0; i < fit.weights.size(); ++i) {
-      EXPECT_NEAR(fit.weights[i], given["weights"][i].get<double>(), 1e-8 * size * size) << i;
-    }
+  for (const auto& path : reference_files("fits")) {
+    const auto all = nlohmann::json::parse(std::ifstream(path));
+    EXPECT_GE(all.at("cases").size(), 3u);
+    for (const auto& given : all.at("cases")) expect_weights(given);
   }
 }
 

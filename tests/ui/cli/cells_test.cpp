@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/reference_files.h"
 #include "tests/ui/cli/program.h"
 
 namespace bl::test {
@@ -57,12 +58,10 @@ TEST(Cells, VerticesGiveThePlanesThatWereFound) {
   EXPECT_NEAR(place.json("o.json")["cells"][0]["volume"].get<double>(), 4, 1e-14);
 }
 
-TEST(Cells, AgreesWithIndependentValues) {
-  const std::filesystem::path oracle = std::filesystem::path(BL_SOURCE_DIR) / "../shared/oracle/cells.json";
-  if (!std::filesystem::exists(oracle)) GTEST_SKIP() << "the reference values are not here";
+void expect_values_of(const std::filesystem::path& file) {
   const Workplace place;
-  ASSERT_EQ(place.run({"cells", oracle.string(), "--json", "o.json"}).code, 0);
-  const nlohmann::json wanted = nlohmann::json::parse(read_text(oracle))["cases"], found = place.json("o.json")["cases"];
+  ASSERT_EQ(place.run({"cells", file.string(), "--json", "o.json"}).code, 0);
+  const nlohmann::json wanted = nlohmann::json::parse(read_text(file))["cases"], found = place.json("o.json")["cases"];
   const auto expect_near = [](double a, double b, const std::string& what) {
     EXPECT_NEAR(a, b, 1e-11 * std::max(std::abs(a), 1e-6)) << what;
   };
@@ -75,6 +74,10 @@ TEST(Cells, AgreesWithIndependentValues) {
       for (const auto& [facet, area] : cell["facet_areas"].items())
         expect_near(std::stod(area.get<std::string>()), ours["facet_areas"].value(facet, 0.0), name + " " + facet);
     }
+}
+
+TEST(Cells, AgreesWithIndependentValues) {
+  for (const auto& file : reference_files("cells")) expect_values_of(file);
 }
 
 TEST(Cells, BadInputHasAPlace) {

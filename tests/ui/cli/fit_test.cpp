@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/reference_files.h"
 #include "tests/ui/cli/program.h"
 
 namespace bl::test {
@@ -218,11 +219,18 @@ TEST(Fit, InterruptWritesEveryCase) {
 }
 
 TEST(Fit, TheReferenceFileIsReadAsItIs) {
-  const std::filesystem::path oracle = std::filesystem::path(BL_SOURCE_DIR) / "../shared/oracle/fits.json";
-  if (!std::filesystem::exists(oracle)) GTEST_SKIP() << "the reference values are not here";
   const Workplace place;
-  const Outcome outcome = place.run({"fit", oracle.string(), "--json", "o.json"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const auto& file : reference_files("fits")) {
+    const Outcome outcome = place.run({"fit", file.string(), "--json", "o.json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const nlohmann::json wanted = nlohmann::json::parse(read_text(file))["cases"], found = place.json("o.json")["cases"];
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t c = 0; c < wanted.size(); ++c)
+      for (std::size_t i = 0; i < wanted[c]["demands"].size(); ++i) {
+        const double demand = wanted[c]["demands"][i];
+        EXPECT_NEAR(found[c]["volumes"].at(i).get<double>(), demand, 1e-5 * demand) << wanted[c]["name"] << " " << i;
+      }
+  }
 }
 
 }  // namespace

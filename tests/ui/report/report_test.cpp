@@ -291,20 +291,25 @@ TEST(ReportParts, TheAxonometryIsOrthonormalAndLooksDown) {
   EXPECT_GT(view.toward.z, 0);
 }
 
+// Two by three metres, four high.
+Mesh tall_box() {
+  return {{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}},
+          {{0, 2, 1},
+           {0, 3, 2},
+           {4, 5, 6},
+           {4, 6, 7},
+           {0, 1, 5},
+           {0, 5, 4},
+           {1, 2, 6},
+           {1, 6, 5},
+           {2, 3, 7},
+           {2, 7, 6},
+           {3, 0, 4},
+           {3, 4, 7}}};
+}
+
 TEST(ReportParts, SectionsOfABoxAreItsPlan) {
-  const Mesh box{{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}},
-                 {{0, 2, 1},
-                  {0, 3, 2},
-                  {4, 5, 6},
-                  {4, 6, 7},
-                  {0, 1, 5},
-                  {0, 5, 4},
-                  {1, 2, 6},
-                  {1, 6, 5},
-                  {2, 3, 7},
-                  {2, 7, 6},
-                  {3, 0, 4},
-                  {3, 4, 7}}};
+  const Mesh box = tall_box();
   ASSERT_NEAR(enclosed_volume(box), 24, 1e-12);
   const auto all = [](std::size_t) { return true; };
   for (const double z : {1.0, 4.0}) {
@@ -352,19 +357,7 @@ TEST(ReportParts, ExactShapesHoldTheirMeshes) {
 }
 
 TEST(ReportParts, BodiesThatAreNoBallsAreDrawnFromTheirMesh) {
-  const Mesh box{{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {0, 0, 4}, {2, 0, 4}, {2, 3, 4}, {0, 3, 4}},
-                 {{0, 2, 1},
-                  {0, 3, 2},
-                  {4, 5, 6},
-                  {4, 6, 7},
-                  {0, 1, 5},
-                  {0, 5, 4},
-                  {1, 2, 6},
-                  {1, 6, 5},
-                  {2, 3, 7},
-                  {2, 7, 6},
-                  {3, 0, 4},
-                  {3, 4, 7}}};
+  const Mesh box = tall_box();
   const report::Sheet sheet(report::axonometric_view(150, 33), box.vertices, 400, 400, {10, 10, 10, 10});
   report::Markup svg;
   report::draw_solid(svg, sheet, box, {{0.5, 0.6, 0.7}, {0, 0, 1}, 1, 0, 4});

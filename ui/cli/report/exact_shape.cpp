@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/solid_part.h"
 #include "ui/cli/report/report_model.h"
 
 namespace bl::report {
@@ -15,18 +16,6 @@ constexpr int kArcPoints = 90;
 constexpr double kAgreement = 0.02;  // share by which footprint and height may differ from what is reported
 
 bool is_kept(const Cut& cut, const Point3& point, double slack) { return dot(cut.normal, point) <= cut.offset + slack; }
-
-// Sutherland and Hodgman (1974), for one plane.
-Corners clipped(const Corners& polygon, const Cut& cut) {
-  Corners out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double over_a = dot(cut.normal, a) - cut.offset, over_b = dot(cut.normal, b) - cut.offset;
-    if (over_a <= 0) out.push_back(a);
-    if ((over_a < 0 && over_b > 0) || (over_a > 0 && over_b < 0)) out.push_back(a + (b - a) * (over_a / (over_a - over_b)));
-  }
-  return out;
-}
 
 // Two unit vectors that make a right-handed frame with a unit normal.
 std::pair<Vector3, Vector3> frame_of(const Vector3& normal) {

@@ -3,15 +3,13 @@
 
 #include <vector>
 
+#include "core/geometry/convex_domain.h"
 #include "core/graph/state.h"
 
 namespace bl::report {
 
 /// The half-space normal·x <= offset [m]; `normal` is a unit vector.
-struct Cut {
-  Vector3 normal;
-  double offset = 0;
-};
+using Cut = Plane;
 
 /// What is inside the ball and all of its cuts.
 struct ExactShape {

@@ -1,0 +1,23 @@
+// Where reference values are: our own in tests/data, and larger ones beside the checkout.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bl::test {
+
+/// Reference files beside the checkout; empty where they are not there.
+inline std::filesystem::path shared_file(const std::string& name) {
+  const std::filesystem::path path = std::filesystem::path(BL_SOURCE_DIR) / ".." / "shared" / name;
+  return std::filesystem::exists(path) ? path : std::filesystem::path{};
+}
+
+/// Files of reference values, "cells" or "fits": our own, which is always there, and a larger one where the shared folder is.
+inline std::vector<std::filesystem::path> reference_files(const std::string& name) {
+  std::vector<std::filesystem::path> files{std::filesystem::path(BL_SOURCE_DIR) / "tests/data" / ("reference_" + name + ".json")};
+  if (const auto shared = shared_file("oracle/" + name + ".json"); !shared.empty()) files.push_back(shared);
+  return files;
+}
+
+}  // namespace bl::test
