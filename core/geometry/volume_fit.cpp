@@ -128,6 +128,7 @@ class Attempt {
     if (!has_floors_) return diagram_.update(evaluated(), cells);
     const std::vector<double> storeys = storey_heights_of(domain_, asked_);
     cells.storey_heights = storeys;
+    if (auto set = with_floors_.set_domain(domain_); !set) return set.error();
     return with_floors_.update(evaluated(), cells);
   }
 
