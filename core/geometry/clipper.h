@@ -73,8 +73,8 @@ class Clipper {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   /// The three faces that meet at a vertex, counter-clockwise seen from outside, and the edges: the one in slot k does not lie on
-  /// face plane[k]. An edge is kept as 4 * vertex + slot: the vertex at its other end, and the slot there of the edge that follows
-  /// around the face on the left, so that a walk around a face reads one number per corner.
+  /// face plane[k]. An edge is kept as 4 * vertex + slot: the vertex at its other end, and the slot there of the edge that
+  /// follows around the face on the left, so that a walk around a face reads one number per corner.
   struct alignas(32) Corner {
     std::array<std::uint32_t, 3> plane, next;
     std::uint32_t given;  ///< kNone, or: the vertex was there from the start and keeps its place
@@ -129,7 +129,8 @@ class Clipper {
   std::vector<std::uint32_t> rim_;  // edges from vertices that go to vertices that stay: 4 * vertex that goes + slot there
   std::vector<Fresh> fresh_;
   std::vector<std::uint32_t> left_of_;  // per face: the fresh vertex that has it on its left
-  // What is worked out when the shape is written: ranks of the sides, numbers of the vertices in the order in which they are seen.
+  // What is worked out when the shape is written: ranks of the sides, numbers of the vertices in the order in which they are
+  // seen.
   struct Key {
     std::int32_t name;
     std::uint32_t side;

@@ -348,8 +348,8 @@ class Fit {
       fitted[i] = moves(i);
       if (fitted[i]) unknown[i] = targets_.owner(i);
     }
-    const std::vector<double> change =
-        ResponseSystem(sites_, cells, fitted).solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+    const std::vector<double> change = ResponseSystem(sites_, cells, fitted)
+                                           .solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
     state.residual = residual;
     state.share = options_.damping;
     state.direction.assign(cells.size(), 0);

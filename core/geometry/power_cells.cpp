@@ -213,9 +213,7 @@ std::span<const std::uint32_t> PowerDiagram::made() const { return workshop_->ma
 Result<std::span<const CellMeasure>> PowerDiagram::update(std::span<const PowerSite> sites, const CellOptions& options) try {
   if (auto done = workshop_->update(sites, options); !done) return done.error();
   return std::span<const CellMeasure>(workshop_->cells);
-} catch (const std::exception& problem) {
-  return failure(problem);
-}
+} catch (const std::exception& problem) { return failure(problem); }
 
 // Nothing is kept for a next time.
 Result<std::vector<CellMeasure>> power_cells(const Domain& domain, std::span<const PowerSite> sites,
@@ -229,9 +227,7 @@ Result<std::vector<CellMeasure>> power_cells(const Domain& domain, std::span<con
   std::vector<CellMeasure> cells(sites.size());
   workshop.make_all(options, cells);
   return cells;
-} catch (const std::exception& problem) {
-  return failure(problem);
-}
+} catch (const std::exception& problem) { return failure(problem); }
 
 std::string_view name_of(SiteState state) {
   switch (state) {

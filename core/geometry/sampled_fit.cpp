@@ -47,7 +47,7 @@ class Attempt {
     if (auto set = diagram_.set_domain(domain_, options_.samples, options_.pool); !set) return set.error();
     has_floors_ = ask_for_volumes(problem_);
     if (auto done = fit(); !done) return done.error();
-    for (int k = 0; has_floors_ && k < kMostCorrections && !is_cancelled_ && fit_.evaluations < options_.most_steps; ++k) {
+    for (int k = 0; has_floors_ && k < kMostCorrections && !is_stopped_ && fit_.evaluations < options_.most_steps; ++k) {
       const auto cells = measure_storeys();
       if (!cells) return cells.error();
       if (correct_floors(asked_, cells->cells, options_.tolerance, problem_)) break;
@@ -66,7 +66,7 @@ class Attempt {
       const bool goes_on = !options_.progress || options_.progress(fit_.evaluations, newton_->error());
       since = newton_->error() < 0.9 * best ? 0 : since + 1;
       best = std::min(best, newton_->error());
-      is_cancelled_ = !goes_on && !newton_->is_met();
+      is_stopped_ = !goes_on;
       if (newton_->is_settled() || !goes_on || fit_.evaluations >= options_.most_steps || since > kStalled) break;
       newton_->move();
     }
@@ -104,7 +104,9 @@ class Attempt {
     }
     const bool cannot =
         !newton_->targets().infeasible().empty() || !newton_->targets().losses().empty() || is_held_up(asked_, cells);
-    fit_.status = is_cancelled_         ? FitStatus::cancelled
+    // Of a fit that was stopped with its volumes met, the floors may not have been.
+    const bool is_cancelled = is_stopped_ && (!newton_->is_met() || (has_floors_ && !fit_.losses.empty() && !cannot));
+    fit_.status = is_cancelled          ? FitStatus::cancelled
                   : fit_.losses.empty() ? FitStatus::met
                   : cannot              ? FitStatus::infeasible
                                         : FitStatus::step_limit;
@@ -132,7 +134,7 @@ class Attempt {
   SampledDiagram& diagram_;
   std::optional<SampledNewton> newton_;
   VolumeFit fit_;
-  bool has_floors_ = false, is_cancelled_ = false;
+  bool has_floors_ = false, is_stopped_ = false;
 };
 
 FitReport report_of(const SampledNewton& newton, int steps) {

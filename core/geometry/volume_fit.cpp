@@ -35,7 +35,7 @@ class Attempt {
     const double tolerance = has_floors_ ? 0.3 * options_.tolerance : options_.tolerance;
     if (auto done = fit(tolerance); !done) return done.error();
     for (int k = 0; has_floors_ && k < kMostCorrections && result_.last.is_met && result_.last.infeasible.empty(); ++k) {
-      if (result_.evaluations >= options_.most_steps) break;
+      if (result_.is_stopped || result_.evaluations >= options_.most_steps) break;
       const auto cells = measure();
       if (!cells) return cells.error();
       if (correct_floors(asked_, *cells, options_.tolerance, problem_)) break;
@@ -47,7 +47,7 @@ class Attempt {
  private:
   struct Outcome {
     FitReport last;
-    bool is_cancelled = false;
+    bool is_stopped = false;
     int iterations = 0, evaluations = 0;
   };
 
@@ -87,7 +87,7 @@ class Attempt {
         continue;
       }
       if (last.is_met || !goes_on || result_.evaluations >= options_.most_steps || since > kStalled) {
-        result_.is_cancelled = !goes_on && !last.is_met;
+        result_.is_stopped = !goes_on;
         // A step that went too far is no result: the best one is.
         if (!last.is_met) result_.last.evaluated = best_weights;
         return {};
@@ -149,11 +149,13 @@ class Attempt {
       fit.max_relative_error = error;
       fit.worst_demand = k;
     }
-    fit.status = result_.is_cancelled ? FitStatus::cancelled
+    const bool cannot = !result_.last.infeasible.empty() || !result_.last.losses.empty() || is_held_up(asked_, *cells);
+    // Of a fit that was stopped with its volumes met, the floors may not have been.
+    const bool is_cancelled = result_.is_stopped && (!result_.last.is_met || (has_floors_ && !fit.losses.empty() && !cannot));
+    fit.status = is_cancelled         ? FitStatus::cancelled
                  : fit.losses.empty() ? FitStatus::met
-                 : !result_.last.infeasible.empty() || !result_.last.losses.empty() || is_held_up(asked_, *cells)
-                     ? FitStatus::infeasible
-                     : FitStatus::step_limit;
+                 : cannot             ? FitStatus::infeasible
+                                      : FitStatus::step_limit;
     explain(*cells, fit);
     return fit;
   }

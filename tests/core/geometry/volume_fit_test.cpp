@@ -142,7 +142,8 @@ TEST(VolumeFit, SqueezedIntervalsGiveWayDownToTheirLeast) {
   expect_honest(scene, fit, 1e-6);
 }
 
-TEST(VolumeFit, FloorAreasComeWithinAStorey) {
+// Six floor areas, one of them an interval, and two volumes.
+FitScene scene_of_floors() {
   FitScene scene{box({0, 0, 0}, {60, 60, 40}), {}};
   Random random(16);
   for (std::uint32_t i = 0; i < 8; ++i) {
@@ -152,9 +153,13 @@ TEST(VolumeFit, FloorAreasComeWithinAStorey) {
     if (i == 5) demand.most *= 1.3;
     scene.problem.demands.push_back(demand);
   }
+  return scene;
+}
+
+TEST(VolumeFit, FloorAreasComeWithinAStorey) {
   VolumeFitOptions options;
   options.tolerance = 0.01;
-  const VolumeFit fit = fit_of(scene, options);
+  const VolumeFit fit = fit_of(scene_of_floors(), options);
   for (const double weight : fit.weights) EXPECT_TRUE(std::isfinite(weight));
   // Floor areas jump with the storeys: met, or said so with what there is.
   if (fit.status != FitStatus::met) {
@@ -192,6 +197,21 @@ TEST(VolumeFit, CancelledByItsListener) {
   EXPECT_EQ(calls, 3);
   EXPECT_LT(last_error, first_error);
   expect_honest(scene, fit, 1e-6);
+}
+
+// Also where the volumes are met just then and only the floors would have to be corrected (found by the fuzzer).
+TEST(VolumeFit, StopsWhereItsListenerSays) {
+  const FitScene scene = scene_of_floors();
+  bool was_stopped = false;
+  for (int last = 1; last <= 40; ++last) {
+    VolumeFitOptions options;
+    options.tolerance = 0.01;
+    options.progress = [&](int steps, double) { return steps < last; };
+    const VolumeFit fit = fit_of(scene, options);
+    EXPECT_LE(fit.evaluations, last);
+    was_stopped = was_stopped || fit.status == FitStatus::cancelled;
+  }
+  EXPECT_TRUE(was_stopped);
 }
 
 TEST(VolumeFit, ThreadsChangeNoBit) {
