@@ -147,9 +147,17 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
   if (options.tessellation_depth >= 0) { out.mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid); }
 }
 
+// Farther from the domain than so many times its size, the ball that reaches it is so large that rounding moves it by a share of
+// the domain that shows.
+constexpr double kFarthest = 3000;
+
 std::string number(std::uint32_t site) { return "site " + std::to_string(site); }
 
 }  // namespace
+
+bool is_out_of_reach(const Domain& domain, const Point3& position) {
+  return distance(position, domain.centroid) > kFarthest * domain.size();
+}
 
 void CellWorkshop::set_domain(const Domain& domain) {
   ground_.set_domain(domain);
@@ -259,6 +267,9 @@ void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, Cell
     out.reason = "lies at the position of " + number(twin) + ", which is heavier or comes first";
   } else if (!ground_.domain.contains(sites_[site].position, 1e-12 * ground_.domain.size())) {
     out.state = SiteState::outside;
+    if (!emptiness.empty() && is_out_of_reach(ground_.domain, sites_[site].position)) {
+      emptiness = "it is more than " + shortest(kFarthest) + " times the size of the domain away";
+    }
     out.reason = "lies outside the domain" + (emptiness.empty() ? std::string("; its cell reaches in") : "; " + emptiness);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/text.h"
+#include "core/geometry/cell_workshop.h"
 #include "core/geometry/fit_numbers.h"
 #include "core/geometry/fit_targets.h"
 #include "core/geometry/response_system.h"
@@ -72,7 +73,10 @@ class Fit {
       auto measured = diagram.update(sites_, cells);
       if (!measured) return measured.error();
       if (step == 0) {
-        targets_.grant(*measured, domain_.volume);
+        // Nobody else pays for a site that is too far away to be measured.
+        std::vector<std::uint8_t> out_of_reach(sites_.size());
+        for (std::size_t i = 0; i < sites_.size(); ++i) out_of_reach[i] = is_out_of_reach(domain_, sites_[i].position);
+        targets_.grant(*measured, domain_.volume, out_of_reach);
         if (start_full()) measured = diagram.update(sites_, cells);
         if (!measured) return measured.error();
       }
@@ -348,8 +352,8 @@ class Fit {
       fitted[i] = moves(i);
       if (fitted[i]) unknown[i] = targets_.owner(i);
     }
-    const std::vector<double> change =
-        ResponseSystem(sites_, cells, fitted).solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+    const std::vector<double> change = ResponseSystem(sites_, cells, fitted)
+                                           .solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
     state.residual = residual;
     state.share = options_.damping;
     state.direction.assign(cells.size(), 0);
