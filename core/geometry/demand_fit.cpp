@@ -73,10 +73,7 @@ class Fit {
       auto measured = diagram.update(sites_, cells);
       if (!measured) return measured.error();
       if (step == 0) {
-        // Nobody else pays for a site that is too far away to be measured.
-        std::vector<std::uint8_t> out_of_reach(sites_.size());
-        for (std::size_t i = 0; i < sites_.size(); ++i) out_of_reach[i] = is_out_of_reach(domain_, sites_[i].position);
-        targets_.grant(*measured, domain_.volume, out_of_reach);
+        targets_.grant(*measured, domain_.volume, out_of_reach(domain_, sites_));
         if (start_full()) measured = diagram.update(sites_, cells);
         if (!measured) return measured.error();
       }
