@@ -126,8 +126,7 @@ TEST(PlanBoundary, CleansRingsAndTurnsThem) {
   ASSERT_EQ(plan->holes.size(), 1u);
   EXPECT_LT(signed_area(plan->holes[0]), 0);
   EXPECT_TRUE(has_note(*plan, "In the ring coordinates/0, 1 repeated points were dropped."));
-  EXPECT_TRUE(
-      has_note(*plan, "1 holes with 100 m² are kept beside the outer ring; a solver that takes no holes builds over them."));
+  EXPECT_TRUE(has_note(*plan, "1 hole with 100 m² stays open: nothing is built there."));
   const ConvexPlan convex = convex_hull_plan(*plan);
   EXPECT_DOUBLE_EQ(convex.area, 5000);
   EXPECT_DOUBLE_EQ(convex.added_area, 100);
