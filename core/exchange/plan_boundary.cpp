@@ -245,8 +245,10 @@ Result<void> read_rings(const GeoPolygon& polygon, const LocalFrame& frame, Plan
   plan.outer_area = plan.area = signed_area(plan.outer);
   for (const Ring& hole : plan.holes) plan.area += signed_area(hole);
   if (!plan.holes.empty())
-    plan.notes.push_back(std::to_string(plan.holes.size()) + " holes with " + area_text(plan.outer_area - plan.area) +
-                         " are kept beside the outer ring; a solver that takes no holes builds over them.");
+    plan.notes.push_back(
+        std::to_string(plan.holes.size()) + (plan.holes.size() == 1 ? " hole with " : " holes with ") +
+        area_text(plan.outer_area - plan.area) +
+        (plan.holes.size() == 1 ? " stays open: nothing is built there." : " stay open: nothing is built there."));
   plan.hull = hull_of_plan(plan.outer);
   plan.hull_area = signed_area(plan.hull);
   plan.is_convex = plan.holes.empty() && depth_below_hull(plan.outer, plan.hull) <= kConvexDepth;

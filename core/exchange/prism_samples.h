@@ -1,5 +1,5 @@
-// Even samples of a prism over any simple polygon with holes, by exact inversion: no rejection, so the cost does not depend on
-// the shape.
+// Even samples of a prism over any simple polygon with holes, by exact inversion.
+// No rejection, so the cost does not depend on the shape.
 #pragma once
 
 #include <cstddef>

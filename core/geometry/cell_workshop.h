@@ -20,6 +20,10 @@ struct CellBench {
   std::vector<ShapeMeasure> shapes;
 };
 
+/// Is a position so far outside that a ball around it that reaches the domain cannot be measured in it?
+bool is_out_of_reach(const Domain& domain, const Point3& position);
+std::vector<std::uint8_t> out_of_reach(const Domain& domain, std::span<const PowerSite> sites);
+
 /// Sites in a domain, ready for their cells to be made. Every cell is a pure function of domain, sites and options: which cells
 /// are made, when, and on which thread leaves no trace in them.
 class CellWorkshop {

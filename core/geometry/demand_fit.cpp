@@ -6,6 +6,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/text.h"
+#include "core/geometry/cell_workshop.h"
 #include "core/geometry/fit_numbers.h"
 #include "core/geometry/fit_targets.h"
 #include "core/geometry/response_system.h"
@@ -72,7 +73,7 @@ class Fit {
       auto measured = diagram.update(sites_, cells);
       if (!measured) return measured.error();
       if (step == 0) {
-        targets_.grant(*measured, domain_.volume);
+        targets_.grant(*measured, domain_.volume, out_of_reach(domain_, sites_));
         if (start_full()) measured = diagram.update(sites_, cells);
         if (!measured) return measured.error();
       }

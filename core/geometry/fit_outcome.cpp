@@ -96,8 +96,15 @@ void explain_losses(const FitProblem& problem, std::span<const CellMeasure> cell
   for (std::uint32_t i = 0; i < cells.size() && fit.reasons.size() < kMostReasons; ++i) {
     if (cells[i].state == SiteState::coincident) fit.reasons.push_back("site " + std::to_string(i) + " " + cells[i].reason);
   }
+  // The one that misses most comes first: it is often the reason why the others miss theirs.
+  std::vector<VolumeLoss> losses = fit.losses;
+  const auto rank = [](const VolumeLoss& loss) {
+    const double missed = std::abs(loss.wanted - loss.had) / std::max(1e-300, loss.wanted);
+    return loss.had < loss.wanted ? 1 + missed : std::min(1.0, missed);
+  };
+  std::stable_sort(losses.begin(), losses.end(), [&](const VolumeLoss& a, const VolumeLoss& b) { return rank(a) > rank(b); });
   std::size_t more = 0;
-  for (const VolumeLoss& loss : fit.losses) {
+  for (const VolumeLoss& loss : losses) {
     if (fit.reasons.size() >= kMostReasons) {
       ++more;
       continue;

@@ -94,7 +94,7 @@ FitTargets::FitTargets(const FitProblem& problem) : first_(1, 0), owner_(problem
     aim_.push_back(std::isfinite(most_[k]) ? 0.5 * (least_[k] + most_[k]) : least_[k]);
 }
 
-void FitTargets::grant(std::span<const CellMeasure> cells, double domain_volume) {
+void FitTargets::grant(std::span<const CellMeasure> cells, double domain_volume, std::span<const std::uint8_t> out_of_reach) {
   const std::vector<double> asked = least_;
   double wanted = 0, taken = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -102,8 +102,9 @@ void FitTargets::grant(std::span<const CellMeasure> cells, double domain_volume)
   }
   for (std::size_t k = 0; k < size(); ++k) {
     const auto members = sites(k);
-    const bool is_lost =
-        std::all_of(members.begin(), members.end(), [&](std::uint32_t i) { return cells[i].state == SiteState::coincident; });
+    const bool is_lost = std::all_of(members.begin(), members.end(), [&](std::uint32_t i) {
+      return cells[i].state == SiteState::coincident || (!out_of_reach.empty() && out_of_reach[i]);
+    });
     if (!members.empty() && is_lost) least_[k] = most_[k] = 0;
     if (!members.empty()) wanted += least_[k];
   }

@@ -40,9 +40,9 @@ class FitTargets {
     return aim_[k] / static_cast<double>(first_[k + 1] - first_[k]);
   }
 
-  /// What can be granted: coincident sites bring nothing, and all demands are scaled alike where their least sum exceeds what
-  /// the others (locked, or of no demand) leave of the domain.
-  void grant(std::span<const CellMeasure> cells, double domain_volume);
+  /// What can be granted: coincident sites and those out of reach (one flag for each site, or none) bring nothing, and all
+  /// demands are scaled alike where their least sum exceeds what the others (locked, or of no demand) leave of the domain.
+  void grant(std::span<const CellMeasure> cells, double domain_volume, std::span<const std::uint8_t> out_of_reach = {});
   const std::string& infeasible() const { return infeasible_; }
   const std::vector<DemandLoss>& losses() const { return losses_; }
   /// Do the demands take the whole domain, so that no surface is left free?

@@ -156,12 +156,13 @@ class SiteGrid {
   }
 
   // A bit for each of up to 64 entries whose bisector may lie nearer than the reach. The weight of none is so small that it
-  // never does.
+  // never does; also where it lies at the very place, at any reach: 0 times a finite number is 0.
   std::uint64_t sift(const Point3& p, double weight, std::uint32_t from, std::uint32_t count, double reach) const {
     const double *const x = x_.data() + from, *const y = y_.data() + from, *const z = z_.data() + from,
                         *const weights = weight_.data() + from;
     const LanePair at_x = in_both_lanes(p.x), at_y = in_both_lanes(p.y), at_z = in_both_lanes(p.z), own = in_both_lanes(weight),
-                   four_reach_squared = in_both_lanes(4 * reach * reach), zero = in_both_lanes(0);
+                   four_reach_squared = in_both_lanes(4 * std::min(reach, 1e150) * std::min(reach, 1e150)),
+                   zero = in_both_lanes(0);
     std::uint64_t far = 0;
     for (std::uint32_t k = 0; k < count; k += 2) {
       const LanePair dx = lanes_at(x + k) - at_x, dy = lanes_at(y + k) - at_y, dz = lanes_at(z + k) - at_z,

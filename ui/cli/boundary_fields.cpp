@@ -121,6 +121,12 @@ Result<BoundaryReading> boundary_at(const Json& json, const std::string& place) 
   else if (json.contains("plan")) domain = from_plan(json, place);
   else if (json.contains("mesh")) domain = from_mesh_object(json["mesh"], slash(place, "mesh"));
   if (!domain) return domain.error();
+  // Left out without a word, these would give another domain than was meant.
+  for (const char* const key : {"hole", "holes", "step", "steps", "setback", "setbacks", "exclusion", "exclusions"}) {
+    if (!json.contains(key) || (key == std::string("holes") && json.contains("plan"))) continue;
+    return Error{ErrorCode::unknown_field, slash(place, key),
+                 "is not read here: a plan takes `holes`; what else is cut out of a boundary, give as `mesh`"};
+  }
   reading.domain = std::move(*domain);
   return reading;
 }

@@ -32,6 +32,12 @@ std::string rough(double number) {
   return text;
 }
 
+// A volume or an area as people write it; very small ones by their first digits.
+std::string amount(double number) {
+  const double size = std::abs(number);
+  return size == 0 || size >= 0.1 ? fixed(number, size >= 1000 ? 1 : 3) : rough(number);
+}
+
 Json number_or_null(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 Json fit_json(const VolumeFit& fit, const FitProblem& problem) {
@@ -180,7 +186,7 @@ class FitRun {
       const VolumeLoss& loss = losses[i];
       const VolumeDemand& demand = c.problem.demands[loss.demand];
       const std::string unit = demand.kind == VolumeDemand::Kind::volume ? " m³" : " m²";
-      table.add({std::to_string(loss.demand), sites_text(demand, c), rough(loss.wanted) + unit, rough(loss.had) + unit,
+      table.add({std::to_string(loss.demand), sites_text(demand, c), amount(loss.wanted) + unit, amount(loss.had) + unit,
                  loss.wanted > 0 ? fixed(100 * (loss.wanted - loss.had) / loss.wanted, 2) : ""});
     }
     table.print();

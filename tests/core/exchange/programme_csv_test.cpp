@@ -3,21 +3,46 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "core/exchange/csv_reader.h"
 #include "core/exchange/number_column.h"
 #include "core/exchange/programme_columns.h"
+#include "tests/support/reference_files.h"
 
 namespace bl {
 namespace {
 
-std::string real_file(const std::string& name) {
-  std::ifstream file(std::string(BL_SOURCE_DIR) + "/../shared/data/programme/" + name);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
+// Texts of files: our own, which is always there, and a published one where the shared folder is.
+std::vector<std::string> texts_of(const std::string& own, const std::string& published) {
+  std::vector<std::string> texts;
+  for (const std::filesystem::path& path :
+       {std::filesystem::path(BL_SOURCE_DIR) / "tests/data" / own, test::shared_file("data/programme/" + published)}) {
+    if (path.empty()) continue;
+    std::ifstream file(path);
+    std::stringstream text;
+    text << file.rdbuf();
+    EXPECT_FALSE(text.str().empty()) << path;
+    texts.push_back(text.str());
+  }
+  return texts;
+}
+
+// What a whole table comes to.
+struct TableSums {
+  std::size_t rows, items;
+  double floor_area;
+  std::size_t row;  // one of them, and its use
+  std::string use;
+};
+void expect_sums(const ProgrammeImport& import, const TableSums& sums) {
+  EXPECT_EQ(import.rows.size(), sums.rows);
+  EXPECT_EQ(import.items, sums.items);
+  EXPECT_DOUBLE_EQ(import.floor_area, sums.floor_area);
+  EXPECT_EQ(import.rows.at(sums.row).use, sums.use);
 }
 
 bool has_note(const ProgrammeImport& import, const std::string& part) {
@@ -205,30 +230,30 @@ TEST(ProgrammeCsv, DuplicatesUnknownColumnsAndBounds) {
   EXPECT_TRUE(has_note(*import, "Line 6: `bar` cannot be adjacent to itself alone; this was left out."));
 }
 
-TEST(ProgrammeCsvData, CollegeRooms) {
-  const std::string text = real_file("college_school_rooms.csv");
-  if (text.empty()) GTEST_SKIP() << "The shared programme data are not here.";
+TEST(ProgrammeCsvData, RoomLists) {
+  const std::array<TableSums, 2> sums{{{3, 5, 237.5, 0, "Wood Shop"}, {77, 160, 4714, 0, "Event Space"}}};
   ProgrammeOptions options;
   options.columns = {
       {"use", "Room Name"}, {"floor_area_m2", "Area"}, {"count", "Room Quantity"}, {"storey_height_m", "Room Height"}};
-  const auto import = read_programme_csv(text, options);
-  ASSERT_TRUE(import) << import.error().text();
-  EXPECT_EQ(import->rows.size(), 77u);
-  EXPECT_EQ(import->items, 160u);
-  EXPECT_DOUBLE_EQ(import->floor_area, 4714);
-  EXPECT_EQ(import->rows[0].use, "Event Space");
-  EXPECT_EQ(import->rows[0].storey_height, 4);
-  EXPECT_TRUE(has_note(*import, "Column 1 `Suite Name` was left out"));
+  std::size_t k = 0;
+  for (const std::string& text : texts_of("rooms.csv", "college_school_rooms.csv")) {
+    const auto import = read_programme_csv(text, options);
+    ASSERT_TRUE(import) << import.error().text();
+    expect_sums(*import, sums[k]);
+    EXPECT_EQ(import->rows[0].storey_height, k == 0 ? 5 : 4);
+    EXPECT_TRUE(has_note(*import, "Column 1 `Suite Name` was left out"));
+    ++k;
+  }
 }
 
-TEST(ProgrammeCsvData, ZohoProgramme) {
-  const std::string text = real_file("zoho_apidae_programme.csv");
-  if (text.empty()) GTEST_SKIP() << "The shared programme data are not here.";
-  const auto import = read_programme_csv(text);
-  ASSERT_TRUE(import) << import.error().text();
-  EXPECT_EQ(import->rows.size(), 19u);
-  EXPECT_DOUBLE_EQ(import->floor_area, 18776);
-  EXPECT_EQ(import->rows[5].use, "Entrance hall");
+TEST(ProgrammeCsvData, ListsOfFunctions) {
+  const std::array<TableSums, 2> sums{{{3, 3, 203.5, 2, "Entrance"}, {19, 19, 18776, 5, "Entrance hall"}}};
+  std::size_t k = 0;
+  for (const std::string& text : texts_of("functions.csv", "zoho_apidae_programme.csv")) {
+    const auto import = read_programme_csv(text);
+    ASSERT_TRUE(import) << import.error().text();
+    expect_sums(*import, sums[k++]);
+  }
 }
 
 }  // namespace

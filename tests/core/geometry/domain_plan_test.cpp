@@ -130,5 +130,25 @@ TEST(DomainPlan, RefusesWithPlaces) {
   EXPECT_EQ(text(square, {ring_of({{2, 2}, {3, 3}})}), "holes/0: a hole needs at least 3 corners at different places, 2 found");
 }
 
+// A ball around a corner reaches into pieces that its site does not see: its shape is drawn inside the domain all the same.
+TEST(DomainPlan, MeshesStayInTheDomainAndInTheirBalls) {
+  const auto domain = extrude_plan(kEll, Rings{ring_of({{2, 2}, {8, 2}, {8, 8}, {2, 8}})}, 0, 10).value();
+  Random random(71);
+  for (int round = 0; round < 30; ++round) {
+    std::vector<PowerSite> sites;
+    for (int i = 0; i < 4; ++i) sites.push_back({random_point(random, {-2, -2, 0}, {20, 20, 10}), random.uniform(9, 150)});
+    CellOptions options;
+    options.tessellation_depth = 3;
+    const auto cells = power_cells(domain, sites, options).value();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (!cells[i].mesh) continue;
+      for (const Point3& v : cells[i].mesh->vertices) {
+        ASSERT_TRUE(domain.contains(v, 1e-6)) << "round " << round << ", site " << i << ": " << v.x << ", " << v.y << ", " << v.z;
+        ASSERT_LE(distance(v, sites[i].position), std::sqrt(sites[i].weight) * (1 + 1e-9)) << round;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bl::test

@@ -128,7 +128,13 @@ TEST(HardFits, StarvedByAFixedNeighbourOrOutOfReach) {
   EXPECT_TRUE(far.status == FitStatus::met || !far.losses.empty());
   scene.problem.sites[4].position = {1e7, 0.5, 0.5};
   const VolumeFit lost = report("one site 1e7 domains away", scene);
-  EXPECT_TRUE(lost.status == FitStatus::met || !lost.losses.empty());
+  EXPECT_EQ(lost.status, FitStatus::infeasible);
+  ASSERT_EQ(lost.losses.size(), 1u) << "nobody else may pay for it";
+  ASSERT_FALSE(lost.reasons.empty());
+  EXPECT_EQ(lost.reasons[0].find("site 4 has 0 m³"), 0u) << lost.reasons[0];
+  EXPECT_NE(lost.reasons[0].find("more than 3000 times the size of the domain away"), std::string::npos) << lost.reasons[0];
+  scene.problem.sites[4].position = {4000, 0.5, 0.5};
+  expect_met("one site 2300 domains away", scene);
 }
 
 // A fixed ball fills part of the domain; demands above the rest eat into it or are refused, but never lied about.

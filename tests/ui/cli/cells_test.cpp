@@ -83,19 +83,21 @@ TEST(Cells, AgreesWithIndependentValues) {
 TEST(Cells, BadInputHasAPlace) {
   const Workplace place;
   const std::string cube = std::string("{") + kCube;
-  for (const auto& [text, said] :
-       {std::pair<std::string, const char*>{R"({"cases": [)" + cube + R"(, "sites": [[0, 0, 0]], "weights": [1]}, )" + cube +
-                                                R"(, "sites": [[0, 0, 0], [0, "x", 0]], "weights": [1, 1]}]})",
-                                            "i.json: cases/1/sites/1/1: expects a finite number"},
-        {cube + R"(, "sites": [[0, 0, null]], "weights": [1]})", "i.json: sites/0/2: "},
-        {cube + R"(, "sites": [[0, 0, NaN]], "weights": [1]})", "i.json: line "},
-        {cube + R"(, "sites": [[0, 0, 1e300]], "weights": [1]})", "i.json: "},
-        {cube + R"(, "sites": [[0, 0, 0]], "weights": [1, 2]})", "i.json: weights: there are 1 site, but 2 weights"},
-        {cube + R"(, "sites": [[0, 0, 0]]})", "i.json: weights: `weights` is missing"},
-        {R"({"boundary": {"vertices": [[0,0,0],[1,0,0],[0,1,0]]}, "sites": [], "weights": []})", "i.json: boundary/vertices: "},
-        {R"({"boundary": {"planes": [[1,0,0,1]]}, "sites": [], "weights": []})", "i.json: boundary/planes: "},
-        {R"({"boundary": {}, "sites": [], "weights": []})",
-         "i.json: boundary: expects `planes`, `vertices`, `plan` or `mesh`"}}) {
+  for (
+      const auto& [text, said] :
+      {std::pair<std::string, const char*>{R"({"cases": [)" + cube + R"(, "sites": [[0, 0, 0]], "weights": [1]}, )" + cube +
+                                               R"(, "sites": [[0, 0, 0], [0, "x", 0]], "weights": [1, 1]}]})",
+                                           "i.json: cases/1/sites/1/1: expects a finite number"},
+       {cube + R"(, "sites": [[0, 0, null]], "weights": [1]})", "i.json: sites/0/2: "},
+       {cube + R"(, "sites": [[0, 0, NaN]], "weights": [1]})", "i.json: line "},
+       {cube + R"(, "sites": [[0, 0, 1e300]], "weights": [1]})", "i.json: "},
+       {cube + R"(, "sites": [[0, 0, 0]], "weights": [1, 2]})", "i.json: weights: there are 1 site, but 2 weights"},
+       {cube + R"(, "sites": [[0, 0, 0]]})", "i.json: weights: `weights` is missing"},
+       {R"({"boundary": {"vertices": [[0,0,0],[1,0,0],[0,1,0]]}, "sites": [], "weights": []})", "i.json: boundary/vertices: "},
+       {R"({"boundary": {"planes": [[1,0,0,1]]}, "sites": [], "weights": []})", "i.json: boundary/planes: "},
+       {R"({"boundary": {"plan": [[0,0],[9,0],[9,9]], "bottom": 0, "top": 9, "setbacks": [[1,0,1,9]]}, "sites": [], "weights": []})",
+        "i.json: boundary/setbacks: is not read here"},
+       {R"({"boundary": {}, "sites": [], "weights": []})", "i.json: boundary: expects `planes`, `vertices`, `plan` or `mesh`"}}) {
     place.write("i.json", text);
     const Outcome outcome = place.run({"cells", "i.json", "--json", "o.json"});
     EXPECT_EQ(outcome.code, 2) << text;

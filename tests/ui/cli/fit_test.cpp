@@ -95,6 +95,7 @@ TEST(Fit, TooMuchIsWrittenWithItsLosses) {
   EXPECT_EQ(outcome.code, 3);
   EXPECT_TRUE(outcome.err.starts_with("i.json: ")) << outcome.err;
   EXPECT_TRUE(outcome.last_line().starts_with("infeasible after ")) << outcome.out;
+  EXPECT_NE(outcome.out.find("900.000 m³  600.000 m³"), std::string::npos) << outcome.out;
   const nlohmann::json fit = place.json("o.json");
   EXPECT_EQ(fit["status"], "infeasible");
   EXPECT_GE(fit["reasons"].size(), 1u);

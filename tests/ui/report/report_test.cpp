@@ -324,6 +324,28 @@ TEST(ReportParts, SectionsOfABoxAreItsPlan) {
   EXPECT_EQ(roof.front().points.size(), 4u);
 }
 
+// Two boxes side by side, the second wider: their common wall is no edge of the plan, nor is what sticks out of it lost.
+TEST(ReportParts, BodiesSideBySideHaveOneOutline) {
+  Mesh both = tall_box();
+  for (const Point3& v : tall_box().vertices) both.vertices.push_back({v.x + 2, 2 * v.y, v.z});
+  for (const auto& [a, b, c] : tall_box().triangles) both.triangles.push_back({a + 8, b + 8, c + 8});
+  EXPECT_EQ(report::bodies_of(both).size(), 2u);
+  const Mesh mesh = report::joined(both);
+  EXPECT_EQ(report::bodies_of(mesh).size(), 1u);
+  const auto normals = report::unit_normals(mesh);
+  const auto roof = report::outline(mesh, [&](std::size_t t) { return normals[t].z > 0.5; });
+  ASSERT_EQ(roof.size(), 1u);
+  EXPECT_TRUE(roof.front().is_closed);
+  double twice_area = 0, length = 0;
+  for (std::size_t i = 0; i < roof.front().points.size(); ++i) {
+    const Point3 a = roof.front().points[i], b = roof.front().points[(i + 1) % roof.front().points.size()];
+    twice_area += a.x * b.y - b.x * a.y;
+    length += distance(a, b);
+  }
+  EXPECT_NEAR(std::abs(twice_area), 2 * (6 + 12), 1e-9);
+  EXPECT_NEAR(length, 20, 1e-9);
+}
+
 // A ball of radius 5 whose upper part is cut off one metre above its middle, and one side four metres beside it.
 report::ExactShape cut_ball() { return {{10, 0, 0}, 5, {{{0, 0, 1}, 1}, {{1, 0, 0}, 14}}}; }
 

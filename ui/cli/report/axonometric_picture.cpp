@@ -113,11 +113,14 @@ void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   PathText shadows;
   for (const VolumeRow& volume : model.volumes) {
     if (!volume.mesh) continue;
-    std::vector<Pixel> cast;
-    const bool is_exact = volume.exact.radius > 0;
-    for (const Point3& point : is_exact ? outline_of(volume.exact, scenery.to_sun) : volume.mesh->vertices)
-      cast.push_back(sheet.at(shadow_of(point, scenery)));
-    shadows.polyline(simplified(convex_outline(std::move(cast)), true), true);
+    const auto add_shadow = [&](const std::vector<Point3>& points) {
+      std::vector<Pixel> cast;
+      for (const Point3& point : points) cast.push_back(sheet.at(shadow_of(point, scenery)));
+      shadows.polyline(simplified(convex_outline(std::move(cast)), true), true);
+    };
+    if (volume.exact.radius > 0) add_shadow(outline_of(volume.exact, scenery.to_sun));
+    else
+      for (const Mesh& body : bodies_of(*volume.mesh)) add_shadow(body.vertices);
   }
   svg.path(shadows, {{"fill", hex(kShade)}, {"fill-opacity", ".16"}, {"fill-rule", "nonzero"}});
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <tuple>
 
 namespace bl::report {
 
@@ -61,7 +63,79 @@ std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
   return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
 }
 
+// An edge of one body may end in the middle of one of its neighbour's: cut at all vertices on the way, both are made of equal
+// parts. Only what is there an odd number of times is a border.
+std::vector<std::pair<std::uint64_t, std::uint64_t>> without_seams(
+    const Mesh& mesh, const std::vector<std::pair<std::uint64_t, std::uint64_t>>& border) {
+  std::vector<std::uint64_t> ends;
+  for (const auto& [a, b] : border) ends.insert(ends.end(), {a, b});
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> parts;
+  std::vector<std::pair<double, std::uint64_t>> stops;
+  for (const auto& [a, b] : border) {
+    const Point3 from = mesh.vertices[a];
+    const Vector3 way = mesh.vertices[b] - from;
+    const double squared = squared_norm(way);
+    stops.assign({{0, a}, {1, b}});
+    for (const std::uint64_t v : ends) {
+      const double share = dot(mesh.vertices[v] - from, way) / std::max(1e-300, squared);
+      if (v == a || v == b || !(share > 0 && share < 1)) continue;
+      if (squared_norm(mesh.vertices[v] - from - share * way) <= 1e-14 * squared) stops.emplace_back(share, v);
+    }
+    std::sort(stops.begin(), stops.end());
+    for (std::size_t i = 1; i < stops.size(); ++i) parts.push_back(std::minmax(stops[i - 1].second, stops[i].second));
+  }
+  std::sort(parts.begin(), parts.end());
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> kept;
+  for (std::size_t i = 0; i < parts.size();) {
+    std::size_t end = i;
+    while (end < parts.size() && parts[end] == parts[i]) ++end;
+    if ((end - i) % 2 == 1) kept.push_back(parts[i]);
+    i = end;
+  }
+  return kept;
+}
+
 }  // namespace
+
+Mesh joined(const Mesh& mesh) {
+  std::map<std::tuple<double, double, double>, std::uint32_t> places;
+  std::vector<std::uint32_t> place_of;
+  Mesh result;
+  for (const Point3& v : mesh.vertices) {
+    const auto [found, is_new] = places.emplace(std::tuple(v.x, v.y, v.z), static_cast<std::uint32_t>(result.vertices.size()));
+    if (is_new) result.vertices.push_back(v);
+    place_of.push_back(found->second);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) result.triangles.push_back({place_of[a], place_of[b], place_of[c]});
+  return result;
+}
+
+std::vector<Mesh> bodies_of(const Mesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root_of = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::uint32_t least = std::min({root_of(a), root_of(b), root_of(c)});
+    for (const std::uint32_t v : {a, b, c}) parent[root_of(v)] = least;
+  }
+  std::map<std::uint32_t, Mesh> bodies;
+  std::vector<std::uint32_t> place_of(mesh.vertices.size());
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    std::vector<Point3>& vertices = bodies[root_of(v)].vertices;
+    place_of[v] = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back(mesh.vertices[v]);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) bodies[root_of(a)].triangles.push_back({place_of[a], place_of[b], place_of[c]});
+  std::vector<Mesh> result;
+  for (auto& [root, body] : bodies)
+    if (!body.triangles.empty()) result.push_back(std::move(body));
+  return result;
+}
 
 std::vector<Chain> chain_edges(Edges edges) { return Walker(edges).all(); }
 
@@ -125,7 +199,7 @@ std::vector<Polyline> outline(const Mesh& mesh, const TriangleFilter& counts) {
     if (counts(edge.first) != counts(edge.second) || (edge.first == edge.second && counts(edge.first)))
       border.emplace_back(edge.a, edge.b);
   std::vector<Polyline> lines;
-  for (const Chain& chain : chain_edges(border)) {
+  for (const Chain& chain : chain_edges(without_seams(mesh, border))) {
     Polyline line{{}, chain.is_closed};
     for (const std::uint64_t vertex : chain.points) line.points.push_back(mesh.vertices[vertex]);
     lines.push_back(std::move(line));

@@ -35,11 +35,17 @@ struct MeshEdge {
 /// Ascending (a, b) with a < b.
 std::vector<MeshEdge> mesh_edges(const Mesh& mesh);
 
+/// The same with one vertex for each place: bodies that have been put side by side hang together then.
+Mesh joined(const Mesh& mesh);
+/// The bodies of which a mesh is made, each with its vertices alone.
+std::vector<Mesh> bodies_of(const Mesh& mesh);
+
 /// Which triangles count.
 using TriangleFilter = std::function<bool(std::size_t)>;
 /// The lines at height z on the triangles that count; closed where they go all around.
 std::vector<Polyline> section(const Mesh& mesh, double z, const TriangleFilter& counts);
-/// The outline of the triangles that count: edges between them and the others, closed loops in a closed mesh.
+/// The outline of the triangles that count: edges between them and the others, closed loops in a closed mesh. Where bodies have
+/// been put side by side, edges that lie on one another in opposite directions are none.
 std::vector<Polyline> outline(const Mesh& mesh, const TriangleFilter& counts);
 
 }  // namespace bl::report

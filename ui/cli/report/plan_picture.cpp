@@ -106,7 +106,10 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   for (const VolumeRow* volume : order) {
     const Colour colour = palette.colour(volume->use);
     PathText outline_path;
-    outline_path.polyline(simplified(convex_outline(sheet, *volume), true), true);
+    if (volume->exact.radius > 0) outline_path.polyline(simplified(convex_outline(sheet, *volume), true), true);
+    else
+      for (const Mesh& body : bodies_of(*volume->mesh))
+        outline_path.polyline(simplified(convex_outline(sheet, body), true), true);
     svg.open("g").element("title", std::to_string(volume->number) + ". " + volume->name + ": " +
                                        quantity(volume->bottom, Unit::metre) + " to " +
                                        quantity(volume->bottom + volume->height, Unit::metre) + " above the origin");

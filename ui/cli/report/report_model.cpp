@@ -66,6 +66,8 @@ SiteRow read_site(const State& state, std::uint32_t node) {
     site.shape = nullptr;
     return site;
   }
+  // A boundary that is not convex comes in pieces: where they meet there is no edge.
+  site.shape = std::make_shared<const Mesh>(joined(*site.shape));
   const std::vector<Vector3> normals = unit_normals(*site.shape);
   site.ground = outline(*site.shape, [&](std::size_t t) { return normals[t].z < -1e-6; });
   site.plan = outline(*site.shape, [&](std::size_t t) { return normals[t].z > 1e-6; });
