@@ -82,9 +82,17 @@ void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
   // swallowed by them, which they do not know: then they are searched like the others.
   SiteGrid::Range skip;
   if (!known_.empty()) {
-    for (std::uint32_t k = known_[ground.grid.place_of(site) - run_.begin]; k != kNone; k = links_[k].next) {
+    const std::uint32_t first = known_[ground.grid.place_of(site) - run_.begin];
+    std::uint32_t last = kNone;
+    for (std::uint32_t k = first; k != kNone; k = links_[k].next) {
       if (links_[k].is_sure) skip = run_;
       cut_by(ground.sites[links_[k].site].position, ground.sites[links_[k].site].weight, links_[k].site);
+      last = k;
+    }
+    if (last != kNone) {
+      // Nobody asks for this list again: its links serve the sites to come, and stay where memory is near.
+      links_[last].next = free_link_;
+      free_link_ = first;
     }
   }
   ground.grid.search(
@@ -96,6 +104,7 @@ void CellMaker::start_run(const CellGround& ground, std::uint32_t first_place, s
   run_ = {first_place, first_place};
   known_.assign(ground.is_triangulated ? 0 : count, kNone);
   links_.clear();
+  free_link_ = kNone;
 }
 
 // Tells the sites that are still to come who borders them.
@@ -105,8 +114,16 @@ void CellMaker::remember(const CellGround& ground, std::uint32_t site, bool is_s
   for (const std::uint32_t j : borders_) {
     const std::uint32_t other = ground.grid.place_of(j);
     if (other <= place || other - run_.begin >= known_.size()) continue;
-    links_.push_back({site, known_[other - run_.begin], is_sure});
-    known_[other - run_.begin] = static_cast<std::uint32_t>(links_.size() - 1);
+    std::uint32_t& known = known_[other - run_.begin];
+    const Link link{site, known, is_sure};
+    if (free_link_ == kNone) {
+      known = static_cast<std::uint32_t>(links_.size());
+      links_.push_back(link);
+    } else {
+      known = free_link_;
+      free_link_ = links_[known].next;
+      links_[known] = link;
+    }
   }
 }
 

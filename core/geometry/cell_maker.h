@@ -81,6 +81,7 @@ class CellMaker {
   };
   std::vector<std::uint32_t> known_;
   std::vector<Link> links_;
+  std::uint32_t free_link_ = 0;  // the first of those that nobody needs any more
 };
 
 }  // namespace bl

@@ -21,8 +21,10 @@ constexpr double kSliverShare = 1e-14;
 // A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
 constexpr double kInsideShare = 1e-6;
 constexpr std::size_t kChunk = 16;
-// Few long runs share more; a few more than threads even out the load.
+// Runs a few times as many as threads even out the load. Whole cells, which tell the next ones of a run who borders them, lose
+// that at the ends of a run: theirs are at least so many blocks thick, about.
 constexpr std::size_t kRunsPerThread = 4;
+constexpr double kThickness = 4;
 
 bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin) {
   for (const PolyhedronFace& face : part.faces) {
@@ -210,6 +212,12 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
 // the domain that shows.
 constexpr double kFarthest = 3000;
 
+void fetch_ahead(const CellMeasure& cell) {
+  constexpr std::size_t kLine = 64;
+  const char* const begin = reinterpret_cast<const char*>(&cell);
+  for (std::size_t at = 0; at < sizeof(CellMeasure); at += kLine) __builtin_prefetch(begin + at, 1);
+}
+
 std::string number(std::uint32_t site) { return "site " + std::to_string(site); }
 
 }  // namespace
@@ -358,6 +366,8 @@ void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run,
   auto bench = take_bench();
   if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
   for (std::size_t k = begin; k < end; ++k) {
+    // Records lie in the order of the sites, not in that of the work: the next one is fetched while this one is made.
+    if (k + 1 < end) fetch_ahead(cells[which[k + 1]]);
     make_one(which[k], options, *bench, cells[which[k]]);
     if (borders == nullptr) continue;
     const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
@@ -382,6 +392,15 @@ void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions&
   }
 }
 
+std::size_t CellWorkshop::runs_per_thread(std::size_t threads, const CellOptions& options) const {
+  const auto whole = std::count_if(sites_.begin(), sites_.end(),
+                                   [&](const PowerSite& site) { return limit_of(site.weight, options) == kInfinity; });
+  if (2 * static_cast<std::size_t>(whole) < sites_.size()) return kRunsPerThread;
+  const double layers = std::cbrt(static_cast<double>(sites_.size()) / SiteGrid::kSitesPerBlock);
+  const double most = layers / (kThickness * static_cast<double>(threads));
+  return std::clamp<std::size_t>(static_cast<std::size_t>(most), 1, kRunsPerThread);
+}
+
 void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
                             std::vector<std::uint32_t>* faces) {
   const auto order = ground_.grid.order();
@@ -389,7 +408,7 @@ void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> c
     make_range(order, true, begin, end, options, cells, borders, faces);
   };
   const std::size_t threads = options.pool != nullptr ? static_cast<std::size_t>(options.pool->threads()) : 1;
-  const std::size_t runs = threads > 1 && order.size() > 2 * kChunk ? kRunsPerThread * threads : 1;
+  const std::size_t runs = threads > 1 && order.size() > 2 * kChunk ? threads * runs_per_thread(threads, options) : 1;
   if (runs > 1) {
     options.pool->for_each_chunk(order.size(), (order.size() + runs - 1) / runs, body);
   } else {

@@ -67,6 +67,7 @@ class CellWorkshop {
   void make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
                   const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
                   std::vector<std::uint32_t>* faces);
+  std::size_t runs_per_thread(std::size_t threads, const CellOptions& options) const;
   void make_place(std::uint32_t site);
   bool has_room_for(std::uint32_t site, const Point3& position) const;
   void make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const;

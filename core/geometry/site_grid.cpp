@@ -8,8 +8,6 @@ namespace bl {
 
 namespace {
 
-// Measured: fewer make more blocks to look at, more make more sites to look at.
-constexpr double kSitesPerBlock = 6.0;
 // More than so many times the even number of pairs that share a block, and a triangulation is faster.
 constexpr double kUnevenness = 40;
 

@@ -24,6 +24,9 @@ class SiteGrid {
     std::uint32_t site;
   };
 
+  /// On the average. Measured: fewer make more blocks to look at, more make more sites to look at.
+  static constexpr double kSitesPerBlock = 6;
+
   /// Sorts the participants (indices into `sites`) into blocks.
   void build(std::span<const PowerSite> sites, std::span<const std::uint32_t> participants);
 
