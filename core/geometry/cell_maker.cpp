@@ -73,8 +73,8 @@ void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
     const Vector3 to = position - centre;
     const double squared = squared_norm(to), sum = squared + (weight - other_weight);
     if (sum > 0 && sum * sum >= squared * four_reach_squared) return;
-    const double d = std::sqrt(squared);
-    cell_.cut(to / d, sum / (2 * d), FaceKind::site, index);
+    const double per_distance = 1 / std::sqrt(squared);
+    cell_.cut(per_distance * to, 0.5 * sum * per_distance, FaceKind::site, index);
     reach = this->reach();
     four_reach_squared = 4 * reach * reach;
   };
@@ -133,8 +133,10 @@ void CellMaker::gather(const CellGround& ground, std::uint32_t site, double reac
   candidates_.clear();
   const auto consider = [&](const Point3& position, double weight, std::uint32_t j) {
     const Vector3 to = position - own.position;
-    const double squared = squared_norm(to), d = std::sqrt(squared), offset = (squared + (own.weight - weight)) / (2 * d);
-    if (offset < reach) candidates_.push_back({offset, j, to / d});
+    // Rounded like the cuts of the search: the same plane has the same bits.
+    const double squared = squared_norm(to), per_distance = 1 / std::sqrt(squared),
+                 offset = 0.5 * (squared + (own.weight - weight)) * per_distance;
+    if (offset < reach) candidates_.push_back({offset, j, per_distance * to});
   };
   if (ground.is_triangulated) {
     for (const std::uint32_t j : ground.neighbours.of(site)) consider(ground.sites[j].position, ground.sites[j].weight, j);

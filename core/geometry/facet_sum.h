@@ -16,11 +16,9 @@ class AngleSum {
   void add(double re, double im) {
     if (im == 0) return;  // an edge through the centre spans no angle, whichever side it is seen from
     const double next_re = re_ * re - im_ * im, next_im = re_ * im + im_ * re;
-    if (im > 0) {
-      turns_ += im_ >= 0 && next_im < 0;
-    } else {
-      turns_ -= im_ < 0 && next_im >= 0;
-    }
+    // Without a branch on the sign, which nobody could foretell.
+    turns_ += static_cast<int>(im > 0) & static_cast<int>(im_ >= 0) & static_cast<int>(next_im < 0);
+    turns_ -= static_cast<int>(im < 0) & static_cast<int>(im_ < 0) & static_cast<int>(next_im >= 0);
     re_ = next_re;
     im_ = next_im;
     const double size = std::abs(re_) + std::abs(im_);
@@ -71,28 +69,29 @@ class FacetSum {
   /// Does the plane cut the ball at all?
   bool has_disc() const { return squared_disc_ > 0; }
 
-  void add_edge(const Place& a, const Place& b, bool is_forward) {
-    if (a.is_inside && b.is_inside) return inside(a.at, a.norm, b.at, b.norm);
-    if (!has_disc()) return outside(a.at, a.norm, b.at, b.norm);
-    // Where the edge pierces the ball is worked out in one direction only: both of its faces get the same bits.
-    const Place &low = is_forward ? a : b, &high = is_forward ? b : a;
+  /// The edge is worked out from `low` to `high` whichever way the facet's loop goes along it (`turn` is 1, or -1 against it): both
+  /// of its facets get the same bits.
+  void add_edge(const Place& low, const Place& high, double turn) {
+    if (low.is_inside && high.is_inside) return inside(low, high, turn);
+    if (!has_disc()) return outside(low, high, turn);
     const Vector3 along = high.at - low.at;
     const double squared_length = squared_norm(along), t = dot(low.at, along);
     const double rest = t * t + squared_length * (squared_radius_ - squared_norm(low.at));
     const bool is_chord = !low.is_inside && !high.is_inside;
-    if (!(rest > 0) || (is_chord && !(t < 0 && -t < squared_length))) return outside(a.at, a.norm, b.at, b.norm);
+    if (!(rest > 0) || (is_chord && !(t < 0 && -t < squared_length))) return outside(low, high, turn);
     const double root = std::sqrt(rest), radius = std::sqrt(squared_radius_);
-    const auto pierced = [&](double numerator) { return low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along; };
-    const Point3 entry = low.is_inside ? low.at : pierced(-t - root), exit = high.is_inside ? high.at : pierced(-t + root);
-    const double entry_norm = low.is_inside ? low.norm : radius, exit_norm = high.is_inside ? high.norm : radius;
-    if (is_forward) {
-      if (!low.is_inside) outside(low.at, low.norm, entry, radius);
-      inside(entry, entry_norm, exit, exit_norm);
-      if (!high.is_inside) outside(exit, radius, high.at, high.norm);
+    const auto pierced = [&](double numerator) {
+      return Place{low.at + std::clamp(numerator / squared_length, 0.0, 1.0) * along, radius, true};
+    };
+    if (is_chord) {
+      const Place entry = pierced(-t - root), exit = pierced(-t + root);
+      outside(low, entry, turn);
+      inside(entry, exit, turn);
+      outside(exit, high, turn);
     } else {
-      if (!high.is_inside) outside(high.at, high.norm, exit, radius);
-      inside(exit, exit_norm, entry, entry_norm);
-      if (!low.is_inside) outside(entry, radius, low.at, low.norm);
+      const Place pierce = pierced(low.is_inside ? -t + root : -t - root);
+      low.is_inside ? inside(low, pierce, turn) : outside(low, pierce, turn);
+      low.is_inside ? outside(pierce, high, turn) : inside(pierce, high, turn);
     }
   }
 
@@ -118,24 +117,24 @@ class FacetSum {
                (offset_ < 0 ? -area_twice : area_twice) / squared_radius_);
   }
 
-  void inside(const Point3& a, double a_norm, const Point3& b, double b_norm) {
-    const double area_twice = dot(normal_, cross(a, b));
+  void inside(const Place& a, const Place& b, double turn) {
+    const double area_twice = turn * dot(normal_, cross(a.at, b.at));
     meets_edge_ = true;
     doubled_ += area_twice;
-    if (inner_solid_ != nullptr) add_triangle(inner_solid_, area_twice, a_norm, b_norm, dot(a, b));
-    if (with_moment) moment += (area_twice / 6) * (a + b - (2 * offset_) * normal_);
+    if (inner_solid_ != nullptr) add_triangle(inner_solid_, area_twice, a.norm, b.norm, dot(a.at, b.at));
+    if (with_moment) moment += (area_twice / 6) * (a.at + b.at - (2 * offset_) * normal_);
   }
 
-  void outside(const Point3& a, double a_norm, const Point3& b, double b_norm) {
-    const double area_twice = dot(normal_, cross(a, b)), cosine = dot(a, b);
-    if (outer_solid_ != nullptr) add_triangle(outer_solid_, area_twice, a_norm, b_norm, cosine);
+  void outside(const Place& a, const Place& b, double turn) {
+    const double area_twice = turn * dot(normal_, cross(a.at, b.at)), cosine = dot(a.at, b.at);
+    if (outer_solid_ != nullptr) add_triangle(outer_solid_, area_twice, a.norm, b.norm, cosine);
     if (!has_disc()) return;
     outer_.add((cosine - offset_ * offset_) / squared_radius_, area_twice / squared_radius_);
     if (!with_moment) return;
-    const Vector3 p = a - offset_ * normal_, q = b - offset_ * normal_;
+    const Vector3 p = a.at - offset_ * normal_, q = b.at - offset_ * normal_;
     const double p_norm = norm(p), q_norm = norm(q);
     if (!(p_norm > 0) || !(q_norm > 0)) return;
-    moment += (squared_disc_ * std::sqrt(squared_disc_) / 3) * cross(q / q_norm - p / p_norm, normal_);
+    moment += (turn * (squared_disc_ * std::sqrt(squared_disc_) / 3)) * cross(q / q_norm - p / p_norm, normal_);
   }
 
   Vector3 normal_;

@@ -112,7 +112,7 @@ double section_area(const Polyhedron& cell, double squared_radius, double z) {
       }
       from = to;
     }
-    if (has_down && has_rise) sum.add_edge(place(down), place(rise), true);
+    if (has_down && has_rise) sum.add_edge(place(down), place(rise), 1);
   }
   sum.close();
   return sum.area;
@@ -156,7 +156,7 @@ double footprint_area(const Polyhedron& cell, double squared_radius, const Shape
     }
     FacetSum area(face.normal, face.offset, squared_radius, nullptr);
     for (std::size_t i = 0; area.has_disc() && i < part.size(); ++i) {
-      area.add_edge(Place::of(part[i], squared_radius), Place::of(part[(i + 1) % part.size()], squared_radius), true);
+      area.add_edge(Place::of(part[i], squared_radius), Place::of(part[(i + 1) % part.size()], squared_radius), 1);
     }
     if (area.has_disc()) area.close();
     sum += std::abs(nz) * area.area;
