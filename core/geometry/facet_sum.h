@@ -69,8 +69,8 @@ class FacetSum {
   /// Does the plane cut the ball at all?
   bool has_disc() const { return squared_disc_ > 0; }
 
-  /// The edge is worked out from `low` to `high` whichever way the facet's loop goes along it (`turn` is 1, or -1 against it): both
-  /// of its facets get the same bits.
+  /// The edge is worked out from `low` to `high` whichever way the facet's loop goes along it (`turn` is 1, or -1 against it):
+  /// both of its facets get the same bits.
   void add_edge(const Place& low, const Place& high, double turn) {
     if (low.is_inside && high.is_inside) return inside(low, high, turn);
     if (!has_disc()) return outside(low, high, turn);

@@ -65,7 +65,9 @@ double highest_point(const Polyhedron& cell, double squared_radius, const ShapeM
     const double rho2 = squared_radius - face.offset * face.offset;
     if (!(shape.areas[k] > 0) || !(rho2 > 0)) continue;
     const Vector3 foot = face.offset * face.normal;
-    const Vector3 rise = Vector3{0, 0, up} - (up * face.normal.z) * face.normal;
+    // What is left of `up` in the facet's plane, without a difference of nearly equal numbers: level facets have none.
+    const Vector3& n = face.normal;
+    const Vector3 rise = up * Vector3{-n.z * n.x, -n.z * n.y, n.x * n.x + n.y * n.y};
     const double steepness = norm(rise);
     const Point3 top = steepness > 0 ? foot + (std::sqrt(rho2) / steepness) * rise : foot;
     if (up * top.z > best && (steepness == 0 || is_in_face(cell, face, top, tolerance))) best = up * top.z;

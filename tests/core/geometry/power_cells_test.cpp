@@ -61,6 +61,20 @@ TEST(PowerCells, BoxInsideAHugeBall) {
   EXPECT_EQ(cell.facets.size(), 6u);
 }
 
+// A facet that rounding tilts has its highest point next to its middle, not on the ball (found by the fuzzer).
+TEST(PowerCells, AFacetThatIsLevelButForRoundingReachesNoHigherThanItIs) {
+  const Domain cube = box({0, 0, 0}, {10, 10, 10});
+  for (int k = 1; k <= 400; ++k) {
+    const double low = 0.5 + 0.01 * k, apart = 0.013 * k, tilt = k % 3 == 0 ? 1e-17 : 0;
+    const std::vector<PowerSite> sites = {{{5, 5, low}, 100}, {{5 + tilt, 5, low + apart}, 100}};
+    const auto cells = power_cells(cube, sites).value();
+    const double middle = low + 0.5 * apart;
+    EXPECT_NEAR(cells[0].height, middle, 1e-9) << k;
+    EXPECT_NEAR(cells[1].height, 10 - middle, 1e-9) << k;
+    EXPECT_NEAR(cells[1].bottom, middle, 1e-9) << k;
+  }
+}
+
 TEST(PowerCells, LowShapesHaveOneFloorAtMidHeight) {
   const auto cells = cells_of(box({0, 0, 0}, {2, 3, 1}), std::vector<PowerSite>{{{1, 1, 0.5}, 1e6}});
   EXPECT_DOUBLE_EQ(cells[0].floor_area, 6);
