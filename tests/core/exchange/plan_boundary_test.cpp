@@ -6,10 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
 #include "tests/support/reference_files.h"
@@ -17,19 +14,9 @@
 namespace bl {
 namespace {
 
-// Texts of files: our own, which is always there, and a published one where the shared folder is.
+// Our own file, and a published one where the shared folder is.
 std::vector<std::string> texts_of(const std::string& own, const std::string& published) {
-  std::vector<std::string> texts;
-  for (const std::filesystem::path& path :
-       {std::filesystem::path(BL_SOURCE_DIR) / "tests/data" / own, test::shared_file("data/geojson/" + published)}) {
-    if (path.empty()) continue;
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    EXPECT_FALSE(text.str().empty()) << path;
-    texts.push_back(text.str());
-  }
-  return texts;
+  return test::texts_of(own, "data/geojson/" + published);
 }
 
 std::string polygon(const std::string& rings, const std::string& crs = "") {

@@ -4,9 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "core/exchange/csv_reader.h"
 #include "core/exchange/number_column.h"
@@ -16,19 +13,9 @@
 namespace bl {
 namespace {
 
-// Texts of files: our own, which is always there, and a published one where the shared folder is.
+// Our own file, and a published one where the shared folder is.
 std::vector<std::string> texts_of(const std::string& own, const std::string& published) {
-  std::vector<std::string> texts;
-  for (const std::filesystem::path& path :
-       {std::filesystem::path(BL_SOURCE_DIR) / "tests/data" / own, test::shared_file("data/programme/" + published)}) {
-    if (path.empty()) continue;
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    EXPECT_FALSE(text.str().empty()) << path;
-    texts.push_back(text.str());
-  }
-  return texts;
+  return test::texts_of(own, "data/programme/" + published);
 }
 
 // What a whole table comes to.
