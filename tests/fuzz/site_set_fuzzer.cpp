@@ -68,8 +68,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const CellMeasure& cell : *cells) check_cell(cell, domain);
   const bl::CellTotals totals = bl::totals_of(*cells);
   require(totals.alive + totals.hidden + totals.outside + totals.coincident + totals.starved == sites.size(), "states add up");
-  // Cuts that come within 1e-14 of the size count as touching: a hull of some nanometres' thickness shows it.
-  const double extent = domain.size(), room = 1e-6 * domain.volume + 1e-14 * extent * extent * extent;
+  // Within 1e-12 of the size planes may count as touching, whatever the volume: a hull of a micrometre's thickness shows it.
+  const double extent = domain.size(), room = 1e-6 * domain.volume + 1e-12 * extent * extent * extent;
   require(sites.empty() || std::abs(totals.cell_volume - domain.volume) <= room, "cells tile the domain");
   if ((mode & 128u) != 0 && sites.size() <= 40) {
     const std::vector<double> demands(sites.size(), 0.5 * domain.volume / static_cast<double>(sites.size() + 1));
