@@ -21,6 +21,7 @@ struct Command {
 
 /// A command kind. `apply` leaves the scene as it was when it returns an error.
 struct CommandDefinition : TypeDefinition {
+  bool keeps_logic = false;  ///< changes by itself nothing that the tick reads
   std::function<Result<std::vector<Command>>(SceneEdit&, std::span<const Value>)> apply;
 };
 
@@ -32,6 +33,11 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
   using TypeBuilder::TypeBuilder;
   using In = typename T::In;
 
+  /// The command changes nothing that the tick reads.
+  CommandBuilder& keeps_logic() {
+    definition_->keeps_logic = true;
+    return *this;
+  }
   template <class M>
   PortBuilder<M> argument(M In::*member, std::string id) {
     return add_port(definition_->ports, member, std::move(id));

@@ -78,6 +78,9 @@ class SceneEdit {
   /// A port that accumulates (a position) starts again from its set value after this.
   void place(std::string node, std::string path) { placed_.emplace(std::move(node), std::move(path)); }
   const std::set<std::pair<std::string, std::string>>& placed() const { return placed_; }
+  /// Said of every command that may have changed more than the view; without it the running scene need not be compiled again.
+  void touch_logic() { is_logic_touched_ = true; }
+  bool is_logic_touched() const { return is_logic_touched_; }
 
   /// The node or link of that id, or an error that names the nearest one.
   Result<NodeRecord*> node(const std::string& id);
@@ -87,6 +90,7 @@ class SceneEdit {
   Scene* scene_;
   const Registry* registry_;
   std::set<std::pair<std::string, std::string>> placed_;
+  bool is_logic_touched_ = false;
 };
 
 /// What check_scene found: an error makes a scene unfit to run, a warning leaves a link or node idle.

@@ -138,6 +138,14 @@ struct SetSetting {
   static void declare(CommandBuilder<SetSetting>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
+struct SetView {
+  struct In {
+    JsonText changes;
+    bool whole = false;
+  };
+  static void declare(CommandBuilder<SetView>& c);
+  static Inverse apply(SceneEdit& edit, const In& in);
+};
 struct Batch {
   struct In {
     JsonText commands{"[]"};

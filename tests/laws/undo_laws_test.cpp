@@ -38,6 +38,7 @@ std::vector<Command> every_command() {
       command<EnableLink>({"l", false}),
       command<MuteLink>({"l", true}),
       command<SetSetting>({"tolerance", {"0.02"}}),
+      command<SetView>({{R"({"boxes": {"a": [1, 2], "b": null}})"}}),
       command<Batch>(
           {{R"([{"command": "rename_node", "arguments": {"id": "a", "name": "B"}}, {"command": "remove_node", "arguments": {"id": "b"}}])"}})};
 }
@@ -56,7 +57,7 @@ TEST(UndoLaws, ACommandAndItsInverseGiveTheSameBytes) {
     SceneEdit edit(scene, full_registry());
     const auto inverse = apply(edit, command);
     ASSERT_TRUE(inverse.ok()) << command.id << ": " << inverse.error().text();
-    EXPECT_NE(hash_of(scene), hash_of(reading.scene)) << command.id << " changed nothing";
+    EXPECT_FALSE(scene == reading.scene) << command.id << " changed nothing";
     for (const Command& back : *inverse) {
       const auto done = apply(edit, back);
       ASSERT_TRUE(done.ok()) << command.id << ": " << done.error().text();

@@ -1,0 +1,101 @@
+// Commands in, log entries out; undo and redo as new entries.
+#include "core/session/ledger.h"
+
+#include <algorithm>
+
+#include "core/base/text.h"
+
+namespace bl {
+
+Inverse apply(SceneEdit& edit, const Command& command) {
+  const CommandDefinition* definition = edit.registry().command(command.id);
+  if (definition == nullptr)
+    return Error{ErrorCode::unknown_type, "",
+                 "unknown command `" + command.id + "`" + did_you_mean(command.id, keys_of(edit.registry().commands()))};
+  std::vector<Value> values;
+  for (const PortDefinition& port : definition->ports) {
+    const auto it = command.arguments.find(port.id);
+    if (it == command.arguments.end() && port.is_required)
+      return Error{ErrorCode::missing, command.id, "the argument `" + port.id + "` is missing"};
+    values.push_back(it == command.arguments.end() ? port.default_value : it->second);
+  }
+  if (!definition->keeps_logic) edit.touch_logic();
+  return definition->apply(edit, values);
+}
+
+Result<void> Ledger::apply_entry(LogEntry entry) {
+  // A gesture is one author's, and goes on only while it is that author's last; others may act in between.
+  if (const auto owner = gesture_authors_.find(entry.gesture); owner != gesture_authors_.end()) {
+    const auto& stack = entry.undoes != 0 ? redo_[entry.author] : undo_[entry.author];
+    if (owner->second != entry.author || stack.empty() || stack.back() != entry.gesture)
+      return Error{ErrorCode::conflict, "gesture",
+                   "the gesture " + std::to_string(entry.gesture) + " is closed or somebody else's"};
+  }
+  SceneEdit edit(scene_, *registry_);
+  auto inverse = bl::apply(edit, entry.command);
+  if (!inverse) return inverse.error();
+  placed_.insert(edit.placed().begin(), edit.placed().end());
+  is_changed_ = is_changed_ || edit.is_logic_touched();
+  gesture_authors_[entry.gesture] = entry.author;
+  auto& commands = inverses_[entry.gesture];
+  commands.insert(commands.begin(), inverse->begin(), inverse->end());
+  last_gesture_ = std::max(last_gesture_, entry.gesture);
+  entry.seq = log_.empty() ? 1 : log_.back().seq + 1;
+  stack_up(entry);
+  log_.push_back(std::move(entry));
+  if (listener_) listener_(log_.back());
+  return {};
+}
+
+// Keeps the stacks of gestures: an undo moves one from the author's undo stack to the redo stack, and the other way round.
+void Ledger::stack_up(const LogEntry& entry) {
+  auto& undo = undo_[entry.author];
+  auto& redo = redo_[entry.author];
+  if (entry.undoes != 0) {
+    std::erase(undo, entry.undoes);
+    if (redo.empty() || redo.back() != entry.gesture) redo.push_back(entry.gesture);
+    return;
+  }
+  if (entry.redoes != 0) std::erase(redo, entry.redoes);
+  else redo.clear();
+  if (undo.empty() || undo.back() != entry.gesture) undo.push_back(entry.gesture);
+}
+
+Result<void> Ledger::submit(const Command& command, const std::string& author, std::int64_t tick, std::int64_t gesture) {
+  return apply_entry({0, tick, gesture == 0 ? last_gesture_ + 1 : gesture, author, command, 0, 0});
+}
+
+Result<void> Ledger::take_back(const std::string& author, std::int64_t tick,
+                               std::map<std::string, std::vector<std::int64_t>>& stack, bool is_undo) {
+  if (stack[author].empty())
+    return Error{ErrorCode::not_found, "",
+                 is_undo ? "there is nothing to undo for " + author : "there is nothing to redo for " + author};
+  const std::int64_t gesture = stack[author].back();
+  const std::vector<Command> commands = inverses_[gesture];
+  // Tried on a copy first: what somebody else removed meanwhile must not leave half of an undo behind.
+  Scene trial = scene_;
+  SceneEdit edit(trial, *registry_);
+  for (const Command& command : commands)
+    if (auto done = bl::apply(edit, command); !done) {
+      const std::string what = is_undo ? "cannot be undone" : "cannot be redone";
+      return Error{done.error().code, done.error().place, what + " because the scene has changed since: " + done.error().message};
+    }
+  const std::int64_t fresh = new_gesture();
+  for (const Command& command : commands)
+    if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? gesture : 0, is_undo ? 0 : gesture}); !done) return done;
+  return {};
+}
+
+Result<void> Ledger::undo(const std::string& author, std::int64_t tick) { return take_back(author, tick, undo_, true); }
+Result<void> Ledger::redo(const std::string& author, std::int64_t tick) { return take_back(author, tick, redo_, false); }
+
+Result<void> Ledger::replay(const LogEntry& entry) { return apply_entry(entry); }
+
+Ledger::Changes Ledger::take_changes() {
+  Changes taken{is_changed_, std::move(placed_)};
+  is_changed_ = false;
+  placed_.clear();
+  return taken;
+}
+
+}  // namespace bl

@@ -1,0 +1,62 @@
+// A scene and the log of what people did to it: the one verb is submit(); undo and redo are new entries.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/session/commands.h"
+#include "core/session/log.h"
+
+namespace bl {
+
+/// What people say, apart from what the scene makes of it: needs no running state, so that a window can hold a ledger on one
+/// thread while another one ticks. `tick` is always the tick that the entry takes effect in.
+class Ledger {
+ public:
+  Ledger(const Registry& registry, const Scene& scene) : registry_(&registry), scene_(scene) {}
+
+  /// Applies a command now and logs it; on an error nothing changes. Commands of one gesture of an author (such as a drag) are
+  /// undone together; gesture 0 makes a new one.
+  Result<void> submit(const Command& command, const std::string& author, std::int64_t tick, std::int64_t gesture = 0);
+  std::int64_t new_gesture() { return ++last_gesture_; }
+  /// Takes back the author's last gesture by new entries; what others did since stays.
+  Result<void> undo(const std::string& author, std::int64_t tick);
+  Result<void> redo(const std::string& author, std::int64_t tick);
+  /// An entry of a log, with its gesture and undo marks as they were.
+  Result<void> replay(const LogEntry& entry);
+
+  const Scene& scene() const { return scene_; }
+  const std::vector<LogEntry>& log() const { return log_; }
+  /// Called with each new entry, to write it down at once.
+  void on_entry(std::function<void(const LogEntry&)> listener) { listener_ = std::move(listener); }
+
+  /// What a simulation of this scene has to hear of since the last call.
+  struct Changes {
+    bool is_logic_changed = false;                         ///< more than the view
+    std::set<std::pair<std::string, std::string>> placed;  ///< (node, path) of ports that people have put somewhere
+  };
+  Changes take_changes();
+
+ private:
+  Result<void> apply_entry(LogEntry entry);
+  Result<void> take_back(const std::string& author, std::int64_t tick, std::map<std::string, std::vector<std::int64_t>>& stack,
+                         bool is_undo);
+  void stack_up(const LogEntry& entry);
+
+  const Registry* registry_;
+  Scene scene_;
+  std::set<std::pair<std::string, std::string>> placed_;
+  bool is_changed_ = false;
+  std::vector<LogEntry> log_;
+  std::map<std::int64_t, std::vector<Command>> inverses_;  ///< by gesture, in the order to apply
+  std::map<std::int64_t, std::string> gesture_authors_;
+  std::map<std::string, std::vector<std::int64_t>> undo_, redo_;  ///< gestures by author
+  std::int64_t last_gesture_ = 0;
+  std::function<void(const LogEntry&)> listener_;
+};
+
+}  // namespace bl
