@@ -19,6 +19,11 @@ Result<void> Simulation::restore_state(const SavedState& saved) {
   return {};
 }
 
+void Simulation::return_to(std::shared_ptr<const State> earlier) {
+  if (earlier->plan == state_->plan) state_ = std::move(earlier);
+  else state_ = std::make_shared<State>(carry(*earlier, state_->plan, {}));
+}
+
 void Simulation::step() {
   double last = now_ ? now_() : 0;
   auto lap = [&](double& share) {

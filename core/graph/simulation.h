@@ -25,6 +25,8 @@ class Simulation {
   void set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed = {});
   /// Continues from a saved state of the current scene.
   Result<void> restore_state(const SavedState& saved);
+  /// Goes on from an earlier state of this scene, as far as that still fits the scene.
+  void return_to(std::shared_ptr<const State> earlier);
   /// One tick.
   void step();
 

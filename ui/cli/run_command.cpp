@@ -10,7 +10,7 @@
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
-#include "ui/cli/log_writer.h"
+#include "core/file/log_writer.h"
 #include "ui/cli/report/report.h"
 #include "ui/cli/run_output.h"
 #include "ui/cli/scene_loading.h"

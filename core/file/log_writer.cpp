@@ -1,10 +1,10 @@
 // The log as a growing file.
-#include "ui/cli/log_writer.h"
+#include "core/file/log_writer.h"
 
 #include <cerrno>
 #include <cstring>
 
-namespace bl::cli {
+namespace bl {
 
 LogWriter::~LogWriter() {
   if (file_ != nullptr) std::fclose(file_);
@@ -32,4 +32,4 @@ Result<void> LogWriter::close() {
   return {};
 }
 
-}  // namespace bl::cli
+}  // namespace bl

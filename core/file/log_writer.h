@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 
-namespace bl::cli {
+namespace bl {
 
 class LogWriter {
  public:
@@ -28,4 +28,4 @@ class LogWriter {
   std::string path_, failure_;
 };
 
-}  // namespace bl::cli
+}  // namespace bl

@@ -1,0 +1,52 @@
+// Every command of the window, declared once: menus, keys, the command palette and the list of keys are made from it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ui/desktop/app/editor.h"
+
+namespace bl::desktop {
+
+/// A key with its modifiers; `key` is GLFW's number.
+struct Chord {
+  int key = 0;
+  bool ctrl = false, shift = false, alt = false;
+};
+/// "Ctrl+Shift+Z"; empty for no key.
+std::string text_of(const Chord& chord);
+/// Was it pressed in this frame, with these modifiers and no others?
+bool is_pressed(const Chord& chord, bool repeats = false);
+
+struct Action {
+  const char* menu;           ///< the menu that it stands in: "File", "Edit", "Add", "Canvas", "View", "Clock", "Help"
+  const char* label;          ///< as the menu and the palette say it
+  Chord chord, other = {};    ///< its keys; the second is a habit from elsewhere
+  Area area = Area::none;     ///< keys count only while this area is the active one; none: everywhere
+  bool (*can)(const Editor&) = nullptr;  ///< nothing: always
+  void (*run)(Editor&) = nullptr;
+  bool repeats = false;                        ///< a key that is held goes on
+  bool (*is_on)(const Editor&) = nullptr;      ///< for switches: shown with a mark
+};
+
+/// All actions, menu by menu, in the order of the menus.
+std::span<const Action> actions();
+/// Runs the actions whose keys were pressed; not while people type into a field.
+void run_pressed_actions(Editor& editor);
+/// The menu bar.
+void draw_menus(Editor& editor);
+
+/// For `can`: there is a document; something is chosen.
+bool has_document(const Editor& editor);
+bool has_picks(const Editor& editor);
+
+// Each area declares its own, in the file beside it.
+void add_file_actions(std::vector<Action>& list);
+void add_edit_actions(std::vector<Action>& list);
+void add_canvas_actions(std::vector<Action>& list);
+void add_view_actions(std::vector<Action>& list);
+void add_clock_actions(std::vector<Action>& list);
+void add_help_actions(std::vector<Action>& list);
+
+}  // namespace bl::desktop

@@ -1,0 +1,142 @@
+// Lays out the panels and lets each draw itself.
+#include "ui/desktop/app/desktop.h"
+
+#include <algorithm>
+
+#include "ui/desktop/app/actions.h"
+#include "ui/desktop/app/splitter.h"
+#include "ui/desktop/panels/canvas/canvas.h"
+#include "ui/desktop/panels/dialogs.h"
+#include "ui/desktop/panels/panels.h"
+#include "ui/desktop/panels/scene_view.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr float kLeastPane = 160;
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+// A pane of its own at a place; `draw` fills it.
+template <class Draw>
+void pane(const char* name, ImVec2 at, ImVec2 size, ImU32 ground, ImVec2 padding, Draw draw) {
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize(size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ground);
+  const bool is_open = ImGui::Begin(name, nullptr, kFixed);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+  if (is_open) draw();
+  ImGui::End();
+}
+
+}  // namespace
+
+Desktop::Desktop(const Registry& registry, PersonSettings& person, Renderer& renderer)
+    : editor_(std::make_unique<Editor>(registry, person)),
+      canvas_(std::make_unique<Canvas>(*editor_)),
+      view_(std::make_unique<SceneView>(*editor_, renderer)) {
+  editor_->canvas = canvas_.get();
+  editor_->view = view_.get();
+}
+
+Desktop::~Desktop() = default;
+
+std::string Desktop::title() {
+  if (!editor_->document) return "BehaviourLinks";
+  return std::string(editor_->document->is_unsaved() ? "* " : "") + editor_->document->name() + " - BehaviourLinks";
+}
+
+void Desktop::drop(const std::string& path) { open_or_ask(*editor_, path); }
+
+void Desktop::ask_to_quit() { quit_or_ask(*editor_); }
+
+void Desktop::frame(double now) {
+  Editor& editor = *editor_;
+  editor.now = now;
+  if (editor.document) editor.moment = editor.document->session().moment();
+  else editor.moment = nullptr;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  float top = 0;
+  run_pressed_actions(editor);
+  if (!editor.is_beamer && ImGui::BeginMainMenuBar()) {
+    draw_menus(editor);
+    top = ImGui::GetWindowHeight();
+    ImGui::EndMainMenuBar();
+  }
+  if (editor.document) {
+    draw_workspace(top);
+  } else {
+    const Colours& c = editor.theme.colours();
+    pane("start", {0, top}, {size.x, size.y - top}, c.window, {0, 0}, [&] { draw_start_page(editor); });
+  }
+  draw_dialogs(editor);
+  draw_notices();
+}
+
+// Toolbar, then canvas and 3D view side by side, the inspector to their right and lists and charts below.
+void Desktop::draw_workspace(float top) {
+  Editor& editor = *editor_;
+  PersonSettings& person = editor.person;
+  const Theme& theme = editor.theme;
+  const Colours& c = theme.colours();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  editor.picks.hovered_node.clear();
+  editor.picks.hovered_link.clear();
+  if (editor.is_beamer) {
+    pane("view", {0, 0}, size, c.sky, {0, 0}, [&] { view_->draw(size); });
+    return;
+  }
+  const float bar = theme.px(40), gap = theme.px(4);
+  pane("toolbar", {0, top}, {size.x, bar}, c.panel, {theme.px(12), theme.px(6)}, [&] { draw_clock(editor); });
+  const float y = top + bar + 1;
+  const float side = person.shows_side ? std::min(theme.px(person.side_width), size.x - 2 * kLeastPane) : 0;
+  const float bottom = person.shows_bottom ? std::min(theme.px(person.bottom_height), (size.y - y) - kLeastPane) : 0;
+  const float middle_width = size.x - side - (side > 0 ? gap : 0), middle_height = size.y - y - bottom - (bottom > 0 ? gap : 0);
+  const float left = std::clamp(person.canvas_share * middle_width, kLeastPane, middle_width - kLeastPane);
+  pane("canvas", {0, y}, {left, middle_height}, c.canvas, {0, 0}, [&] { canvas_->draw({left, middle_height}); });
+  const ImVec2 view_size{middle_width - left - gap, middle_height};
+  pane("view", {left + gap, y}, view_size, c.sky, {0, 0}, [&] { view_->draw(view_size); });
+  const ImVec2 padding{theme.px(12), theme.px(10)};
+  if (bottom > 0) pane("bottom", {0, size.y - bottom}, {middle_width, bottom}, c.panel, padding, [&] { draw_bottom(editor); });
+  if (side > 0) pane("side", {size.x - side, y}, {side, size.y - y}, c.panel, padding, [&] { draw_inspector(editor); });
+  if (const float moved = splitter("split middle", {left, y}, {gap, middle_height}, true, theme); moved != 0)
+    person.canvas_share = std::clamp((left + moved) / middle_width, 0.1f, 0.9f);
+  if (side > 0)
+    if (const float moved = splitter("split side", {size.x - side - gap, y}, {gap, size.y - y}, true, theme); moved != 0)
+      person.side_width = std::clamp(person.side_width - moved / theme.scale(), 200.0f, 800.0f);
+  if (bottom > 0)
+    if (const float moved = splitter("split bottom", {0, size.y - bottom - gap}, {middle_width, gap}, false, theme); moved != 0)
+      person.bottom_height = std::clamp(person.bottom_height - moved / theme.scale(), 80.0f, 800.0f);
+}
+
+void Desktop::draw_notices() {
+  Editor& editor = *editor_;
+  const Theme& theme = editor.theme;
+  const Colours& c = theme.colours();
+  std::erase_if(editor.notices, [&](const Notice& n) { return n.until < editor.now; });
+  float y = ImGui::GetIO().DisplaySize.y - theme.px(20);
+  for (std::size_t k = editor.notices.size(); k-- > 0;) {
+    const Notice& notice = editor.notices[k];
+    const bool is_error = notice.kind == NoticeKind::error, is_warning = notice.kind == NoticeKind::warning;
+    const std::string text = (is_error ? std::string(icon::kError) + "  " : is_warning ? std::string(icon::kWarning) + "  " : "") + notice.text;
+    const float wrap = theme.px(440);
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 pad{theme.px(14), theme.px(10)};
+    const ImVec2 box{extent.x + 2 * pad.x, extent.y + 2 * pad.y};
+    const ImVec2 at{(ImGui::GetIO().DisplaySize.x - box.x) / 2, y - box.y};
+    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    list.AddRectFilled(at, {at.x + box.x, at.y + box.y}, c.raised, theme.px(6));
+    list.AddRect(at, {at.x + box.x, at.y + box.y}, is_error ? c.bad : is_warning ? c.warning : c.line, theme.px(6));
+    list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {at.x + pad.x, at.y + pad.y}, c.text, text.c_str(), nullptr, wrap);
+    y -= box.y + theme.px(8);
+  }
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,38 @@
+// The whole window as one ImGui frame after another; knows no window system, so that tests can drive it without one.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ui/desktop/app/editor.h"
+
+namespace bl::desktop {
+
+class Renderer;
+
+class Desktop {
+ public:
+  /// `renderer` draws the 3D view; it outlives the desktop.
+  Desktop(const Registry& registry, PersonSettings& person, Renderer& renderer);
+  ~Desktop();
+
+  /// One frame, between ImGui::NewFrame and ImGui::Render; `now` on the window's clock [s].
+  void frame(double now);
+  Editor& editor() { return *editor_; }
+  /// What the window is called: the scene, and a mark where it has unsaved changes.
+  std::string title();
+  /// Files that were dropped onto the window.
+  void drop(const std::string& path);
+  /// The person wants to close the window; asks first where something would be lost.
+  void ask_to_quit();
+
+ private:
+  void draw_workspace(float top);
+  void draw_notices();
+
+  std::unique_ptr<Editor> editor_;
+  std::unique_ptr<Canvas> canvas_;
+  std::unique_ptr<SceneView> view_;
+};
+
+}  // namespace bl::desktop

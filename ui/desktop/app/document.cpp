@@ -1,0 +1,171 @@
+// Opening, saving and recovering a scene; its history as steps with names.
+#include "ui/desktop/app/document.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/codec.h"
+#include "core/file/file_io.h"
+
+namespace bl::desktop {
+
+std::unique_ptr<Document> Document::open(const Registry& registry, const std::string& path, int threads,
+                                         std::vector<Problem>& problems) {
+  auto text = read_file(path);
+  if (!text) {
+    problems.push_back({true, text.error()});
+    return nullptr;
+  }
+  auto document = from_text(registry, *text, path, threads, problems);
+  if (document) document->saved_text_ = *text;
+  return document;
+}
+
+std::unique_ptr<Document> Document::from_text(const Registry& registry, const std::string& text, const std::string& path,
+                                              int threads, std::vector<Problem>& problems) {
+  SceneReading reading = read_scene(text, registry);
+  problems.insert(problems.end(), reading.problems.begin(), reading.problems.end());
+  if (!reading.is_usable()) return nullptr;
+  auto session = LiveSession::start(registry, reading.scene, reading.state ? &*reading.state : nullptr, threads);
+  if (!session) {
+    problems.push_back({true, session.error().within("state")});
+    return nullptr;
+  }
+  std::unique_ptr<Document> document(new Document(registry, path));
+  document->session_ = std::move(*session);
+  document->saved_text_ = write_scene(reading.scene, registry, reading.state ? &*reading.state : nullptr);
+  document->log_start_ = document->saved_text_;
+  document->begin_journal();
+  return document;
+}
+
+std::unique_ptr<Document> Document::recover(const Registry& registry, const Journal::Remains& remains, int threads,
+                                            std::vector<Problem>& problems) {
+  auto document = from_text(registry, remains.log.scene, remains.scene_path, threads, problems);
+  if (!document) return nullptr;
+  for (const LogEntry& entry : remains.log.entries)
+    if (auto done = document->session_->replay(entry); !done)
+      problems.push_back({false, done.error().within("journal entry " + std::to_string(entry.seq))});
+  document->saved_text_.clear();  // whatever the file holds, it does not hold this
+  return document;
+}
+
+// Every entry goes to the disk at once; after a rewind the log starts again from the state that was returned to.
+void Document::begin_journal() {
+  (void)journal_.begin(path_, log_start_);  // without a folder to keep it in there is no journal; everything else works
+  session_->on_entry([this](const LogEntry& entry) { journal_.add(entry, *registry_); });
+  session_->on_rewind([this] {
+    const SavedState state = bl::save(*session_->moment()->state);
+    log_start_ = write_scene(scene(), *registry_, &state);
+    log_begin_ = session_->log().size();
+    (void)journal_.begin(path_, log_start_);
+  });
+}
+
+std::string Document::name() const {
+  return path_.empty() ? std::string("Untitled scene") : std::filesystem::path(path_).filename().string();
+}
+
+Result<void> Document::save(const std::string& path) {
+  const SavedState state = bl::save(*session_->moment()->state);
+  const bool has_run = state.tick > 0;
+  const std::string text = write_scene(scene(), *registry_, has_run ? &state : nullptr);
+  if (auto written = write_file(path, text); !written) return written;
+  path_ = path;
+  saved_text_ = text;
+  is_unsaved_ = false;
+  compared_size_ = session_->log().size();
+  log_start_ = text;
+  log_begin_ = compared_size_;
+  (void)journal_.begin(path_, log_start_);
+  return {};
+}
+
+bool Document::is_unsaved() {
+  const std::size_t size = session_->log().size();
+  if (saved_text_.empty()) return true;
+  if (size == compared_size_) return is_unsaved_;
+  compared_size_ = size;
+  // Undone changes leave nothing to save: what counts is what people have said, not that it ran on.
+  const SceneReading saved = read_scene(saved_text_, *registry_);
+  is_unsaved_ = !(saved.scene == scene());
+  return is_unsaved_;
+}
+
+Result<void> Document::save_log(const std::string& path) const {
+  std::string text = log_header(log_start_);
+  const auto& log = session_->log();
+  for (std::size_t i = log_begin_; i < log.size(); ++i) text += log_line(log[i], *registry_);
+  const State& state = *session_->moment()->state;
+  text += log_line(LogCheck{state.tick, hex_digits(state.hash), true});
+  return write_file(path, text);
+}
+
+namespace {
+
+// What a command is about: the name of its node, or the id of its link.
+std::string subject_of(const Command& command, const Scene& scene) {
+  for (const char* argument : {"node", "id", "setting"}) {
+    const auto found = command.arguments.find(argument);
+    if (found == command.arguments.end()) continue;
+    const auto* id = std::get_if<std::string>(&found->second);
+    if (id == nullptr) continue;
+    const auto node = scene.nodes.find(*id);
+    return node != scene.nodes.end() && !node->second.name.empty() ? node->second.name : *id;
+  }
+  return "";
+}
+
+std::string label_of(const Registry& registry, const Command& command, const Scene& scene) {
+  if (command.id == "batch") {
+    const auto found = command.arguments.find("commands");
+    const auto* text = found == command.arguments.end() ? nullptr : std::get_if<std::string>(&found->second);
+    const Json list = text == nullptr ? Json() : Json::parse(*text, nullptr, false);
+    if (list.is_array() && !list.empty())
+      if (auto first = command_from_json(registry, list.front(), ""); first)
+        return label_of(registry, *first, scene) +
+               (list.size() > 1 ? " and " + std::to_string(list.size() - 1) + " more" : std::string());
+  }
+  const CommandDefinition* definition = registry.command(command.id);
+  const std::string subject = subject_of(command, scene);
+  return (definition != nullptr ? definition->label : command.id) + (subject.empty() ? "" : " · " + subject);
+}
+
+}  // namespace
+
+const std::vector<HistoryStep>& Document::history() {
+  const auto& log = session_->log();
+  for (; history_size_ < log.size(); ++history_size_) {
+    const LogEntry& entry = log[history_size_];
+    const std::int64_t shown = entry.undoes != 0 ? entry.undoes : entry.redoes != 0 ? entry.redoes : entry.gesture;
+    auto step = std::find_if(history_.begin(), history_.end(), [&](const HistoryStep& s) { return s.gesture == shown; });
+    if (entry.undoes != 0 || entry.redoes != 0) {
+      if (step == history_.end()) continue;
+      // The gesture that took it back is the one that a redo, or a further undo, will name.
+      step->is_undone = entry.undoes != 0;
+      step->gesture = entry.gesture;
+      continue;
+    }
+    if (step == history_.end()) {
+      // A new step ends what was undone before it.
+      std::erase_if(history_, [](const HistoryStep& s) { return s.is_undone; });
+      history_.push_back({entry.gesture, entry.tick, label_of(*registry_, entry.command, scene()), false, 0});
+      step = history_.end() - 1;
+    }
+    ++step->entries;
+  }
+  return history_;
+}
+
+Result<void> Document::submit(const std::vector<Command>& commands, std::int64_t gesture) {
+  if (commands.empty()) return {};
+  if (commands.size() == 1) return session_->submit(commands.front(), gesture);
+  Json list = Json::array();
+  for (const Command& command : commands) list.push_back(command_to_json(*registry_, command));
+  return session_->submit(bl::command<Batch>({{write_json_line(list)}}), gesture);
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,67 @@
+// One open scene: its file, its running session, its journal, and what has been saved of it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/file/scene_file.h"
+#include "ui/desktop/app/journal.h"
+#include "ui/desktop/app/live_session.h"
+
+namespace bl::desktop {
+
+/// One step of the history: all commands of one gesture.
+struct HistoryStep {
+  std::int64_t gesture = 0, tick = 0;
+  std::string label;        ///< what was done, such as "Set port · Library"
+  bool is_undone = false;   ///< taken back, and not brought back since
+  std::size_t entries = 0;  ///< commands in it
+};
+
+class Document {
+ public:
+  /// Reads a scene; warnings and errors both come back in `problems`. Nothing where there are errors.
+  static std::unique_ptr<Document> open(const Registry& registry, const std::string& path, int threads,
+                                        std::vector<Problem>& problems);
+  /// A scene that has no file yet (path empty), or one that was recovered.
+  static std::unique_ptr<Document> from_text(const Registry& registry, const std::string& text, const std::string& path,
+                                             int threads, std::vector<Problem>& problems);
+  /// From the journal of a window that did not end well; the commands in it are applied again.
+  static std::unique_ptr<Document> recover(const Registry& registry, const Journal::Remains& remains, int threads,
+                                           std::vector<Problem>& problems);
+
+  LiveSession& session() { return *session_; }
+  const Scene& scene() const { return session_->scene(); }
+  const std::string& path() const { return path_; }
+  /// The file's name, or what a scene without one is called.
+  std::string name() const;
+
+  /// Writes the scene (with the running state, so that it opens as it was left) and takes on the path.
+  Result<void> save(const std::string& path);
+  /// Is there anything that the file does not have? Looked at again only after changes.
+  bool is_unsaved();
+  /// Writes the log from the start, or from the last rewind on, for `replay`.
+  Result<void> save_log(const std::string& path) const;
+  /// Steps, oldest first; made anew after changes only.
+  const std::vector<HistoryStep>& history();
+
+  /// Commands as one step. Several become one batch.
+  Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
+
+ private:
+  Document(const Registry& registry, std::string path) : registry_(&registry), path_(std::move(path)) {}
+  void begin_journal();
+
+  const Registry* registry_;
+  std::string path_, saved_text_, log_start_;
+  std::size_t log_begin_ = 0;  ///< first entry of the log that belongs to `log_start_`
+  std::unique_ptr<LiveSession> session_;
+  Journal journal_;
+  std::vector<HistoryStep> history_;
+  std::size_t history_size_ = 0, compared_size_ = 0;
+  bool is_unsaved_ = false;
+};
+
+}  // namespace bl::desktop

@@ -1,0 +1,80 @@
+// The shared verbs of the panels: submit, undo, open, tell.
+#include "ui/desktop/app/editor.h"
+
+#include <algorithm>
+
+#include "core/base/text.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr double kNoticeSeconds = 5;
+constexpr std::size_t kMostNotices = 4;
+// Ticks on one thread: the other cores are the window's.
+constexpr int kThreads = 1;
+
+}  // namespace
+
+std::string Editor::name_of(const std::string& node) const {
+  const auto found = scene().nodes.find(node);
+  return found == scene().nodes.end() || found->second.name.empty() ? node : found->second.name;
+}
+
+bool Editor::submit(const std::vector<Command>& commands, std::int64_t gesture) {
+  if (!document) return false;
+  auto done = document->submit(commands, gesture);
+  if (!done) tell(NoticeKind::error, done.error().text());
+  return done.ok();
+}
+
+bool Editor::arrange(const std::string& json_patch, std::int64_t gesture) {
+  return submit(command<SetView>({{json_patch}, false}), gesture);
+}
+
+void Editor::undo() {
+  if (!document) return;
+  if (auto done = document->session().undo(); !done) tell(NoticeKind::told, "Nothing to undo.");
+}
+
+void Editor::redo() {
+  if (!document) return;
+  if (auto done = document->session().redo(); !done) tell(NoticeKind::told, "Nothing to redo.");
+}
+
+std::string Editor::fresh_id(const std::string& wish) const {
+  const std::string base = to_identifier(wish);
+  auto is_taken = [&](const std::string& id) { return scene().nodes.contains(id) || scene().links.contains(id); };
+  if (!is_taken(base)) return base;
+  for (int k = 2;; ++k)
+    if (const std::string id = base + "-" + std::to_string(k); !is_taken(id)) return id;
+}
+
+void Editor::tell(NoticeKind kind, std::string text) {
+  std::erase_if(notices, [&](const Notice& n) { return n.text == text; });
+  notices.push_back({kind, std::move(text), now + (kind == NoticeKind::error ? 2 : 1) * kNoticeSeconds});
+  if (notices.size() > kMostNotices) notices.erase(notices.begin());
+}
+
+bool Editor::open(const std::string& path) {
+  std::vector<Problem> found;
+  auto fresh = Document::open(registry, path, kThreads, found);
+  problems = std::move(found);
+  problem_file = path;
+  if (!fresh) {
+    tell(NoticeKind::error, "This scene could not be opened; the problems list says why.");
+    return false;
+  }
+  person.remember(person.recent, path);
+  take(std::move(fresh));
+  if (!problems.empty()) tell(NoticeKind::warning, "The scene was opened; the problems list says what is idle in it.");
+  return true;
+}
+
+void Editor::take(std::unique_ptr<Document> fresh) {
+  document = std::move(fresh);
+  moment = document->session().moment();
+  picks = {};
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,85 @@
+// What all panels of a window share: the document, what is chosen, the theme, and the one verb to change a scene.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ui/desktop/app/document.h"
+#include "ui/desktop/app/person_settings.h"
+#include "ui/desktop/app/theme.h"
+
+namespace bl::desktop {
+
+class Canvas;
+class SceneView;
+
+/// What is selected and pointed at, in all panels alike. Each person's own: no part of the scene, and not undone.
+struct Picks {
+  std::set<std::string> nodes, links;
+  std::string hovered_node, hovered_link;  ///< pointed at in this frame, in whatever panel
+
+  void clear() { nodes.clear(), links.clear(); }
+  void only_node(const std::string& id) { links.clear(), nodes = {id}; }
+  void only_link(const std::string& id) { nodes.clear(), links = {id}; }
+};
+
+/// The panel that keys go to: the one under the mouse, or the last one that was.
+enum class Area { none, canvas, view };
+
+enum class NoticeKind { told, warning, error };
+struct Notice {
+  NoticeKind kind = NoticeKind::told;
+  std::string text;
+  double until = 0;  ///< on the window's clock [s]
+};
+
+class Editor {
+ public:
+  Editor(const Registry& all_types, PersonSettings& somebody) : registry(all_types), person(somebody) {}
+
+  const Registry& registry;
+  PersonSettings& person;
+  Theme theme;
+  Picks picks;
+  std::unique_ptr<Document> document;         ///< none: the start page
+  std::vector<Problem> problems;              ///< of the last file that was opened, or tried
+  std::string problem_file;                   ///< that file
+  std::shared_ptr<const Moment> moment;       ///< taken once for each frame; none without a document
+  Canvas* canvas = nullptr;                   ///< for actions that concern it
+  SceneView* view = nullptr;                  ///< the same
+  double now = 0;                             ///< the window's clock [s]
+  Area area = Area::none;
+  std::vector<Notice> notices;
+  bool is_beamer = false, wants_quit = false;
+  std::string open_panel;                     ///< a dialog that an action wants to be opened: "palette", "open", "save_as", ...
+
+  // --- Reading: the scene as people have left it, and the state as the last tick has left it.
+  const Scene& scene() const { return document->scene(); }
+  const State& state() const { return *moment->state; }
+  /// Index of the node in the state; state().nodes.size() where no tick has seen it yet.
+  std::uint32_t index_of(const std::string& node) const { return state().plan->node_index(node); }
+  /// Name, or id where there is none.
+  std::string name_of(const std::string& node) const;
+
+  // --- Changing. Errors become notices; whether it went well.
+  bool submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
+  bool submit(const Command& command, std::int64_t gesture = 0) { return submit(std::vector<Command>{command}, gesture); }
+  /// A patch of the scene's view (canvas layout, cameras), as one step.
+  bool arrange(const std::string& json_patch, std::int64_t gesture = 0);
+  std::int64_t new_gesture() { return document->session().new_gesture(); }
+  void undo();
+  void redo();
+  /// An id of a new node or link, from a wish such as "tower", not taken by either.
+  std::string fresh_id(const std::string& wish) const;
+
+  void tell(NoticeKind kind, std::string text);
+  /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
+  bool open(const std::string& path);
+  void take(std::unique_ptr<Document> fresh);
+};
+
+}  // namespace bl::desktop

@@ -1,0 +1,236 @@
+// The ticking thread: takes the newest scene before each tick, keeps past states for rewinding, and publishes what it made.
+#include "ui/desktop/app/live_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace bl::desktop {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// States kept for rewinding: their meshes and tables are shared between them as long as nothing changes.
+constexpr std::size_t kKeptStates = 400;
+// New ticks count so much in the smoothed times.
+constexpr double kSmoothing = 0.15;
+
+double seconds_now() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+
+}  // namespace
+
+struct LiveSession::Shared {
+  Shared(const Registry& registry, Ledger& the_ledger, int threads)
+      : ledger(the_ledger), simulation(registry, threads, seconds_now) {}
+
+  std::mutex mutex;
+  std::condition_variable wake, done;
+  // Behind the mutex. People's thread changes the ledger, and so locks only to change it; the ticking thread only reads it.
+  Ledger& ledger;
+  std::shared_ptr<const Moment> published;
+  std::int64_t next_tick = 0;  // the tick whose links read what people say now
+  int steps_due = 0;
+  std::int64_t rewind_by = 0;
+  bool is_playing = false, is_ending = false, is_ticking = false;
+  double wanted_rate = 20;
+  // Of the ticking thread alone.
+  Simulation simulation;
+  std::deque<std::shared_ptr<const State>> past;
+  double tick_seconds = 0, rate = 0;
+  Clock::time_point last_tick{};
+  std::thread thread;
+
+  void run();
+  bool tick(std::unique_lock<std::mutex>& lock);
+  void go_back(std::int64_t ticks);
+  void publish(const std::string& failure);
+};
+
+// Call with the mutex held.
+void LiveSession::Shared::publish(const std::string& failure) {
+  auto moment = std::make_shared<Moment>();
+  moment->state = simulation.state();
+  moment->is_playing = is_playing;
+  moment->wanted_rate = wanted_rate;
+  moment->tick_seconds = tick_seconds;
+  moment->rate = is_playing ? rate : 0;
+  moment->oldest = past.empty() ? moment->state->tick : past.front()->tick;
+  moment->times = simulation.times();
+  moment->failure = failure;
+  published = std::move(moment);
+}
+
+void LiveSession::Shared::go_back(std::int64_t ticks) {
+  const std::int64_t wanted = simulation.state()->tick - ticks;
+  while (past.size() > 1 && past.back()->tick > wanted) past.pop_back();
+  if (past.empty() || past.back()->tick >= simulation.state()->tick) return;
+  simulation.return_to(past.back());
+  past.pop_back();
+}
+
+// One tick; the lock is given up while it computes. Whether it went well.
+bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
+  const Ledger::Changes changes = ledger.take_changes();
+  std::optional<Scene> scene;
+  if (changes.is_logic_changed) scene = ledger.scene();
+  is_ticking = true;
+  next_tick = simulation.state()->tick + 1;
+  std::string failure;
+  lock.unlock();
+  const Clock::time_point begin = Clock::now();
+  try {
+    if (scene) simulation.set_scene(*scene, changes.placed);
+    past.push_back(simulation.state());
+    if (past.size() > kKeptStates) past.pop_front();
+    simulation.step();
+  } catch (const std::bad_alloc&) {
+    failure = "memory ran out in a tick; the last good state is kept, and the clock is stopped";
+  } catch (const std::exception& exception) {
+    failure = std::string("a tick failed (") + exception.what() + "); the last good state is kept, and the clock is stopped";
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  tick_seconds = tick_seconds == 0 ? seconds : tick_seconds + kSmoothing * (seconds - tick_seconds);
+  const double since = std::chrono::duration<double>(Clock::now() - last_tick).count();
+  last_tick = Clock::now();
+  rate = since > 2 ? 0 : rate + kSmoothing * (1 / std::max(1e-4, since) - rate);
+  lock.lock();
+  is_ticking = false;
+  next_tick = simulation.state()->tick;
+  if (!failure.empty()) {
+    is_playing = false;
+    steps_due = 0;
+  }
+  publish(failure);
+  return failure.empty();
+}
+
+void LiveSession::Shared::run() {
+  std::unique_lock lock(mutex);
+  Clock::time_point due = Clock::now();
+  while (!is_ending) {
+    if (rewind_by > 0) {
+      go_back(std::exchange(rewind_by, 0));
+      next_tick = simulation.state()->tick;
+      publish("");
+    }
+    const bool is_due = steps_due > 0 || (is_playing && Clock::now() >= due);
+    if (is_due) {
+      // A late tick is not made up for: the clock goes on from now, so that ticks never queue behind themselves.
+      due = std::max(Clock::now(), due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / wanted_rate)));
+      if (steps_due > 0) --steps_due;
+      tick(lock);
+      done.notify_all();
+      continue;
+    }
+    done.notify_all();
+    if (is_playing) wake.wait_until(lock, due);
+    else wake.wait(lock);
+  }
+}
+
+LiveSession::LiveSession(const Registry& registry, const Scene& scene, int threads)
+    : ledger_(registry, scene), shared_(std::make_unique<Shared>(registry, ledger_, threads)) {
+  shared_->simulation.set_scene(scene);
+}
+
+Result<std::unique_ptr<LiveSession>> LiveSession::start(const Registry& registry, const Scene& scene, const SavedState* state,
+                                                        int threads) {
+  std::unique_ptr<LiveSession> session(new LiveSession(registry, scene, threads));
+  Shared& shared = *session->shared_;
+  if (state != nullptr)
+    if (auto restored = shared.simulation.restore_state(*state); !restored) return restored.error();
+  shared.next_tick = shared.simulation.state()->tick;
+  shared.publish("");
+  shared.thread = std::thread([&shared] { shared.run(); });
+  return session;
+}
+
+LiveSession::~LiveSession() {
+  if (!shared_->thread.joinable()) return;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->is_ending = true;
+  }
+  shared_->wake.notify_all();
+  shared_->thread.join();
+}
+
+Result<void> LiveSession::submit(const Command& command, std::int64_t gesture) {
+  const std::lock_guard lock(shared_->mutex);
+  return ledger_.submit(command, kAuthor, shared_->next_tick, gesture);
+}
+
+Result<void> LiveSession::undo() {
+  const std::lock_guard lock(shared_->mutex);
+  return ledger_.undo(kAuthor, shared_->next_tick);
+}
+
+Result<void> LiveSession::redo() {
+  const std::lock_guard lock(shared_->mutex);
+  return ledger_.redo(kAuthor, shared_->next_tick);
+}
+
+Result<void> LiveSession::replay(LogEntry entry) {
+  const std::lock_guard lock(shared_->mutex);
+  entry.tick = shared_->next_tick;
+  return ledger_.replay(entry);
+}
+
+std::shared_ptr<const Moment> LiveSession::moment() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->published;
+}
+
+void LiveSession::play(bool is_playing) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->is_playing = is_playing;
+    if (!shared_->is_ticking) shared_->publish("");
+  }
+  shared_->wake.notify_all();
+}
+
+void LiveSession::set_rate(double ticks_per_second) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->wanted_rate = std::clamp(ticks_per_second, 0.1, 1000.0);
+    if (!shared_->is_ticking) shared_->publish("");
+  }
+  shared_->wake.notify_all();
+}
+
+void LiveSession::step(int ticks) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->steps_due += std::max(0, ticks);
+  }
+  shared_->wake.notify_all();
+}
+
+void LiveSession::rewind(std::int64_t ticks) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->rewind_by += std::max<std::int64_t>(0, ticks);
+  }
+  shared_->wake.notify_all();
+  settle();
+  if (rewound_) rewound_();
+}
+
+void LiveSession::settle() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->wake.notify_all();
+  shared_->done.wait(lock, [this] {
+    return !shared_->is_ticking && shared_->rewind_by == 0 && shared_->steps_due == 0;
+  });
+}
+
+}  // namespace bl::desktop

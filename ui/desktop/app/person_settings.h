@@ -1,0 +1,31 @@
+// What a person has chosen for windows of this program: kept between runs, no part of any scene.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace bl::desktop {
+
+struct PersonSettings {
+  bool is_dark = true;
+  float scale = 1;  ///< 1 to 2
+  float canvas_share = 0.5f, side_width = 320, bottom_height = 210;
+  bool shows_side = true, shows_bottom = true;
+  std::string navigation = "rhino";           ///< rhino, blender, sketchup, polyscope
+  int width = 1440, height = 900;             ///< of the window
+  std::vector<std::string> recent;            ///< scene files, the last first
+  std::vector<std::string> recent_additions;  ///< typifications and link kinds that were added last
+  std::map<std::string, bool> layers;         ///< of the 3D view, by id; those that differ from their defaults
+  std::string file;                           ///< where it is kept; empty: nowhere (tests)
+
+  void remember(std::vector<std::string>& list, const std::string& item, std::size_t most = 12);
+};
+
+/// Reads the person's file; what is missing or unreadable is as a new person would have it.
+PersonSettings read_person_settings(const std::string& file);
+Result<void> write_person_settings(const PersonSettings& settings);
+
+}  // namespace bl::desktop

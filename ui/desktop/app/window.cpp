@@ -1,0 +1,155 @@
+// GLFW, ImGui's backends and the loop: one frame at the display's rate, whatever the simulation does.
+#include "ui/desktop/app/window.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <epoxy/gl.h>
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "core/file/file_io.h"
+#include "ui/desktop/app/desktop.h"
+#include "ui/desktop/app/journal.h"
+#include "ui/desktop/view/renderer.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr int kDone = 0, kBadInput = 2;
+// A window that nobody looks at draws seldom.
+constexpr double kIdleFrame = 0.25;
+
+struct FrameTimes {
+  std::vector<double> milliseconds;
+};
+
+void complain(const std::string& text) { std::fprintf(stderr, "behaviourlinks: %s\n", text.c_str()); }
+
+class Window {
+ public:
+  ~Window() {
+    if (has_backends_) {
+      ImGui_ImplOpenGL3_Shutdown();
+      ImGui_ImplGlfw_Shutdown();
+    }
+    if (ImGui::GetCurrentContext() != nullptr) ImGui::DestroyContext();
+    if (window_ != nullptr) glfwDestroyWindow(window_);
+    glfwTerminate();
+  }
+
+  bool open(PersonSettings& person) {
+    glfwSetErrorCallback([](int, const char* text) { last_error = text; });
+    if (glfwInit() == GLFW_FALSE) {
+      complain("there is no display to open a window on: " + last_error);
+      return false;
+    }
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    window_ = glfwCreateWindow(person.width, person.height, "BehaviourLinks", nullptr, nullptr);
+    if (window_ == nullptr) {
+      complain("this computer's graphics are too old, or have no driver: OpenGL 3.3 is needed (" + last_error +
+               "). The scene can be run and reported without a window: behaviourlinks run SCENE --report DIR");
+      return false;
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+    has_backends_ = true;
+    return true;
+  }
+
+  GLFWwindow* handle() { return window_; }
+
+ private:
+  inline static std::string last_error;
+  GLFWwindow* window_ = nullptr;
+  bool has_backends_ = false;
+};
+
+void write_times(const std::string& path, const FrameTimes& times) {
+  if (path.empty()) return;
+  std::string text = "frame_ms\n";
+  for (const double ms : times.milliseconds) text += std::to_string(ms) + "\n";
+  if (auto written = write_file(path, text); !written) complain(written.error().text());
+}
+
+}  // namespace
+
+int run_window(const WindowOptions& options) {
+  PersonSettings person = read_person_settings(person_folder().empty() ? "" : person_folder() + "/desktop.json");
+  Window window;
+  if (!window.open(person)) return kBadInput;
+  const std::unique_ptr<Renderer> renderer = std::make_unique<NullRenderer>();
+  FrameTimes times;
+  {
+    Desktop desktop(full_registry(), person, *renderer);
+    Editor& editor = desktop.editor();
+    glfwSetWindowUserPointer(window.handle(), &desktop);
+    glfwSetDropCallback(window.handle(), [](GLFWwindow* w, int count, const char** paths) {
+      if (count > 0) static_cast<Desktop*>(glfwGetWindowUserPointer(w))->drop(paths[0]);
+    });
+    bool is_dark = person.is_dark;
+    float scale = 0;
+    if (!options.scene.empty() && editor.open(options.scene)) editor.document->session().play(options.is_playing);
+    std::string title;
+    while (!editor.wants_quit) {
+      glfwPollEvents();
+      if (glfwGetWindowAttrib(window.handle(), GLFW_ICONIFIED) != 0) glfwWaitEventsTimeout(kIdleFrame);
+      if (glfwWindowShouldClose(window.handle()) != 0) {
+        glfwSetWindowShouldClose(window.handle(), GLFW_FALSE);
+        desktop.ask_to_quit();
+      }
+      const double begin = glfwGetTime();
+      if (options.seconds > 0 && begin > options.seconds) break;
+      if (scale != person.scale || is_dark != person.is_dark) {
+        if (scale != person.scale) {
+          if (const std::string note = editor.theme.load_fonts(person.scale); !note.empty()) editor.tell(NoticeKind::warning, note);
+          ImGui_ImplOpenGL3_DestroyFontsTexture();
+        }
+        editor.theme.apply(person.is_dark, person.scale);
+        scale = person.scale;
+        is_dark = person.is_dark;
+      }
+      ImGui_ImplOpenGL3_NewFrame();
+      ImGui_ImplGlfw_NewFrame();
+      ImGui::NewFrame();
+      desktop.frame(begin);
+      ImGui::Render();
+      int width = 0, height = 0;
+      glfwGetFramebufferSize(window.handle(), &width, &height);
+      glBindFramebuffer(GL_FRAMEBUFFER, 0);
+      glViewport(0, 0, width, height);
+      glClearColor(0, 0, 0, 1);
+      glClear(GL_COLOR_BUFFER_BIT);
+      ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+      if (!options.times.empty()) times.milliseconds.push_back(1000 * (glfwGetTime() - begin));
+      glfwSwapBuffers(window.handle());
+      if (std::string now_title = desktop.title(); now_title != title) {
+        title = std::move(now_title);
+        glfwSetWindowTitle(window.handle(), title.c_str());
+      }
+    }
+    glfwGetWindowSize(window.handle(), &person.width, &person.height);
+  }
+  (void)write_person_settings(person);  // a settings file that cannot be written is no reason to fail at the end
+  write_times(options.times, times);
+  return kDone;
+}
+
+}  // namespace bl::desktop

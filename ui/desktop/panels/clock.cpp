@@ -1,0 +1,111 @@
+// The clock: play, pause, one tick, rewind and speed, and whether the simulation keeps up with it.
+#include <algorithm>
+#include <cstdio>
+
+#include <GLFW/glfw3.h>
+
+#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/panels.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr double kSlowest = 0.5, kFastest = 240;
+constexpr double kRewindSeconds = 5;
+
+// Five seconds of what was seen: at the speed that was reached, not the one that was asked for.
+std::int64_t rewind_ticks(const Moment& moment) {
+  const double rate = std::max(1.0, std::min(moment.wanted_rate, moment.tick_seconds > 0 ? 1 / moment.tick_seconds : moment.wanted_rate));
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(kRewindSeconds * rate));
+}
+
+void change_rate(Editor& editor, double factor) {
+  editor.document->session().set_rate(std::clamp(editor.moment->wanted_rate * factor, kSlowest, kFastest));
+}
+
+void toggle_play(Editor& editor) { editor.document->session().play(!editor.moment->is_playing); }
+void one_tick(Editor& editor) { editor.document->session().step(1); }
+void rewind(Editor& editor) { editor.document->session().rewind(rewind_ticks(*editor.moment)); }
+bool can_rewind(const Editor& editor) { return has_document(editor) && editor.moment && editor.moment->oldest < editor.state().tick; }
+
+bool tool_button(Editor& editor, const char* sign, const char* hint, bool is_on = false, bool is_possible = true) {
+  const Colours& c = editor.theme.colours();
+  ImGui::BeginDisabled(!is_possible);
+  if (is_on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, c.accent);
+    ImGui::PushStyleColor(ImGuiCol_Text, c.on_accent);
+  }
+  const bool is_hit = ImGui::Button(sign, {editor.theme.px(34), editor.theme.px(28)});
+  if (is_on) ImGui::PopStyleColor(2);
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", hint);
+  ImGui::SameLine();
+  return is_hit;
+}
+
+// What the simulation is doing, in one sentence with a colour.
+void draw_standing(Editor& editor) {
+  const Moment& moment = *editor.moment;
+  const State& state = *moment.state;
+  const Colours& c = editor.theme.colours();
+  char text[160];
+  ImU32 colour = c.text_soft;
+  if (!moment.failure.empty()) {
+    colour = c.bad;
+    std::snprintf(text, sizeof text, "%s  %s", icon::kError, moment.failure.c_str());
+  } else if (moment.is_behind()) {
+    colour = c.warning;
+    std::snprintf(text, sizeof text, "%s  behind: %.1f of %.0f ticks/s, %.0f ms each", icon::kClock, moment.rate,
+                  moment.wanted_rate, 1000 * moment.tick_seconds);
+  } else if (state.is_settled()) {
+    colour = c.good;
+    std::snprintf(text, sizeof text, "%s  settled, worst error %.2f %%", icon::kCheck, 100 * state.largest_residual);
+  } else if (state.tick > 0) {
+    std::snprintf(text, sizeof text, "negotiating: worst error %.2f %%, moves up to %.2f m a tick", 100 * state.largest_residual,
+                  state.largest_move);
+  } else {
+    std::snprintf(text, sizeof text, "press P to let the links and the solver run");
+  }
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text);
+  ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void draw_clock(Editor& editor) {
+  const Moment& moment = *editor.moment;
+  const Theme& theme = editor.theme;
+  if (tool_button(editor, icon::kRewind, "Rewind five seconds (Backspace)", false, can_rewind(editor))) rewind(editor);
+  if (tool_button(editor, moment.is_playing ? icon::kPause : icon::kPlay, moment.is_playing ? "Pause (P)" : "Play (P)",
+                  moment.is_playing))
+    toggle_play(editor);
+  if (tool_button(editor, icon::kStep, "One tick (.)", false, !moment.is_playing)) one_tick(editor);
+  ImGui::SetNextItemWidth(theme.px(120));
+  float rate = static_cast<float>(moment.wanted_rate);
+  if (ImGui::SliderFloat("##rate", &rate, static_cast<float>(kSlowest), static_cast<float>(kFastest), "%.3g ticks/s",
+                         ImGuiSliderFlags_Logarithmic))
+    editor.document->session().set_rate(rate);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Ticks per second that are wanted (- slower, = faster)");
+  ImGui::SameLine(0, theme.px(16));
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushFont(theme.fonts().strong);
+  ImGui::Text("tick %lld", static_cast<long long>(editor.state().tick));
+  ImGui::PopFont();
+  ImGui::SameLine(0, theme.px(16));
+  ImGui::AlignTextToFramePadding();
+  draw_standing(editor);
+}
+
+void add_clock_actions(std::vector<Action>& list) {
+  auto is_playing = [](const Editor& e) { return e.moment && e.moment->is_playing; };
+  auto is_paused = [](const Editor& e) { return e.moment && !e.moment->is_playing; };
+  list.push_back({"Clock", "Play", {GLFW_KEY_P}, {}, Area::none, has_document, toggle_play, false, is_playing});
+  list.push_back({"Clock", "One tick", {GLFW_KEY_PERIOD}, {}, Area::none, is_paused, one_tick, true});
+  list.push_back({"Clock", "Rewind five seconds", {GLFW_KEY_BACKSPACE}, {}, Area::none, can_rewind, rewind});
+  list.push_back({"Clock", "Slower", {GLFW_KEY_MINUS}, {}, Area::none, has_document, [](Editor& e) { change_rate(e, 0.5); }});
+  list.push_back({"Clock", "Faster", {GLFW_KEY_EQUAL}, {}, Area::none, has_document, [](Editor& e) { change_rate(e, 2); }});
+}
+
+}  // namespace bl::desktop

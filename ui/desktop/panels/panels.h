@@ -1,0 +1,20 @@
+// The panels around canvas and 3D view; each fills the pane that it is called in.
+#pragma once
+
+#include "ui/desktop/app/editor.h"
+
+namespace bl::desktop {
+
+/// Toolbar: play, pause, one tick, rewind, speed; what the simulation does and whether it keeps up.
+void draw_clock(Editor& editor);
+/// What is chosen, with all of its ports; several nodes are edited together.
+void draw_inspector(Editor& editor);
+/// Tabs below: problems and conflicts, history, statistics with charts.
+void draw_bottom(Editor& editor);
+void draw_problems(Editor& editor);
+void draw_history(Editor& editor);
+void draw_statistics(Editor& editor);
+/// Where no scene is open: shipped scenes as pictures, recent files, what to do first.
+void draw_start_page(Editor& editor);
+
+}  // namespace bl::desktop
