@@ -15,6 +15,7 @@
 namespace bl::desktop {
 
 class Canvas;
+class Dialogs;
 class SceneView;
 
 /// What is selected and pointed at, in all panels alike. Each person's own: no part of the scene, and not undone.
@@ -51,11 +52,11 @@ class Editor {
   std::shared_ptr<const Moment> moment;       ///< taken once for each frame; none without a document
   Canvas* canvas = nullptr;                   ///< for actions that concern it
   SceneView* view = nullptr;                  ///< the same
+  Dialogs* dialogs = nullptr;                 ///< the same
   double now = 0;                             ///< the window's clock [s]
   Area area = Area::none;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false;
-  std::string open_panel;                     ///< a dialog that an action wants to be opened: "palette", "open", "save_as", ...
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
   const Scene& scene() const { return document->scene(); }

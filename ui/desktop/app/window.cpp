@@ -107,6 +107,7 @@ int run_window(const WindowOptions& options) {
     bool is_dark = person.is_dark;
     float scale = 0;
     if (!options.scene.empty() && editor.open(options.scene)) editor.document->session().play(options.is_playing);
+    desktop.offer_recovery();
     std::string title;
     while (!editor.wants_quit) {
       glfwPollEvents();
