@@ -56,7 +56,7 @@ class Editor {
   double now = 0;                             ///< the window's clock [s]
   Area area = Area::none;
   std::vector<Notice> notices;
-  bool is_beamer = false, wants_quit = false;
+  bool is_beamer = false, wants_quit = false, wants_picture = false;
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
   const Scene& scene() const { return document->scene(); }

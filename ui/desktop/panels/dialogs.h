@@ -29,7 +29,7 @@ class Dialogs {
   bool save();
   /// Does `then` at once, or after people have said what becomes of unsaved changes.
   void guard(std::function<void()> then);
-  bool is_open() const { return kind_ != Kind::none || chooser_.is_open(); }
+  bool is_choosing_file() const { return chooser_.is_open(); }
 
  private:
   enum class Kind { none, palette, keys, fresh, unsaved, recovery };

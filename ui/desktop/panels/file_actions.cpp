@@ -38,6 +38,8 @@ void add_file_actions(std::vector<Action>& list) {
   file("Back to the saved scene", {}, has_file, back_to_saved);
   file("Write the report ...", {GLFW_KEY_E, true}, has_document, [](Editor& e) { e.dialogs->ask_report(); });
   file("Save the log for replay ...", {}, has_document, [](Editor& e) { e.dialogs->ask_log(); });
+  file("Take a picture of the window", {GLFW_KEY_F12}, nullptr, [](Editor& e) { e.wants_picture = true; });
+  list.back().is_always = true;
   file("Close the scene", {GLFW_KEY_W, true}, has_document, close_document);
   file("Quit", {GLFW_KEY_Q, true}, nullptr, [](Editor& e) { e.dialogs->guard([&e] { e.wants_quit = true; }); });
 }

@@ -38,6 +38,7 @@ void Dialogs::draw_file_field(const char* label, std::string& path, std::vector<
 void Dialogs::draw_new_scene() {
   if (!begin("New scene from boundary and programme", 760, 470)) return;
   const Theme& theme = editor_->theme;
+  if (is_fresh_) ImGui::SetKeyboardFocusHere();
   draw_file_field("Boundary (GeoJSON)", fresh_.boundary, {".geojson", ".json"});
   draw_file_field("Programme (CSV)", fresh_.programme, {".csv", ".txt"});
   ImGui::Dummy({0, theme.px(4)});
@@ -55,7 +56,8 @@ void Dialogs::draw_new_scene() {
   ImGui::Dummy({0, theme.px(4)});
   const bool is_ready = !fresh_.boundary.empty() && !fresh_.programme.empty();
   ImGui::BeginDisabled(!is_ready);
-  if (ImGui::Button("Make the scene", {theme.px(150), 0})) make_scene();
+  const bool is_entered = !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  if (ImGui::Button("Make the scene", {theme.px(150), 0}) || (is_ready && is_entered)) make_scene();
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {theme.px(110), 0})) close();
