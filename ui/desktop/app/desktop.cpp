@@ -98,6 +98,8 @@ void Desktop::draw_workspace(float top) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
+  editor.picks.lit_node = editor.picks.hovered_node;
+  editor.picks.lit_link = editor.picks.hovered_link;
   editor.picks.hovered_node.clear();
   editor.picks.hovered_link.clear();
   if (editor.is_beamer) {

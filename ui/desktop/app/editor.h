@@ -22,6 +22,7 @@ class SceneView;
 struct Picks {
   std::set<std::string> nodes, links;
   std::string hovered_node, hovered_link;  ///< pointed at in this frame, in whatever panel
+  std::string lit_node, lit_link;          ///< the same of the frame before, so that panels drawn earlier know it too
 
   void clear() { nodes.clear(), links.clear(); }
   void only_node(const std::string& id) { links.clear(), nodes = {id}; }
