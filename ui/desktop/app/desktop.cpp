@@ -9,6 +9,7 @@
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/scene_view.h"
+#include "ui/desktop/view/renderer.h"
 
 namespace bl::desktop {
 
@@ -41,7 +42,8 @@ void pane(const char* name, ImVec2 at, ImVec2 size, ImU32 ground, ImVec2 padding
 Desktop::Desktop(const Registry& registry, PersonSettings& person, Renderer& renderer)
     : editor_(std::make_unique<Editor>(registry, person)),
       canvas_(std::make_unique<Canvas>(*editor_)),
-      view_(std::make_unique<SceneView>(*editor_, renderer)) {
+      view_(std::make_unique<SceneView>(*editor_, renderer)),
+      renderer_(&renderer) {
   editor_->canvas = canvas_.get();
   editor_->view = view_.get();
 }
@@ -76,6 +78,7 @@ void Desktop::frame(double now) {
     const Colours& c = editor.theme.colours();
     pane("start", {0, top}, {size.x, size.y - top}, c.window, {0, 0}, [&] { draw_start_page(editor); });
   }
+  editor.bytes_sent += renderer_->take_bytes_sent();
   draw_dialogs(editor);
   draw_notices();
 }

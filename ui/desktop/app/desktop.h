@@ -33,6 +33,7 @@ class Desktop {
   std::unique_ptr<Editor> editor_;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<SceneView> view_;
+  Renderer* renderer_;
 };
 
 }  // namespace bl::desktop

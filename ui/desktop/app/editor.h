@@ -16,6 +16,7 @@ namespace bl::desktop {
 
 class Canvas;
 class SceneView;
+struct PanelMemory;
 
 /// What is selected and pointed at, in all panels alike. Each person's own: no part of the scene, and not undone.
 struct Picks {
@@ -54,6 +55,8 @@ class Editor {
   double now = 0;                             ///< the window's clock [s]
   Area area = Area::none;
   std::vector<Notice> notices;
+  std::shared_ptr<PanelMemory> panels;        ///< what inspector, lists and charts remember of this document
+  std::uint64_t bytes_sent = 0;               ///< to the graphics processor, since the window opened
   bool is_beamer = false, wants_quit = false;
   std::string open_panel;                     ///< a dialog that an action wants to be opened: "palette", "open", "save_as", ...
 
