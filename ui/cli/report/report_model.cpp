@@ -28,7 +28,7 @@ std::size_t group_of(const Plan& plan, std::uint32_t node) {
   return 0;
 }
 
-VolumeRow read_volume(const State& state, std::uint32_t node) {
+VolumeRow read_volume(const State& state, std::uint32_t node, bool with_shape) {
   const auto number = [&](const char* port) { return number_at(state, node, kVolume, port); };
   VolumeRow row;
   row.node = node;
@@ -49,6 +49,7 @@ VolumeRow read_volume(const State& state, std::uint32_t node) {
   row.footprint = number("footprint");
   row.height = number("height");
   row.bottom = number("bottom");
+  if (!with_shape) return row;
   row.mesh = mesh_at(state, node, kVolume, "mesh");
   if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
   if (row.mesh) row.exact = exact_shape(state, node);
@@ -191,6 +192,16 @@ std::vector<std::string> ReportModel::use_names() const {
   return names;
 }
 
+void read_figures(const State& state, ReportModel& model) {
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
+    if (!has_type(state, n, kVolume)) continue;
+    model.volumes.push_back(read_volume(state, n, false));
+    model.volumes.back().number = model.volumes.size();
+  }
+  read_uses(state, model);
+  add_totals(model);
+}
+
 void read_model(const State& state, ReportModel& model) {
   const Settings& settings = state.plan->settings;
   model.title = settings.title;
@@ -203,7 +214,7 @@ void read_model(const State& state, ReportModel& model) {
   model.is_settled = state.is_settled();
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
     if (has_type(state, n, kVolume)) {
-      model.volumes.push_back(read_volume(state, n));
+      model.volumes.push_back(read_volume(state, n, true));
       model.volumes.back().number = model.volumes.size();
     }
     if (has_type(state, n, "boundary")) model.sites.push_back(read_site(state, n));

@@ -10,6 +10,7 @@
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/panels/start_page.h"
+#include "ui/desktop/view/renderer.h"
 
 namespace bl::desktop {
 
@@ -44,7 +45,8 @@ Desktop::Desktop(const Registry& registry, PersonSettings& person, Renderer& ren
       canvas_(std::make_unique<Canvas>(*editor_)),
       view_(std::make_unique<SceneView>(*editor_, renderer)),
       dialogs_(std::make_unique<Dialogs>(*editor_)),
-      start_page_(std::make_unique<StartPage>(*editor_)) {
+      start_page_(std::make_unique<StartPage>(*editor_)),
+      renderer_(&renderer) {
   editor_->canvas = canvas_.get();
   editor_->view = view_.get();
   editor_->dialogs = dialogs_.get();
@@ -87,6 +89,7 @@ void Desktop::frame(double now) {
     const Colours& c = editor.theme.colours();
     pane("start", {0, top}, {size.x, size.y - top}, c.window, {0, 0}, [&] { start_page_->draw(); });
   }
+  editor.bytes_sent += renderer_->take_bytes_sent();
   dialogs_->draw();
   draw_notices();
 }

@@ -38,6 +38,7 @@ class Desktop {
   std::unique_ptr<SceneView> view_;
   std::unique_ptr<Dialogs> dialogs_;
   std::unique_ptr<StartPage> start_page_;
+  Renderer* renderer_;
 };
 
 }  // namespace bl::desktop

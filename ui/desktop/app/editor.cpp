@@ -79,6 +79,7 @@ void Editor::take(std::unique_ptr<Document> fresh) {
   document = std::move(fresh);
   moment = document->session().moment();
   picks = {};
+  panels = nullptr;
 }
 
 }  // namespace bl::desktop

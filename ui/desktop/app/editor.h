@@ -17,6 +17,7 @@ namespace bl::desktop {
 class Canvas;
 class Dialogs;
 class SceneView;
+struct PanelMemory;
 
 /// What is selected and pointed at, in all panels alike. Each person's own: no part of the scene, and not undone.
 struct Picks {
@@ -58,6 +59,8 @@ class Editor {
   Area area = Area::none;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
+  std::shared_ptr<PanelMemory> panels;        ///< what inspector, lists and charts remember of this document
+  std::uint64_t bytes_sent = 0;               ///< to the graphics processor, since the window opened
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
   const Scene& scene() const { return document->scene(); }
