@@ -193,10 +193,27 @@ class RayFit {
   }
 
   void look_at(std::uint32_t p, bool with_rays, Cuts& cuts, RowChunk& rows) {
+    if (!with_rays && has_room(p, rows)) return;
     gather(p, rows, cuts);
     Point3 eye = place_to_look(p, cuts);
     make_room(p, eye, cuts);
     if (with_rays) measure(p, eye, cuts, rows);
+  }
+
+  // Around the site itself, as most have it: told without roots and lists.
+  bool has_room(std::uint32_t p, const RowChunk& rows) const {
+    const PowerSite& own = seen_[p];
+    const double room = kRoomToLook * ball_[p], four_squares = 4 * room * room;
+    if (own.weight < room * room) return false;
+    for (const Plane& plane : domain_.planes) {
+      if (plane.offset - dot(plane.normal, own.position) < room) return false;
+    }
+    for (std::uint32_t k = row_[p].first_near; k < row_[p].end_near; ++k) {
+      const PowerSite& other = seen_[rows.near[k]];
+      const double squared = squared_norm(other.position - own.position), sum = squared + (own.weight - other.weight);
+      if (sum < 0 || sum * sum < four_squares * squared) return false;
+    }
+    return true;
   }
 
   void gather(std::uint32_t p, const RowChunk& rows, Cuts& cuts) const {
