@@ -293,6 +293,9 @@ std::vector<float> GlRenderer::divided(const ViewScene& scene, int depth) {
   volumes_.update(scene, depth, traffic_);
   const std::size_t floats = 9 * (volumes_.coarse_triangles() << (2 * static_cast<unsigned>(depth)));
   if (floats == 0) return {};
+  // Without a window there is no target to draw to, and nothing would be drawn.
+  if (final_.width() == 0 && !final_.resize(16, 16)) return {};
+  final_.bind();
   GlBuffer target;
   target.reserve(floats * sizeof(float), GL_STREAM_READ);
   programs_->capture.use();
@@ -302,6 +305,7 @@ std::vector<float> GlRenderer::divided(const ViewScene& scene, int depth) {
   volumes_.draw(programs_->capture, depth);
   glEndTransformFeedback();
   glDisable(GL_RASTERIZER_DISCARD);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
   std::vector<float> out(floats);
   glBindBuffer(GL_ARRAY_BUFFER, target.id());
   glGetBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(floats * sizeof(float)), out.data());
