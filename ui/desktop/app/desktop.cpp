@@ -87,7 +87,8 @@ void Desktop::draw_workspace(float top) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  editor.picks.hovered_node.clear();
+  // What the 3D view was pointed at lights up in the canvas too, which is drawn before it.
+  editor.picks.hovered_node = view_->pointed_at();
   editor.picks.hovered_link.clear();
   if (editor.is_beamer) {
     pane("view", {0, 0}, size, c.sky, {0, 0}, [&] { view_->draw(size); });

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kChangeSeconds = 0.28;
+// Nothing has moved for so long: there is time for a finer picture.
+constexpr double kStillSeconds = 0.3;
 
 }  // namespace
 
@@ -35,7 +37,11 @@ void SceneView::draw(ImVec2 size) {
     for (const auto& [id, start] : move_->starts)
       if (const std::uint32_t node = editor_->index_of(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
   colouring_ = colour_volumes(*facts_, choices_.colour_by, editor_->theme);
-  const ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
+  ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
+  if (scene.camera != still_camera_ || facts_ != still_facts_) still_since_ = editor_->now;
+  still_camera_ = scene.camera;
+  still_facts_ = facts_;
+  scene.is_hurried = editor_->now < still_since_ + kStillSeconds;
   const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
   const float dense = density.x > 0 ? density.x : 1;
   const std::uintptr_t picture = renderer_->draw(scene, static_cast<int>(size.x * dense), static_cast<int>(size.y * dense));
@@ -166,14 +172,15 @@ void SceneView::toggle_parallel() {
 void SceneView::toggle_walk() {
   if (!facts_) return;
   is_walking_ = !is_walking_;
+  walk_began_ = editor_->now;
   if (!is_walking_) return;
   // Down to the height of people's eyes, before what is seen now.
   Camera camera = choices_.camera;
   const Point3 eye = camera.eye();
-  const Vector3 out = Vector3{eye.x - facts_->centre.x, eye.y - facts_->centre.y, 0};
-  const double far = norm(out) > 1 ? norm(out) : 1;
-  const double away = std::min(far, 1.15 * facts_->radius);
-  const Point3 stand{facts_->centre.x + away * out.x / far, facts_->centre.y + away * out.y / far, facts_->ground + 1.7};
+  Vector3 out{eye.x - facts_->centre.x, eye.y - facts_->centre.y, 0};
+  // From above nobody knows where to stand: outside, on the side that is lowest in the picture.
+  if (norm(out) < 0.9 * facts_->radius) out = {std::cos(camera.azimuth), std::sin(camera.azimuth), 0};
+  const Point3 stand = Point3{facts_->centre.x, facts_->centre.y, facts_->ground + 1.7} + (1.15 * facts_->radius / norm(out)) * out;
   camera.is_parallel = false;
   camera.azimuth = std::atan2(out.y, out.x);
   camera.elevation = -0.06;

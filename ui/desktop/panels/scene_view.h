@@ -101,6 +101,7 @@ class SceneView {
   // scene_view_overlay.cpp
   void draw_marks();
   void draw_labels();
+  Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   void draw_legend(bool is_large);
   void draw_tools();
@@ -129,7 +130,11 @@ class SceneView {
   bool wants_fit_ = true, has_fitted_boundary_ = false;
   Camera from_, to_;
   double change_began_ = -1, last_frame_ = 0;
+  Camera still_camera_;
+  std::shared_ptr<const SceneFacts> still_facts_;
+  double still_since_ = 0;
   bool is_walking_ = false;
+  double walk_began_ = -1;
   ImVec2 at_{}, size_{};
   bool is_hovered_ = false;
 

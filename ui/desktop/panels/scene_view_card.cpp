@@ -12,6 +12,7 @@ namespace {
 constexpr float kReach = 70, kCardWidth = 250, kBarHeight = 7;
 constexpr double kShareShown = 1.3;  // of the demand: what the whole bar stands for
 constexpr std::size_t kMostPulls = 3;
+constexpr double kLeastPull = 0.005;  // [m] a tick: less is no pull that anybody sees
 
 // Lines of text with a bar among them, measured first and drawn then.
 struct CardWriter {
@@ -47,9 +48,9 @@ std::vector<std::string> SceneView::pulls_on(std::uint32_t node) const {
       const PortDefinition& port = state.plan->port(voice.target);
       const auto* change = std::get_if<Vector3>(&voice.value);
       const double size = change != nullptr ? norm(*change) : std::abs(as_number(voice.value));
-      if (!(size > 0)) continue;
+      if (!(size > (change != nullptr ? kLeastPull : 0))) continue;
       // Changes of the place first: they are what is seen here.
-      const std::string what = change != nullptr ? report::quantity(size, port.unit) + " a tick" : port.id + " " + report::quantity(as_number(voice.value), port.unit);
+      const std::string what = change != nullptr ? report::quantity(size, port.unit) + " a tick" : label_of_use(port.id) + " " + report::quantity(as_number(voice.value), port.unit);
       found.emplace_back(change != nullptr ? 1e12 + size : size * voice.strength, state.plan->links[l].definition->label + ": " + what);
     }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -76,6 +77,8 @@ void SceneView::draw_card() {
     nearest = &volume;
   }
   if (nearest == nullptr || (!pointed_at_.empty() && pointed_at_ != nearest->id)) return;
+  // What is chosen has its gizmo here, and all of its data in the inspector.
+  if (editor_->picks.nodes.contains(nearest->id) && !editor_->is_beamer) return;
   const VolumeFacts& volume = *nearest;
   const std::vector<std::string> pulls = pulls_on(volume.node);
   const double error = volume.error();

@@ -85,7 +85,8 @@ void SceneView::take_wheel() {
 void SceneView::walk_about() {
   hold_keys();
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) || ImGui::IsKeyPressed(GLFW_KEY_6, false)) {
+  const bool is_first_frame = editor_->now <= walk_began_;  // the key that began it is still down
+  if (!is_first_frame && (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) || ImGui::IsKeyPressed(GLFW_KEY_6, false))) {
     is_walking_ = false;
     return;
   }
@@ -128,7 +129,9 @@ void SceneView::take_left_button() {
   const bool is_polyscope = editor_->person.navigation == "polyscope";
   if (is_hovered_ && drag_ == Drag::none && ImGui::IsMouseClicked(0)) {
     if (ImGui::IsMouseDoubleClicked(0)) return click(true);
-    if (const int handle = handle_at(io.MousePos); handle >= 0) return begin_move(handle, false);
+    // With Shift or Ctrl people choose; while a hand already moves things, they make it fine or snap.
+    const int handle = io.KeyShift || io.KeyCtrl ? -1 : handle_at(io.MousePos);
+    if (handle >= 0) return begin_move(handle, false);
     drag_ = Drag::pressed;
     pressed_at_ = io.MousePos;
     point_at();

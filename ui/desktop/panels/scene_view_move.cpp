@@ -49,6 +49,8 @@ std::vector<std::string> SceneView::movable(bool tells) {
   for (const std::string& id : editor_->picks.nodes) {
     const auto found = editor_->scene().nodes.find(id);
     if (found == editor_->scene().nodes.end() || editor_->index_of(id) >= facts_->places.size()) continue;
+    // A boundary stands where its corners are, whatever its node's place.
+    if (found->second.types.contains("boundary")) continue;
     if (!found->second.locked.contains("node.position")) {
       ids.push_back(id);
     } else if (tells) {

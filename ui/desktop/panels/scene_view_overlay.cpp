@@ -66,6 +66,21 @@ void SceneView::draw_marks() {
   }
 }
 
+// Where a volume can be spoken of: its middle, or its upper part where others stand before it; nowhere where it is hidden.
+Seen SceneView::visible_anchor(std::uint32_t node, const Seen& middle) const {
+  const VolumeFacts* volume = facts_->volume_of(node);
+  if (volume == nullptr || !volume->cell) return middle;
+  const Point3 p = volume->position;
+  const double top = volume->height > 0 ? volume->bottom + 0.93 * volume->height : p.z;
+  for (const Seen& at : {middle, seen({p.x, p.y, top})}) {
+    const auto front = pick(choices_.camera.ray(at.x, at.y, width(), height()), *facts_, choices_.section);
+    if (front && front->node == node) return at;
+  }
+  Seen nowhere = middle;
+  nowhere.is_in_front = false;
+  return nowhere;
+}
+
 void SceneView::draw_labels() {
   if (!shows("labels")) return;
   const Theme& theme = editor_->theme;
@@ -90,12 +105,9 @@ void SceneView::draw_labels() {
   ImFont* font = theme.fonts().small;
   std::vector<Rectangle> taken;
   for (const Wish& w : wishes) {
-    const ImVec2 p = on_screen(w.at);
-    if (!w.is_mark && !w.is_chosen) {
-      // Of volumes behind others nothing is said.
-      const auto front = pick(choices_.camera.ray(w.at.x, w.at.y, width(), height()), *facts_, choices_.section);
-      if (front && front->node != w.node) continue;
-    }
+    const Seen anchor = w.is_mark || w.is_chosen ? w.at : visible_anchor(w.node, w.at);
+    if (!anchor.is_in_front) continue;
+    const ImVec2 p = on_screen(anchor);
     const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.text->c_str());
     const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
     const std::array<ImVec2, 6> offsets = {{{0, w.is_mark ? theme.px(20) : 0}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};

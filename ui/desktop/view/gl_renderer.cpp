@@ -12,7 +12,7 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr int kSoftwareTriangles = 36000, kHardwareTriangles = 3000000;
+constexpr int kHurriedTriangles = 30000, kSoftwareTriangles = 110000, kHardwareTriangles = 3000000;
 constexpr int kHeightMap = 128, kLargestPicture = 8192;
 
 std::string text_of(GLenum name) {
@@ -96,7 +96,8 @@ bool GlRenderer::build(std::string& failure) {
 int GlRenderer::affordable(const ViewScene& scene, int less) const {
   std::size_t coarse = 0;
   for (const ViewVolume& volume : scene.volumes) coarse += volume.cell->triangles.size();
-  const int most = scene.most_triangles > 0 ? scene.most_triangles : is_software_ ? kSoftwareTriangles : kHardwareTriangles;
+  const int usual = !is_software_ ? kHardwareTriangles : scene.is_hurried ? kHurriedTriangles : kSoftwareTriangles;
+  const int most = scene.most_triangles > 0 ? scene.most_triangles : usual;
   return std::max(0, depth_within(coarse, most, is_software_ ? 3 : GlVolumes::kDeepest) - less);
 }
 
@@ -160,7 +161,7 @@ std::uintptr_t GlRenderer::draw(const ViewScene& scene, int width, int height) {
 
 // Where the sun reaches, and what stands how high: both are drawn coarser than the picture, because both are soft.
 void GlRenderer::draw_maps(const ViewScene& scene) {
-  const int size = is_software_ ? 1024 : 2048, depth = std::max(0, depth_ - 1);
+  const int size = is_software_ ? 1024 : 2048, depth = std::clamp(depth_ - 1, 0, 2);
   if (!shadow_.resize(size, size) || !heights_.resize(kHeightMap, kHeightMap) || !blurred_.resize(kHeightMap, kHeightMap)) return;
   sun_matrix_ = box_matrix(scene, scene.sun, scene.radius);
   map_matrix_ = box_matrix(scene, {0, 0, 1}, 1.3 * scene.radius);
@@ -210,7 +211,7 @@ void GlRenderer::set_light(const GlProgram& program, const ViewScene& scene) con
   const bool has_maps = scene.layers.shadows && shadow_.width() > 0;
   program.set("shadow_strength", has_maps ? 0.85f : 0.0f);
   program.set("shadow_texel", 1.0f / static_cast<float>(std::max(1, shadow_.width())));
-  program.set("light_gain", scene.colours.is_dark ? 0.92f : 1.06f);
+  program.set("light_gain", scene.colours.is_dark ? 0.92f : 1.0f);
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, shadow_.depth());
   glActiveTexture(GL_TEXTURE3);
@@ -236,9 +237,11 @@ void GlRenderer::draw_volumes(const ViewScene& scene) {
   program.set_colour("cut_colour", c.cut);
   program.set_colour("ground_colour", c.ground);
   program.set("section", section_of(scene));
-  set_point(program, "eye", scene.camera.eye() - scene.origin);
-  set_point(program, "looking", scene.camera.forward());
-  program.set("is_parallel", scene.camera.is_parallel ? 1.0f : 0.0f);
+  if (scene.section.is_on) {
+    set_point(program, "eye", scene.camera.eye() - scene.origin);
+    set_point(program, "looking", scene.camera.forward());
+    program.set("is_parallel", scene.camera.is_parallel ? 1.0f : 0.0f);
+  }
   program.set("pixel", pixel_);
   program.set("with_edges", scene.layers.edges ? 1.0f : 0.0f);
   program.set("with_storeys", scene.layers.storeys ? 1.0f : 0.0f);

@@ -99,6 +99,13 @@ void read_boundary(const State& state, std::uint32_t node, const SceneFacts* las
     for (const BoundaryFacts& earlier : last->boundaries)
       if (earlier.shape == boundary.shape) boundary.edges = earlier.edges;
   if (boundary.edges.empty()) boundary.edges = sharp_edges(*boundary.shape);
+  Point3 middle;
+  double low = boundary.shape->vertices.front().z;
+  for (const Point3& vertex : boundary.shape->vertices) {
+    middle += vertex / static_cast<double>(boundary.shape->vertices.size());
+    low = std::min(low, vertex.z);
+  }
+  facts.places[node] = {middle.x, middle.y, low};
   facts.boundaries.push_back(std::move(boundary));
 }
 

@@ -64,7 +64,7 @@ struct SceneFacts {
   std::vector<PullFacts> pulls;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;  ///< nodes that share a face, the lower first
   std::vector<std::string> uses;     ///< ascending
-  std::vector<Point3> places;        ///< of all nodes
+  std::vector<Point3> places;        ///< of all nodes; of a boundary the middle of its ground
   Point3 centre;                     ///< of volumes and boundaries [m]
   double radius = 50, ground = 0;    ///< [m]
 

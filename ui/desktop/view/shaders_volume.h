@@ -155,10 +155,11 @@ vec3 lit(vec3 colour, vec3 place, vec3 normal) {
 inline constexpr const char* kVolumeFragment = R"(
 uniform samplerBuffer records;
 uniform vec4 edge_colour, chosen_colour, hovered_colour, cut_colour, section, ground_colour;
-uniform vec3 eye, looking;
-uniform float pixel, with_edges, with_storeys, is_parallel;
+uniform float pixel, with_edges, with_storeys;
 #ifdef WITH_SECTION
 uniform mat4 matrix;
+uniform vec3 eye, looking;
+uniform float is_parallel;
 #endif
 in vec3 world, flat_place;
 in float centre_weight;
@@ -184,15 +185,15 @@ void main() {
   gl_FragDepth = gl_FragCoord.z;
   if (dot(section.xyz, world) > section.w) discard;
   if (!gl_FrontFacing) {
-    // The inside is seen through the cut: the fragment is moved onto the plane, where the cut would be solid.
+    // The inside is seen first only where the cut opens it, because volumes share no space: there the solid is painted. A wall
+    // that two volumes share belongs to the one that is cut: it moves a little towards the cut.
     vec3 way = is_parallel > 0.5 ? looking : normalize(world - eye);
     float across = dot(section.xyz, way);
-    if (abs(across) > 1e-5) {
-      vec3 on_plane = world + way * (section.w - dot(section.xyz, world)) / across;
-      vec4 clip = matrix * vec4(on_plane, 1.0);
-      gl_FragDepth = clamp(0.5 * clip.z / clip.w + 0.5, 0.0, 1.0);
-    }
-    colour = vec4(mix(cut_colour.rgb, own, 0.35), 1.0);
+    float back = abs(across) > 1e-4 ? max(0.0, (dot(section.xyz, world) - section.w) / across) : 0.0;
+    vec4 clip = matrix * vec4(world - 0.03 * back * way, 1.0);
+    gl_FragDepth = clamp(0.5 * clip.z / clip.w + 0.5, 0.0, 1.0);
+    colour = vec4(mix(cut_colour.rgb, own, 0.66), 1.0);
+    if ((flags & 1) != 0) colour.rgb = mix(colour.rgb, vec3(1.0), 0.14);
     if ((flags & 2) != 0) colour.rgb = mix(colour.rgb, chosen_colour.rgb, 0.5);
     return;
   }

@@ -24,6 +24,7 @@ constexpr std::array<Layer, 13> kLayers = {{{"boundary", "Boundary", true},
                                             {"cells", "Cells before the shrink-wrap", false},
                                             {"pulls", "Pulls on places", false}}};
 
+constexpr Colour kPlaster = 0xffd8dde0u;
 constexpr int kCircleParts = 64;
 // A pull of one metre in a tick is drawn so long [m]: pulls are small against what they move.
 constexpr double kPullScale = 12;
@@ -75,7 +76,7 @@ void Builder::add_frame() {
   scene.colours = {.sky = c.sky,
                    .horizon = c.sky,
                    .ground = is_dark ? mixed(c.ground, 0xffffffffu, 0.06f) : mixed(c.sky, 0xffffffffu, 0.45f),
-                   .grid = is_dark ? mixed(c.ground, 0xffffffffu, 0.17f) : mixed(c.ground, 0xff8a7a70u, 0.25f),
+                   .grid = is_dark ? mixed(c.ground, 0xffffffffu, 0.17f) : mixed(c.sky, c.ground, 0.85f),
                    .edge = ink,
                    .chosen = c.accent,
                    .hovered = is_dark ? 0xffffffffu : mixed(c.accent, 0xffffffffu, 0.35f),
@@ -94,7 +95,8 @@ void Builder::add_volumes() {
     ViewVolume& shown = scene.volumes.emplace_back();
     shown.node = volume.node;
     shown.cell = volume.cell;
-    shown.colour = k < colouring.colours.size() ? colouring.colours[k] : 0xff888888u;
+    // A little plaster in every colour: the model stays calm beside the things that speak.
+    shown.colour = k < colouring.colours.size() ? mixed(colouring.colours[k], kPlaster, 0.16f) : kPlaster;
     shown.bottom = static_cast<float>(volume.bottom);
     shown.storey = volume.is_ball ? 0 : static_cast<float>(volume.storey);
     const bool is_hovered = volume.id == picks.hovered_node || joined.contains(volume.node);

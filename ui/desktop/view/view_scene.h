@@ -70,6 +70,7 @@ struct ViewScene {
   Vector3 sun{-0.45, -0.6, 0.66};   ///< towards the light, a unit vector
   float scale = 1;                  ///< pixels per point
   int most_triangles = 0;           ///< of one picture; 0: as the renderer sees fit
+  bool is_hurried = false;          ///< pictures follow each other: a slow renderer may divide volumes less finely
   ViewColours colours;
   ViewLayers layers;
   ViewSection section;
