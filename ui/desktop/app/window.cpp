@@ -19,7 +19,7 @@
 #include "core/file/file_io.h"
 #include "ui/desktop/app/desktop.h"
 #include "ui/desktop/app/journal.h"
-#include "ui/desktop/view/renderer.h"
+#include "ui/desktop/view/gl_renderer.h"
 
 namespace bl::desktop {
 
@@ -122,7 +122,12 @@ int run_window(const WindowOptions& options) {
   PersonSettings person = read_person_settings(person_folder().empty() ? "" : person_folder() + "/desktop.json");
   Window window;
   if (!window.open(person)) return kBadInput;
-  const std::unique_ptr<Renderer> renderer = std::make_unique<NullRenderer>();
+  std::string failure;
+  const std::unique_ptr<Renderer> renderer = GlRenderer::make(failure);
+  if (!renderer) {
+    complain(failure);
+    return kBadInput;
+  }
   FrameTimes times;
   {
     Desktop desktop(full_registry(), person, *renderer);
