@@ -34,6 +34,7 @@ struct Drag {
   int button = 0;
   ImVec2 begin;                             ///< in the plane
   bool is_far = false;                      ///< moved beyond a click's tremble
+  bool is_double = false;                   ///< the second press of a double click, unless it goes far
   bool copies = false, leaves = false;      ///< with Alt; with Shift
   bool adds = false, toggles = false;       ///< box selection with Shift; with Ctrl
   std::set<std::string> base_nodes, base_links;  ///< what was chosen before a box selection

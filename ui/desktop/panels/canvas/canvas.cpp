@@ -64,6 +64,7 @@ void Canvas::draw(ImVec2 size) {
   board.camera.set_pane({ImGui::GetWindowPos(), size}, editor.theme.scale(), editor.now);
   const std::size_t revision = board.model.revision;
   board.model.update(editor);
+  place_chips(board);
   if (board.is_reset) board.camera.fit(board.model.bounds(), false);
   board.is_reset = false;
   if (revision != board.model.revision) forget_gone(board);

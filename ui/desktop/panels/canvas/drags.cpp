@@ -25,7 +25,10 @@ void choose_pressed(Board& board) {
     if (!drag.adds && !drag.toggles && !is_in) picks.clear(), board.picked_comments.clear(), board.picked_frames.clear();
     set.insert(id);
   };
-  if (drag.grabbed.thing == Thing::node) press(picks.nodes, drag.grabbed.id);
+  if (drag.grabbed.thing == Thing::node) {
+    if (drag.leaves) board.picked_frames.clear();  // with Shift it leaves its frame, which then stays
+    press(picks.nodes, drag.grabbed.id);
+  }
   if (drag.grabbed.thing == Thing::comment) press(board.picked_comments, drag.grabbed.id);
   if (drag.grabbed.thing == Thing::frame) press(board.picked_frames, drag.grabbed.id);
 }
@@ -219,8 +222,7 @@ namespace {
 // Nodes that were dragged out of their frames, with Shift, or into one.
 void patch_membership(const Board& board, const Drag& drag, Json& patch) {
   const ViewData& view = board.model.view;
-  const bool moves_frames = !board.picked_frames.empty();
-  if (moves_frames) return;
+  if (!board.picked_frames.empty()) return;
   std::string target;
   if (!drag.leaves)
     for (const auto& [id, frame] : view.frames) {

@@ -200,8 +200,10 @@ void draw_pills(Board& board) {
     if (board.camera.zoom() > 0.3)
       for (int dot = 0; dot < 3; ++dot)
         list.AddCircleFilled(screen.low() + ImVec2((11 + 4.5f * static_cast<float>(dot % 2)) * k, (9 + 4.0f * static_cast<float>(dot)) * k), 1.8f * k, c.accent, 8);
-    const float pixels = 11.5f * k;
-    draw_text(board, {screen.low().x + 22 * k, screen.centre().y - 0.6f * pixels}, pixels, c.text, pill.label, screen.size.x - 26 * k);
+    // Too small to be written in, it is named below.
+    const float pixels = 11.5f * k, least = 9.5f * board.theme().scale();
+    if (pixels < 0.7f * least) draw_text(board, {screen.low().x, screen.high().y + 2}, least, c.text_soft, pill.label, std::max(90.0f, screen.size.x));
+    else draw_text(board, {screen.low().x + 22 * k, screen.centre().y - 0.6f * pixels}, pixels, c.text, pill.label, screen.size.x - 26 * k);
   }
 }
 

@@ -22,10 +22,6 @@ struct Ink {
   ImVec2 at(float x, float y) const { return board.camera.to_screen(ImVec2(x, y)); }
 };
 
-ImU32 tone_of(const Ink& ink, const NodeBox& box) {
-  return box.sections.empty() ? ink.c.text_faint : colour_of(ink.board, box.sections.front());
-}
-
 void draw_bar_of(const Ink& ink, const NodeBox& box, const Section& section, ImVec2 low, ImVec2 high) {
   const Editor& editor = ink.board.editor;
   const double volume = number_of(editor, box, section, "volume", 0), wanted = number_of(editor, box, section, "wanted", 0);
@@ -36,6 +32,7 @@ void draw_bar_of(const Ink& ink, const NodeBox& box, const Section& section, ImV
   const auto x_of = [&](double v) { return low.x + (high.x - low.x) * static_cast<float>(v / most); };
   ink.list.AddRectFilled(low, high, ink.c.sunken);
   ink.list.AddRectFilled(low, {x_of(volume), high.y}, faded(tone, 0.85f));
+  if (ink.zoom < kNameZoom) return;
   // What it wants inside its limits, and what it asks for where that is more.
   const float reach = std::max(1.0f, 1.5f * ink.k);
   ink.list.AddRectFilled({x_of(wanted) - reach, low.y - reach}, {x_of(wanted), high.y + reach}, ink.c.text);
@@ -136,22 +133,33 @@ float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::si
   return y;
 }
 
+bool is_result(const PortDefinition& port) { return port.is_computed && !port.is_residual; }
+
 // Far away: the name as large as fits, on the colour of the first role.
-void draw_as_name(const Ink& ink, const NodeBox& box, const Box& screen) {
-  const ImU32 tone = tone_of(ink, box);
-  ink.list.AddRectFilled(screen.low(), screen.high(), mixed(ink.c.node, tone, 0.2f), screen.size.x > 40 ? 3.0f : 0.0f);
-  ink.list.AddRectFilled(screen.low(), {screen.low().x + std::max(2.0f, 4 * ink.k), screen.high().y}, tone);
-  const float bar = std::max(2.0f, 14 * ink.k);
+void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
+  const ImU32 tone = tone_of(ink.board, box);
+  const float round = screen.size.x > 40 ? 3.0f : 0.0f, stripe = std::max(2.0f, 6 * ink.k), bar = std::max(2.0f, 12 * ink.k);
+  ink.list.AddRectFilled(screen.low(), screen.high(), mixed(ink.c.node, tone, 0.14f), round);
+  ink.list.AddRectFilled(screen.low(), {screen.low().x + stripe, screen.high().y}, tone, round, ImDrawFlags_RoundCornersLeft);
   for (const Section& section : box.sections)
     if (section.has_bar && !box.is_collapsed)
-      draw_bar_of(ink, box, section, {screen.low().x + std::max(2.0f, 4 * ink.k), screen.high().y - bar}, screen.high());
+      draw_bar_of(ink, box, section, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2));
   if (screen.size.x < 34) return;
-  const float pixels = std::clamp(screen.size.x / 6.2f, 7.0f * ink.board.theme().scale(), 12.5f * ink.board.theme().scale());
-  const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar);
+  const float pixels = std::clamp(screen.size.x / 5.4f, 8.0f * ink.board.theme().scale(), 12.5f * ink.board.theme().scale());
+  const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar - 2);
   ImFont* font = ink.board.theme().canvas_font(pixels);
   const float pad = std::max(5.0f, 10 * ink.k);
   ink.list.AddText(font, pixels, {screen.low().x + pad, screen.low().y + 3}, ink.c.text, box.name.c_str(), nullptr,
                    screen.size.x - pad - 3, &clip);
+  // Its first result at the foot, where there is room for it.
+  if (screen.size.x < 58 || screen.size.y < 52 || box.sections.empty() || box.sections.front().type == nullptr) return;
+  Section& section = box.sections.front();
+  refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
+  std::size_t row = 0;
+  while (row < section.rows.size() && !is_result(section.type->ports[section.rows[row].port])) ++row;
+  if (row < section.texts.size())
+    draw_text(ink.board, {screen.low().x + pad, screen.high().y - bar - 5 - pixels}, 0.85f * pixels, ink.c.text_soft, section.texts[row],
+              screen.size.x - pad - 4);
 }
 
 void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_error) {
@@ -159,6 +167,8 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
   const float round = kRounding * ink.k;
   ink.list.AddRectFilled(screen.low(), screen.high(), ink.c.node_head, round,
                          box.is_collapsed ? ImDrawFlags_RoundCornersAll : ImDrawFlags_RoundCornersTop);
+  ink.list.AddRectFilled(screen.low(), {screen.low().x + 4 * ink.k, screen.high().y}, tone_of(ink.board, box), round,
+                         box.is_collapsed ? ImDrawFlags_RoundCornersLeft : ImDrawFlags_RoundCornersTopLeft);
   float room = (kBoxWidth - 2 * kPad) * ink.k;
   const float y = screen.centre().y;
   float x = screen.high().x - 13 * ink.k;
@@ -256,6 +266,12 @@ ImU32 colour_of(const Board& board, const Section& section) {
   const ImU32 tone = board.theme().category(section.category);
   // The categories are light inks; on a light ground they need depth.
   return board.theme().is_dark() ? tone : mixed(tone, IM_COL32(40, 44, 60, 255), 0.3f);
+}
+
+ImU32 tone_of(const Board& board, const NodeBox& box) {
+  if (box.use == kNoIndex) return box.sections.empty() ? board.theme().colours().text_faint : colour_of(board, box.sections.front());
+  const ImU32 tone = board.theme().category(box.use);
+  return board.theme().is_dark() ? tone : mixed(tone, IM_COL32(40, 44, 60, 255), 0.15f);
 }
 
 void draw_nodes(Board& board) {

@@ -10,35 +10,25 @@ namespace {
 
 constexpr std::size_t kMostCardRows = 14, kMostVoices = 4;
 constexpr double kCardSeconds = 0.3;
+constexpr float kChipText = 11;
 
 void draw_chips(Board& board) {
   const Colours& c = board.theme().colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float scale = board.theme().scale(), pixels = 11 * scale;
-  std::vector<Family> families;
-  for (const Line& line : board.model.lines)
-    if (std::none_of(families.begin(), families.end(), [&](const Family& f) { return f.label == line.family.label; }))
-      families.push_back(line.family);
-  std::sort(families.begin(), families.end(), [](const Family& a, const Family& b) { return a.label < b.label; });
-  board.chips.clear();
-  ImVec2 at = board.camera.pane().low() + ImVec2(10, 10) * scale;
-  for (const Family& family : families) {
-    const std::string label(family.label);
-    const float width = text_width(board, pixels, label) + 28 * scale;
-    if (at.x + width > board.camera.pane().high().x - 10 * scale && at.x > board.camera.pane().low().x + 11 * scale)
-      at = {board.camera.pane().low().x + 10 * scale, at.y + 26 * scale};
-    const Box chip{at, {width, 22 * scale}};
+  const float scale = board.theme().scale(), pixels = kChipText * scale;
+  for (const auto& [label, chip] : board.chips) {
     const bool is_off = board.hidden_families.contains(label);
     const bool is_hovered = board.hovered.thing == Thing::chip && board.hovered.id == label;
     list.AddRectFilled(chip.low(), chip.high(), faded(c.panel, 0.9f), 11 * scale);
     list.AddRect(chip.low(), chip.high(), is_hovered ? c.accent : c.line, 11 * scale);
     const ImVec2 dot = chip.low() + ImVec2(12, 11) * scale;
+    ImU32 colour = c.text_faint;
+    for (const Line& line : board.model.lines)
+      if (line.family.label == label) colour = line.family.colour;
     if (is_off) list.AddCircle(dot, 4 * scale, c.text_faint, 12);
-    else list.AddCircleFilled(dot, 4 * scale, family.colour, 12);
+    else list.AddCircleFilled(dot, 4 * scale, colour, 12);
     draw_text(board, chip.low() + ImVec2(21, 4.5f) * scale, pixels, is_off ? c.text_faint : c.text_soft, label);
     if (is_off) list.AddLine(chip.low() + ImVec2(20 * scale, 11 * scale), chip.high() - ImVec2(7 * scale, 11 * scale), c.text_faint);
-    board.chips.emplace_back(label, chip);
-    at.x += width + 6 * scale;
   }
 }
 
@@ -60,7 +50,7 @@ void draw_minimap(Board& board) {
     const Box& box = board.model.anchor(n);
     const bool is_box = n < board.model.boxes.size();
     const NodeBox* node = is_box ? &board.model.boxes[n] : nullptr;
-    ImU32 tone = node == nullptr || node->sections.empty() ? c.text_faint : faded(colour_of(board, node->sections.front()), 0.75f);
+    ImU32 tone = node == nullptr ? c.text_faint : faded(tone_of(board, *node), 0.75f);
     if (node != nullptr && board.editor.picks.nodes.contains(node->id)) tone = c.accent;
     const ImVec2 low = origin + box.low() * k, high = origin + box.high() * k;
     list.AddRectFilled(low, {std::max(high.x, low.x + 1), std::max(high.y, low.y + 1)}, tone);
@@ -178,6 +168,23 @@ void draw_link_card(Board& board, const Line& line) {
 }
 
 }  // namespace
+
+void place_chips(Board& board) {
+  const float scale = board.theme().scale();
+  std::set<std::string> families;
+  for (const Line& line : board.model.lines) families.insert(std::string(line.family.label));
+  board.chips.clear();
+  const Box& pane = board.camera.pane();
+  ImVec2 at = pane.low() + ImVec2(10, 10) * scale;
+  for (const std::string& label : families) {
+    const float width = text_width(board, kChipText * scale, label) + 28 * scale;
+    const bool is_full = at.x + width > pane.high().x - 10 * scale && at.x > pane.low().x + 11 * scale;
+    if (is_full) at = {pane.low().x + 10 * scale, at.y + 26 * scale};
+    board.chips.emplace_back(label, Box{at, {width, 22 * scale}});
+    at.x += width + 6 * scale;
+  }
+  board.camera.set_head(board.chips.empty() ? 0 : at.y + 24 * scale - pane.low().y);
+}
 
 void draw_overlays(Board& board) {
   draw_chips(board);

@@ -14,7 +14,9 @@ namespace bl::desktop::canvas {
 namespace {
 
 constexpr float kFramePadding = 18, kFrameHead = 26;
+constexpr float kLoopRoom = 34;  // above a pill, for links from a set to itself
 constexpr int kDeepestFrame = 32;
+constexpr std::size_t kOneColumn = 7;
 
 Selection ends_of_ghost(const Json& json, const char* key) {
   Selection selection;
@@ -107,6 +109,34 @@ void Model::make_boxes(const Editor& editor) {
     box.is_collapsed = view.collapsed.contains(id);
     box.box.size = {kBoxWidth, box.is_collapsed ? kHeadHeight : height_of(box.sections)};
   }
+  number_uses(editor);
+}
+
+// Uses in the order of the programme, then by name: the order that the report and its colours have.
+void Model::number_uses(const Editor& editor) {
+  std::vector<std::string> uses;
+  std::set<std::string> others;
+  const auto text_in = [](const PortValues& values) {
+    const auto use = values.find("use");
+    const auto* text = use == values.end() ? nullptr : std::get_if<std::string>(&use->second);
+    return text == nullptr ? std::string() : *text;
+  };
+  for (const auto& [id, node] : editor.scene().nodes) {
+    if (const auto volume = node.types.find("smart_volume"); volume != node.types.end()) others.insert(text_in(volume->second));
+    const auto programme = node.types.find("programme");
+    if (programme == node.types.end()) continue;
+    const auto rows = programme->second.find("rows");
+    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
+    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row)
+      if (std::find(uses.begin(), uses.end(), (*table)->text(row, "use")) == uses.end()) uses.push_back((*table)->text(row, "use"));
+  }
+  for (const std::string& use : others)
+    if (std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
+  for (NodeBox& box : boxes) {
+    const auto& types = editor.scene().nodes.at(box.id).types;
+    if (const auto volume = types.find("smart_volume"); volume != types.end())
+      box.use = static_cast<std::size_t>(std::find(uses.begin(), uses.end(), text_in(volume->second)) - uses.begin());
+  }
 }
 
 std::size_t Model::find_box(const std::string& id) const {
@@ -175,9 +205,10 @@ void Model::make_lines(const Editor& editor) {
   }
 }
 
-// Boxes and pills together: sources in two columns, pills in a third, the rest in the field.
+// Boxes and pills together: sources in a column or two, then pills, then the rest in the field.
 void Model::place(const Editor& editor) {
   std::vector<LayoutItem> items;
+  std::size_t sources = 0;
   for (const NodeBox& box : boxes) {
     const NodeRecord& node = editor.scene().nodes.at(box.id);
     const bool is_volume = node.types.contains("smart_volume");
@@ -186,12 +217,16 @@ void Model::place(const Editor& editor) {
     LayoutItem& item = items.emplace_back();
     item.size = {kBoxWidth, height_of(box.sections)};
     item.column = is_volume ? -1 : is_first ? 0 : is_second ? 1 : -1;
+    sources += item.column >= 0 ? 1 : 0;
     const auto values = node.types.find("smart_volume");
     if (is_volume)
       if (const auto use = values->second.find("use"); use != values->second.end())
         if (const auto* text = std::get_if<std::string>(&use->second)) item.kin = *text;
   }
-  for (const Pill& pill : pills) items.push_back({pill.box.size, 2, ""});
+  // A few sources stand in one column, which leaves the field more room.
+  for (LayoutItem& item : items)
+    if (sources <= kOneColumn && item.column == 1) item.column = 0;
+  for (const Pill& pill : pills) items.push_back({pill.box.size + ImVec2(0, kLoopRoom), 2, ""});
   std::vector<std::pair<std::size_t, std::size_t>> links;
   for (const Line& line : lines)
     if (line.from < boxes.size() && line.to < boxes.size()) links.emplace_back(line.from, line.to);
@@ -201,7 +236,7 @@ void Model::place(const Editor& editor) {
   if (!is_complete) {
     const std::vector<ImVec2> places = lay_out(items, links);
     for (std::size_t k = 0; k < boxes.size(); ++k) kept_.emplace(boxes[k].id, places[k]);
-    for (std::size_t k = 0; k < pills.size(); ++k) kept_.emplace("\n" + pills[k].key, places[boxes.size() + k]);
+    for (std::size_t k = 0; k < pills.size(); ++k) kept_.emplace("\n" + pills[k].key, places[boxes.size() + k] + ImVec2(0, kLoopRoom));
   }
   for (NodeBox& box : boxes) {
     const auto stored = view.boxes.find(box.id);

@@ -42,6 +42,7 @@ struct NodeBox {
   std::vector<Section> sections;
   bool is_collapsed = false, is_stored = false;  ///< stored: the view says where it lies
   std::uint32_t in_state = kNoIndex;          ///< none before the first tick that knows it
+  std::size_t use = kNoIndex;                 ///< of a SmartVolume: the number of its use, as in the report
 
   bool is_ghost() const;
 };
@@ -101,6 +102,7 @@ class Model {
 
  private:
   void make_boxes(const Editor& editor);
+  void number_uses(const Editor& editor);
   void make_lines(const Editor& editor);
   void place(const Editor& editor);
   void find_indices(const Editor& editor);

@@ -24,7 +24,7 @@ Hit hit_body(const Board& board, ImVec2 at, bool edges_only) {
   for (std::size_t k = board.model.anchors(); k-- > 0;) {
     const Box screen = board.camera.to_screen(board.model.anchor(k));
     const float least = std::min(screen.size.x, screen.size.y);
-    const float inside = std::min(kEdgeInside * scale, 0.16f * least), outside = std::min(kEdgeOutside * scale, 0.3f * least);
+    const float inside = std::min(kEdgeInside * scale, 0.05f * least), outside = std::min(kEdgeOutside * scale, 0.25f * least);
     if (!screen.grown(outside).holds(at)) continue;
     const bool is_pill = k >= board.model.boxes.size();
     const bool is_edge = !screen.grown(-inside).holds(at);
@@ -68,18 +68,17 @@ Hit hit_frame(const Board& board, ImVec2 at) {
   return best;
 }
 
-// One press of a button that is no drag: adding by double click, dots, pins.
-bool handle_double_click(Board& board) {
-  const Hit& hit = board.hovered;
+// Adding, dots, and texts that are edited in their place.
+void handle_double_click(Board& board, const Hit& hit) {
   const ImVec2 at = ImGui::GetIO().MousePos;
   switch (hit.thing) {
-    case Thing::nothing: open_addition(board, at); return true;
-    case Thing::link: add_dot(board, hit.index, board.camera.to_plane(at)); return true;
-    case Thing::dot: remove_dot(board, board.model.find_line(hit.id), hit.index); return true;
+    case Thing::nothing: open_addition(board, at); break;
+    case Thing::link: add_dot(board, hit.index, board.camera.to_plane(at)); break;
+    case Thing::dot: remove_dot(board, board.model.find_line(hit.id), hit.index); break;
     case Thing::node:
     case Thing::comment:
-    case Thing::frame: begin_edit(board, hit.thing, hit.id); return true;
-    default: return false;
+    case Thing::frame: begin_edit(board, hit.thing, hit.id); break;
+    default: break;
   }
 }
 
@@ -151,12 +150,16 @@ void handle_mouse(Board& board, bool is_hovered) {
   if (is_hovered && io.MouseWheel != 0) board.camera.zoom_at(io.MousePos, std::pow(kWheelStep, static_cast<double>(io.MouseWheel)));
   if (board.drag.deed != Deed::none) {
     if (ImGui::IsMouseDown(board.drag.button)) go_on_dragging(board);
+    else if (const Hit grabbed = board.drag.grabbed; board.drag.is_double && !board.drag.is_far) board.drag = {}, handle_double_click(board, grabbed);
     else end_drag(board);
   } else if (is_hovered && board.edit.thing == Thing::nothing) {
-    if (ImGui::IsMouseDoubleClicked(0) && !io.KeyAlt && handle_double_click(board)) return;
     for (const int button : {0, 1, 2})
       if (ImGui::IsMouseClicked(button)) {
+        const Hit hit = board.hovered;
         begin_drag(board, button);
+        // A second press may still become a drag; on a link there is none.
+        board.drag.is_double = button == 0 && ImGui::IsMouseDoubleClicked(0) && !io.KeyAlt && !io.KeyCtrl && !io.KeyShift;
+        if (board.drag.is_double && board.drag.deed == Deed::none) board.drag = {}, handle_double_click(board, hit);
         break;
       }
   }
