@@ -75,9 +75,10 @@ TEST_F(CanvasEditTest, PasteIntoAnotherWindow) {
 }
 
 TEST_F(CanvasEditTest, ForeignTextIsRefusedWithASentence) {
-  for (const char* text : {"", "a shopping list", "{}", "[1, 2]", R"({"behaviourlinks": 7})", R"({"behaviourlinks": "clip", "nodes": 4})",
-                           R"({"behaviourlinks": "clip", "nodes": [{}]})", R"({"behaviourlinks": "clip", "nodes": [{"id": "x", "types": 3}]})",
-                           R"({"behaviourlinks": "clip", "links": [{"id": "l", "kind": "attract", "from": "nobody", "to": "none"}]})"}) {
+  for (const char* text :
+       {"", "a shopping list", "{}", "[1, 2]", R"({"behaviourlinks": 7})", R"({"behaviourlinks": "clip", "nodes": 4})",
+        R"({"behaviourlinks": "clip", "nodes": [{}]})", R"({"behaviourlinks": "clip", "nodes": [{"id": "x", "types": 3}]})",
+        R"({"behaviourlinks": "clip", "links": [{"id": "l", "kind": "attract", "from": "nobody", "to": "none"}]})"}) {
     ImGui::SetClipboardText(text);
     desktop.key(GLFW_KEY_V, true);
     EXPECT_EQ(desktop.scene_text(), before) << text;
@@ -132,8 +133,9 @@ TEST_F(CanvasEditTest, DeleteReconnectsLinksOfOneKind) {
   desktop.key(GLFW_KEY_DELETE, true);
   bool is_joined = false;
   for (const auto& [id, link] : scene().links)
-    is_joined |= link.kind == "attract" && ((link.from.ids == std::vector<std::string>{"library"} && link.to.ids == std::vector<std::string>{"hotel"}) ||
-                                            (link.from.ids == std::vector<std::string>{"hotel"} && link.to.ids == std::vector<std::string>{"library"}));
+    is_joined |= link.kind == "attract" &&
+                 ((link.from.ids == std::vector<std::string>{"library"} && link.to.ids == std::vector<std::string>{"hotel"}) ||
+                  (link.from.ids == std::vector<std::string>{"hotel"} && link.to.ids == std::vector<std::string>{"library"}));
   EXPECT_TRUE(is_joined);
   expect_undone(2);
 }
@@ -309,22 +311,27 @@ TEST_F(CanvasEditTest, FamiliesCanBeHidden) {
 }
 
 TEST_F(CanvasEditTest, BoxesNeverOverlapInTheAutomaticLayout) {
-  for (const char* file : {"scenes/start/quarter.json", "scenes/studies/sixty_volumes.json", "scenes/studies/thousand_volumes.json"}) {
+  for (const char* file :
+       {"scenes/start/quarter.json", "scenes/studies/sixty_volumes.json", "scenes/studies/thousand_volumes.json"}) {
     ASSERT_TRUE(editor().open(std::string(BL_SOURCE_DIR "/") + file));
     desktop.frames(2);
     const auto& boxes = board().model.boxes;
     for (std::size_t a = 0; a < boxes.size(); ++a)
-      for (std::size_t b = a + 1; b < boxes.size(); ++b) ASSERT_FALSE(boxes[a].box.touches(boxes[b].box)) << boxes[a].id << " " << boxes[b].id;
+      for (std::size_t b = a + 1; b < boxes.size(); ++b)
+        ASSERT_FALSE(boxes[a].box.touches(boxes[b].box)) << boxes[a].id << " " << boxes[b].id;
   }
 }
 
 TEST_F(CanvasEditTest, ViewsOfAnyShapeDoNoHarm) {
-  for (const char* text :
-       {R"({"boxes": 5})", R"({"boxes": {"library": "left"}})", R"({"boxes": {"library": [1]}})", R"({"boxes": {"library": [1e300, -1e300]}})",
-        R"({"boxes": {"library": [null, {}]}})", R"({"collapsed": [1, 2], "frames": [], "comments": 3, "dots": "x", "sets": null})",
-        R"({"frames": {"a": {"in": "b"}, "b": {"in": "a", "nodes": {"library": true, "nobody": true}}}})", R"({"frames": {"a": {"in": "a", "colour": -7}}})",
-        R"({"frames": {"a": {"name": 3, "colour": 1e99, "nodes": ["library"]}}})", R"({"comments": {"c": {"at": [1, 2], "size": [-5, 1e12], "text": 4}}})",
-        R"({"dots": {"hotel_market": [[1, 2], 3, [4], ["a", "b"]], "nobody": [[1, 2]]}})", R"({"sets": {"smart_volume": [0, 0]}, "collapsed": {"library": 1}})"}) {
+  for (const char* text : {R"({"boxes": 5})", R"({"boxes": {"library": "left"}})", R"({"boxes": {"library": [1]}})",
+                           R"({"boxes": {"library": [1e300, -1e300]}})", R"({"boxes": {"library": [null, {}]}})",
+                           R"({"collapsed": [1, 2], "frames": [], "comments": 3, "dots": "x", "sets": null})",
+                           R"({"frames": {"a": {"in": "b"}, "b": {"in": "a", "nodes": {"library": true, "nobody": true}}}})",
+                           R"({"frames": {"a": {"in": "a", "colour": -7}}})",
+                           R"({"frames": {"a": {"name": 3, "colour": 1e99, "nodes": ["library"]}}})",
+                           R"({"comments": {"c": {"at": [1, 2], "size": [-5, 1e12], "text": 4}}})",
+                           R"({"dots": {"hotel_market": [[1, 2], 3, [4], ["a", "b"]], "nobody": [[1, 2]]}})",
+                           R"({"sets": {"smart_volume": [0, 0]}, "collapsed": {"library": 1}})"}) {
     ASSERT_TRUE(editor().submit(command<SetView>({{text}, true}))) << text;
     desktop.frames(2);
     canvas().fit(true);
@@ -342,7 +349,8 @@ TEST_F(CanvasEditTest, EmptySceneAndGhosts) {
   std::vector<Problem> problems;
   auto document = Document::from_text(full_registry(), R"({"format": "behaviourlinks", "version": 1, "nodes": [
     {"id": "a", "types": {"teapot": {"x": 1}}}, {"id": "b"}], "links": [{"id": "l", "kind": "magic", "from": "a", "to": "b"},
-    {"id": "m", "kind": "spell", "from": 3}]})", "", 1, problems);
+    {"id": "m", "kind": "spell", "from": 3}]})",
+                                      "", 1, problems);
   ASSERT_NE(document, nullptr);
   editor().take(std::move(document));
   desktop.frames(3);

@@ -64,7 +64,8 @@ TEST_F(CanvasTest, ClickChoosesAndShiftAddsAndCtrlToggles) {
 TEST_F(CanvasTest, BoxToTheRightEnclosesAndToTheLeftTouches) {
   look_at({"hotel"});
   const canvas::Box& box = board().model.boxes[board().model.find_box("hotel")].box;
-  const ImVec2 low = canvas().to_screen({box.low().x - 16, box.low().y - 16}), high = canvas().to_screen({box.high().x + 16, box.high().y + 16});
+  const ImVec2 low = canvas().to_screen({box.low().x - 16, box.low().y - 16}),
+               high = canvas().to_screen({box.high().x + 16, box.high().y + 16});
   const ImVec2 inside = canvas().to_screen(box.centre());
   desktop.drag(low, high);
   EXPECT_EQ(editor().picks.nodes, std::set<std::string>{"hotel"});
@@ -235,9 +236,7 @@ TEST_F(CanvasTest, RefusedKindsSayWhy) {
   ASSERT_TRUE(board().picker.is_open);
   bool has_demand = false;
   for (const canvas::Choice& choice : board().picker.choices) {
-    if (choice.id == "attract") {
-      EXPECT_EQ(choice.why_not, "");
-    }
+    if (choice.id == "attract") { EXPECT_EQ(choice.why_not, ""); }
     if (choice.id != "demand") continue;
     has_demand = true;
     EXPECT_NE(choice.why_not.find("Programme"), std::string::npos) << choice.why_not;

@@ -149,7 +149,8 @@ Block gridded(const std::vector<LayoutItem>& items, std::vector<std::size_t> gro
 }
 
 // Columns of sources stand at the middle of the field's height, as far as it does not lead far away from its top.
-void centre_columns(const std::vector<LayoutItem>& items, const std::vector<float>& heights, float field, std::vector<ImVec2>& places) {
+void centre_columns(const std::vector<LayoutItem>& items, const std::vector<float>& heights, float field,
+                    std::vector<ImVec2>& places) {
   float tallest = std::min(field, kMostCentred);
   for (const float height : heights) tallest = std::max(tallest, height);
   for (std::size_t k = 0; k < items.size(); ++k)
@@ -184,7 +185,8 @@ std::vector<ImVec2> lay_out(const std::vector<LayoutItem>& items, const Links& l
     if (group.size() == 1) alone.push_back(group.front());
     else blocks.push_back(layered(items, group, links));
   }
-  for (const Block& block : blocks) area += (block.size.x + kGapX) * (block.size.y + kGapY), widest = std::max(widest, block.size.x);
+  for (const Block& block : blocks)
+    area += (block.size.x + kGapX) * (block.size.y + kGapY), widest = std::max(widest, block.size.x);
   for (const std::size_t k : alone) area += (items[k].size.x + kGridGapX) * (items[k].size.y + kGridGapY);
   std::stable_sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.size.y > b.size.y; });
   const float shelf_width = std::max(widest, std::sqrt(area * kAspect));

@@ -23,9 +23,8 @@ void Camera::set_pane(Box pane, float scale, double now) {
   const double eased = t * t * (3 - 2 * t);
   const double zoom = begin_.zoom * std::pow(goal_.zoom / begin_.zoom, eased);
   // The middle follows the zoom, so that nothing rushes past on the way.
-  const double share = std::abs(goal_.zoom - begin_.zoom) < 1e-9
-                           ? eased
-                           : (1 / begin_.zoom - 1 / zoom) / (1 / begin_.zoom - 1 / goal_.zoom);
+  const double share =
+      std::abs(goal_.zoom - begin_.zoom) < 1e-9 ? eased : (1 / begin_.zoom - 1 / zoom) / (1 / begin_.zoom - 1 / goal_.zoom);
   set({begin_.x + (goal_.x - begin_.x) * share, begin_.y + (goal_.y - begin_.y) * share, zoom});
   if (t >= 1) set(goal_), glide_end_ = -1;
 }

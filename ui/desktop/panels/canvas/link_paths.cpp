@@ -128,7 +128,7 @@ std::vector<ImVec2> loop(const Box& body, std::size_t number) {
   const ImVec2 corner{body.high().x, body.at.y};
   const ImVec2 begin = corner + ImVec2(-std::min(22 + 20 * out, 0.8f * body.size.x), 0);
   const ImVec2 end = corner + ImVec2(0, std::min(9 + 6 * out, 0.8f * body.size.y));
-  const float reach = 30 + 22 * out;
+  const float reach = 44 + 24 * out;
   std::vector<ImVec2> points;
   add_bezier(points, begin, begin + ImVec2(-0.2f * reach, -reach * 1.35f), end + ImVec2(reach * 1.7f, -0.4f * reach), end);
   return points;

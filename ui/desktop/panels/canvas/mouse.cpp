@@ -16,7 +16,9 @@ constexpr double kWheelStep = 1.15;
 // Space held for longer is no key press any more, but a hand on the canvas.
 constexpr double kSpaceSeconds = 0.35;
 
-bool is_body(Thing thing) { return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge; }
+bool is_body(Thing thing) {
+  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge;
+}
 
 // Boxes and pills, the upper ones first. Edges count on both sides of the outline, the inner part less on small boxes.
 Hit hit_body(const Board& board, ImVec2 at, bool edges_only) {
@@ -107,15 +109,15 @@ void point_at(Board& board, bool is_hovered) {
   }
   Picks& picks = board.editor.picks;
   if (hit.thing == Thing::node || hit.thing == Thing::node_edge) picks.hovered_node = hit.id;
-  if (hit.thing == Thing::link || hit.thing == Thing::dot) {
-    picks.hovered_link = hit.id;
-  }
+  if (hit.thing == Thing::link || hit.thing == Thing::dot) { picks.hovered_link = hit.id; }
 }
 
 void set_cursor(const Board& board) {
   const Thing thing = board.hovered.thing;
-  if (board.drag.deed == Deed::pan || (board.space_since >= 0 && board.drag.deed == Deed::none)) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
-  else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (board.drag.deed == Deed::pan || (board.space_since >= 0 && board.drag.deed == Deed::none))
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+  else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip)
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   else if (thing == Thing::comment_corner) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNWSE);
 }
 
@@ -147,10 +149,12 @@ void handle_mouse(Board& board, bool is_hovered) {
   if (board.drag.deed != Deed::none && board.drag.revision != board.model.revision) board.drag = {};
   point_at(board, is_hovered || board.drag.deed != Deed::none);
   handle_keys_held(board, is_hovered);
-  if (is_hovered && io.MouseWheel != 0) board.camera.zoom_at(io.MousePos, std::pow(kWheelStep, static_cast<double>(io.MouseWheel)));
+  if (is_hovered && io.MouseWheel != 0)
+    board.camera.zoom_at(io.MousePos, std::pow(kWheelStep, static_cast<double>(io.MouseWheel)));
   if (board.drag.deed != Deed::none) {
     if (ImGui::IsMouseDown(board.drag.button)) go_on_dragging(board);
-    else if (const Hit grabbed = board.drag.grabbed; board.drag.is_double && !board.drag.is_far) board.drag = {}, handle_double_click(board, grabbed);
+    else if (const Hit grabbed = board.drag.grabbed; board.drag.is_double && !board.drag.is_far)
+      board.drag = {}, handle_double_click(board, grabbed);
     else end_drag(board);
   } else if (is_hovered && board.edit.thing == Thing::nothing) {
     for (const int button : {0, 1, 2})
