@@ -23,6 +23,7 @@ NullDesktop::NullDesktop(const std::string& scene, ImVec2 size) {
   context_ = ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // as the real window has: large canvases need it
   io.DisplaySize = size;
   io.DeltaTime = static_cast<float>(kFrame);
   io.MousePos = {-1, -1};

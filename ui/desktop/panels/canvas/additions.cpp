@@ -46,12 +46,13 @@ Command new_node(Board& board, const TypificationDefinition& role, const std::st
     if (volume.demand != 1000) values["demand"] = volume.demand;
   }
   node["types"][role.id] = values;
-  patch["boxes"][id] = place_json({std::round((at.x - kBoxWidth / 2) / kGrid) * kGrid, std::round((at.y - kHeadHeight / 2) / kGrid) * kGrid});
+  patch["boxes"][id] =
+      place_json({std::round((at.x - kBoxWidth / 2) / kGrid) * kGrid, std::round((at.y - kHeadHeight / 2) / kGrid) * kGrid});
   return command<AddNode>({id, {write_json_line(node)}});
 }
 
-Command new_link(const Board& board, const LinkDefinition& kind, const std::string& id, const Selection& from, const Selection& to,
-                 PortValues parameters) {
+Command new_link(const Board& board, const LinkDefinition& kind, const std::string& id, const Selection& from,
+                 const Selection& to, PortValues parameters) {
   LinkRecord link;
   link.kind = kind.id;
   link.from = from;
@@ -83,7 +84,8 @@ void add_role(Board& board, const std::string& type) {
 
 std::string short_name(const Board& board, const Selection& selection) {
   if (!selection.is_query() && selection.ids.size() == 1) return selection.ids.front();
-  return selection.is_query() ? (selection.tag.empty() ? selection.typification + "s" : selection.tag) : text_of(board.editor, selection);
+  return selection.is_query() ? (selection.tag.empty() ? selection.typification + "s" : selection.tag)
+                              : text_of(board.editor, selection);
 }
 
 void lay_link(Board& board, const std::string& kind, const Selection& from, const Selection& to) {
@@ -91,7 +93,9 @@ void lay_link(Board& board, const std::string& kind, const Selection& from, cons
   const LinkDefinition& definition = *editor.registry.link(kind);
   FreshIds ids(editor);
   const std::string id = ids.of(short_name(board, from).substr(0, 24) + "_" + short_name(board, to).substr(0, 24));
-  if (!editor.submit(new_link(board, definition, id, from, to, chosen_ports(editor.registry, editor.scene(), definition, from, to)), editor.new_gesture()))
+  if (!editor.submit(
+          new_link(board, definition, id, from, to, chosen_ports(editor.registry, editor.scene(), definition, from, to)),
+          editor.new_gesture()))
     return;
   remember(editor, kind);
   editor.picks.only_link(id);
@@ -110,8 +114,9 @@ void add_linked_node(Board& board, const std::string& kind, const std::string& t
   // The ports that the link chooses are looked for in a scene that has the node already.
   Scene after = editor.scene();
   after.nodes[node].types[role.id];
-  std::vector<Command> commands{new_node(board, role, node, at, patch),
-                                new_link(board, definition, link, from, to, chosen_ports(editor.registry, after, definition, from, to))};
+  std::vector<Command> commands{
+      new_node(board, role, node, at, patch),
+      new_link(board, definition, link, from, to, chosen_ports(editor.registry, after, definition, from, to))};
   add_view_patch(commands, patch);
   if (!editor.submit(commands, editor.new_gesture())) return;
   remember(editor, kind);
@@ -131,18 +136,22 @@ void open_addition(Board& board, ImVec2 screen) {
   const ImVec2 at = board.camera.to_plane(screen);
   for (const auto& [id, type] : editor.registry.typifications())
     if (is_role(type))
-      picker.choices.push_back({id, type.label, first_sentence(type.doc), "", colour_of_type(board, id), 2 * recency_of(editor, id), "new node", "node"});
+      picker.choices.push_back({id, type.label, first_sentence(type.doc), "", colour_of_type(board, id),
+                                2 * recency_of(editor, id), "new node", "node"});
   const auto& picks = editor.picks.nodes;
   if (!picks.empty()) {
     const std::string whom = picks.size() == 1 ? editor.name_of(*picks.begin()) : std::to_string(picks.size()) + " chosen nodes";
     for (const auto& [id, type] : editor.registry.typifications()) {
       if (!is_role(type)) continue;
-      const bool has_all = std::all_of(picks.begin(), picks.end(), [&](const std::string& n) { return editor.scene().nodes.at(n).types.contains(id); });
-      picker.choices.push_back({id, type.label + " as a role of " + whom, first_sentence(type.doc), has_all ? "It has this role already." : "",
-                                colour_of_type(board, id), 2 * recency_of(editor, id) + 1, "typification", "role"});
+      const bool has_all = std::all_of(picks.begin(), picks.end(),
+                                       [&](const std::string& n) { return editor.scene().nodes.at(n).types.contains(id); });
+      picker.choices.push_back({id, type.label + " as a role of " + whom, first_sentence(type.doc),
+                                has_all ? "It has this role already." : "", colour_of_type(board, id),
+                                2 * recency_of(editor, id) + 1, "typification", "role"});
     }
   }
-  picker.choices.push_back({"comment", "Comment", "A note on the canvas.", "", board.theme().colours().warning, 3000, "text note", "comment"});
+  picker.choices.push_back(
+      {"comment", "Comment", "A note on the canvas.", "", board.theme().colours().warning, 3000, "text note", "comment"});
   picker.taken = [at](Board& b, const Choice& choice) {
     if (choice.extra == "comment") add_comment(b);
     else if (choice.extra == "role") add_role(b, choice.id);
@@ -161,8 +170,9 @@ void open_link_menu(Board& board, std::size_t from, std::size_t to, ImVec2 scree
   picker.empty_text = "No kind of that name";
   for (const auto& [id, kind] : editor.registry.links()) {
     const auto why = misfit(editor.registry, editor.scene(), kind, a, b);
-    picker.choices.push_back({id, kind.label, first_sentence(kind.doc), why ? "Does not fit: " + *why + "." : "", editor.theme.family_of(id).colour,
-                              recency_of(editor, id), std::string(editor.theme.family_of(id).label), ""});
+    picker.choices.push_back({id, kind.label, first_sentence(kind.doc), why ? "Does not fit: " + *why + "." : "",
+                              editor.theme.family_of(id).colour, recency_of(editor, id),
+                              std::string(editor.theme.family_of(id).label), ""});
   }
   picker.taken = [a, b](Board& board_now, const Choice& choice) { lay_link(board_now, choice.id, a, b); };
   open_picker(board, std::move(picker));
@@ -182,8 +192,8 @@ void open_drop_menu(Board& board, std::size_t from, ImVec2 screen) {
       if (!is_role(type) || misfit_with_new(editor.registry, editor.scene(), kind, a, type)) continue;
       // Places are everybody's; a link that only moves things is offered with volumes first.
       const int taste = role == "smart_volume" ? 0 : 200;
-      picker.choices.push_back({id, kind.label + "  \xe2\x86\x92  " + type.label, first_sentence(kind.doc), "", editor.theme.family_of(id).colour,
-                                recency_of(editor, id) + taste, "", role});
+      picker.choices.push_back({id, kind.label + "  \xe2\x86\x92  " + type.label, first_sentence(kind.doc), "",
+                                editor.theme.family_of(id).colour, recency_of(editor, id) + taste, "", role});
     }
   picker.taken = [a, at](Board& b, const Choice& choice) { add_linked_node(b, choice.id, choice.extra, a, at); };
   open_picker(board, std::move(picker));
@@ -199,16 +209,18 @@ void open_find(Board& board) {
   for (const NodeBox& box : board.model.boxes) {
     std::string roles;
     for (const Section& section : box.sections) roles += (roles.empty() ? "" : ", ") + section.label;
-    picker.choices.push_back({box.id, box.name, box.id + "  ·  " + roles, "", box.sections.empty() ? 0 : colour_of(board, box.sections.front()),
-                              1000, roles, ""});
+    picker.choices.push_back({box.id, box.name, box.id + "  ·  " + roles, "",
+                              box.sections.empty() ? 0 : colour_of(board, box.sections.front()), 1000, roles, ""});
   }
   for (const Line& line : board.model.lines)
-    picker.choices.push_back({line.id, line.label + " (" + line.id + ")", "link", "", line.family.colour, 2000, line.kind, "link"});
+    picker.choices.push_back(
+        {line.id, line.label + " (" + line.id + ")", "link", "", line.family.colour, 2000, line.kind, "link"});
   picker.text = board.find_text;
   const auto go = [](Board& b, const Choice& choice) {
     if (choice.extra == "link") {
       b.editor.picks.only_link(choice.id);
-      if (const std::size_t k = b.model.find_line(choice.id); k < b.model.lines.size()) b.camera.fit(b.model.lines[k].bounds.grown(120), true);
+      if (const std::size_t k = b.model.find_line(choice.id); k < b.model.lines.size())
+        b.camera.fit(b.model.lines[k].bounds.grown(120), true);
     } else {
       b.editor.picks.only_node(choice.id);
       show_node(b, choice.id);

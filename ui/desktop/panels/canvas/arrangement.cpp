@@ -1,8 +1,8 @@
 // Changes of the view alone, from the keyboard and the menus.
 #include "ui/desktop/panels/canvas/arrangement.h"
 
-#include <imgui_stdlib.h>
 #include <GLFW/glfw3.h>
+#include <imgui_stdlib.h>
 #include <nlohmann/json.hpp>
 
 #include "ui/desktop/panels/canvas/auto_layout.h"
@@ -23,7 +23,8 @@ std::vector<std::size_t> chosen_boxes(const Board& board) {
 void put(Board& board, const std::vector<std::pair<std::size_t, ImVec2>>& places) {
   Json patch = Json::object();
   for (const auto& [k, at] : places)
-    if (length(at - board.model.boxes[k].box.at) > 0.01f || !board.model.boxes[k].is_stored) patch["boxes"][board.model.boxes[k].id] = place_json(at);
+    if (length(at - board.model.boxes[k].box.at) > 0.01f || !board.model.boxes[k].is_stored)
+      patch["boxes"][board.model.boxes[k].id] = place_json(at);
   if (!patch.empty()) board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
 }
 
@@ -230,7 +231,8 @@ void draw_inline_edit(Board& board) {
   const ImVec2 size{std::max(screen.size.x, least), std::max(screen.size.y, ImGui::GetFrameHeight())};
   bool is_done = false;
   if (edit.thing == Thing::comment) {
-    is_done = ImGui::InputTextMultiline("##edit", &edit.text, size, ImGuiInputTextFlags_CtrlEnterForNewLine | ImGuiInputTextFlags_EnterReturnsTrue);
+    is_done = ImGui::InputTextMultiline("##edit", &edit.text, size,
+                                        ImGuiInputTextFlags_CtrlEnterForNewLine | ImGuiInputTextFlags_EnterReturnsTrue);
   } else {
     ImGui::SetNextItemWidth(size.x);
     is_done = ImGui::InputText("##edit", &edit.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);

@@ -10,10 +10,11 @@ namespace {
 
 using Links = std::vector<std::pair<std::size_t, std::size_t>>;
 
-constexpr float kGapX = 76, kGapY = 28, kGridGap = 24, kColumnGap = 96, kSnap = 10;
+constexpr float kGapX = 102, kGapY = 30, kGridGapX = 22, kGridGapY = 20, kColumnGap = 132, kSnap = 10;
 constexpr int kSweeps = 6;
-// Wider than high, as screens are.
-constexpr float kAspect = 1.25f;
+constexpr float kMostCentred = 1600;
+// About as wide as high: beside the field stand the sources, and beside the canvas the 3D view.
+constexpr float kAspect = 0.9f;
 
 float snapped(float v) { return std::round(v / kSnap) * kSnap; }
 
@@ -131,20 +132,29 @@ Block layered(const std::vector<LayoutItem>& items, const std::vector<std::size_
 Block gridded(const std::vector<LayoutItem>& items, std::vector<std::size_t> group, float least_width) {
   std::stable_sort(group.begin(), group.end(), [&](std::size_t a, std::size_t b) { return items[a].kin < items[b].kin; });
   float area = 0;
-  for (const std::size_t k : group) area += (items[k].size.x + kGridGap) * (items[k].size.y + kGridGap);
+  for (const std::size_t k : group) area += (items[k].size.x + kGridGapX) * (items[k].size.y + kGridGapY);
   const float width = std::max(least_width, std::sqrt(area * kAspect));
   Block block;
   float x = 0, y = 0, height = 0;
   for (const std::size_t k : group) {
-    if (x > 0 && x + items[k].size.x > width) x = 0, y += height + kGridGap, height = 0;
+    if (x > 0 && x + items[k].size.x > width) x = 0, y += height + kGridGapY, height = 0;
     block.items.push_back(k);
     block.places.push_back({snapped(x), snapped(y)});
-    x += items[k].size.x + kGridGap;
+    x += items[k].size.x + kGridGapX;
     height = std::max(height, items[k].size.y);
-    block.size.x = std::max(block.size.x, x - kGridGap);
+    block.size.x = std::max(block.size.x, x - kGridGapX);
   }
   block.size.y = y + height;
   return block;
+}
+
+// Columns of sources stand at the middle of the field's height, as far as it does not lead far away from its top.
+void centre_columns(const std::vector<LayoutItem>& items, const std::vector<float>& heights, float field,
+                    std::vector<ImVec2>& places) {
+  float tallest = std::min(field, kMostCentred);
+  for (const float height : heights) tallest = std::max(tallest, height);
+  for (std::size_t k = 0; k < items.size(); ++k)
+    if (items[k].column >= 0) places[k].y += snapped((tallest - heights[static_cast<std::size_t>(items[k].column)]) / 2);
 }
 
 }  // namespace
@@ -155,6 +165,7 @@ std::vector<ImVec2> lay_out(const std::vector<LayoutItem>& items, const Links& l
   int last_column = -1;
   for (const LayoutItem& item : items) last_column = std::max(last_column, item.column);
   float left = 0;
+  std::vector<float> column_heights;
   for (int column = 0; column <= last_column; ++column) {
     float y = 0, width = 0;
     for (std::size_t k = 0; k < items.size(); ++k) {
@@ -163,6 +174,7 @@ std::vector<ImVec2> lay_out(const std::vector<LayoutItem>& items, const Links& l
       y += items[k].size.y + kGapY;
       width = std::max(width, items[k].size.x);
     }
+    column_heights.push_back(y - kGapY);
     if (width > 0) left = snapped(left + width + kColumnGap);
   }
   // Groups on shelves, the tallest first; boxes on their own below them.
@@ -173,8 +185,9 @@ std::vector<ImVec2> lay_out(const std::vector<LayoutItem>& items, const Links& l
     if (group.size() == 1) alone.push_back(group.front());
     else blocks.push_back(layered(items, group, links));
   }
-  for (const Block& block : blocks) area += (block.size.x + kGapX) * (block.size.y + kGapY), widest = std::max(widest, block.size.x);
-  for (const std::size_t k : alone) area += (items[k].size.x + kGridGap) * (items[k].size.y + kGridGap);
+  for (const Block& block : blocks)
+    area += (block.size.x + kGapX) * (block.size.y + kGapY), widest = std::max(widest, block.size.x);
+  for (const std::size_t k : alone) area += (items[k].size.x + kGridGapX) * (items[k].size.y + kGridGapY);
   std::stable_sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.size.y > b.size.y; });
   const float shelf_width = std::max(widest, std::sqrt(area * kAspect));
   float x = 0, y = 0, height = 0, reached = 0;
@@ -191,7 +204,12 @@ std::vector<ImVec2> lay_out(const std::vector<LayoutItem>& items, const Links& l
   }
   if (!blocks.empty()) y += height + 2 * kGapY;
   x = 0;
-  if (!alone.empty()) put(gridded(items, alone, std::max(reached, shelf_width)));
+  if (!alone.empty()) {
+    const Block rest = gridded(items, alone, std::max(reached, shelf_width));
+    put(rest);
+    y += rest.size.y;
+  }
+  centre_columns(items, column_heights, y, places);
   return places;
 }
 

@@ -12,8 +12,8 @@ namespace bl::desktop::canvas {
 
 struct LayoutItem {
   ImVec2 size;
-  int column = -1;      ///< a source's column from the left, or -1: in the field to their right
-  std::string kin;      ///< items of one kin stand together in the grid
+  int column = -1;  ///< a source's column from the left, or -1: in the field to their right
+  std::string kin;  ///< items of one kin stand together in the grid
 };
 
 /// Upper left corners, one for each item; no two items overlap. The same input gives the same places.

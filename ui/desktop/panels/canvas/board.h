@@ -32,19 +32,20 @@ struct Drag {
   Deed deed = Deed::none;
   Hit grabbed;
   int button = 0;
-  ImVec2 begin;                             ///< in the plane
-  bool is_far = false;                      ///< moved beyond a click's tremble
-  bool copies = false, leaves = false;      ///< with Alt; with Shift
-  bool adds = false, toggles = false;       ///< box selection with Shift; with Ctrl
+  ImVec2 begin;                                  ///< in the plane
+  bool is_far = false;                           ///< moved beyond a click's tremble
+  bool is_double = false;                        ///< the second press of a double click, unless it goes far
+  bool copies = false, leaves = false;           ///< with Alt; with Shift
+  bool adds = false, toggles = false;            ///< box selection with Shift; with Ctrl
   std::set<std::string> base_nodes, base_links;  ///< what was chosen before a box selection
-  std::size_t revision = 0;                 ///< of the model; a scene that changes meanwhile ends the drag
-  std::vector<ImVec2> swipe;                ///< of a cut
-  std::vector<std::size_t> anchors;         ///< that move
+  std::size_t revision = 0;                      ///< of the model; a scene that changes meanwhile ends the drag
+  std::vector<ImVec2> swipe;                     ///< of a cut
+  std::vector<std::size_t> anchors;              ///< that move
   std::vector<std::string> comments;
   std::vector<std::pair<std::string, std::size_t>> dots;
   std::vector<Box> old_anchors, old_comments;
   std::vector<ImVec2> old_dots;
-  ImVec2 shift;                             ///< how far they have been moved
+  ImVec2 shift;                                   ///< how far they have been moved
   std::vector<std::pair<ImVec2, ImVec2>> guides;  ///< that they have snapped to
 };
 
@@ -68,17 +69,17 @@ struct Board {
   InlineEdit edit;
   Hit hovered;
   double hovered_since = 0;
-  std::set<std::string> hidden_families;        ///< the person's own, not the scene's
+  std::set<std::string> hidden_families;  ///< the person's own, not the scene's
   std::set<std::string> picked_comments, picked_frames;
-  std::vector<std::string> pinned;              ///< nodes whose cards stay
-  std::set<std::string> soloed;                 ///< links that solo has muted
+  std::vector<std::string> pinned;                 ///< nodes whose cards stay
+  std::set<std::string> soloed;                    ///< links that solo has muted
   std::vector<std::pair<std::string, Box>> chips;  ///< families and where their switches are on the screen
-  Box minimap;                                  ///< on the screen; no size where it is not shown
+  Box minimap;                                     ///< on the screen; no size where it is not shown
   bool shows_minimap = true, snaps = true, is_reset = true;
-  double space_since = -1;                      ///< Space is held, perhaps to pan
+  double space_since = -1;  ///< Space is held, perhaps to pan
   bool has_space_panned = false;
   std::string find_text;
-  std::function<void(Board&)> after_frame;      ///< what has to wait until nothing is being walked over
+  std::function<void(Board&)> after_frame;  ///< what has to wait until nothing is being walked over
   const Document* document = nullptr;
 
   const Theme& theme() const { return editor.theme; }

@@ -6,7 +6,7 @@ namespace bl::desktop::canvas {
 namespace {
 
 constexpr double kGlideSeconds = 0.22;
-constexpr float kFitMargin = 36;
+constexpr float kFitMargin = 26;
 
 }  // namespace
 
@@ -23,9 +23,8 @@ void Camera::set_pane(Box pane, float scale, double now) {
   const double eased = t * t * (3 - 2 * t);
   const double zoom = begin_.zoom * std::pow(goal_.zoom / begin_.zoom, eased);
   // The middle follows the zoom, so that nothing rushes past on the way.
-  const double share = std::abs(goal_.zoom - begin_.zoom) < 1e-9
-                           ? eased
-                           : (1 / begin_.zoom - 1 / zoom) / (1 / begin_.zoom - 1 / goal_.zoom);
+  const double share =
+      std::abs(goal_.zoom - begin_.zoom) < 1e-9 ? eased : (1 / begin_.zoom - 1 / zoom) / (1 / begin_.zoom - 1 / goal_.zoom);
   set({begin_.x + (goal_.x - begin_.x) * share, begin_.y + (goal_.y - begin_.y) * share, zoom});
   if (t >= 1) set(goal_), glide_end_ = -1;
 }
@@ -86,9 +85,10 @@ void Camera::glide(const Pose& goal) {
 void Camera::fit(const Box& box, bool is_soft) {
   const double margin = 2 * static_cast<double>(kFitMargin) * scale_;
   const double across = (static_cast<double>(pane_.size.x) - margin) / std::max(1.0, static_cast<double>(box.size.x));
-  const double down = (static_cast<double>(pane_.size.y) - margin) / std::max(1.0, static_cast<double>(box.size.y));
+  const double down = (static_cast<double>(pane_.size.y) - margin - head_) / std::max(1.0, static_cast<double>(box.size.y));
   const double zoom = std::clamp(std::min(across, down) / scale_, kLeastZoom, 1.0);
-  const Pose goal{static_cast<double>(box.centre().x), static_cast<double>(box.centre().y), zoom};
+  // The switches lie over the upper edge.
+  const Pose goal{static_cast<double>(box.centre().x), static_cast<double>(box.centre().y) - head_ / 2 / (zoom * scale_), zoom};
   if (is_soft) return glide(goal);
   glide_end_ = -1;
   set(goal);

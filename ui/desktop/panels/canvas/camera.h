@@ -11,6 +11,8 @@ class Camera {
 
   /// The pane on the screen, in pixels, and pixels per point; said once for each frame.
   void set_pane(Box pane, float scale, double now);
+  /// Pixels at the pane's upper edge that something lies over; what is fitted stays below.
+  void set_head(float pixels) { head_ = static_cast<double>(pixels); }
   const Box& pane() const { return pane_; }
   double zoom() const { return zoom_; }
   /// Pixels for one unit of the plane.
@@ -42,6 +44,7 @@ class Camera {
 
   Box pane_{{0, 0}, {1, 1}};
   double scale_ = 1, zoom_ = 1;
+  double head_ = 0;
   double x_ = 0, y_ = 0;  // of the plane, at the pane's upper left corner
   Pose begin_, goal_;
   double now_ = 0, glide_begin_ = 0, glide_end_ = -1;

@@ -64,13 +64,15 @@ void Canvas::draw(ImVec2 size) {
   board.camera.set_pane({ImGui::GetWindowPos(), size}, editor.theme.scale(), editor.now);
   const std::size_t revision = board.model.revision;
   board.model.update(editor);
+  place_chips(board);
   if (board.is_reset) board.camera.fit(board.model.bounds(), false);
   board.is_reset = false;
   if (revision != board.model.revision) forget_gone(board);
   board.live.update(editor, board.model);
   // Takes the mouse from the moment of a press, so that a drag goes on outside the pane.
   ImGui::SetCursorScreenPos(ImGui::GetWindowPos());
-  ImGui::InvisibleButton("plane", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton(
+      "plane", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   handle_mouse(board, ImGui::IsItemHovered());
   draw_layers(board);

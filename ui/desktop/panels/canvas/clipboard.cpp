@@ -18,7 +18,8 @@ constexpr const char* kMark = "behaviourlinks";
 constexpr double kAside = 6, kLeastApart = 1;
 
 bool is_inner(const Selection& end, const std::set<std::string>& nodes) {
-  return !end.is_query() && !end.ids.empty() && std::all_of(end.ids.begin(), end.ids.end(), [&](const std::string& id) { return nodes.contains(id); });
+  return !end.is_query() && !end.ids.empty() &&
+         std::all_of(end.ids.begin(), end.ids.end(), [&](const std::string& id) { return nodes.contains(id); });
 }
 
 Json corner_json(ImVec2 at) { return place_json(at); }
@@ -42,7 +43,8 @@ struct Pasting {
 
 std::optional<ImVec2> corner_of(const Json& item, const char* key) {
   const auto found = item.find(key);
-  if (found == item.end() || !found->is_array() || found->size() != 2 || !(*found)[0].is_number() || !(*found)[1].is_number()) return std::nullopt;
+  if (found == item.end() || !found->is_array() || found->size() != 2 || !(*found)[0].is_number() || !(*found)[1].is_number())
+    return std::nullopt;
   const ImVec2 at{(*found)[0].get<float>(), (*found)[1].get<float>()};
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return std::nullopt;
   return ImVec2{std::clamp(at.x, -1e5f, 1e5f), std::clamp(at.y, -1e5f, 1e5f)};
@@ -191,7 +193,8 @@ std::string clip_of_choice(const Board& board) {
     Json item = Json::object();
     item["id"] = id;
     item.update(node_to_json(found->second, editor.registry));
-    if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size()) item["box"] = corner_json(board.model.boxes[k].box.at);
+    if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size())
+      item["box"] = corner_json(board.model.boxes[k].box.at);
     clip["nodes"].push_back(std::move(item));
   }
   for (const auto& [id, link] : editor.scene().links) {
@@ -206,7 +209,8 @@ std::string clip_of_choice(const Board& board) {
   for (const std::string& id : board.picked_comments)
     if (const auto found = board.model.view.comments.find(id); found != board.model.view.comments.end()) {
       const Comment& comment = found->second;
-      clip["comments"].push_back({{"at", corner_json(comment.box.at)}, {"size", corner_json(comment.box.size)}, {"text", comment.text}});
+      clip["comments"].push_back(
+          {{"at", corner_json(comment.box.at)}, {"size", corner_json(comment.box.size)}, {"text", comment.text}});
     }
   return write_json(clip, 2);
 }
@@ -237,7 +241,8 @@ bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shi
   board.model.update(editor);
   board.picked_comments = comments;
   if (pasting.lost > 0)
-    editor.tell(NoticeKind::warning, "Pasted without " + report::counted(pasting.lost, "reference") + " to nodes that are not in this scene.");
+    editor.tell(NoticeKind::warning,
+                "Pasted without " + report::counted(pasting.lost, "reference") + " to nodes that are not in this scene.");
   return true;
 }
 
@@ -246,7 +251,8 @@ void copy_chosen(Board& board) {
   if (clip.empty()) return board.editor.tell(NoticeKind::told, "Choose nodes to copy them.");
   ImGui::SetClipboardText(clip.c_str());
   if (!board.editor.picks.nodes.empty())
-    board.editor.tell(NoticeKind::told, report::counted(board.editor.picks.nodes.size(), "node") + " copied, with the links among them.");
+    board.editor.tell(NoticeKind::told,
+                      report::counted(board.editor.picks.nodes.size(), "node") + " copied, with the links among them.");
 }
 
 void cut_chosen(Board& board) {

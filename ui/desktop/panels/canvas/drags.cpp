@@ -13,7 +13,9 @@ namespace {
 
 constexpr float kTremble = 4, kGuideReach = 6;
 
-bool is_body(Thing thing) { return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge; }
+bool is_body(Thing thing) {
+  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge;
+}
 
 // What a press on something that can be moved chooses, as soon as it is pressed.
 void choose_pressed(Board& board) {
@@ -25,7 +27,10 @@ void choose_pressed(Board& board) {
     if (!drag.adds && !drag.toggles && !is_in) picks.clear(), board.picked_comments.clear(), board.picked_frames.clear();
     set.insert(id);
   };
-  if (drag.grabbed.thing == Thing::node) press(picks.nodes, drag.grabbed.id);
+  if (drag.grabbed.thing == Thing::node) {
+    if (drag.leaves) board.picked_frames.clear();  // with Shift it leaves its frame, which then stays
+    press(picks.nodes, drag.grabbed.id);
+  }
   if (drag.grabbed.thing == Thing::comment) press(board.picked_comments, drag.grabbed.id);
   if (drag.grabbed.thing == Thing::frame) press(board.picked_frames, drag.grabbed.id);
 }
@@ -55,13 +60,17 @@ void gather_moving(Board& board) {
   for (const std::string& id : drag.comments) drag.old_comments.push_back(board.model.view.comments.at(id).box);
   // Dots of links between nodes that both move, move too.
   for (const Line& line : board.model.lines) {
-    const auto moves = [&](std::size_t anchor) { return std::find(drag.anchors.begin(), drag.anchors.end(), anchor) != drag.anchors.end(); };
+    const auto moves = [&](std::size_t anchor) {
+      return std::find(drag.anchors.begin(), drag.anchors.end(), anchor) != drag.anchors.end();
+    };
     if (drag.copies || line.dots.empty() || !moves(line.from) || !moves(line.to)) continue;
     for (std::size_t d = 0; d < line.dots.size(); ++d) drag.dots.emplace_back(line.id, d), drag.old_dots.push_back(line.dots[d]);
   }
 }
 
-Box& anchor_box(Model& model, std::size_t k) { return k < model.boxes.size() ? model.boxes[k].box : model.pills[k - model.boxes.size()].box; }
+Box& anchor_box(Model& model, std::size_t k) {
+  return k < model.boxes.size() ? model.boxes[k].box : model.pills[k - model.boxes.size()].box;
+}
 
 // One axis of the snapping: the shift that brings an edge or the middle of the grabbed box onto one of another box.
 struct Snap {
@@ -106,8 +115,10 @@ void snap(Board& board, const Box& grabbed) {
 
 void move_to_shift(Board& board) {
   Drag& drag = board.drag;
-  for (std::size_t k = 0; k < drag.anchors.size(); ++k) anchor_box(board.model, drag.anchors[k]).at = drag.old_anchors[k].at + drag.shift;
-  for (std::size_t k = 0; k < drag.comments.size(); ++k) board.model.view.comments.at(drag.comments[k]).box.at = drag.old_comments[k].at + drag.shift;
+  for (std::size_t k = 0; k < drag.anchors.size(); ++k)
+    anchor_box(board.model, drag.anchors[k]).at = drag.old_anchors[k].at + drag.shift;
+  for (std::size_t k = 0; k < drag.comments.size(); ++k)
+    board.model.view.comments.at(drag.comments[k]).box.at = drag.old_comments[k].at + drag.shift;
   for (std::size_t k = 0; k < drag.dots.size() && k < drag.old_dots.size(); ++k)
     if (const std::size_t line = board.model.find_line(drag.dots[k].first); line < board.model.lines.size())
       board.model.lines[line].dots[drag.dots[k].second] = drag.old_dots[k] + drag.shift;
@@ -219,8 +230,7 @@ namespace {
 // Nodes that were dragged out of their frames, with Shift, or into one.
 void patch_membership(const Board& board, const Drag& drag, Json& patch) {
   const ViewData& view = board.model.view;
-  const bool moves_frames = !board.picked_frames.empty();
-  if (moves_frames) return;
+  if (!board.picked_frames.empty()) return;
   std::string target;
   if (!drag.leaves)
     for (const auto& [id, frame] : view.frames) {
@@ -228,7 +238,8 @@ void patch_membership(const Board& board, const Drag& drag, Json& patch) {
       const bool is_new = std::none_of(drag.anchors.begin(), drag.anchors.end(), [&](std::size_t k) {
         return k < board.model.boxes.size() && frame.nodes.contains(board.model.boxes[k].id);
       });
-      if (is_new && board.model.frame_box(id, box) && box.holds(board.cursor()) && (target.empty() || view.is_within(id, target))) target = id;
+      if (is_new && board.model.frame_box(id, box) && box.holds(board.cursor()) && (target.empty() || view.is_within(id, target)))
+        target = id;
     }
   const auto update = [&](const std::string& id, const std::string& own, const char* list) {
     if (drag.leaves && !own.empty()) patch["frames"][own][list][id] = nullptr;
@@ -314,9 +325,7 @@ void end_drag(Board& board) {
         board.picked_frames.clear();
       }
       break;
-    case Deed::dot:
-      board.drag.anchors.clear();
-      [[fallthrough]];
+    case Deed::dot: board.drag.anchors.clear(); [[fallthrough]];
     case Deed::move: end_move(board); break;
     case Deed::cut: end_cut(board); break;
     case Deed::link:

@@ -13,6 +13,9 @@ float text_width(const Board& board, float pixels, std::string_view text);
 /// The colour of a typification's section.
 ImU32 colour_of(const Board& board, const Section& section);
 
+/// The colour of a box as a whole: of a volume's use, else of its first role.
+ImU32 tone_of(const Board& board, const NodeBox& box);
+
 void draw_ground(Board& board);
 void draw_frames_and_comments(Board& board);
 void draw_lines(Board& board);
@@ -22,6 +25,8 @@ void draw_pills(Board& board);
 void draw_nodes(Board& board);
 /// What a drag in progress shows: box, new link, swipe, guides.
 void draw_deed(Board& board);
+/// Where the switches of the families go, in rows along the upper edge; what is fitted into sight stays below them.
+void place_chips(Board& board);
 /// Switches of families, the minimap, hints where the canvas is empty.
 void draw_overlays(Board& board);
 /// Cards of hovered and pinned nodes and links.

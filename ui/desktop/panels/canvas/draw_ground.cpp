@@ -39,8 +39,10 @@ void draw_frame(Board& board, const std::string& id, const Frame& frame) {
   const bool is_picked = board.picked_frames.contains(id);
   const bool is_hovered = board.hovered.thing == Thing::frame && board.hovered.id == id;
   list.AddRectFilled(screen.low(), screen.high(), faded(tone, board.theme().is_dark() ? 0.07f : 0.14f), 8 * k);
-  list.AddRectFilled(screen.low(), {screen.high().x, screen.low().y + kFrameHead * k}, faded(tone, 0.16f), 8 * k, ImDrawFlags_RoundCornersTop);
-  list.AddRect(screen.low(), screen.high(), is_picked ? c.accent : faded(tone, is_hovered ? 0.8f : 0.4f), 8 * k, 0, is_picked ? 2.0f : 1.2f);
+  list.AddRectFilled(screen.low(), {screen.high().x, screen.low().y + kFrameHead * k}, faded(tone, 0.16f), 8 * k,
+                     ImDrawFlags_RoundCornersTop);
+  list.AddRect(screen.low(), screen.high(), is_picked ? c.accent : faded(tone, is_hovered ? 0.8f : 0.4f), 8 * k, 0,
+               is_picked ? 2.0f : 1.2f);
   if (board.edit.thing == Thing::frame && board.edit.id == id) return;
   const float pixels = std::max(13 * k, std::min(11.0f * board.theme().scale(), 0.05f * screen.size.x));
   draw_text(board, {screen.low().x + 10 * k, screen.low().y + 5 * k}, pixels, mixed(c.text, tone, 0.3f),
@@ -57,7 +59,8 @@ void draw_comment(Board& board, const std::string& id, const Comment& comment) {
   const ImU32 paper = board.theme().is_dark() ? IM_COL32(74, 68, 44, 235) : IM_COL32(255, 248, 214, 245);
   list.AddRectFilled(screen.low(), screen.high(), paper, 4 * k);
   list.AddRect(screen.low(), screen.high(), is_picked ? c.accent : faded(c.warning, 0.35f), 4 * k, 0, is_picked ? 2.0f : 1.0f);
-  list.AddTriangleFilled(screen.high(), screen.high() - ImVec2(9 * k, 0), screen.high() - ImVec2(0, 9 * k), faded(c.warning, 0.5f));
+  list.AddTriangleFilled(screen.high(), screen.high() - ImVec2(9 * k, 0), screen.high() - ImVec2(0, 9 * k),
+                         faded(c.warning, 0.5f));
   if (board.edit.thing == Thing::comment && board.edit.id == id) return;
   const float pixels = 12.5f * k;
   if (pixels < 4) return;
@@ -73,10 +76,12 @@ void draw_new_link(Board& board, ImDrawList& list, ImVec2 cursor) {
   const auto points = trace_to_point(board.model.anchor(drag.grabbed.index), cursor);
   std::vector<ImVec2> screen;
   for (const ImVec2& p : points) screen.push_back(board.camera.to_screen(p));
-  list.AddPolyline(screen.data(), static_cast<int>(screen.size()), is_moving ? c.warning : c.accent, 0, 2.2f * board.theme().scale());
+  list.AddPolyline(screen.data(), static_cast<int>(screen.size()), is_moving ? c.warning : c.accent, 0,
+                   2.2f * board.theme().scale());
   list.AddCircleFilled(screen.back(), 4 * board.theme().scale(), is_moving ? c.warning : c.accent, 12);
   const Hit& over = board.hovered;
-  const bool is_target = over.thing == Thing::node || over.thing == Thing::node_edge || over.thing == Thing::pill || over.thing == Thing::pill_edge;
+  const bool is_target =
+      over.thing == Thing::node || over.thing == Thing::node_edge || over.thing == Thing::pill || over.thing == Thing::pill_edge;
   if (is_target && over.index != drag.grabbed.index) {
     const Box box = board.camera.to_screen(board.model.anchor(over.index));
     list.AddRect(box.low() - ImVec2(3, 3), box.high() + ImVec2(3, 3), c.accent, 7, 0, 2.5f);
@@ -112,7 +117,8 @@ void draw_deed(Board& board) {
   if (drag.deed == Deed::cut) {
     std::vector<ImVec2> screen;
     for (const ImVec2& p : drag.swipe) screen.push_back(board.camera.to_screen(p));
-    if (screen.size() > 1) list.AddPolyline(screen.data(), static_cast<int>(screen.size()), c.bad, 0, 1.8f * board.theme().scale());
+    if (screen.size() > 1)
+      list.AddPolyline(screen.data(), static_cast<int>(screen.size()), c.bad, 0, 1.8f * board.theme().scale());
     return;
   }
   if (!drag.is_far) return;
@@ -121,10 +127,12 @@ void draw_deed(Board& board) {
     const bool encloses = cursor.x >= drag.begin.x;
     list.AddRectFilled(box.low(), box.high(), faded(c.accent, 0.1f));
     list.AddRect(box.low(), box.high(), faded(c.accent, encloses ? 0.9f : 0.5f), 2, 0, encloses ? 1.5f : 1.0f);
-    draw_text(board, {box.low().x + 4, box.high().y + 3}, 11 * board.theme().scale(), c.text_soft, encloses ? "inside" : "touching");
+    draw_text(board, {box.low().x + 4, box.high().y + 3}, 11 * board.theme().scale(), c.text_soft,
+              encloses ? "inside" : "touching");
   }
   if (drag.deed != Deed::move) return;
-  for (const auto& [from, to] : drag.guides) list.AddLine(board.camera.to_screen(from), board.camera.to_screen(to), faded(c.accent, 0.7f), 1);
+  for (const auto& [from, to] : drag.guides)
+    list.AddLine(board.camera.to_screen(from), board.camera.to_screen(to), faded(c.accent, 0.7f), 1);
   if (drag.copies)
     for (const Box& old : drag.old_anchors) {
       const Box screen = board.camera.to_screen(old);

@@ -20,7 +20,8 @@ std::string error_of(const Board& board, const Line& line) {
   if (line.definition == nullptr) return line.label + ": kept as it is, not run";
   if (line.in_state == kNoIndex) return "";
   const State& state = board.editor.state();
-  const auto& error = state.links[line.in_state].error ? state.links[line.in_state].error : state.plan->links[line.in_state].error;
+  const auto& error =
+      state.links[line.in_state].error ? state.links[line.in_state].error : state.plan->links[line.in_state].error;
   return error ? error->message : "";
 }
 
@@ -45,7 +46,8 @@ Stroke stroke_of(const Board& board, const Line& line) {
   if (board.drag.deed == Deed::cut && board.drag.swipe.size() > 1) {
     for (std::size_t k = 1; k < board.drag.swipe.size(); ++k)
       for (std::size_t p = 1; p < line.points.size(); ++p)
-        if (do_cross(board.drag.swipe[k - 1], board.drag.swipe[k], line.points[p - 1], line.points[p])) stroke.colour = c.bad, opacity = 1;
+        if (do_cross(board.drag.swipe[k - 1], board.drag.swipe[k], line.points[p - 1], line.points[p]))
+          stroke.colour = c.bad, opacity = 1;
   }
   stroke.colour = faded(stroke.colour, opacity);
   return stroke;
@@ -87,7 +89,8 @@ ImVec2 before_tip(const std::vector<ImVec2>& points, bool at_end, float reach) {
 void draw_chip(Board& board, ImVec2 middle, const std::string& text, float pixels, ImU32 ink, ImU32 edge) {
   const float width = text_width(board, pixels, text), pad = 0.4f * pixels;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 low{middle.x - width / 2 - pad, middle.y - 0.72f * pixels}, high{middle.x + width / 2 + pad, middle.y + 0.72f * pixels};
+  const ImVec2 low{middle.x - width / 2 - pad, middle.y - 0.72f * pixels},
+      high{middle.x + width / 2 + pad, middle.y + 0.72f * pixels};
   list.AddRectFilled(low, high, faded(board.theme().colours().canvas, 0.92f), 0.4f * pixels);
   if (edge != 0) list.AddRect(low, high, edge, 0.4f * pixels);
   draw_text(board, {low.x + pad, middle.y - 0.6f * pixels}, pixels, ink, text);
@@ -129,7 +132,8 @@ void draw_labels(Board& board, const Line& line, const Stroke& stroke, const std
       draw_chip(board, {middle.x, middle.y + radius + 0.8f * pixels}, line.label + ": " + error, pixels, c.bad, 0);
     return;
   }
-  if (!text.empty()) draw_chip(board, middle, text, pixels, stroke.is_lit ? c.text : c.text_soft, stroke.is_lit ? stroke.colour : 0);
+  if (!text.empty())
+    draw_chip(board, middle, text, pixels, stroke.is_lit ? c.text : c.text_soft, stroke.is_lit ? stroke.colour : 0);
 }
 
 void draw_line(Board& board, const Line& line, std::vector<ImVec2>& points) {
@@ -138,7 +142,8 @@ void draw_line(Board& board, const Line& line, std::vector<ImVec2>& points) {
   const float k = board.camera.factor();
   points.clear();
   for (const ImVec2& p : line.points) points.push_back(board.camera.to_screen(p));
-  if (line.is_muted || line.definition == nullptr) draw_dashed(list, points, stroke, kDash * board.theme().scale(), kDashGap * board.theme().scale());
+  if (line.is_muted || line.definition == nullptr)
+    draw_dashed(list, points, stroke, kDash * board.theme().scale(), kDashGap * board.theme().scale());
   else list.AddPolyline(points.data(), static_cast<int>(points.size()), stroke.colour, 0, stroke.width);
   const float arrow = std::max(4.0f, 5 + 2 * stroke.width) * std::clamp(k, 0.5f, 1.4f);
   if (k > 0.12f) {
@@ -178,11 +183,13 @@ void draw_pills(Board& board) {
   for (std::size_t p = 0; p < board.model.pills.size(); ++p) {
     const Pill& pill = board.model.pills[p];
     const std::size_t anchor = board.model.boxes.size() + p;
-    const bool is_hovered = (board.hovered.thing == Thing::pill || board.hovered.thing == Thing::pill_edge) && board.hovered.index == anchor;
+    const bool is_hovered =
+        (board.hovered.thing == Thing::pill || board.hovered.thing == Thing::pill_edge) && board.hovered.index == anchor;
     const auto& lit = board.editor.picks;
-    const bool is_lit = is_hovered || std::any_of(board.model.lines.begin(), board.model.lines.end(), [&](const Line& line) {
-      return (line.from == anchor || line.to == anchor) && (lit.lit_link == line.id || lit.links.contains(line.id));
-    });
+    const bool is_lit =
+        is_hovered || std::any_of(board.model.lines.begin(), board.model.lines.end(), [&](const Line& line) {
+          return (line.from == anchor || line.to == anchor) && (lit.lit_link == line.id || lit.links.contains(line.id));
+        });
     const bool is_named = !pill.selection.is_query();
     if (is_lit || is_named)
       for (const std::size_t member : pill.members) {
@@ -199,9 +206,16 @@ void draw_pills(Board& board) {
     // Three dots for "many".
     if (board.camera.zoom() > 0.3)
       for (int dot = 0; dot < 3; ++dot)
-        list.AddCircleFilled(screen.low() + ImVec2((11 + 4.5f * static_cast<float>(dot % 2)) * k, (9 + 4.0f * static_cast<float>(dot)) * k), 1.8f * k, c.accent, 8);
-    const float pixels = 11.5f * k;
-    draw_text(board, {screen.low().x + 22 * k, screen.centre().y - 0.6f * pixels}, pixels, c.text, pill.label, screen.size.x - 26 * k);
+        list.AddCircleFilled(
+            screen.low() + ImVec2((11 + 4.5f * static_cast<float>(dot % 2)) * k, (9 + 4.0f * static_cast<float>(dot)) * k),
+            1.8f * k, c.accent, 8);
+    // Too small to be written in, it is named below.
+    const float pixels = 11.5f * k, least = 9.5f * board.theme().scale();
+    if (pixels < 0.7f * least)
+      draw_text(board, {screen.low().x, screen.high().y + 2}, least, c.text_soft, pill.label, std::max(90.0f, screen.size.x));
+    else
+      draw_text(board, {screen.low().x + 22 * k, screen.centre().y - 0.6f * pixels}, pixels, c.text, pill.label,
+                screen.size.x - 26 * k);
   }
 }
 

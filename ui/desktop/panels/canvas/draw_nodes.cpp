@@ -8,23 +8,19 @@ namespace bl::desktop::canvas {
 
 namespace {
 
-// Below the first zoom a box is a name; between them, values are hinted at by strokes.
+// Below the first zoom a box is a name; below the second, fewer values are written larger.
 constexpr double kNameZoom = 0.42, kTextZoom = 0.6;
-constexpr float kRounding = 5, kPad = 9, kHeadText = 13, kSectionText = 10.5f, kRowText = 11.5f;
+constexpr float kRounding = 5, kPad = 9, kHeadText = 13, kSectionText = 10.5f, kRowText = 11.5f, kLeastText = 9, kLeastHead = 11;
 
 struct Ink {
   Board& board;
   ImDrawList& list;
   const Colours& c;
-  float k;      // pixels for one unit of the plane
+  float k;  // pixels for one unit of the plane
   double zoom;
 
   ImVec2 at(float x, float y) const { return board.camera.to_screen(ImVec2(x, y)); }
 };
-
-ImU32 tone_of(const Ink& ink, const NodeBox& box) {
-  return box.sections.empty() ? ink.c.text_faint : colour_of(ink.board, box.sections.front());
-}
 
 void draw_bar_of(const Ink& ink, const NodeBox& box, const Section& section, ImVec2 low, ImVec2 high) {
   const Editor& editor = ink.board.editor;
@@ -36,6 +32,7 @@ void draw_bar_of(const Ink& ink, const NodeBox& box, const Section& section, ImV
   const auto x_of = [&](double v) { return low.x + (high.x - low.x) * static_cast<float>(v / most); };
   ink.list.AddRectFilled(low, high, ink.c.sunken);
   ink.list.AddRectFilled(low, {x_of(volume), high.y}, faded(tone, 0.85f));
+  if (ink.zoom < kNameZoom) return;
   // What it wants inside its limits, and what it asks for where that is more.
   const float reach = std::max(1.0f, 1.5f * ink.k);
   ink.list.AddRectFilled({x_of(wanted) - reach, low.y - reach}, {x_of(wanted), high.y + reach}, ink.c.text);
@@ -64,19 +61,12 @@ void draw_spark(const Ink& ink, const Spark& spark, ImVec2 low, ImVec2 high, ImU
 void draw_warning(const Ink& ink, ImVec2 middle, float size, ImU32 colour) {
   ink.list.AddTriangleFilled({middle.x, middle.y - size}, {middle.x + size, middle.y + 0.8f * size},
                              {middle.x - size, middle.y + 0.8f * size}, colour);
-  ink.list.AddRectFilled({middle.x - 0.12f * size, middle.y - 0.4f * size}, {middle.x + 0.12f * size, middle.y + 0.5f * size}, ink.c.node);
+  ink.list.AddRectFilled({middle.x - 0.12f * size, middle.y - 0.4f * size}, {middle.x + 0.12f * size, middle.y + 0.5f * size},
+                         ink.c.node);
 }
 
-void draw_row(const Ink& ink, const NodeBox& box, const Section& section, std::size_t row, float y) {
+void draw_row(const Ink& ink, const NodeBox& box, const Section& section, std::size_t row, float y, float size) {
   const float left = box.box.at.x + kPad, right = box.box.high().x - kPad;
-  if (ink.zoom < kTextZoom) {
-    const ImVec2 at = ink.at(left, y + 6), end = ink.at(right, y + 11);
-    const float width = end.x - at.x;
-    ink.list.AddRectFilled(at, {at.x + width * 0.3f, end.y}, faded(ink.c.text_faint, 0.35f));
-    ink.list.AddRectFilled({end.x - width * 0.25f, at.y}, end, faded(ink.c.text_soft, 0.4f));
-    return;
-  }
-  const float size = kRowText * ink.k;
   const std::string& text = section.texts[row];
   const float width = std::min(text_width(ink.board, size, text), 112 * ink.k);
   bool is_tense = false;
@@ -94,7 +84,7 @@ void draw_section_head(const Ink& ink, const NodeBox& box, const Section& sectio
   const ImVec2 low = ink.at(box.box.at.x, y), high = ink.at(box.box.high().x, y + kSectionHeight - 2);
   ink.list.AddRectFilled(low, high, mixed(ink.c.node, tone, 0.22f));
   ink.list.AddRectFilled(low, {low.x + 3 * ink.k, high.y}, tone);
-  if (ink.zoom >= kNameZoom)
+  if (ink.zoom >= kTextZoom)
     draw_text(ink.board, ink.at(box.box.at.x + kPad, y + 2), kSectionText * ink.k, mixed(ink.c.text, tone, 0.25f), section.label,
               (kBoxWidth - 2 * kPad) * ink.k);
 }
@@ -114,6 +104,23 @@ void draw_bar_line(const Ink& ink, const NodeBox& box, const Section& section, f
   draw_bar_of(ink, box, section, ink.at(left, y + 6), ink.at(std::max(text_right, left + 24), y + 12));
 }
 
+// From further away fewer rows, in a size that can still be read: results before settings, the settled rest before the residual.
+float draw_rows(const Ink& ink, const NodeBox& box, const Section& section, float y) {
+  const float foot = y + kRowHeight * static_cast<float>(section.rows.size());
+  const float size = std::max(kRowText * ink.k, kLeastText * ink.board.theme().scale());
+  const float step = std::max(kRowHeight, 1.25f * size / ink.k);
+  std::size_t room = static_cast<std::size_t>((foot - y) / step + 0.05f);
+  const std::size_t count = section.rows.size();
+  for (std::size_t row = 0; row < count && room > 0; ++row) {
+    const PortDefinition& port = section.type->ports[section.rows[row].port];
+    if (port.is_residual && room < count) continue;
+    draw_row(ink, box, section, row, y, size);
+    y += step;
+    --room;
+  }
+  return foot;
+}
+
 float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::size_t number, float y) {
   draw_section_head(ink, box, section, y);
   y += kSectionHeight;
@@ -125,7 +132,7 @@ float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::si
   }
   if (section.has_bar) draw_bar_line(ink, box, section, y), y += kBarHeight;
   refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
-  for (std::size_t row = 0; row < section.rows.size(); ++row, y += kRowHeight) draw_row(ink, box, section, row, y);
+  y = draw_rows(ink, box, section, y);
   if (section.spark != kNoIndex) {
     const Spark* spark = ink.board.live.spark(box.id, number);
     const ImVec2 low = ink.at(box.box.at.x + kPad, y + 4), high = ink.at(box.box.high().x - kPad, y + kSparkHeight - 4);
@@ -136,22 +143,33 @@ float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::si
   return y;
 }
 
+bool is_result(const PortDefinition& port) { return port.is_computed && !port.is_residual; }
+
 // Far away: the name as large as fits, on the colour of the first role.
-void draw_as_name(const Ink& ink, const NodeBox& box, const Box& screen) {
-  const ImU32 tone = tone_of(ink, box);
-  ink.list.AddRectFilled(screen.low(), screen.high(), mixed(ink.c.node, tone, 0.2f), screen.size.x > 40 ? 3.0f : 0.0f);
-  ink.list.AddRectFilled(screen.low(), {screen.low().x + std::max(2.0f, 4 * ink.k), screen.high().y}, tone);
-  const float bar = std::max(2.0f, 14 * ink.k);
+void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
+  const ImU32 tone = tone_of(ink.board, box);
+  const float round = screen.size.x > 40 ? 3.0f : 0.0f, stripe = std::max(2.0f, 6 * ink.k), bar = std::max(2.0f, 12 * ink.k);
+  ink.list.AddRectFilled(screen.low(), screen.high(), mixed(ink.c.node, tone, 0.14f), round);
+  ink.list.AddRectFilled(screen.low(), {screen.low().x + stripe, screen.high().y}, tone, round, ImDrawFlags_RoundCornersLeft);
   for (const Section& section : box.sections)
     if (section.has_bar && !box.is_collapsed)
-      draw_bar_of(ink, box, section, {screen.low().x + std::max(2.0f, 4 * ink.k), screen.high().y - bar}, screen.high());
+      draw_bar_of(ink, box, section, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2));
   if (screen.size.x < 34) return;
-  const float pixels = std::clamp(screen.size.x / 6.2f, 7.0f * ink.board.theme().scale(), 12.5f * ink.board.theme().scale());
-  const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar);
+  const float pixels = std::clamp(screen.size.x / 5.4f, 8.0f * ink.board.theme().scale(), 12.5f * ink.board.theme().scale());
+  const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar - 2);
   ImFont* font = ink.board.theme().canvas_font(pixels);
   const float pad = std::max(5.0f, 10 * ink.k);
   ink.list.AddText(font, pixels, {screen.low().x + pad, screen.low().y + 3}, ink.c.text, box.name.c_str(), nullptr,
                    screen.size.x - pad - 3, &clip);
+  // Its first result at the foot, where there is room for it.
+  if (screen.size.x < 58 || screen.size.y < 52 || box.sections.empty() || box.sections.front().type == nullptr) return;
+  Section& section = box.sections.front();
+  refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
+  std::size_t row = 0;
+  while (row < section.rows.size() && !is_result(section.type->ports[section.rows[row].port])) ++row;
+  if (row < section.texts.size())
+    draw_text(ink.board, {screen.low().x + pad, screen.high().y - bar - 5 - pixels}, 0.85f * pixels, ink.c.text_soft,
+              section.texts[row], screen.size.x - pad - 4);
 }
 
 void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_error) {
@@ -159,6 +177,8 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
   const float round = kRounding * ink.k;
   ink.list.AddRectFilled(screen.low(), screen.high(), ink.c.node_head, round,
                          box.is_collapsed ? ImDrawFlags_RoundCornersAll : ImDrawFlags_RoundCornersTop);
+  ink.list.AddRectFilled(screen.low(), {screen.low().x + 4 * ink.k, screen.high().y}, tone_of(ink.board, box), round,
+                         box.is_collapsed ? ImDrawFlags_RoundCornersLeft : ImDrawFlags_RoundCornersTopLeft);
   float room = (kBoxWidth - 2 * kPad) * ink.k;
   const float y = screen.centre().y;
   float x = screen.high().x - 13 * ink.k;
@@ -171,11 +191,13 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
   if (box.is_collapsed)
     for (const Section& section : box.sections) {
       room -= 10 * ink.k;
-      ink.list.AddCircleFilled({screen.high().x - 10 * ink.k - (static_cast<float>(&section - box.sections.data())) * 10 * ink.k, y},
-                               3 * ink.k, colour_of(ink.board, section), 10);
+      ink.list.AddCircleFilled(
+          {screen.high().x - 10 * ink.k - (static_cast<float>(&section - box.sections.data())) * 10 * ink.k, y}, 3 * ink.k,
+          colour_of(ink.board, section), 10);
     }
-  draw_text(ink.board, {screen.low().x + kPad * ink.k, y - 0.62f * kHeadText * ink.k}, kHeadText * ink.k,
-            box.is_ghost() ? ink.c.text_faint : ink.c.text, box.name, room);
+  const float size = std::max(kHeadText * ink.k, std::min(kLeastHead * ink.board.theme().scale(), 0.8f * screen.size.y));
+  draw_text(ink.board, {screen.low().x + kPad * ink.k, y - 0.62f * size}, size, box.is_ghost() ? ink.c.text_faint : ink.c.text,
+            box.name, room);
 }
 
 void draw_outline(const Ink& ink, const NodeBox& box, const Box& screen, bool has_error) {
@@ -185,7 +207,10 @@ void draw_outline(const Ink& ink, const NodeBox& box, const Box& screen, bool ha
   const float scale = ink.board.theme().scale();
   // Thousands of small boxes are told apart by the ground between them.
   if (!is_picked && !is_hovered && !has_error && screen.size.x < 40) return;
-  const ImU32 colour = is_picked ? ink.c.accent : has_error ? ink.c.bad : is_hovered ? mixed(ink.c.line, ink.c.accent, 0.6f) : ink.c.line;
+  const ImU32 colour = is_picked    ? ink.c.accent
+                       : has_error  ? ink.c.bad
+                       : is_hovered ? mixed(ink.c.line, ink.c.accent, 0.6f)
+                                    : ink.c.line;
   ink.list.AddRect(screen.low(), screen.high(), colour, round, 0, (is_picked ? 2.0f : 1.0f) * scale);
 }
 
@@ -213,7 +238,8 @@ void draw_node(const Ink& ink, NodeBox& box) {
     draw_as_name(ink, box, screen);
   } else {
     const float round = kRounding * ink.k;
-    ink.list.AddRectFilled(screen.low() + ImVec2(0, 2 * ink.k), screen.high() + ImVec2(0, 3 * ink.k), IM_COL32(0, 0, 0, 38), round);
+    ink.list.AddRectFilled(screen.low() + ImVec2(0, 2 * ink.k), screen.high() + ImVec2(0, 3 * ink.k), IM_COL32(0, 0, 0, 38),
+                           round);
     ink.list.AddRectFilled(screen.low(), screen.high(), ink.c.node, round);
     draw_head(ink, box, tension, !error.empty());
     float y = box.box.at.y + kHeadHeight;
@@ -256,6 +282,13 @@ ImU32 colour_of(const Board& board, const Section& section) {
   const ImU32 tone = board.theme().category(section.category);
   // The categories are light inks; on a light ground they need depth.
   return board.theme().is_dark() ? tone : mixed(tone, IM_COL32(40, 44, 60, 255), 0.3f);
+}
+
+ImU32 tone_of(const Board& board, const NodeBox& box) {
+  if (box.use == kNoIndex)
+    return box.sections.empty() ? board.theme().colours().text_faint : colour_of(board, box.sections.front());
+  const ImU32 tone = board.theme().category(box.use);
+  return board.theme().is_dark() ? tone : mixed(tone, IM_COL32(40, 44, 60, 255), 0.15f);
 }
 
 void draw_nodes(Board& board) {

@@ -10,35 +10,26 @@ namespace {
 
 constexpr std::size_t kMostCardRows = 14, kMostVoices = 4;
 constexpr double kCardSeconds = 0.3;
+constexpr float kChipText = 11;
 
 void draw_chips(Board& board) {
   const Colours& c = board.theme().colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float scale = board.theme().scale(), pixels = 11 * scale;
-  std::vector<Family> families;
-  for (const Line& line : board.model.lines)
-    if (std::none_of(families.begin(), families.end(), [&](const Family& f) { return f.label == line.family.label; }))
-      families.push_back(line.family);
-  std::sort(families.begin(), families.end(), [](const Family& a, const Family& b) { return a.label < b.label; });
-  board.chips.clear();
-  ImVec2 at = board.camera.pane().low() + ImVec2(10, 10) * scale;
-  for (const Family& family : families) {
-    const std::string label(family.label);
-    const float width = text_width(board, pixels, label) + 28 * scale;
-    if (at.x + width > board.camera.pane().high().x - 10 * scale && at.x > board.camera.pane().low().x + 11 * scale)
-      at = {board.camera.pane().low().x + 10 * scale, at.y + 26 * scale};
-    const Box chip{at, {width, 22 * scale}};
+  const float scale = board.theme().scale(), pixels = kChipText * scale;
+  for (const auto& [label, chip] : board.chips) {
     const bool is_off = board.hidden_families.contains(label);
     const bool is_hovered = board.hovered.thing == Thing::chip && board.hovered.id == label;
     list.AddRectFilled(chip.low(), chip.high(), faded(c.panel, 0.9f), 11 * scale);
     list.AddRect(chip.low(), chip.high(), is_hovered ? c.accent : c.line, 11 * scale);
     const ImVec2 dot = chip.low() + ImVec2(12, 11) * scale;
+    ImU32 colour = c.text_faint;
+    for (const Line& line : board.model.lines)
+      if (line.family.label == label) colour = line.family.colour;
     if (is_off) list.AddCircle(dot, 4 * scale, c.text_faint, 12);
-    else list.AddCircleFilled(dot, 4 * scale, family.colour, 12);
+    else list.AddCircleFilled(dot, 4 * scale, colour, 12);
     draw_text(board, chip.low() + ImVec2(21, 4.5f) * scale, pixels, is_off ? c.text_faint : c.text_soft, label);
-    if (is_off) list.AddLine(chip.low() + ImVec2(20 * scale, 11 * scale), chip.high() - ImVec2(7 * scale, 11 * scale), c.text_faint);
-    board.chips.emplace_back(label, chip);
-    at.x += width + 6 * scale;
+    if (is_off)
+      list.AddLine(chip.low() + ImVec2(20 * scale, 11 * scale), chip.high() - ImVec2(7 * scale, 11 * scale), c.text_faint);
   }
 }
 
@@ -50,7 +41,7 @@ void draw_minimap(Board& board) {
   const Colours& c = board.theme().colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 size = ImVec2(150, 100) * scale;
-  board.minimap = {pane.high() - size - ImVec2(10, 10) * scale, size};
+  board.minimap = {{pane.low().x + 10 * scale, pane.high().y - size.y - 10 * scale}, size};
   const Box all = board.model.bounds().grown(60);
   const float k = std::min(size.x / all.size.x, size.y / all.size.y);
   const ImVec2 origin = board.minimap.centre() - all.centre() * k;
@@ -60,7 +51,7 @@ void draw_minimap(Board& board) {
     const Box& box = board.model.anchor(n);
     const bool is_box = n < board.model.boxes.size();
     const NodeBox* node = is_box ? &board.model.boxes[n] : nullptr;
-    ImU32 tone = node == nullptr || node->sections.empty() ? c.text_faint : faded(colour_of(board, node->sections.front()), 0.75f);
+    ImU32 tone = node == nullptr ? c.text_faint : faded(tone_of(board, *node), 0.75f);
     if (node != nullptr && board.editor.picks.nodes.contains(node->id)) tone = c.accent;
     const ImVec2 low = origin + box.low() * k, high = origin + box.high() * k;
     list.AddRectFilled(low, {std::max(high.x, low.x + 1), std::max(high.y, low.y + 1)}, tone);
@@ -82,7 +73,7 @@ void draw_hints(Board& board) {
     draw_text(board, middle - ImVec2(text_width(board, 13 * scale, second) / 2, -2 * scale), 13 * scale, c.text_faint, second);
   }
   if (board.model.undrawn > 0)
-    draw_text(board, {pane.low().x + 12 * scale, pane.high().y - 24 * scale}, 11 * scale, c.warning,
+    draw_text(board, {pane.low().x + 12 * scale, board.camera.pane().low().y + 64 * scale}, 11 * scale, c.warning,
               report::counted(board.model.undrawn, "link") + " of an unknown kind: kept as it is, not drawn");
 }
 
@@ -97,7 +88,8 @@ void draw_card(Board& board, const Box& beside, const std::string& title, const 
   const float scale = board.theme().scale(), pixels = 12 * scale, step = 17 * scale, pad = 10 * scale;
   float width = text_width(board, 13 * scale, title) + (is_pinned ? 16 * scale : 0);
   for (const CardRow& row : rows)
-    width = std::max(width, text_width(board, pixels, row.label) + (row.value.empty() ? 0 : 18 * scale + text_width(board, pixels, row.value)));
+    width = std::max(width, text_width(board, pixels, row.label) +
+                                (row.value.empty() ? 0 : 18 * scale + text_width(board, pixels, row.value)));
   width = std::min(width, 380 * scale);
   const Box& pane = board.camera.pane();
   const ImVec2 size{width + 2 * pad, 2 * pad + 20 * scale + step * static_cast<float>(rows.size())};
@@ -157,7 +149,9 @@ void draw_link_card(Board& board, const Line& line) {
   const Editor& editor = board.editor;
   const Colours& c = board.theme().colours();
   const LinkRecord& link = editor.scene().links.at(line.id);
-  std::vector<CardRow> rows{{text_of(editor, board.model.selection_of(line.from)) + "  \xe2\x86\x92  " + text_of(editor, board.model.selection_of(line.to)), ""}};
+  std::vector<CardRow> rows{{text_of(editor, board.model.selection_of(line.from)) + "  \xe2\x86\x92  " +
+                                 text_of(editor, board.model.selection_of(line.to)),
+                             ""}};
   rows.push_back({"strength", report::readable(link.strength)});
   for (const auto& [parameter, value] : link.parameters)
     if (const PortDefinition* port = line.definition == nullptr ? nullptr : line.definition->find_port(parameter)) {
@@ -166,11 +160,13 @@ void draw_link_card(Board& board, const Line& line) {
     }
   if (link.is_muted) rows.push_back({"muted: shown, but its voice does not count", "", c.warning});
   if (!link.is_enabled) rows.push_back({"off: not evaluated", "", c.warning});
-  if (const LinkPulse* pulse = board.live.pulse(line.id); pulse != nullptr && !pulse->text.empty()) rows.push_back({"last change", pulse->text});
+  if (const LinkPulse* pulse = board.live.pulse(line.id); pulse != nullptr && !pulse->text.empty())
+    rows.push_back({"last change", pulse->text});
   if (line.definition == nullptr) rows.push_back({"This kind is unknown here: kept as it is, not run.", "", c.text_faint});
   if (line.in_state != kNoIndex) {
     const State& state = editor.state();
-    const auto& error = state.links[line.in_state].error ? state.links[line.in_state].error : state.plan->links[line.in_state].error;
+    const auto& error =
+        state.links[line.in_state].error ? state.links[line.in_state].error : state.plan->links[line.in_state].error;
     if (error) rows.push_back({error->message, "", c.bad});
   }
   const ImVec2 at = ImGui::GetIO().MousePos;
@@ -178,6 +174,23 @@ void draw_link_card(Board& board, const Line& line) {
 }
 
 }  // namespace
+
+void place_chips(Board& board) {
+  const float scale = board.theme().scale();
+  std::set<std::string> families;
+  for (const Line& line : board.model.lines) families.insert(std::string(line.family.label));
+  board.chips.clear();
+  const Box& pane = board.camera.pane();
+  ImVec2 at = pane.low() + ImVec2(10, 10) * scale;
+  for (const std::string& label : families) {
+    const float width = text_width(board, kChipText * scale, label) + 28 * scale;
+    const bool is_full = at.x + width > pane.high().x - 10 * scale && at.x > pane.low().x + 11 * scale;
+    if (is_full) at = {pane.low().x + 10 * scale, at.y + 26 * scale};
+    board.chips.emplace_back(label, Box{at, {width, 22 * scale}});
+    at.x += width + 6 * scale;
+  }
+  board.camera.set_head(board.chips.empty() ? 0 : at.y + 24 * scale - pane.low().y);
+}
 
 void draw_overlays(Board& board) {
   draw_chips(board);
@@ -194,10 +207,11 @@ void draw_cards(Board& board) {
   const Hit& hit = board.hovered;
   const bool is_pinned = std::find(board.pinned.begin(), board.pinned.end(), hit.id) != board.pinned.end();
   if ((hit.thing == Thing::node || hit.thing == Thing::node_edge) && !is_pinned && hit.index < board.model.boxes.size())
-    draw_card(board, board.camera.to_screen(board.model.boxes[hit.index].box), board.model.boxes[hit.index].name + "  (" + hit.id + ")",
-              rows_of(board, board.model.boxes[hit.index]), false);
+    draw_card(board, board.camera.to_screen(board.model.boxes[hit.index].box),
+              board.model.boxes[hit.index].name + "  (" + hit.id + ")", rows_of(board, board.model.boxes[hit.index]), false);
   if (hit.thing == Thing::link)
-    if (const std::size_t k = board.model.find_line(hit.id); k < board.model.lines.size()) draw_link_card(board, board.model.lines[k]);
+    if (const std::size_t k = board.model.find_line(hit.id); k < board.model.lines.size())
+      draw_link_card(board, board.model.lines[k]);
 }
 
 }  // namespace bl::desktop::canvas

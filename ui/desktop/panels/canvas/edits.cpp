@@ -68,8 +68,8 @@ void reconnect(const Board& board, const std::string& node, const std::set<std::
       link.from.ids = {pairs[k].first};
       link.to.ids = {pairs[k].second};
       if (pairs[k].first == pairs[k].second) continue;
-      commands.push_back(command<AddLink>({ids.of(pairs[k].first + "_" + pairs[k].second),
-                                           {write_json_line(link_to_json(link, board.editor.registry))}}));
+      commands.push_back(command<AddLink>(
+          {ids.of(pairs[k].first + "_" + pairs[k].second), {write_json_line(link_to_json(link, board.editor.registry))}}));
     }
   }
 }
@@ -111,14 +111,16 @@ void remove_chosen(Board& board, bool reconnects) {
   // Links that go with their last node.
   for (const auto& [id, link] : editor.scene().links) {
     const auto goes = [&](const Selection& end) {
-      return !end.is_query() && !end.ids.empty() && std::all_of(end.ids.begin(), end.ids.end(), [&](const auto& n) { return nodes.contains(n); });
+      return !end.is_query() && !end.ids.empty() &&
+             std::all_of(end.ids.begin(), end.ids.end(), [&](const auto& n) { return nodes.contains(n); });
     };
     if (goes(link.from) || goes(link.to)) links.insert(id);
   }
   Json patch = forgetting(board.model.view, nodes, links);
   for (const std::string& id : board.picked_comments) {
     patch["comments"][id] = nullptr;
-    if (const std::string frame = board.model.view.frame_of_comment(id); !frame.empty()) patch["frames"][frame]["comments"][id] = nullptr;
+    if (const std::string frame = board.model.view.frame_of_comment(id); !frame.empty())
+      patch["frames"][frame]["comments"][id] = nullptr;
   }
   for (const std::string& id : board.picked_frames) {
     patch["frames"][id] = nullptr;
@@ -183,7 +185,8 @@ void move_links(Board& board, std::size_t from, std::size_t to) {
     Selection a = board.model.selection_of(line.from), b = board.model.selection_of(line.to);
     if (line.from == from) a = target;
     if (line.to == from) b = target;
-    if (const auto why = misfit(editor.registry, editor.scene(), *line.definition, a, b)) refused = line.label + " stays: " + *why;
+    if (const auto why = misfit(editor.registry, editor.scene(), *line.definition, a, b))
+      refused = line.label + " stays: " + *why;
     else commands.push_back(command<SetLinkEnds>({line.id, a, b})), ++count;
   }
   if (!commands.empty()) editor.submit(commands, editor.new_gesture());
@@ -222,7 +225,8 @@ void add_dot(Board& board, std::size_t line, ImVec2 at) {
   // Between the two neighbours that the curve passes there: counted by how many dots come before the nearest stretch.
   std::size_t nearest = 1;
   for (std::size_t s = 1; s < known.points.size(); ++s)
-    if (distance(at, known.points[s - 1], known.points[s]) < distance(at, known.points[nearest - 1], known.points[nearest])) nearest = s;
+    if (distance(at, known.points[s - 1], known.points[s]) < distance(at, known.points[nearest - 1], known.points[nearest]))
+      nearest = s;
   const std::size_t steps = std::max<std::size_t>(1, (known.points.size() - 1) / (known.dots.size() + 1));
   std::vector<ImVec2> dots = known.dots;
   const std::size_t place = std::min((nearest - 1) / steps, dots.size());

@@ -39,8 +39,8 @@ std::vector<std::string> types_of(const NodeRecord& node) {
 }
 
 // What the node lacks, as a sentence.
-std::optional<std::string> lack(const Registry& registry, const LinkDefinition& kind, End end, const std::vector<std::string>& types,
-                                const std::string& who) {
+std::optional<std::string> lack(const Registry& registry, const LinkDefinition& kind, End end,
+                                const std::vector<std::string>& types, const std::string& who) {
   for (const PortPath& path : fixed_paths(kind, end))
     if (!has_port(registry, types, path)) {
       const std::string role = label_of(registry, path.typification);
@@ -49,7 +49,8 @@ std::optional<std::string> lack(const Registry& registry, const LinkDefinition& 
   return std::nullopt;
 }
 
-std::optional<std::string> lack_at_end(const Registry& registry, const Scene& scene, const LinkDefinition& kind, End end, const Selection& selection) {
+std::optional<std::string> lack_at_end(const Registry& registry, const Scene& scene, const LinkDefinition& kind, End end,
+                                       const Selection& selection) {
   const std::vector<std::string> ids = resolve(scene, registry, selection);
   if (ids.empty()) return "no node is in the set";
   std::optional<std::string> first;
@@ -87,35 +88,41 @@ bool chooses_port(const Paths& paths, End end) {
 
 }  // namespace
 
-std::optional<std::string> misfit(const Registry& registry, const Scene& scene, const LinkDefinition& kind, const Selection& from, const Selection& to) {
+std::optional<std::string> misfit(const Registry& registry, const Scene& scene, const LinkDefinition& kind, const Selection& from,
+                                  const Selection& to) {
   if (!from.is_query() && from == to && from.ids.size() <= 1) return "both ends are the same node";
   if (auto why = lack_at_end(registry, scene, kind, End::from, from)) return why;
   if (auto why = lack_at_end(registry, scene, kind, End::to, to)) return why;
   const auto first_of = [&](const Selection& selection) { return scene.nodes.at(resolve(scene, registry, selection).front()); };
-  if (chooses_port(kind.reads, End::from) && port_for(registry, first_of(from), false).empty()) return "the first end has no number to read";
+  if (chooses_port(kind.reads, End::from) && port_for(registry, first_of(from), false).empty())
+    return "the first end has no number to read";
   if (chooses_port(kind.proposes, End::to) && port_for(registry, first_of(to), true).empty())
     return "the second end has no number that links may change";
   return std::nullopt;
 }
 
-std::optional<std::string> misfit_with_new(const Registry& registry, const Scene& scene, const LinkDefinition& kind, const Selection& from,
-                                           const TypificationDefinition& role) {
+std::optional<std::string> misfit_with_new(const Registry& registry, const Scene& scene, const LinkDefinition& kind,
+                                           const Selection& from, const TypificationDefinition& role) {
   if (auto why = lack_at_end(registry, scene, kind, End::from, from)) return why;
   if (auto why = lack(registry, kind, End::to, {std::string(kBaseNode), role.id}, "a " + role.label)) return why;
   NodeRecord node;
   node.types[role.id];
   const auto sources = resolve(scene, registry, from);
-  if (chooses_port(kind.reads, End::from) && port_for(registry, scene.nodes.at(sources.front()), false).empty()) return "there is no number to read";
-  if (chooses_port(kind.proposes, End::to) && port_for(registry, node, true).empty()) return "it has no number that links may change";
+  if (chooses_port(kind.reads, End::from) && port_for(registry, scene.nodes.at(sources.front()), false).empty())
+    return "there is no number to read";
+  if (chooses_port(kind.proposes, End::to) && port_for(registry, node, true).empty())
+    return "it has no number that links may change";
   return std::nullopt;
 }
 
-PortValues chosen_ports(const Registry& registry, const Scene& scene, const LinkDefinition& kind, const Selection& from, const Selection& to) {
+PortValues chosen_ports(const Registry& registry, const Scene& scene, const LinkDefinition& kind, const Selection& from,
+                        const Selection& to) {
   PortValues values;
   const auto choose = [&](const PortPath& path, const Selection& selection, bool is_write) {
     const auto ids = resolve(scene, registry, selection);
     if (path.chosen_by.empty() || ids.empty()) return;
-    if (const std::string port = port_for(registry, scene.nodes.at(ids.front()), is_write); !port.empty()) values[path.chosen_by] = port;
+    if (const std::string port = port_for(registry, scene.nodes.at(ids.front()), is_write); !port.empty())
+      values[path.chosen_by] = port;
   };
   for (const LinkRead& read : kind.reads) choose(read.path, read.end == End::from ? from : to, false);
   for (const LinkWrite& write : kind.proposes) choose(write.path, write.end == End::from ? from : to, true);

@@ -14,7 +14,8 @@ bool is_start(std::string_view text, std::size_t at) {
 }
 
 int word_score(std::string_view word, std::string_view text) {
-  const auto found = std::search(text.begin(), text.end(), word.begin(), word.end(), [](char a, char b) { return lower(a) == lower(b); });
+  const auto found =
+      std::search(text.begin(), text.end(), word.begin(), word.end(), [](char a, char b) { return lower(a) == lower(b); });
   if (found != text.end()) {
     const auto at = static_cast<std::size_t>(found - text.begin());
     const int shortness = 20 - std::min(20, static_cast<int>(text.size() - word.size()) / 2);

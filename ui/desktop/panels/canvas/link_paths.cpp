@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <tuple>
 
 namespace bl::desktop::canvas {
 
 namespace {
 
-constexpr float kSpacing = 17, kUsableSide = 0.8f, kLeastBend = 18, kMostBend = 150, kBend = 0.42f;
+constexpr float kSpacing = 17, kUsableSide = 0.8f, kLeastBend = 18, kMostBend = 150, kBend = 0.45f, kAcross = 0.1f;
 constexpr int kSteps = 24;
 
 enum Side { right, left, below, above };
@@ -49,12 +50,9 @@ std::vector<Mouth> mouths_of(const std::vector<Box>& bodies, const std::vector<R
       Mouth mouth{r, body, end, right, 0, {}};
       ImVec2 towards = bodies[other].centre();
       if (!route.dots.empty()) towards = end == 0 ? route.dots.front() : route.dots.back();
-      if (is_loop(route)) mouth.side = end == 0 ? above : right;
-      else mouth.side = route.dots.empty() ? side_of(bodies[body], bodies[other]) : side_towards(bodies[body], towards);
+      mouth.side = route.dots.empty() ? side_of(bodies[body], bodies[other]) : side_towards(bodies[body], towards);
       const bool is_upright = mouth.side == right || mouth.side == left;
       mouth.order = is_upright ? towards.y : towards.x;
-      // Loops go around the upper right corner, the later ones outside.
-      if (is_loop(route)) mouth.order = end == 0 ? 1e6f - static_cast<float>(r) : static_cast<float>(r) - 1e6f;
       mouths.push_back(mouth);
     }
   }
@@ -62,7 +60,7 @@ std::vector<Mouth> mouths_of(const std::vector<Box>& bodies, const std::vector<R
 }
 
 // Spreads the mouths of each side along it, in the order of what they lead to.
-void spread(const std::vector<Box>& bodies, std::vector<Mouth>& mouths) {
+void spread(const std::vector<Box>& bodies, const std::vector<Route>& routes, std::vector<Mouth>& mouths) {
   std::vector<std::size_t> order(mouths.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -72,7 +70,13 @@ void spread(const std::vector<Box>& bodies, std::vector<Mouth>& mouths) {
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin;
     const Mouth& first = mouths[order[begin]];
-    while (end < order.size() && mouths[order[end]].body == first.body && mouths[order[end]].side == first.side) ++end;
+    if (is_loop(routes[first.route])) {  // have a place of their own
+      ++begin;
+      continue;
+    }
+    while (end < order.size() && mouths[order[end]].body == first.body && mouths[order[end]].side == first.side &&
+           !is_loop(routes[mouths[order[end]].route]))
+      ++end;
     const Box& body = bodies[first.body];
     const bool is_upright = first.side == right || first.side == left;
     const float room = (is_upright ? body.size.y : body.size.x) * kUsableSide;
@@ -96,7 +100,11 @@ void add_bezier(std::vector<ImVec2>& points, ImVec2 a, ImVec2 b, ImVec2 c, ImVec
   }
 }
 
-float bend_for(ImVec2 a, ImVec2 b) { return std::clamp(kBend * length(b - a), kLeastBend, kMostBend); }
+// A curve swings out as far as its ends lie apart along the way that it leaves, and only a little for what lies across.
+float bend_for(ImVec2 a, ImVec2 b, ImVec2 way) {
+  const ImVec2 apart = b - a;
+  return std::clamp(kBend * std::abs(dot(apart, way)) + kAcross * std::abs(cross(apart, way)), kLeastBend, kMostBend);
+}
 
 std::vector<ImVec2> curve(ImVec2 begin, ImVec2 begin_normal, ImVec2 end, ImVec2 end_normal, const std::vector<ImVec2>& dots) {
   std::vector<ImVec2> points;
@@ -107,18 +115,22 @@ std::vector<ImVec2> curve(ImVec2 begin, ImVec2 begin_normal, ImVec2 end, ImVec2 
     // At a dot the curve runs as from the place before it to the place after it.
     const ImVec2 after = is_last ? end : k + 1 == dots.size() ? end : dots[k + 1];
     const ImVec2 arrival = is_last ? end_normal * -1 : unit_vector(after - from);
-    const float bend = bend_for(from, to);
-    add_bezier(points, from, from + tangent * bend, to - arrival * bend, to);
+    add_bezier(points, from, from + tangent * bend_for(from, to, tangent), to - arrival * bend_for(from, to, arrival), to);
     from = to;
     tangent = arrival;
   }
   return points;
 }
 
-std::vector<ImVec2> loop(const Mouth& begin, const Mouth& end, const Box& body) {
+// Around the upper right corner, the later ones outside.
+std::vector<ImVec2> loop(const Box& body, std::size_t number) {
+  const float out = static_cast<float>(number);
+  const ImVec2 corner{body.high().x, body.at.y};
+  const ImVec2 begin = corner + ImVec2(-std::min(22 + 20 * out, 0.8f * body.size.x), 0);
+  const ImVec2 end = corner + ImVec2(0, std::min(9 + 6 * out, 0.8f * body.size.y));
+  const float reach = 44 + 24 * out;
   std::vector<ImVec2> points;
-  const float reach = 16 + 0.5f * length(ImVec2(body.high().x, body.at.y) - begin.at);
-  add_bezier(points, begin.at, begin.at + ImVec2(0, -reach * 1.6f), end.at + ImVec2(reach * 1.6f, 0), end.at);
+  add_bezier(points, begin, begin + ImVec2(-0.2f * reach, -reach * 1.35f), end + ImVec2(reach * 1.7f, -0.4f * reach), end);
   return points;
 }
 
@@ -126,12 +138,13 @@ std::vector<ImVec2> loop(const Mouth& begin, const Mouth& end, const Box& body) 
 
 std::vector<std::vector<ImVec2>> trace(const std::vector<Box>& bodies, const std::vector<Route>& routes) {
   std::vector<Mouth> mouths = mouths_of(bodies, routes);
-  spread(bodies, mouths);
+  spread(bodies, routes, mouths);
   std::vector<std::vector<ImVec2>> curves;
+  std::map<std::size_t, std::size_t> loops;
   curves.reserve(routes.size());
   for (std::size_t r = 0; r < routes.size(); ++r) {
     const Mouth &begin = mouths[2 * r], &end = mouths[2 * r + 1];
-    curves.push_back(is_loop(routes[r]) ? loop(begin, end, bodies[begin.body])
+    curves.push_back(is_loop(routes[r]) ? loop(bodies[begin.body], loops[begin.body]++)
                                         : curve(begin.at, kNormals[begin.side], end.at, kNormals[end.side], routes[r].dots));
   }
   return curves;
@@ -142,7 +155,7 @@ std::vector<ImVec2> trace_to_point(const Box& from, ImVec2 to) {
   const ImVec2 normal = kNormals[side];
   const ImVec2 begin = from.centre() + ImVec2(normal.x * from.size.x / 2, normal.y * from.size.y / 2);
   std::vector<ImVec2> points;
-  const float bend = bend_for(begin, to);
+  const float bend = bend_for(begin, to, normal);
   add_bezier(points, begin, begin + normal * bend, to - unit_vector(to - begin) * (bend / 2), to);
   return points;
 }

@@ -18,9 +18,9 @@ struct Spark {
 };
 
 struct LinkPulse {
-  double magnitude = 0;   ///< of its loudest voice, or what it asks for
-  double pulse_at = -1;   ///< when it last changed something [s]
-  std::string text;       ///< the last change, with its unit
+  double magnitude = 0;  ///< of its loudest voice, or what it asks for
+  double pulse_at = -1;  ///< when it last changed something [s]
+  std::string text;      ///< the last change, with its unit
 };
 
 class Live {

@@ -14,7 +14,9 @@ namespace bl::desktop::canvas {
 namespace {
 
 constexpr float kFramePadding = 18, kFrameHead = 26;
+constexpr float kLoopRoom = 46;  // above a pill, for links from a set to itself
 constexpr int kDeepestFrame = 32;
+constexpr std::size_t kOneColumn = 7;
 
 Selection ends_of_ghost(const Json& json, const char* key) {
   Selection selection;
@@ -107,15 +109,46 @@ void Model::make_boxes(const Editor& editor) {
     box.is_collapsed = view.collapsed.contains(id);
     box.box.size = {kBoxWidth, box.is_collapsed ? kHeadHeight : height_of(box.sections)};
   }
+  number_uses(editor);
+}
+
+// Uses in the order of the programme, then by name: the order that the report and its colours have.
+void Model::number_uses(const Editor& editor) {
+  std::vector<std::string> uses;
+  std::set<std::string> others;
+  const auto text_in = [](const PortValues& values) {
+    const auto use = values.find("use");
+    const auto* text = use == values.end() ? nullptr : std::get_if<std::string>(&use->second);
+    return text == nullptr ? std::string() : *text;
+  };
+  for (const auto& [id, node] : editor.scene().nodes) {
+    if (const auto volume = node.types.find("smart_volume"); volume != node.types.end()) others.insert(text_in(volume->second));
+    const auto programme = node.types.find("programme");
+    if (programme == node.types.end()) continue;
+    const auto rows = programme->second.find("rows");
+    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
+    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row)
+      if (std::find(uses.begin(), uses.end(), (*table)->text(row, "use")) == uses.end())
+        uses.push_back((*table)->text(row, "use"));
+  }
+  for (const std::string& use : others)
+    if (std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
+  for (NodeBox& box : boxes) {
+    const auto& types = editor.scene().nodes.at(box.id).types;
+    if (const auto volume = types.find("smart_volume"); volume != types.end())
+      box.use = static_cast<std::size_t>(std::find(uses.begin(), uses.end(), text_in(volume->second)) - uses.begin());
+  }
 }
 
 std::size_t Model::find_box(const std::string& id) const {
-  const auto found = std::lower_bound(boxes.begin(), boxes.end(), id, [](const NodeBox& b, const std::string& key) { return b.id < key; });
+  const auto found =
+      std::lower_bound(boxes.begin(), boxes.end(), id, [](const NodeBox& b, const std::string& key) { return b.id < key; });
   return found != boxes.end() && found->id == id ? static_cast<std::size_t>(found - boxes.begin()) : boxes.size();
 }
 
 std::size_t Model::find_line(const std::string& id) const {
-  const auto found = std::lower_bound(lines.begin(), lines.end(), id, [](const Line& l, const std::string& key) { return l.id < key; });
+  const auto found =
+      std::lower_bound(lines.begin(), lines.end(), id, [](const Line& l, const std::string& key) { return l.id < key; });
   return found != lines.end() && found->id == id ? static_cast<std::size_t>(found - lines.begin()) : lines.size();
 }
 
@@ -135,7 +168,8 @@ std::size_t Model::anchor_of(const Editor& editor, const Selection& selection) {
   for (const std::string& id : resolve(editor.scene(), editor.registry, selection))
     if (const std::size_t box = find_box(id); box < boxes.size()) pill.members.push_back(box);
   if (selection.is_query()) pill.label += "  ·  " + std::to_string(pill.members.size());
-  const float letters = static_cast<float>(std::count_if(pill.label.begin(), pill.label.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  const float letters =
+      static_cast<float>(std::count_if(pill.label.begin(), pill.label.end(), [](char c) { return (c & 0xc0) != 0x80; }));
   pill.box.size = {std::ceil((40 + 7.2f * letters) / kGrid) * kGrid, kPillHeight};
   return boxes.size() + pills.size() - 1;
 }
@@ -175,33 +209,41 @@ void Model::make_lines(const Editor& editor) {
   }
 }
 
-// Boxes and pills together: sources in two columns, pills in a third, the rest in the field.
+// Boxes and pills together: sources in a column or two, then pills, then the rest in the field.
 void Model::place(const Editor& editor) {
   std::vector<LayoutItem> items;
+  std::size_t sources = 0;
   for (const NodeBox& box : boxes) {
     const NodeRecord& node = editor.scene().nodes.at(box.id);
     const bool is_volume = node.types.contains("smart_volume");
     const bool is_first = node.types.contains("programme") || node.types.contains("control") || node.types.contains("expression");
-    const bool is_second = node.types.contains("boundary") || node.types.contains("smart_volumes_solver") || node.types.contains("statistics");
+    const bool is_second =
+        node.types.contains("boundary") || node.types.contains("smart_volumes_solver") || node.types.contains("statistics");
     LayoutItem& item = items.emplace_back();
     item.size = {kBoxWidth, height_of(box.sections)};
     item.column = is_volume ? -1 : is_first ? 0 : is_second ? 1 : -1;
+    sources += item.column >= 0 ? 1 : 0;
     const auto values = node.types.find("smart_volume");
     if (is_volume)
       if (const auto use = values->second.find("use"); use != values->second.end())
         if (const auto* text = std::get_if<std::string>(&use->second)) item.kin = *text;
   }
-  for (const Pill& pill : pills) items.push_back({pill.box.size, 2, ""});
+  // A few sources stand in one column, which leaves the field more room.
+  for (LayoutItem& item : items)
+    if (sources <= kOneColumn && item.column == 1) item.column = 0;
+  for (const Pill& pill : pills) items.push_back({pill.box.size + ImVec2(0, kLoopRoom), 2, ""});
   std::vector<std::pair<std::size_t, std::size_t>> links;
   for (const Line& line : lines)
     if (line.from < boxes.size() && line.to < boxes.size()) links.emplace_back(line.from, line.to);
   const auto known = [&](const std::string& key) { return kept_.contains(key); };
-  const bool is_complete = std::all_of(boxes.begin(), boxes.end(), [&](const NodeBox& b) { return view.boxes.contains(b.id) || known(b.id); }) &&
-                           std::all_of(pills.begin(), pills.end(), [&](const Pill& p) { return view.sets.contains(p.key) || known("\n" + p.key); });
+  const bool is_complete =
+      std::all_of(boxes.begin(), boxes.end(), [&](const NodeBox& b) { return view.boxes.contains(b.id) || known(b.id); }) &&
+      std::all_of(pills.begin(), pills.end(), [&](const Pill& p) { return view.sets.contains(p.key) || known("\n" + p.key); });
   if (!is_complete) {
     const std::vector<ImVec2> places = lay_out(items, links);
     for (std::size_t k = 0; k < boxes.size(); ++k) kept_.emplace(boxes[k].id, places[k]);
-    for (std::size_t k = 0; k < pills.size(); ++k) kept_.emplace("\n" + pills[k].key, places[boxes.size() + k]);
+    for (std::size_t k = 0; k < pills.size(); ++k)
+      kept_.emplace("\n" + pills[k].key, places[boxes.size() + k] + ImVec2(0, kLoopRoom));
   }
   for (NodeBox& box : boxes) {
     const auto stored = view.boxes.find(box.id);
@@ -247,7 +289,8 @@ void Model::find_indices(const Editor& editor) {
   for (Line& line : lines) {
     const auto found = std::lower_bound(plan.links.begin(), plan.links.end(), line.id,
                                         [](const LinkPlan& l, const std::string& key) { return l.id < key; });
-    line.in_state = found != plan.links.end() && found->id == line.id ? static_cast<std::uint32_t>(found - plan.links.begin()) : kNoIndex;
+    line.in_state =
+        found != plan.links.end() && found->id == line.id ? static_cast<std::uint32_t>(found - plan.links.begin()) : kNoIndex;
   }
 }
 

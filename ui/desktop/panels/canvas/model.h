@@ -13,8 +13,8 @@
 namespace bl::desktop::canvas {
 
 // Measures of boxes, in points at full size.
-inline constexpr float kBoxWidth = 188, kHeadHeight = 28, kSectionHeight = 19, kRowHeight = 17, kBarHeight = 19, kSparkHeight = 26,
-                       kBoxFoot = 6, kGrid = 10, kPillHeight = 26;
+inline constexpr float kBoxWidth = 188, kHeadHeight = 28, kSectionHeight = 19, kRowHeight = 17, kBarHeight = 19,
+                       kSparkHeight = 26, kBoxFoot = 6, kGrid = 10, kPillHeight = 26;
 inline constexpr std::uint32_t kNoIndex = 0xffffffffu;
 
 /// One port as a line in a section.
@@ -29,19 +29,20 @@ struct Section {
   const TypificationDefinition* type = nullptr;  ///< none: unknown here, kept as a ghost
   std::size_t category = 0;
   std::vector<Row> rows;
-  bool has_bar = false;                       ///< demand against volume
-  std::size_t spark = kNoIndex;               ///< the port that is followed over time
-  std::size_t in_state = kNoIndex;            ///< index among the node's types in the state
-  std::vector<std::string> texts;             ///< of the rows, as of `texts_of`
-  std::size_t texts_of = 0;                   ///< the model's `state_revision` then
+  bool has_bar = false;             ///< demand against volume
+  std::size_t spark = kNoIndex;     ///< the port that is followed over time
+  std::size_t in_state = kNoIndex;  ///< index among the node's types in the state
+  std::vector<std::string> texts;   ///< of the rows, as of `texts_of`
+  std::size_t texts_of = 0;         ///< the model's `state_revision` then
 };
 
 struct NodeBox {
   std::string id, name;
-  Box box;                                    ///< as drawn: of its head alone where collapsed
+  Box box;  ///< as drawn: of its head alone where collapsed
   std::vector<Section> sections;
   bool is_collapsed = false, is_stored = false;  ///< stored: the view says where it lies
-  std::uint32_t in_state = kNoIndex;          ///< none before the first tick that knows it
+  std::uint32_t in_state = kNoIndex;             ///< none before the first tick that knows it
+  std::size_t use = kNoIndex;                    ///< of a SmartVolume: the number of its use, as in the report
 
   bool is_ghost() const;
 };
@@ -63,7 +64,7 @@ struct Line {
   bool is_muted = false, is_enabled = true, changes_from = false, changes_to = true;
   float strength = 1;
   Family family;
-  std::vector<ImVec2> dots, points;            ///< points: the curve, close enough to be drawn as stretches
+  std::vector<ImVec2> dots, points;  ///< points: the curve, close enough to be drawn as stretches
   Box bounds;
   std::uint32_t in_state = kNoIndex;
 
@@ -79,9 +80,9 @@ class Model {
   ViewData view;
   std::vector<NodeBox> boxes;  ///< ascending id
   std::vector<Pill> pills;
-  std::vector<Line> lines;     ///< ascending id
-  std::size_t undrawn = 0;     ///< links of unknown kinds whose ends cannot be read
-  std::size_t revision = 0;    ///< grows with each change of the scene
+  std::vector<Line> lines;         ///< ascending id
+  std::size_t undrawn = 0;         ///< links of unknown kinds whose ends cannot be read
+  std::size_t revision = 0;        ///< grows with each change of the scene
   std::size_t state_revision = 0;  ///< grows with each state that is seen, and with each change of the scene
 
   std::size_t anchors() const { return boxes.size() + pills.size(); }
@@ -101,6 +102,7 @@ class Model {
 
  private:
   void make_boxes(const Editor& editor);
+  void number_uses(const Editor& editor);
   void make_lines(const Editor& editor);
   void place(const Editor& editor);
   void find_indices(const Editor& editor);

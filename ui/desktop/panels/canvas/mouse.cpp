@@ -16,7 +16,9 @@ constexpr double kWheelStep = 1.15;
 // Space held for longer is no key press any more, but a hand on the canvas.
 constexpr double kSpaceSeconds = 0.35;
 
-bool is_body(Thing thing) { return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge; }
+bool is_body(Thing thing) {
+  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge;
+}
 
 // Boxes and pills, the upper ones first. Edges count on both sides of the outline, the inner part less on small boxes.
 Hit hit_body(const Board& board, ImVec2 at, bool edges_only) {
@@ -24,7 +26,7 @@ Hit hit_body(const Board& board, ImVec2 at, bool edges_only) {
   for (std::size_t k = board.model.anchors(); k-- > 0;) {
     const Box screen = board.camera.to_screen(board.model.anchor(k));
     const float least = std::min(screen.size.x, screen.size.y);
-    const float inside = std::min(kEdgeInside * scale, 0.16f * least), outside = std::min(kEdgeOutside * scale, 0.3f * least);
+    const float inside = std::min(kEdgeInside * scale, 0.05f * least), outside = std::min(kEdgeOutside * scale, 0.25f * least);
     if (!screen.grown(outside).holds(at)) continue;
     const bool is_pill = k >= board.model.boxes.size();
     const bool is_edge = !screen.grown(-inside).holds(at);
@@ -68,18 +70,17 @@ Hit hit_frame(const Board& board, ImVec2 at) {
   return best;
 }
 
-// One press of a button that is no drag: adding by double click, dots, pins.
-bool handle_double_click(Board& board) {
-  const Hit& hit = board.hovered;
+// Adding, dots, and texts that are edited in their place.
+void handle_double_click(Board& board, const Hit& hit) {
   const ImVec2 at = ImGui::GetIO().MousePos;
   switch (hit.thing) {
-    case Thing::nothing: open_addition(board, at); return true;
-    case Thing::link: add_dot(board, hit.index, board.camera.to_plane(at)); return true;
-    case Thing::dot: remove_dot(board, board.model.find_line(hit.id), hit.index); return true;
+    case Thing::nothing: open_addition(board, at); break;
+    case Thing::link: add_dot(board, hit.index, board.camera.to_plane(at)); break;
+    case Thing::dot: remove_dot(board, board.model.find_line(hit.id), hit.index); break;
     case Thing::node:
     case Thing::comment:
-    case Thing::frame: begin_edit(board, hit.thing, hit.id); return true;
-    default: return false;
+    case Thing::frame: begin_edit(board, hit.thing, hit.id); break;
+    default: break;
   }
 }
 
@@ -108,15 +109,15 @@ void point_at(Board& board, bool is_hovered) {
   }
   Picks& picks = board.editor.picks;
   if (hit.thing == Thing::node || hit.thing == Thing::node_edge) picks.hovered_node = hit.id;
-  if (hit.thing == Thing::link || hit.thing == Thing::dot) {
-    picks.hovered_link = hit.id;
-  }
+  if (hit.thing == Thing::link || hit.thing == Thing::dot) { picks.hovered_link = hit.id; }
 }
 
 void set_cursor(const Board& board) {
   const Thing thing = board.hovered.thing;
-  if (board.drag.deed == Deed::pan || (board.space_since >= 0 && board.drag.deed == Deed::none)) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
-  else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (board.drag.deed == Deed::pan || (board.space_since >= 0 && board.drag.deed == Deed::none))
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+  else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip)
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   else if (thing == Thing::comment_corner) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNWSE);
 }
 
@@ -148,15 +149,21 @@ void handle_mouse(Board& board, bool is_hovered) {
   if (board.drag.deed != Deed::none && board.drag.revision != board.model.revision) board.drag = {};
   point_at(board, is_hovered || board.drag.deed != Deed::none);
   handle_keys_held(board, is_hovered);
-  if (is_hovered && io.MouseWheel != 0) board.camera.zoom_at(io.MousePos, std::pow(kWheelStep, static_cast<double>(io.MouseWheel)));
+  if (is_hovered && io.MouseWheel != 0)
+    board.camera.zoom_at(io.MousePos, std::pow(kWheelStep, static_cast<double>(io.MouseWheel)));
   if (board.drag.deed != Deed::none) {
     if (ImGui::IsMouseDown(board.drag.button)) go_on_dragging(board);
+    else if (const Hit grabbed = board.drag.grabbed; board.drag.is_double && !board.drag.is_far)
+      board.drag = {}, handle_double_click(board, grabbed);
     else end_drag(board);
   } else if (is_hovered && board.edit.thing == Thing::nothing) {
-    if (ImGui::IsMouseDoubleClicked(0) && !io.KeyAlt && handle_double_click(board)) return;
     for (const int button : {0, 1, 2})
       if (ImGui::IsMouseClicked(button)) {
+        const Hit hit = board.hovered;
         begin_drag(board, button);
+        // A second press may still become a drag; on a link there is none.
+        board.drag.is_double = button == 0 && ImGui::IsMouseDoubleClicked(0) && !io.KeyAlt && !io.KeyCtrl && !io.KeyShift;
+        if (board.drag.is_double && board.drag.deed == Deed::none) board.drag = {}, handle_double_click(board, hit);
         break;
       }
   }

@@ -25,7 +25,8 @@ void filter(Picker& picker) {
     const Choice& choice = picker.choices[k];
     int score = 0;
     if (!picker.text.empty()) {
-      score = std::max(fuzzy_score(picker.text, choice.label) * 2, fuzzy_score(picker.text, choice.label + " " + choice.id + " " + choice.more));
+      score = std::max(fuzzy_score(picker.text, choice.label) * 2,
+                       fuzzy_score(picker.text, choice.label + " " + choice.id + " " + choice.more));
       if (score < 0) continue;
     }
     scored.emplace_back(score, k);
@@ -52,12 +53,15 @@ bool draw_choice(Board& board, const Choice& choice, bool is_marked, bool& is_po
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const bool can = choice.why_not.empty();
   if (is_marked) list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, can ? c.accent_soft : c.sunken, theme.px(4));
-  if (choice.colour != 0) list.AddCircleFilled({at.x + theme.px(12), at.y + theme.px(13)}, theme.px(4), can ? choice.colour : c.text_faint, 12);
+  if (choice.colour != 0)
+    list.AddCircleFilled({at.x + theme.px(12), at.y + theme.px(13)}, theme.px(4), can ? choice.colour : c.text_faint, 12);
   const float left = at.x + theme.px(24);
   const ImVec4 clip(left, at.y, at.x + size.x - theme.px(6), at.y + size.y);
-  list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {left, at.y + theme.px(3)}, can ? c.text : c.text_faint, choice.label.c_str(), nullptr, 0, &clip);
+  list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {left, at.y + theme.px(3)}, can ? c.text : c.text_faint,
+               choice.label.c_str(), nullptr, 0, &clip);
   const std::string& below = can ? choice.detail : choice.why_not;
-  list.AddText(theme.fonts().small, theme.fonts().small->FontSize, {left, at.y + theme.px(20)}, can ? c.text_soft : c.text_faint, below.c_str(), nullptr, 0, &clip);
+  list.AddText(theme.fonts().small, theme.fonts().small->FontSize, {left, at.y + theme.px(20)}, can ? c.text_soft : c.text_faint,
+               below.c_str(), nullptr, 0, &clip);
   if (ImGui::IsItemHovered() && ImGui::CalcTextSize(below.c_str()).x > size.x - theme.px(30)) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(theme.px(kWidth));
@@ -85,11 +89,13 @@ bool draw_search(Board& board, int& step) {
   Picker& picker = board.picker;
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  const bool is_entered = ImGui::InputTextWithHint("##search", picker.hint.c_str(), &picker.text,
-                                                   ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, walk, &step);
+  const bool is_entered =
+      ImGui::InputTextWithHint("##search", picker.hint.c_str(), &picker.text,
+                               ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, walk, &step);
   if (picker.text != picker.filtered_for || ImGui::IsWindowAppearing()) {
     filter(picker);
-    if (!picker.shown.empty() && picker.looked_at && !picker.text.empty()) picker.looked_at(board, picker.choices[picker.shown.front()]);
+    if (!picker.shown.empty() && picker.looked_at && !picker.text.empty())
+      picker.looked_at(board, picker.choices[picker.shown.front()]);
   }
   return is_entered;
 }
@@ -99,7 +105,8 @@ std::size_t draw_list(Board& board, bool has_walked) {
   Picker& picker = board.picker;
   const Theme& theme = board.theme();
   std::size_t clicked = picker.shown.size();
-  const float height = std::min(theme.px(kMostHeight), theme.px(kRow) * static_cast<float>(std::max<std::size_t>(1, picker.shown.size())) + theme.px(4));
+  const float height = std::min(theme.px(kMostHeight),
+                                theme.px(kRow) * static_cast<float>(std::max<std::size_t>(1, picker.shown.size())) + theme.px(4));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   ImGui::BeginChild("list", {0, height}, false, ImGuiWindowFlags_NoNav);
   if (picker.shown.empty()) ImGui::TextDisabled("%s", picker.empty_text.c_str());
@@ -138,7 +145,8 @@ void draw_picker(Board& board) {
   if (picker.is_opening) ImGui::OpenPopup(kName);
   picker.is_opening = false;
   place_window(board);
-  picker.is_open = ImGui::BeginPopup(kName, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  picker.is_open =
+      ImGui::BeginPopup(kName, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   if (!picker.is_open) return;
   if (!picker.title.empty()) {
     ImGui::PushFont(board.theme().fonts().small);

@@ -13,11 +13,11 @@ struct Board;
 
 struct Choice {
   std::string id, label, detail;
-  std::string why_not;     ///< shown grey, with this reason
-  ImU32 colour = 0;        ///< of a small mark; 0: none
-  int recency = 1000;      ///< the smaller the further up, where the search does not decide
-  std::string more;        ///< further words that are searched
-  std::string extra;       ///< for whoever made the list
+  std::string why_not;  ///< shown grey, with this reason
+  ImU32 colour = 0;     ///< of a small mark; 0: none
+  int recency = 1000;   ///< the smaller the further up, where the search does not decide
+  std::string more;     ///< further words that are searched
+  std::string extra;    ///< for whoever made the list
 };
 
 struct Picker {

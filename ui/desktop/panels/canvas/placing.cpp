@@ -81,8 +81,11 @@ NewVolume place_volume(const Registry& registry, const Scene& scene, const std::
   const TypificationDefinition* type = registry.typification("smart_volume");
   const TypificationDefinition* base = registry.typification(kBaseNode);
   for (const auto& [id, node] : scene.nodes) {
-    if (type == nullptr || base == nullptr || !node.types.contains("smart_volume") || !node.types.contains(std::string(kBaseNode))) continue;
-    if (const auto* at = std::get_if<Vector3>(&set_value(node, *base, base->ports[base->port_index("position")]))) others.push_back(*at);
+    if (type == nullptr || base == nullptr || !node.types.contains("smart_volume") ||
+        !node.types.contains(std::string(kBaseNode)))
+      continue;
+    if (const auto* at = std::get_if<Vector3>(&set_value(node, *base, base->ports[base->port_index("position")])))
+      others.push_back(*at);
     demands += as_number(set_value(node, *type, type->ports[type->port_index("demand")])), ++count;
   }
   if (count > 0) volume.demand = std::max(1.0, std::round(demands / count));

@@ -10,6 +10,7 @@ namespace bl::desktop::canvas {
 namespace {
 
 constexpr std::size_t kMostRows = 5, kMostSettings = 3;
+constexpr double kLeastShare = 1e-4;  // smaller ones are written as such
 
 // Results that people ask for first; types that are not listed show their first results.
 struct Favourites {
@@ -138,11 +139,16 @@ std::string text_of(const Editor& editor, const NodeBox& box, const Section& sec
   if (const auto* table = std::get_if<Shared<Table>>(value)) return counted((*table)->rows.size(), "row");
   if (const auto* selection = std::get_if<Shared<Selection>>(value)) return text_of(editor, **selection);
   if (std::holds_alternative<MeshPointer>(*value)) return "a mesh";
-  if (definition.unit == Unit::ratio) return report::percent(as_number(*value));
+  if (definition.unit == Unit::ratio) {
+    const double share = as_number(*value);
+    return share != 0 && std::abs(share) < kLeastShare ? "< 0.01 %" : report::percent(share);
+  }
   Unit unit = definition.unit;
   if (!definition.unit_from.empty())
     if (const auto node = editor.scene().nodes.find(box.id); node != editor.scene().nodes.end())
       unit = unit_of(editor.registry, node->second, *section.type, definition);
+  const bool is_whole = definition.kind == ValueKind::integer || unit == Unit::count;
+  if (is_whole && as_number(*value) == std::round(as_number(*value))) return report::grouped(as_number(*value));
   return report::quantity(as_number(*value), unit);
 }
 

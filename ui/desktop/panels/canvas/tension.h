@@ -13,8 +13,8 @@ inline constexpr double kMarkedTension = 0.02;
 
 struct Pull {
   PortRef port;
-  double share = 0;   ///< tension against the size of what is pulled at
-  std::string text;   ///< "demand: 340 m³ apart"
+  double share = 0;  ///< tension against the size of what is pulled at
+  std::string text;  ///< "demand: 340 m³ apart"
 };
 
 /// Tension of one port as a share of its size; 0 where there is none.
