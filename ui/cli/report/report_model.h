@@ -65,8 +65,11 @@ struct ConflictRow {
   std::vector<std::string> links;  ///< ids, one for each of `pulls`; empty for what people have set or locked
 };
 
+/// What failed or cannot be had.
 struct ProblemRow {
   std::string place, message;
+  std::string node, link;    ///< ids of where it is, as far as it is somewhere
+  bool is_shortage = false;  ///< nothing failed: there is less than what is wanted
 };
 
 struct ReportModel {
