@@ -192,6 +192,7 @@ void inspect_nodes(Editor& editor, InspectorView& view) {
       draw_ghost(editor, json, "This program does not know the role; it is kept as it is and does nothing.");
     }
   draw_add_role(editor, view);
+  if (count == 1) list_links(editor, view);
 }
 
 }  // namespace bl::desktop

@@ -238,6 +238,7 @@ std::string value_text(const Value& value, const PortDefinition& port, Unit unit
     return report::counted((*selection)->ids.size(), "node");
   }
   if (port.kind == ValueKind::number && !port.is_computed) return shown_number(as_number(value), unit);
+  if (std::holds_alternative<std::int64_t>(value)) return report::grouped(as_number(value));
   if (unit == Unit::ratio) return report::percent(as_number(value));
   return report::quantity(as_number(value), unit);
 }

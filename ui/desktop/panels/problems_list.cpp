@@ -129,6 +129,10 @@ void ProblemList::add_failures(const State& state, const report::ReportModel& pr
   for (const bool is_shortage : {true, false})
     for (const report::ProblemRow& row : problems.problems) {
       if (row.is_shortage != is_shortage || (is_shortage && state.tick == 0)) continue;
+      // Ghosts hinder nobody: they stand among what does not run.
+      if (const auto& links = state.plan->scene.links;
+          !row.link.empty() && links.contains(row.link) && !links.at(row.link).ghost.empty())
+        continue;
       ProblemItem item{
           is_shortage ? ProblemKind::shortage : ProblemKind::failing, row.place, 0, true, "", row.message, {}, {}, {}};
       item.subject = is_shortage        ? "The boundary is too small"
@@ -151,6 +155,18 @@ void ProblemList::add_volumes(const State& state, const report::ReportModel& fig
 
 void ProblemList::add_idle(const State& state) {
   for (const LinkPlan& link : state.plan->links) {
+    if (link.definition == nullptr) {
+      items_.push_back({ProblemKind::idle,
+                        link.id,
+                        0,
+                        false,
+                        "Link " + link.id + " does not run",
+                        "this program does not know its kind; it is kept and saved as it is",
+                        {},
+                        {},
+                        {link.id}});
+      continue;
+    }
     if (link.is_enabled && !link.is_muted) continue;
     const std::string kind = link.definition != nullptr ? link.definition->label : "unknown kind";
     items_.push_back(

@@ -265,8 +265,13 @@ void draw_statistics(Editor& editor) {
   if (!memory.record) memory.record = std::make_unique<RunRecord>();
   RunRecord& record = *memory.record;
   record.sample(editor);
+  // Narrower than this the columns cannot be read: then the whole scrolls sideways.
+  const float least = editor.theme.px(900);
+  const bool is_narrow = ImGui::GetContentRegionAvail().x < least;
+  if (is_narrow) ImGui::SetNextWindowContentSize({least, 0});
+  ImGui::BeginChild("statistics", {0, 0}, false, is_narrow ? ImGuiWindowFlags_HorizontalScrollbar : ImGuiWindowFlags_None);
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const float gap = editor.theme.px(22), width = room.x - 3 * gap;
+  const float gap = editor.theme.px(22), width = std::max(room.x, least) - 3 * gap;
   const float shares[] = {0.38f, 0.27f, 0.20f, 0.15f};
   const auto column = [&](const char* id, float share, auto draw) {
     ImGui::BeginChild(id, {std::floor(share * width), room.y}, false, ImGuiWindowFlags_NoScrollbar);
@@ -282,6 +287,7 @@ void draw_statistics(Editor& editor) {
   ImGui::SameLine(0, gap);
   column("facts", shares[3], [&] { draw_engine(editor, record); });
   ImGui::PopStyleVar();
+  ImGui::EndChild();
 }
 
 }  // namespace bl::desktop
