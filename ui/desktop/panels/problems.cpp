@@ -55,11 +55,14 @@ void draw_filters(Editor& editor, ProblemList& problems) {
 }
 
 void go_to(Editor& editor, const ProblemItem& item) {
-  if (item.nodes.empty() && item.links.empty()) return;
+  if (!editor.document || (item.nodes.empty() && item.links.empty())) return;
   if (!ImGui::GetIO().KeyShift) editor.picks.clear();
-  editor.picks.nodes.insert(item.nodes.begin(), item.nodes.end());
+  for (const std::string& node : item.nodes)
+    if (editor.scene().nodes.contains(node)) editor.picks.nodes.insert(node);
   // Of a conflict the node is what matters; its links are in the sentence and in the inspector.
-  if (item.nodes.empty()) editor.picks.links.insert(item.links.begin(), item.links.end());
+  if (item.nodes.empty())
+    for (const std::string& link : item.links)
+      if (editor.scene().links.contains(link)) editor.picks.links.insert(link);
   if (!ImGui::IsMouseDoubleClicked(0)) return;
   if (editor.canvas != nullptr) editor.canvas->fit(false);
   if (editor.view != nullptr) editor.view->fit(false);
