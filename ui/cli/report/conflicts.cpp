@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/base/text.h"
 #include "ui/cli/report/figures.h"
@@ -116,28 +117,24 @@ void read_conflicts(const State& state, ReportModel& model) {
 
 void read_problems(const State& state, ReportModel& model) {
   const Plan& plan = *state.plan;
-  const auto add = [&](std::string place, std::string message) {
-    model.problems.push_back({std::move(place), std::move(message)});
+  std::set<std::pair<std::string, std::string>> said;
+  const auto add = [&](ProblemRow row) {
+    if (said.emplace(row.place, row.message).second) model.problems.push_back(std::move(row));
   };
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
+    const std::string& id = plan.nodes[n].id;
     for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t)
       if (const auto& error = state.nodes[n].types[t].error)
-        add("node " + name_at(state, n) + ", " + plan.nodes[n].types[t].definition->label, error->text());
+        add({"node " + name_at(state, n) + ", " + plan.nodes[n].types[t].definition->label, error->text(), id, "", false});
     if (const std::string message = text_at(state, n, "smart_volumes_solver", "message"); !message.empty())
-      add("node " + name_at(state, n), message);
+      add({"node " + name_at(state, n), message, id, "", true});
   }
   for (std::size_t l = 0; l < state.links.size(); ++l) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
-    if (error) add("link " + plan.links[l].id, error->text());
+    if (error) add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});
   }
   for (const SetPlan& set : plan.sets)
-    if (set.error) add("node " + name_at(state, set.node), set.error->text());
-  std::vector<ProblemRow> distinct;
-  for (ProblemRow& row : model.problems) {
-    const auto is_same = [&](const ProblemRow& other) { return other.place == row.place && other.message == row.message; };
-    if (std::none_of(distinct.begin(), distinct.end(), is_same)) distinct.push_back(std::move(row));
-  }
-  model.problems = std::move(distinct);
+    if (set.error) add({"node " + name_at(state, set.node), set.error->text(), plan.nodes[set.node].id, "", false});
 }
 
 }  // namespace bl::report

@@ -65,8 +65,11 @@ struct ConflictRow {
   std::vector<std::string> links;  ///< ids, one for each of `pulls`; empty for what people have set or locked
 };
 
+/// What failed or cannot be had.
 struct ProblemRow {
   std::string place, message;
+  std::string node, link;    ///< ids of where it is, as far as it is somewhere
+  bool is_shortage = false;  ///< nothing failed: there is less than what is wanted
 };
 
 struct ReportModel {
@@ -93,7 +96,8 @@ struct ReportModel {
 void read_model(const State& state, ReportModel& model);
 void read_conflicts(const State& state, ReportModel& model);
 void read_problems(const State& state, ReportModel& model);
-/// What `read_model` gives of volumes, uses and totals, without shapes, sites, conflicts and problems: for each tick of a window.
+/// Names, demands, volumes and floor areas of volumes and uses, and their totals, for a window that reads them in every tick:
+/// without shapes and measures of them, sites, conflicts and problems.
 void read_figures(const State& state, ReportModel& model);
 
 /// Less than this share of what is pulled at is no conflict that anybody would want to read about.

@@ -51,6 +51,8 @@ class InspectorView {
   /// Of the only link kind that all chosen links have; nothing where they differ.
   const LinkDefinition* kind() const { return kind_; }
   const std::vector<SharedPort>& parameters() const { return parameters_; }
+  /// Indices of the links that start or end at the only chosen node.
+  const std::vector<std::size_t>& touching(const State& state);
   /// Who pulls on a setting of the only chosen node.
   const report::ConflictRow& pulls(const State& state, PortRef ref);
 
@@ -66,6 +68,9 @@ class InspectorView {
   std::vector<SharedPort> parameters_;
   std::shared_ptr<const State> state_;
   std::map<PortRef, report::ConflictRow> pulls_;
+  const Plan* touched_plan_ = nullptr;
+  std::string touched_node_;
+  std::vector<std::size_t> touching_;
 };
 
 /// Changes a setting of all given nodes as one step; the gesture of the scrub where the change is live.
@@ -74,6 +79,8 @@ void change_ports(Editor& editor, const std::vector<std::string>& nodes, const T
 
 void inspect_nodes(Editor& editor, InspectorView& view);
 void inspect_links(Editor& editor, InspectorView& view);
+/// The links of the only chosen node, as a way to get to them.
+void list_links(Editor& editor, InspectorView& view);
 void inspect_scene(Editor& editor);
 /// What the state makes of a setting: its effective value, what moved it, its tension.
 void draw_effective(Editor& editor, InspectorView& view, PortRef ref, const Value& set, float width);

@@ -63,7 +63,7 @@ void draw_frame(Editor& editor, const std::string& shown, const CellLook& look, 
   if (look.fill && !look.is_fixed) {
     const auto share = static_cast<float>(std::clamp(*look.fill, 0.0, 1.0));
     list.PushClipRect(from, {from.x + share * (to.x - from.x), to.y}, true);
-    list.AddRectFilled(from, to, is_hot ? mixed(c.accent_soft, c.accent, 0.2f) : c.accent_soft, rounding);
+    list.AddRectFilled(from, to, mixed(c.sunken, c.accent, is_hot ? 0.38f : 0.26f), rounding);
     list.PopClipRect();
   }
   if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible) list.AddRect(from, to, c.accent, rounding);
@@ -155,7 +155,7 @@ void draw_complaint(Editor& editor, const std::string& key, float width) {
   const PanelMemory& memory = memory_of(editor);
   if (memory.complaint_key != key || memory.complaint.empty()) return;
   small_text(editor, std::string(icon::kError) + " " + memory.complaint + ". The old value stays.", editor.theme.colours().bad,
-             width);
+             width + 2 * editor.theme.px(20));
 }
 
 }  // namespace bl::desktop

@@ -10,6 +10,12 @@ namespace bl::desktop {
 
 namespace {
 
+// As many digits as one reads at a glance; what was set is shown exactly, what became of it need not be.
+std::string glance(const Value& value, const PortDefinition& port) {
+  if (std::holds_alternative<double>(value)) return report::quantity(as_number(value), port.unit);
+  return value_text(value, port, port.unit);
+}
+
 bool differs(const Value& set, const Value& effective) {
   if (const auto* point = std::get_if<Vector3>(&set))
     if (const auto* now = std::get_if<Vector3>(&effective)) return distance(*point, *now) > 1e-3;
@@ -73,10 +79,9 @@ void draw_effective(Editor& editor, InspectorView& view, PortRef ref, const Valu
         type.is_locked[ref.port] ? ""
         : who.empty()            ? ""
                                  : (type.is_set[ref.port] || port.rule != CombineRule::blend ? ", moved by " : ", from ") + who;
-    small_text(editor, "\xE2\x86\x92 " + value_text(effective, port, port.unit) + because, is_tense ? c.warning : c.text_soft,
-               width);
+    small_text(editor, "\xE2\x86\x92 " + glance(effective, port) + because, c.text_soft, width + 2 * editor.theme.px(20));
   } else if (type.is_locked[ref.port]) {
-    small_text(editor, "locked against " + movers(state, row), c.warning, width);
+    small_text(editor, "locked against " + movers(state, row), c.text_soft, width + 2 * editor.theme.px(20));
   }
   ImGui::EndGroup();
   if (!ImGui::IsItemHovered()) return;
@@ -84,7 +89,7 @@ void draw_effective(Editor& editor, InspectorView& view, PortRef ref, const Valu
   for (const std::string& pull : row.pulls) text += (text.empty() ? "" : "\n") + pull;
   std::string facts = "set " + value_text(set, port, port.unit) +
                       (type.is_set[ref.port] ? "" : " (the default, which has no voice)") + "  \xE2\x86\x92  effective " +
-                      value_text(effective, port, port.unit);
+                      glance(effective, port);
   if (is_tense)
     facts += "\ntension " + report::quantity(tension, port.unit) + ", " + report::percent(severity) + " of what is pulled at";
   card(editor, is_tense ? "Who pulls here" : "What moves it", text, facts);

@@ -68,7 +68,7 @@ void draw_ends(Editor& editor, const InspectorView& view) {
   ImGui::BeginDisabled(!can_swap);
   begin_row(editor, "swap", "", "", "", {}, width);
   ImGui::PushFont(editor.theme.fonts().small);
-  const bool is_swapped = ImGui::Button("\xE2\x87\x84  swap the ends");
+  const bool is_swapped = ImGui::Button("\xE2\x86\x94  swap the ends");
   note_place(editor, "swap");
   ImGui::PopFont();
   end_row();
@@ -185,31 +185,69 @@ void draw_voices(Editor& editor, const std::string& id) {
     return;
   const std::vector<Voice>& voices = state.links[at].voices;
   if (voices.empty()) small_text(editor, state.tick == 0 ? "nothing yet: no tick has run" : "nothing", c.text_faint);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, editor.theme.px(2)});
   float width = 0;
   for (std::size_t k = 0; k < std::min(voices.size(), kMostVoices); ++k) {
     const Voice& voice = voices[k];
-    const std::string& node = state.plan->nodes[voice.target.node].id;
-    const PortDefinition& port = state.plan->port(voice.target);
-    begin_row(editor, "voice" + std::to_string(k), report::name_at(state, voice.target.node), state.plan->path_text(voice.target),
-              "press the text to go there", {}, width);
+    const std::uint32_t to = voice.target.node;
+    // A node is named once, however much is said to it.
+    const std::string name = k > 0 && voices[k - 1].target.node == to ? std::string() : report::name_at(state, to);
+    const std::string key = "voice/" + std::to_string(k), port = label_of(state.plan->port(voice.target).id);
+    begin_row(editor, key, name, "", "", {}, width);
     width += 2 * editor.theme.px(20);
     CellLook look;
     look.is_fixed = true;
     look.colour = c.text_soft;
-    const CellEvent event = cell(editor, "voice" + std::to_string(k), report::voice_text(state, voice), "", width, look);
+    const CellEvent event = cell(editor, key, port + ": " + report::voice_text(state, voice), "", width, look);
     if (event.is_hovered) {
-      editor.picks.hovered_node = node;
-      card(editor, report::name_at(state, voice.target.node) + " \xC2\xB7 " + label_of(port.id),
-           report::voice_text(state, voice));
-      if (ImGui::IsMouseClicked(0)) editor.picks.only_node(node);
+      editor.picks.hovered_node = state.plan->nodes[to].id;
+      card(editor, report::name_at(state, to) + " \xC2\xB7 " + port, report::voice_text(state, voice), "press to go there");
+      if (ImGui::IsMouseClicked(0)) editor.picks.only_node(state.plan->nodes[to].id);
     }
     end_row();
   }
+  ImGui::PopStyleVar();
   if (voices.size() > kMostVoices)
     small_text(editor, "and " + std::to_string(voices.size() - kMostVoices) + " more", c.text_faint);
 }
 
 }  // namespace
+
+void list_links(Editor& editor, InspectorView& view) {
+  const Theme& theme = editor.theme;
+  const Colours& c = theme.colours();
+  const State& state = editor.state();
+  const std::vector<std::size_t>& links = view.touching(state);
+  if (links.empty() || !section(editor, "links", "Links", "The links that start or end here.", nullptr)) return;
+  for (std::size_t k = 0; k < std::min(links.size(), kMostVoices); ++k) {
+    const LinkPlan& link = state.plan->links[links[k]];
+    if (!editor.scene().links.contains(link.id)) continue;  // taken away since the last tick
+    const std::string kind = link.definition != nullptr ? link.definition->label : "unknown kind";
+    const bool has_failed = state.links[links[k]].error || link.error, is_quiet = !link.is_enabled || link.is_muted;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::PushID(link.id.c_str());
+    const bool is_pressed = ImGui::InvisibleButton("##link", {ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()});
+    ImGui::PopID();
+    note_place(editor, "link/" + link.id);
+    const ImVec2 to = ImGui::GetItemRectMax();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (ImGui::IsItemHovered()) {
+      editor.picks.hovered_link = link.id;
+      list.AddRectFilled(at, to, faded(c.accent, 0.12f), theme.px(3));
+    }
+    const float y = at.y + ImGui::GetStyle().FramePadding.y, middle = (at.y + to.y) / 2;
+    const ImU32 colour = link.definition != nullptr ? theme.family_of(link.definition->id).colour : c.text_faint;
+    list.AddLine({at.x + theme.px(2), middle}, {at.x + theme.px(12), middle}, is_quiet ? faded(colour, 0.4f) : colour,
+                 theme.px(2.5f));
+    const std::string text = kind + (has_failed ? ", failing" : !link.is_enabled ? ", off" : link.is_muted ? ", muted" : "");
+    list.AddText({at.x + theme.px(20), y}, has_failed ? c.bad : is_quiet ? c.text_faint : c.text, text.c_str());
+    const float width = ImGui::CalcTextSize(text.c_str()).x;
+    list.AddText({at.x + theme.px(30) + width, y}, c.text_faint, fitted(link.id, to.x - at.x - width - theme.px(34)).c_str());
+    if (is_pressed) editor.picks.only_link(link.id);
+  }
+  if (links.size() > kMostVoices) small_text(editor, "and " + std::to_string(links.size() - kMostVoices) + " more", c.text_faint);
+}
 
 void inspect_links(Editor& editor, InspectorView& view) {
   const LinkRecord& first = editor.scene().links.at(view.links().front());

@@ -125,9 +125,13 @@ void draw_type(Editor& editor, InspectorView& view, const SharedType& shared) {
   for (const SharedPort& setting : shared.settings) draw_setting(editor, view, type, setting);
   const auto is_result = [](const PortDefinition& p) { return p.is_computed && !p.recall; };
   if (std::any_of(type.ports.begin(), type.ports.end(), is_result)) {
+    // Results stand closer together than what can be changed.
     if (!shared.settings.empty()) ImGui::Dummy({0, editor.theme.px(2)});
+    const ImGuiStyle& style = ImGui::GetStyle();
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, editor.theme.px(2)});
     for (const PortDefinition& port : type.ports)
       if (is_result(port)) draw_computed(editor, view, type, port);
+    ImGui::PopStyleVar();
   }
   if (!wants_removal) return;
   std::vector<Command> commands;
@@ -188,6 +192,7 @@ void inspect_nodes(Editor& editor, InspectorView& view) {
       draw_ghost(editor, json, "This program does not know the role; it is kept as it is and does nothing.");
     }
   draw_add_role(editor, view);
+  if (count == 1) list_links(editor, view);
 }
 
 }  // namespace bl::desktop

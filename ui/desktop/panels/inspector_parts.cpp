@@ -156,6 +156,7 @@ int chips(Editor& editor, const std::string& key, const std::vector<std::string>
     ImGui::PopID();
   }
   ImGui::PopID();
+  if (!labels.empty()) ImGui::Dummy({0, theme.px(1)});
   return removed;
 }
 

@@ -38,7 +38,7 @@ RowEvent begin_row(Editor& editor, const std::string& key, const std::string& la
         signs.is_locked ? "Locked: links cannot change it. Press to let them." : "Lock it: links can pull, but change nothing.";
     event.wants_lock = place(signs.is_locked ? icon::kLock : icon::kUnlock, hint, signs.is_locked ? c.accent : c.text_faint,
                              signs.is_locked || is_in_row, "lock");
-  }
+  } else x -= sign;  // signs of one sort stand below each other
   if (signs.can_reset) event.wants_reset = place(icon::kReset, "Back to the default", c.text_faint, true, "reset");
   if (signs.can_drive && is_in_row)
     event.wants_drive = place("\xC6\x92", "Drive it by an expression ...", c.text_faint, true, "drive");

@@ -28,14 +28,6 @@ std::vector<std::string> labels_of(const Editor& editor, const Selection& select
 
 // The selection with one of its chips taken away.
 Selection without(Selection selection, std::size_t chip) {
-  if (!selection.typification.empty() && chip-- == 0) {
-    selection.typification.clear();
-    return selection;
-  }
-  if (!selection.tag.empty() && chip-- == 0) {
-    selection.tag.clear();
-    return selection;
-  }
   if (chip < selection.ids.size()) selection.ids.erase(selection.ids.begin() + static_cast<std::ptrdiff_t>(chip));
   return selection;
 }
@@ -108,16 +100,18 @@ std::optional<Selection> selection_field(Editor& editor, const std::string& key,
                                          float width) {
   std::optional<Selection> chosen;
   const std::vector<std::string> labels = is_mixed ? std::vector<std::string>{} : labels_of(editor, selection);
-  const std::string shown = is_mixed                   ? "several"
-                            : labels.empty()           ? "choose nodes"
-                            : selection.is_query()     ? "a query"
-                            : selection.ids.size() > 1 ? report::counted(selection.ids.size(), "node")
-                                                       : "one node";
+  std::string shown = is_mixed             ? "several"
+                      : labels.empty()     ? "choose nodes"
+                      : labels.size() == 1 ? "one node"
+                                           : report::counted(labels.size(), "node");
+  if (!is_mixed && selection.is_query()) shown = labels.front() + (labels.size() > 1 ? " " + labels.back() : "");
   if (begin_list(editor, key, shown, width, labels.empty() ? editor.theme.colours().text_faint : 0)) {
     chosen = selection_list(editor, selection);
     ImGui::EndPopup();
   }
   constexpr std::size_t kMostChips = 12;
+  // A query is said in one line above; nodes are named one by one.
+  if (is_mixed || selection.is_query()) return chosen;
   std::vector<std::string> seen(labels.begin(),
                                 labels.begin() + static_cast<std::ptrdiff_t>(std::min(labels.size(), kMostChips)));
   int clicked = -1;
@@ -126,7 +120,7 @@ std::optional<Selection> selection_field(Editor& editor, const std::string& key,
   if (labels.size() > kMostChips)
     small_text(editor, "and " + std::to_string(labels.size() - kMostChips) + " more", editor.theme.colours().text_faint, -1);
   // A press on a node's name goes to the node.
-  if (clicked >= 0 && !selection.is_query() && static_cast<std::size_t>(clicked) < selection.ids.size())
+  if (clicked >= 0 && static_cast<std::size_t>(clicked) < selection.ids.size())
     editor.picks.only_node(selection.ids[static_cast<std::size_t>(clicked)]);
   return chosen;
 }

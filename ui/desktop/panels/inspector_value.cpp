@@ -158,7 +158,9 @@ std::optional<Change> number_field(Editor& editor, const Subject& subject, float
   look.is_scrubbed = true;
   look.colour = subject.is_default ? editor.theme.colours().text_soft : 0;
   look.hint = kSeveral;
-  if (!subject.is_mixed && port.soft_minimum && port.soft_maximum && *port.soft_maximum > *port.soft_minimum)
+  // Beyond the soft range the slider would only say "full".
+  const bool is_soft = port.soft_minimum && port.soft_maximum && number >= *port.soft_minimum && number <= *port.soft_maximum;
+  if (!subject.is_mixed && is_soft && *port.soft_maximum > *port.soft_minimum)
     look.fill = (number - *port.soft_minimum) / (*port.soft_maximum - *port.soft_minimum);
   const std::string shown = subject.is_mixed ? "" : shown_number(number, subject.unit);
   const CellEvent event = cell(editor, subject.key, shown, subject.is_mixed ? "" : typed_form(number, subject.unit), width, look);
@@ -236,6 +238,8 @@ std::string value_text(const Value& value, const PortDefinition& port, Unit unit
     return report::counted((*selection)->ids.size(), "node");
   }
   if (port.kind == ValueKind::number && !port.is_computed) return shown_number(as_number(value), unit);
+  if (std::holds_alternative<std::int64_t>(value)) return report::grouped(as_number(value));
+  if (unit == Unit::ratio) return report::percent(as_number(value));
   return report::quantity(as_number(value), unit);
 }
 

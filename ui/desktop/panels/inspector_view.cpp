@@ -118,6 +118,21 @@ void InspectorView::merge_links(const Editor& editor) {
   }
 }
 
+const std::vector<std::size_t>& InspectorView::touching(const State& state) {
+  if (touched_plan_ == state.plan.get() && touched_node_ == nodes_.front()) return touching_;
+  touched_plan_ = state.plan.get();
+  touched_node_ = nodes_.front();
+  touching_.clear();
+  const std::uint32_t node = state.plan->node_index(touched_node_);
+  for (std::size_t l = 0; l < state.plan->links.size(); ++l)
+    for (const auto& end : state.plan->links[l].nodes)
+      if (std::binary_search(end.begin(), end.end(), node)) {
+        touching_.push_back(l);
+        break;
+      }
+  return touching_;
+}
+
 const report::ConflictRow& InspectorView::pulls(const State& state, PortRef ref) {
   const auto found = pulls_.find(ref);
   if (found != pulls_.end()) return found->second;

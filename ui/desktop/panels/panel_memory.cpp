@@ -2,6 +2,8 @@
 #include "ui/desktop/panels/panel_memory.h"
 
 #include "ui/desktop/panels/inspector.h"
+#include "ui/desktop/panels/problems_list.h"
+#include "ui/desktop/panels/statistics_record.h"
 
 namespace bl::desktop {
 

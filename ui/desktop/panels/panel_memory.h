@@ -14,6 +14,8 @@
 namespace bl::desktop {
 
 class InspectorView;
+class ProblemList;
+class RunRecord;
 
 /// A field that a person types into. Its key is that of the field.
 struct Typing {
@@ -38,11 +40,15 @@ struct PanelMemory {
   Scrub scrub;
   bool wants_next = false;               ///< Tab was pressed: the next field takes over
   std::string complaint_key, complaint;  ///< why the last value that was typed was refused, and where
+  std::string wanted_tab;                ///< of the lists below, to be brought to the front
   Picks shown;                           ///< what the inspector shows; stands still while somebody types
   std::string filter;                    ///< of the search field that is open
   int places_frame = -1;
-  std::map<std::string, ImVec4> places;  ///< fields of the last frame by key: where they stand, for tests and tours
-  std::unique_ptr<InspectorView> view;   ///< of what is chosen, per tick
+  std::size_t seen_steps = 0;             ///< of the history, when it was drawn last
+  std::map<std::string, ImVec4> places;   ///< fields of the last frame by key: where they stand, for tests and tours
+  std::unique_ptr<InspectorView> view;    ///< of what is chosen, per tick
+  std::unique_ptr<ProblemList> problems;  ///< of the last tick
+  std::unique_ptr<RunRecord> record;      ///< of the last ticks
 };
 
 /// The memory of this editor's panels; a fresh one after another document was opened.
