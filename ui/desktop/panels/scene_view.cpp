@@ -38,9 +38,11 @@ void SceneView::draw(ImVec2 size) {
       if (const std::uint32_t node = editor_->index_of(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
   colouring_ = colour_volumes(*facts_, choices_.colour_by, editor_->theme);
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
-  if (scene.camera != still_camera_ || facts_ != still_facts_) still_since_ = editor_->now;
+  const bool has_same_cells = std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
+                                         [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
+  if (scene.camera != still_camera_ || !has_same_cells) still_since_ = editor_->now;
   still_camera_ = scene.camera;
-  still_facts_ = facts_;
+  still_volumes_ = scene.volumes;
   scene.is_hurried = editor_->now < still_since_ + kStillSeconds;
   const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
   const float dense = density.x > 0 ? density.x : 1;

@@ -131,7 +131,7 @@ class SceneView {
   Camera from_, to_;
   double change_began_ = -1, last_frame_ = 0;
   Camera still_camera_;
-  std::shared_ptr<const SceneFacts> still_facts_;
+  std::vector<ViewVolume> still_volumes_;
   double still_since_ = 0;
   bool is_walking_ = false;
   double walk_began_ = -1;

@@ -11,7 +11,7 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr std::size_t kMostLabels = 70;
+constexpr std::size_t kMostLabels = 70, kMostSigns = 120, kMostDots = 4000;
 constexpr float kLeastVolumeOnScreen = 9;  // [points]: smaller ones have no label of their own
 
 struct Rectangle {
@@ -44,11 +44,19 @@ void SceneView::draw_marks() {
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  std::size_t drawn = 0;
   const auto draw = [&](std::uint32_t node, const std::string& id, const std::string& type, ImU32 tone) {
     const Seen at = seen(place_of(node));
-    if (!at.is_in_front) return;
+    const bool is_inside = at.x > -20 && at.y > -20 && at.x < width() + 20 && at.y < height() + 20;
+    if (!at.is_in_front || !is_inside) return;
     const ImVec2 p = on_screen(at);
     const bool is_chosen = editor_->picks.nodes.contains(id), is_hovered = editor_->picks.hovered_node == id;
+    // A draw list has room for so many corners; a crowd of marks is read as dots anyway.
+    if (++drawn > kMostSigns && !is_chosen && !is_hovered) {
+      if (drawn < kMostDots) list.AddRectFilled({p.x - theme.px(2), p.y - theme.px(2)}, {p.x + theme.px(2), p.y + theme.px(2)}, tone);
+      return;
+    }
+    if (drawn > kMostDots) return;
     const float r = theme.px(is_hovered ? 11 : 9.5f);
     list.AddCircleFilled(p, r, is_chosen ? c.accent : faded(c.raised, 0.92f), 24);
     list.AddCircle(p, r, is_chosen || is_hovered ? c.accent : tone, 24, theme.px(is_hovered ? 2.0f : 1.2f));
