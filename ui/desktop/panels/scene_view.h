@@ -55,8 +55,8 @@ class SceneView {
     static constexpr int kFree = 6;
     int handle = kFree;
     bool is_by_key = false;
-    Point3 anchor, grip;                     // middle of what moves; where it was taken hold of
-    Vector3 shift;                           // so far
+    Point3 anchor, grip;  // middle of what moves; where it was taken hold of
+    Vector3 shift;        // so far
     std::map<std::string, Point3> starts;
     std::int64_t gesture = 0;
     bool has_submitted = false;
@@ -108,6 +108,7 @@ class SceneView {
   void draw_layers_popup();
 
   // scene_view_card.cpp
+  const VolumeFacts* nearest_volume() const;
   void draw_card();
   void draw_title();
   std::vector<std::string> pulls_on(std::uint32_t node) const;

@@ -28,9 +28,12 @@ std::uint32_t with_room(std::uint32_t count) { return (count + kStep / 2 + kStep
 
 // Are the triangles the same, and do they move towards centres in the same places?
 bool is_alike(const Mesh& a, const Mesh& b) {
-  if (a.vertices.size() != b.vertices.size() || a.triangles != b.triangles || a.wrap->parts.size() != b.wrap->parts.size()) return false;
+  if (a.vertices.size() != b.vertices.size() || a.triangles != b.triangles || a.wrap->parts.size() != b.wrap->parts.size())
+    return false;
   for (std::size_t p = 0; p < a.wrap->parts.size(); ++p)
-    if (a.wrap->parts[p].triangles != b.wrap->parts[p].triangles || a.wrap->parts[p].seams.size() != b.wrap->parts[p].seams.size()) return false;
+    if (a.wrap->parts[p].triangles != b.wrap->parts[p].triangles ||
+        a.wrap->parts[p].seams.size() != b.wrap->parts[p].seams.size())
+      return false;
   return true;
 }
 
@@ -42,7 +45,8 @@ std::vector<float> corner_texels(const Mesh& cell) {
     for (const double x : {at.x, at.y, at.z}) out.push_back(static_cast<float>(x));
     out.push_back(static_cast<float>(mark));
   };
-  for (std::size_t v = 0; v < cell.vertices.size(); ++v) add(cell.vertices[v], v < cell.wrap->seams.size() ? cell.wrap->seams[v] : 0);
+  for (std::size_t v = 0; v < cell.vertices.size(); ++v)
+    add(cell.vertices[v], v < cell.wrap->seams.size() ? cell.wrap->seams[v] : 0);
   std::size_t t = 0, centre = cell.vertices.size();
   for (const MeshWrap::Part& part : cell.wrap->parts) {
     for (std::uint32_t k = 0; k < part.triangles && t < cell.triangles.size(); ++k, ++t)
@@ -62,7 +66,8 @@ std::vector<Instance> instances_of(const Mesh& cell, std::size_t volume, std::si
   std::vector<Instance> out(count, Instance{0, 0, 0, number});
   for (std::size_t t = 0; t < std::min(count, cell.triangles.size()); ++t) {
     const auto& corners = cell.triangles[t];
-    out[t] = {static_cast<std::uint16_t>(corners[0]), static_cast<std::uint16_t>(corners[1]), static_cast<std::uint16_t>(corners[2]), number};
+    out[t] = {static_cast<std::uint16_t>(corners[0]), static_cast<std::uint16_t>(corners[1]),
+              static_cast<std::uint16_t>(corners[2]), number};
   }
   return out;
 }
@@ -188,7 +193,8 @@ void GlVolumes::update(const ViewScene& scene, int depth, Traffic& traffic) {
   const std::span<const ViewVolume> volumes = std::span(scene.volumes).first(count);
   bool is_laid_out = slots_.size() != volumes.size();
   for (std::size_t k = 0; k < volumes.size() && !is_laid_out; ++k)
-    is_laid_out = corners_of(*volumes[k].cell) > slots_[k].corner_room || volumes[k].cell->triangles.size() > slots_[k].triangle_room;
+    is_laid_out =
+        corners_of(*volumes[k].cell) > slots_[k].corner_room || volumes[k].cell->triangles.size() > slots_[k].triangle_room;
   if (is_laid_out) lay_out(volumes);
   for (std::size_t k = 0; k < volumes.size(); ++k) {
     send_cell(k, volumes[k], is_laid_out, depth, traffic);

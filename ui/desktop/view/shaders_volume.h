@@ -173,7 +173,9 @@ vec3 to_screen(vec3 c) { return sqrt(clamp(c, 0.0, 1.0)); }
 float line(float distance, float width) { return 1.0 - smoothstep(width - 0.5, width + 0.6, distance); }
 
 void main() {
-  vec4 ball = texelFetch(records, 3 * number), paint = texelFetch(records, 3 * number + 1), storey = texelFetch(records, 3 * number + 2);
+  vec4 ball = texelFetch(records, 3 * number);
+  vec4 paint = texelFetch(records, 3 * number + 1);
+  vec4 storey = texelFetch(records, 3 * number + 2);
   int flags = int(paint.w);
   label = uint(4 * (number + 1) + (flags & 3));
   float reach = length(flat_place);
