@@ -90,15 +90,18 @@ TEST_F(ViewGpu, WrapsAsTheProcessorDoes) {
 
 TEST_F(ViewGpu, WrapsCellsInSeveralPiecesWithoutAGap) {
   // An L: cells at its inner corner reach into two pieces of it.
-  const Result<Domain> angle = site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
+  const Result<Domain> angle =
+      site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
   ASSERT_TRUE(angle.ok());
   ASSERT_GT(angle->pieces.size(), 1u);
-  EXPECT_GT(compare(*angle, {{{24, 24, 8}, 300}, {{10, 45, 10}, 160}, {{45, 12, 9}, 200}, {{8, 8, 10}, 90}, {{27, 20, 4}, 60}}), 0u);
+  EXPECT_GT(compare(*angle, {{{24, 24, 8}, 300}, {{10, 45, 10}, 160}, {{45, 12, 9}, 200}, {{8, 8, 10}, 90}, {{27, 20, 4}, 60}}),
+            0u);
 }
 
 TEST_F(ViewGpu, WrapsFarFromTheOrigin) {
   const double far = 450000;
-  const Result<Domain> box = site_domain({{{far, far, 0}, {far + 60, far, 0}, {far + 60, far + 60, 0}, {far, far + 60, 0}}, {}, 0, 30, {}, {}});
+  const Result<Domain> box =
+      site_domain({{{far, far, 0}, {far + 60, far, 0}, {far + 60, far + 60, 0}, {far, far + 60, 0}}, {}, 0, 30, {}, {}});
   ASSERT_TRUE(box.ok());
   std::vector<PowerSite> sites = some_sites(60, 30, 6);
   for (PowerSite& site : sites) site.position += Vector3{far, far, 0};
@@ -107,7 +110,8 @@ TEST_F(ViewGpu, WrapsFarFromTheOrigin) {
 
 TEST_F(ViewGpu, SendsOnlyWhatHasChanged) {
   ViewScene scene;
-  for (int k = 0; k < 20; ++k) scene.volumes.push_back({static_cast<std::uint32_t>(k), ball_cell({30.0 * k, 0, 0}, 10), 0xff8080c0u, 0, 3, 0});
+  for (int k = 0; k < 20; ++k)
+    scene.volumes.push_back({static_cast<std::uint32_t>(k), ball_cell({30.0 * k, 0, 0}, 10), 0xff8080c0u, 0, 3, 0});
   scene.centre = {300, 0, 0};
   scene.radius = 320;
   (void)renderer_->take_bytes_sent();
@@ -138,7 +142,10 @@ TEST_F(ViewGpu, DrawsVolumesWhereTheyStand) {
   scene.camera.fit({0, 0, 10}, 20, 1);
   ASSERT_NE(renderer_->draw(scene, 128, 128), 0u);
   const std::vector<std::uint8_t> pixels = renderer_->pixels();
-  const auto at = [&](int x, int y) { return &pixels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(renderer_->width()) + static_cast<std::size_t>(x))]; };
+  const auto at = [&](int x, int y) {
+    return &pixels[4 *
+                   (static_cast<std::size_t>(y) * static_cast<std::size_t>(renderer_->width()) + static_cast<std::size_t>(x))];
+  };
   const int w = renderer_->width(), h = renderer_->height();
   EXPECT_GT(at(w / 2, h / 2)[0], at(w / 2, h / 2)[2] + 40) << "the middle is red";
   EXPECT_LT(at(2, h - 3)[0], 90) << "a corner is not";

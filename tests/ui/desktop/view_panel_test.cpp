@@ -33,7 +33,8 @@ class ViewPanel : public ::testing::Test {
   Editor& editor() { return desktop.editor(); }
   const Editor& desktop_editor() const { return const_cast<ViewPanel*>(this)->desktop.editor(); }
   Point3 place(const std::string& id) {
-    return std::get<Vector3>(editor().state().value(*editor().state().plan->find(editor().index_of(id), {"node", "position", ""})));
+    return std::get<Vector3>(
+        editor().state().value(*editor().state().plan->find(editor().index_of(id), {"node", "position", ""})));
   }
   Point3 set_place(const std::string& id) {
     return std::get<Vector3>(editor().scene().nodes.at(id).types.at("node").at("position"));
@@ -208,7 +209,9 @@ TEST_F(ViewPanel, WalkingHoldsTheKeysUntilEscape) {
 TEST_F(ViewPanel, LayersAddTheirLines) {
   const auto facts = read_facts(editor().moment->state, nullptr);
   const Colouring colouring = colour_volumes(*facts, "error", editor().theme);
-  const auto lines = [&] { return build_view(*facts, colouring, {}, editor().picks, editor().person, editor().theme).lines.size(); };
+  const auto lines = [&] {
+    return build_view(*facts, colouring, {}, editor().picks, editor().person, editor().theme).lines.size();
+  };
   const std::size_t plain = lines();
   for (const char* layer : {"links", "weights", "neighbours", "cells"}) {
     set_layer(editor().person, layer, true);

@@ -1,4 +1,5 @@
-// What a tick of whole scenes sends to the graphics processor, against what finished meshes would have taken; and how long it takes.
+// What a tick of whole scenes sends to the graphics processor, against what finished meshes would have taken; and how long it
+// takes.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -46,7 +47,8 @@ Traffic measure(const std::string& path, int ticks) {
     ViewScene scene = build_view(*facts, colouring, choices, editor.picks, editor.person, editor.theme);
     scene.is_hurried = true;
     const double drawn = milliseconds_of(*renderer, scene);
-    const auto sent = static_cast<double>(renderer->take_bytes_sent()), spared = static_cast<double>(renderer->take_bytes_spared());
+    const auto sent = static_cast<double>(renderer->take_bytes_sent()),
+               spared = static_cast<double>(renderer->take_bytes_spared());
     scene.camera.azimuth += 0.1;
     const double turned = milliseconds_of(*renderer, scene);
     if (k < 0) continue;  // the first pictures send everything
@@ -56,9 +58,11 @@ Traffic measure(const std::string& path, int ticks) {
     traffic.orbit += turned / ticks;
   }
   traffic.depth = renderer->depth();
-  std::printf("%s: %.0f bytes a tick, %.0f as meshes of depth %d (%.1f times); picture %.1f ms after a tick, %.1f ms while orbiting (%s)\n",
-              path.c_str(), traffic.sent, traffic.spared, traffic.depth, traffic.spared / std::max(1.0, traffic.sent), traffic.draw,
-              traffic.orbit, renderer->description().c_str());
+  std::printf(
+      "%s: %.0f bytes a tick, %.0f as meshes of depth %d (%.1f times); picture %.1f ms after a tick, %.1f ms while orbiting "
+      "(%s)\n",
+      path.c_str(), traffic.sent, traffic.spared, traffic.depth, traffic.spared / std::max(1.0, traffic.sent), traffic.draw,
+      traffic.orbit, renderer->description().c_str());
   return traffic;
 }
 

@@ -35,19 +35,24 @@ void SceneView::draw(ImVec2 size) {
   choices_.held.clear();
   if (move_)
     for (const auto& [id, start] : move_->starts)
-      if (const std::uint32_t node = editor_->index_of(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
+      if (const std::uint32_t node = editor_->index_of(id); node < facts_->places.size())
+        choices_.held[node] = start + move_->shift;
   colouring_ = colour_volumes(*facts_, choices_.colour_by, editor_->theme);
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
-  if (scene.camera != still_camera_ || facts_ != still_facts_) still_since_ = editor_->now;
+  const bool has_same_cells =
+      std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
+                 [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
+  if (scene.camera != still_camera_ || !has_same_cells) still_since_ = editor_->now;
   still_camera_ = scene.camera;
-  still_facts_ = facts_;
+  still_volumes_ = scene.volumes;
   scene.is_hurried = editor_->now < still_since_ + kStillSeconds;
   const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
   const float dense = density.x > 0 ? density.x : 1;
   const std::uintptr_t picture = renderer_->draw(scene, static_cast<int>(size.x * dense), static_cast<int>(size.y * dense));
   // Pictures of OpenGL stand on their heads.
   if (picture != 0)
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(picture), at_, {at_.x + size.x, at_.y + size.y}, {0, 1}, {1, 0});
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(picture), at_, {at_.x + size.x, at_.y + size.y}, {0, 1},
+                                         {1, 0});
   draw_overlay();
   last_frame_ = editor_->now;
 }
@@ -80,6 +85,7 @@ void SceneView::follow_document() {
   if (document_ == editor_->document.get()) return;
   document_ = editor_->document.get();
   facts_ = nullptr;
+  hit_.reset();
   move_.reset();
   drag_ = Drag::none;
   is_walking_ = false;
@@ -99,8 +105,8 @@ void SceneView::follow_state() {
   Camera camera;
   camera.azimuth = -0.9;
   camera.elevation = 0.52;
-  camera.fit({facts_->centre.x, facts_->centre.y, facts_->ground + 0.35 * (facts_->centre.z - facts_->ground)}, 0.86 * facts_->radius,
-             width() / std::max(1.0f, height()));
+  camera.fit({facts_->centre.x, facts_->centre.y, facts_->ground + 0.35 * (facts_->centre.z - facts_->ground)},
+             0.86 * facts_->radius, width() / std::max(1.0f, height()));
   set_camera(camera);
 }
 
@@ -180,7 +186,8 @@ void SceneView::toggle_walk() {
   Vector3 out{eye.x - facts_->centre.x, eye.y - facts_->centre.y, 0};
   // From above nobody knows where to stand: outside, on the side that is lowest in the picture.
   if (norm(out) < 0.9 * facts_->radius) out = {std::cos(camera.azimuth), std::sin(camera.azimuth), 0};
-  const Point3 stand = Point3{facts_->centre.x, facts_->centre.y, facts_->ground + 1.7} + (1.15 * facts_->radius / norm(out)) * out;
+  const Point3 stand =
+      Point3{facts_->centre.x, facts_->centre.y, facts_->ground + 1.7} + (1.15 * facts_->radius / norm(out)) * out;
   camera.is_parallel = false;
   camera.azimuth = std::atan2(out.y, out.x);
   camera.elevation = -0.06;
@@ -212,7 +219,8 @@ void SceneView::store_camera(int number) {
   if (!editor_->document || number < 1 || number > 9) return;
   const std::string key = std::to_string(number);
   if (editor_->arrange("{\"cameras\": {\"" + key + "\": " + to_json_text(choices_.camera) + "}}"))
-    editor_->tell(NoticeKind::told, "This view is kept as number " + key + "; in beamer mode (F1) the key " + key + " goes back to it.");
+    editor_->tell(NoticeKind::told,
+                  "This view is kept as number " + key + "; in beamer mode (F1) the key " + key + " goes back to it.");
 }
 
 void SceneView::recall_camera(int number) {

@@ -54,8 +54,8 @@ class SceneView {
     static constexpr int kFree = 6;
     int handle = kFree;
     bool is_by_key = false;
-    Point3 anchor, grip;                     // middle of what moves; where it was taken hold of
-    Vector3 shift;                           // so far
+    Point3 anchor, grip;  // middle of what moves; where it was taken hold of
+    Vector3 shift;        // so far
     std::map<std::string, Point3> starts;
     std::int64_t gesture = 0;
     bool has_submitted = false;
@@ -107,6 +107,7 @@ class SceneView {
   void draw_layers_popup();
 
   // scene_view_card.cpp
+  const VolumeFacts* nearest_volume() const;
   void draw_card();
   void draw_title();
   std::vector<std::string> pulls_on(std::uint32_t node) const;
@@ -130,7 +131,7 @@ class SceneView {
   Camera from_, to_;
   double change_began_ = -1, last_frame_ = 0;
   Camera still_camera_;
-  std::shared_ptr<const SceneFacts> still_facts_;
+  std::vector<ViewVolume> still_volumes_;
   double still_since_ = 0;
   bool is_walking_ = false;
   double walk_began_ = -1;

@@ -50,8 +50,11 @@ std::vector<std::string> SceneView::pulls_on(std::uint32_t node) const {
       const double size = change != nullptr ? norm(*change) : std::abs(as_number(voice.value));
       if (!(size > (change != nullptr ? kLeastPull : 0))) continue;
       // Changes of the place first: they are what is seen here.
-      const std::string what = change != nullptr ? report::quantity(size, port.unit) + " a tick" : label_of_use(port.id) + " " + report::quantity(as_number(voice.value), port.unit);
-      found.emplace_back(change != nullptr ? 1e12 + size : size * voice.strength, state.plan->links[l].definition->label + ": " + what);
+      const std::string what = change != nullptr
+                                   ? report::quantity(size, port.unit) + " a tick"
+                                   : label_of_use(port.id) + " " + report::quantity(as_number(voice.value), port.unit);
+      found.emplace_back(change != nullptr ? 1e12 + size : size * voice.strength,
+                         state.plan->links[l].definition->label + ": " + what);
     }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::string> lines;
@@ -60,14 +63,11 @@ std::vector<std::string> SceneView::pulls_on(std::uint32_t node) const {
   return lines;
 }
 
-void SceneView::draw_card() {
-  if (!shows("card") || !is_hovered_ || drag_ != Drag::none || move_ || is_walking_ || hot_handle_ >= 0) return;
+// The one under the mouse, or the one whose place is nearest to it; nothing where none is near.
+const VolumeFacts* SceneView::nearest_volume() const {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const Theme& theme = editor_->theme;
-  const Colours& c = theme.colours();
-  // The one under the mouse, or the one whose place is nearest to it.
   const VolumeFacts* nearest = hit_ ? facts_->volume_of(hit_->node) : nullptr;
-  float least = theme.px(kReach);
+  float least = editor_->theme.px(kReach);
   for (const VolumeFacts& volume : facts_->volumes) {
     const Seen at = seen(volume.position);
     const ImVec2 p = on_screen(at);
@@ -76,19 +76,33 @@ void SceneView::draw_card() {
     least = far;
     nearest = &volume;
   }
-  if (nearest == nullptr || (!pointed_at_.empty() && pointed_at_ != nearest->id)) return;
+  const bool is_another = nearest != nullptr && !pointed_at_.empty() && pointed_at_ != nearest->id;
+  return is_another ? nullptr : nearest;
+}
+
+void SceneView::draw_card() {
+  if (!shows("card") || !is_hovered_ || drag_ != Drag::none || move_ || is_walking_ || hot_handle_ >= 0) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const Theme& theme = editor_->theme;
+  const Colours& c = theme.colours();
+  const VolumeFacts* nearest = nearest_volume();
+  if (nearest == nullptr) return;
   // What is chosen has its gizmo here, and all of its data in the inspector.
   if (editor_->picks.nodes.contains(nearest->id) && !editor_->is_beamer) return;
   const VolumeFacts& volume = *nearest;
   const std::vector<std::string> pulls = pulls_on(volume.node);
   const double error = volume.error();
-  const ImU32 standing = volume.volume > 0 ? (std::abs(error) <= facts_->state->plan->settings.tolerance ? c.good : c.warning) : c.bad;
+  const ImU32 standing =
+      volume.volume > 0 ? (std::abs(error) <= facts_->state->plan->settings.tolerance ? c.good : c.warning) : c.bad;
   const auto write = [&](CardWriter& card) {
     card.text(theme.fonts().strong, c.text, volume.name, 1);
-    card.text(theme.fonts().small, c.text_soft, label_of_use(volume.use) + (volume.state == "alive" ? "" : "  ·  " + volume.state), 6);
+    card.text(theme.fonts().small, c.text_soft,
+              label_of_use(volume.use) + (volume.state == "alive" ? "" : "  ·  " + volume.state), 6);
     if (card.list != nullptr) {
       const ImVec2 low{card.at.x, card.at.y + card.y}, high{low.x + card.width, low.y + theme.px(kBarHeight)};
-      const auto place = [&](double share) { return low.x + card.width * static_cast<float>(std::clamp(share / kShareShown, 0.0, 1.0)); };
+      const auto place = [&](double share) {
+        return low.x + card.width * static_cast<float>(std::clamp(share / kShareShown, 0.0, 1.0));
+      };
       card.list->AddRectFilled(low, high, c.sunken, theme.px(3));
       if (volume.wanted > 0) {
         card.list->AddRectFilled(low, {place(volume.volume / volume.wanted), high.y}, standing, theme.px(3));
@@ -101,7 +115,8 @@ void SceneView::draw_card() {
     card.row(c.text_soft, standing, "Difference", volume.wanted > 0 ? report::signed_percent(error) : "wants nothing");
     card.row(c.text_soft, c.text, "Floor area", report::quantity(volume.floor_area, Unit::square_metre));
     if (!volume.reason.empty() && volume.state != "alive") card.text(theme.fonts().small, c.bad, volume.reason, 3);
-    if (volume.is_ball) card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
+    if (volume.is_ball)
+      card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
     if (pulls.empty()) return;
     card.y += theme.px(3);
     card.text(theme.fonts().small, c.text_faint, "Who pulls", 1);
@@ -142,7 +157,8 @@ void SceneView::draw_title() {
   ImFont* font = theme.fonts().small;
   const std::string hint = "Esc or F1 leaves   ·   1 to 9 kept views   ·   P plays";
   const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, hint.c_str());
-  list.AddText(font, font->FontSize, {at_.x + width() - extent.x - theme.px(28), at_.y + theme.px(26)}, c.text_faint, hint.c_str());
+  list.AddText(font, font->FontSize, {at_.x + width() - extent.x - theme.px(28), at_.y + theme.px(26)}, c.text_faint,
+               hint.c_str());
 }
 
 }  // namespace bl::desktop

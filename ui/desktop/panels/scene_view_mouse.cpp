@@ -28,9 +28,7 @@ double distance_to_segment(ImVec2 p, ImVec2 a, ImVec2 b) {
 
 }  // namespace
 
-Ray SceneView::ray_at(ImVec2 mouse) const {
-  return choices_.camera.ray(mouse.x - at_.x, mouse.y - at_.y, width(), height());
-}
+Ray SceneView::ray_at(ImVec2 mouse) const { return choices_.camera.ray(mouse.x - at_.x, mouse.y - at_.y, width(), height()); }
 
 // What the mouse is over: a volume, the ground, or the plane through the target that faces the eye.
 Point3 SceneView::place_under(ImVec2 mouse) const {
@@ -91,8 +89,10 @@ void SceneView::walk_about() {
     return;
   }
   const double reach = kWalkSpeed * std::min(0.1, editor_->now - last_frame_) * (io.KeyShift ? kRunFactor : 1);
-  const double ahead = (is_down(GLFW_KEY_W) || is_down(GLFW_KEY_UP) ? 1 : 0) - (is_down(GLFW_KEY_S) || is_down(GLFW_KEY_DOWN) ? 1 : 0);
-  const double aside = (is_down(GLFW_KEY_D) || is_down(GLFW_KEY_RIGHT) ? 1 : 0) - (is_down(GLFW_KEY_A) || is_down(GLFW_KEY_LEFT) ? 1 : 0);
+  const double ahead =
+      (is_down(GLFW_KEY_W) || is_down(GLFW_KEY_UP) ? 1 : 0) - (is_down(GLFW_KEY_S) || is_down(GLFW_KEY_DOWN) ? 1 : 0);
+  const double aside =
+      (is_down(GLFW_KEY_D) || is_down(GLFW_KEY_RIGHT) ? 1 : 0) - (is_down(GLFW_KEY_A) || is_down(GLFW_KEY_LEFT) ? 1 : 0);
   const double upwards = (is_down(GLFW_KEY_E) ? 1 : 0) - (is_down(GLFW_KEY_Q) ? 1 : 0);
   if (ahead != 0 || aside != 0 || upwards != 0) choices_.camera.walk(reach * ahead, reach * aside, reach * upwards);
 }

@@ -54,8 +54,8 @@ std::vector<std::string> SceneView::movable(bool tells) {
     if (!found->second.locked.contains("node.position")) {
       ids.push_back(id);
     } else if (tells) {
-      editor_->tell(NoticeKind::warning,
-                    std::string(icon::kLock) + "  " + editor_->name_of(id) + " is locked in its place. Unlock its position in the inspector to move it.");
+      editor_->tell(NoticeKind::warning, std::string(icon::kLock) + "  " + editor_->name_of(id) +
+                                             " is locked in its place. Unlock its position in the inspector to move it.");
     }
   }
   return ids;
@@ -69,7 +69,8 @@ std::optional<Point3> SceneView::gizmo_centre() {
   for (const std::string& id : editor_->picks.nodes) {
     const std::uint32_t node = editor_->index_of(id);
     const auto found = editor_->scene().nodes.find(id);
-    if (node >= facts_->places.size() || found == editor_->scene().nodes.end() || found->second.types.contains("boundary")) continue;
+    if (node >= facts_->places.size() || found == editor_->scene().nodes.end() || found->second.types.contains("boundary"))
+      continue;
     sum += facts_->places[node];
     count += 1;
   }
@@ -88,7 +89,8 @@ int SceneView::handle_at(ImVec2 mouse) {
     std::array<ImVec2, 4> quad;
     const auto corners = plane_corners(*centre, k, unit);
     for (std::size_t i = 0; i < 4; ++i) quad[i] = on_screen(seen(corners[i]));
-    if (std::abs(choices_.camera.forward().x * axis(k).x + choices_.camera.forward().y * axis(k).y + choices_.camera.forward().z * axis(k).z) > 0.12 &&
+    if (std::abs(choices_.camera.forward().x * axis(k).x + choices_.camera.forward().y * axis(k).y +
+                 choices_.camera.forward().z * axis(k).z) > 0.12 &&
         is_in_quad(quad, mouse))
       return 3 + k;
   }
@@ -156,7 +158,9 @@ void SceneView::go_on_moving() {
   if (!shift) return;
   if (io.KeyShift) *shift = kFine * *shift;
   if (io.KeyCtrl) {
-    const auto snapped = [](double start, double by) { return by == 0 ? 0.0 : kSnap * std::round((start + by) / kSnap) - start; };
+    const auto snapped = [](double start, double by) {
+      return by == 0 ? 0.0 : kSnap * std::round((start + by) / kSnap) - start;
+    };
     *shift = {snapped(move_->anchor.x, shift->x), snapped(move_->anchor.y, shift->y), snapped(move_->anchor.z, shift->z)};
   }
   if (distance(*shift, move_->shift) < 5e-4) return;
@@ -231,9 +235,11 @@ void SceneView::draw_gizmo() {
     if (length < 10) continue;
     const float ux = dx / length, uy = dy / length, tip = theme.px(11), wide = theme.px(4.5f);
     list.AddLine({from.x + 0.1f * dx, from.y + 0.1f * dy}, to, colour, theme.px(held == k ? 3.6f : 2.2f));
-    list.AddTriangleFilled({to.x + ux * tip, to.y + uy * tip}, {to.x - uy * wide, to.y + ux * wide}, {to.x + uy * wide, to.y - ux * wide}, colour);
-    list.AddText(theme.fonts().small, theme.fonts().small->FontSize, {to.x + ux * 1.9f * tip - theme.px(4), to.y + uy * 1.9f * tip - theme.px(7)},
-                 colour, kAxisNames[static_cast<std::size_t>(k)]);
+    list.AddTriangleFilled({to.x + ux * tip, to.y + uy * tip}, {to.x - uy * wide, to.y + ux * wide},
+                           {to.x + uy * wide, to.y - ux * wide}, colour);
+    list.AddText(theme.fonts().small, theme.fonts().small->FontSize,
+                 {to.x + ux * 1.9f * tip - theme.px(4), to.y + uy * 1.9f * tip - theme.px(7)}, colour,
+                 kAxisNames[static_cast<std::size_t>(k)]);
   }
   for (int k = 0; k < 3 && !move_; ++k) {
     const Vector3 f = choices_.camera.forward();
@@ -263,8 +269,9 @@ void SceneView::draw_typed() {
   } else {
     text = metres(s.x) + "   " + metres(s.y) + (s.z != 0 ? "   " + metres(s.z) : "");
   }
-  const std::string hint = move_->is_by_key ? "X Y Z: axis   number: exactly   Shift: fine   Ctrl: whole metres   Enter: done   Esc: back"
-                                            : "Shift: fine   Ctrl: whole metres   Esc: back";
+  const std::string hint = move_->is_by_key
+                               ? "X Y Z: axis   number: exactly   Shift: fine   Ctrl: whole metres   Enter: done   Esc: back"
+                               : "Shift: fine   Ctrl: whole metres   Esc: back";
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const ImVec2 extent = theme.fonts().strong->CalcTextSizeA(theme.fonts().strong->FontSize, 1e4f, 0, text.c_str());

@@ -11,7 +11,7 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr std::size_t kMostLabels = 70;
+constexpr std::size_t kMostLabels = 70, kMostSigns = 120, kMostDots = 4000;
 constexpr float kLeastVolumeOnScreen = 9;  // [points]: smaller ones have no label of their own
 
 struct Rectangle {
@@ -44,18 +44,28 @@ void SceneView::draw_marks() {
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  std::size_t drawn = 0;
   const auto draw = [&](std::uint32_t node, const std::string& id, const std::string& type, ImU32 tone) {
     const Seen at = seen(place_of(node));
-    if (!at.is_in_front) return;
+    const bool is_inside = at.x > -20 && at.y > -20 && at.x < width() + 20 && at.y < height() + 20;
+    if (!at.is_in_front || !is_inside) return;
     const ImVec2 p = on_screen(at);
     const bool is_chosen = editor_->picks.nodes.contains(id), is_hovered = editor_->picks.hovered_node == id;
+    // A draw list has room for so many corners; a crowd of marks is read as dots anyway.
+    if (++drawn > kMostSigns && !is_chosen && !is_hovered) {
+      if (drawn < kMostDots)
+        list.AddRectFilled({p.x - theme.px(2), p.y - theme.px(2)}, {p.x + theme.px(2), p.y + theme.px(2)}, tone);
+      return;
+    }
+    if (drawn > kMostDots) return;
     const float r = theme.px(is_hovered ? 11 : 9.5f);
     list.AddCircleFilled(p, r, is_chosen ? c.accent : faded(c.raised, 0.92f), 24);
     list.AddCircle(p, r, is_chosen || is_hovered ? c.accent : tone, 24, theme.px(is_hovered ? 2.0f : 1.2f));
     const char* sign = sign_of(type);
     ImFont* font = theme.fonts().small;
     const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, sign);
-    list.AddText(font, font->FontSize, {std::round(p.x - extent.x / 2), std::round(p.y - extent.y / 2)}, is_chosen ? c.on_accent : c.text_soft, sign);
+    list.AddText(font, font->FontSize, {std::round(p.x - extent.x / 2), std::round(p.y - extent.y / 2)},
+                 is_chosen ? c.on_accent : c.text_soft, sign);
   };
   if (shows("marks"))
     for (const MarkFacts& mark : facts_->marks) draw(mark.node, mark.id, mark.type, c.line);
@@ -92,10 +102,12 @@ void SceneView::draw_labels() {
     const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
     if (!at.is_in_front || !is_inside) return;
     if (!is_chosen && !is_hovered && size < kLeastVolumeOnScreen * theme.scale()) return;
-    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
+    wishes.push_back(
+        {&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
   };
   for (const VolumeFacts& volume : facts_->volumes)
-    wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()), false);
+    wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()),
+         false);
   if (shows("marks"))
     for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
   std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.importance > b.importance; });
@@ -110,18 +122,20 @@ void SceneView::draw_labels() {
     const ImVec2 p = on_screen(anchor);
     const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.text->c_str());
     const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
-    const std::array<ImVec2, 6> offsets = {{{0, w.is_mark ? theme.px(20) : 0}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
+    const std::array<ImVec2, 6> offsets = {
+        {{0, w.is_mark ? theme.px(20) : 0}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
     for (std::size_t k = 0; k < offsets.size(); ++k) {
       const ImVec2 middle{p.x + offsets[k].x, p.y + offsets[k].y};
-      const Rectangle place{middle.x - extent.x / 2 - padding, middle.y - extent.y / 2 - theme.px(2), middle.x + extent.x / 2 + padding,
-                            middle.y + extent.y / 2 + theme.px(2)};
+      const Rectangle place{middle.x - extent.x / 2 - padding, middle.y - extent.y / 2 - theme.px(2),
+                            middle.x + extent.x / 2 + padding, middle.y + extent.y / 2 + theme.px(2)};
       if (std::any_of(taken.begin(), taken.end(), [&](const Rectangle& r) { return r.meets(place); })) continue;
       taken.push_back(place);
       if (k > 0 && !w.is_mark) {
         list.AddLine(p, middle, faded(c.text, 0.55f), 1);
         list.AddCircleFilled(p, theme.px(2), faded(c.text, 0.8f));
       }
-      list.AddRectFilled({place.left, place.top}, {place.right, place.bottom}, w.is_chosen ? c.accent : faded(c.panel, 0.74f), theme.px(4));
+      list.AddRectFilled({place.left, place.top}, {place.right, place.bottom}, w.is_chosen ? c.accent : faded(c.panel, 0.74f),
+                         theme.px(4));
       list.AddText(font, font->FontSize, {std::round(middle.x - extent.x / 2), std::round(middle.y - extent.y / 2)},
                    w.is_chosen ? c.on_accent : c.text, w.text->c_str());
       break;
@@ -140,7 +154,8 @@ void SceneView::draw_scale_and_north() {
   const ImVec2 middle{at_.x + width() - theme.px(38), at_.y + height() - theme.px(44)};
   const float r = theme.px(17);
   const auto at = [&](const Vector3& v) {
-    return ImVec2{middle.x + r * static_cast<float>(dot(v, camera.right())), middle.y - r * static_cast<float>(dot(v, camera.up()))};
+    return ImVec2{middle.x + r * static_cast<float>(dot(v, camera.right())),
+                  middle.y - r * static_cast<float>(dot(v, camera.up()))};
   };
   std::array<ImVec2, 32> ring;
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -159,10 +174,12 @@ void SceneView::draw_scale_and_north() {
   const float length = static_cast<float>(metres / unit);
   const ImVec2 end{at_.x + width() - theme.px(76), at_.y + height() - theme.px(26)}, begin{end.x - length, end.y};
   list.AddLine(begin, end, c.text_soft, theme.px(1.5f));
-  for (const ImVec2 p : {begin, end, ImVec2{(begin.x + end.x) / 2, end.y}}) list.AddLine({p.x, p.y - theme.px(4)}, p, c.text_soft, theme.px(1.2f));
+  for (const ImVec2 p : {begin, end, ImVec2{(begin.x + end.x) / 2, end.y}})
+    list.AddLine({p.x, p.y - theme.px(4)}, p, c.text_soft, theme.px(1.2f));
   const std::string text = report::quantity(metres, Unit::metre);
   const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
-  list.AddText(font, font->FontSize, {(begin.x + end.x - extent.x) / 2, end.y - theme.px(5) - extent.y}, c.text_soft, text.c_str());
+  list.AddText(font, font->FontSize, {(begin.x + end.x - extent.x) / 2, end.y - theme.px(5) - extent.y}, c.text_soft,
+               text.c_str());
 }
 
 void SceneView::draw_legend(bool is_large) {
@@ -177,7 +194,8 @@ void SceneView::draw_legend(bool is_large) {
   const std::size_t most = static_cast<std::size_t>(std::max(1.0f, room / line - 2));
   const std::size_t rows = std::min(legend.rows.size(), most);
   const float x = at_.x + margin;
-  float y = at_.y + height() - margin - line * (legend.ramp.empty() ? static_cast<float>(rows + (rows < legend.rows.size() ? 1 : 0)) : 2.4f);
+  float y = at_.y + height() - margin -
+            line * (legend.ramp.empty() ? static_cast<float>(rows + (rows < legend.rows.size() ? 1 : 0)) : 2.4f);
   list.AddText(theme.fonts().strong, font->FontSize, {x, y - line}, c.text, legend.title.c_str());
   for (std::size_t k = 0; k < rows; ++k, y += line) {
     const float top = y + (line - swatch) / 2 - font->FontSize * 0.14f;
@@ -185,13 +203,14 @@ void SceneView::draw_legend(bool is_large) {
     list.AddText(font, font->FontSize, {x + swatch * 1.6f, y}, c.text_soft, legend.rows[k].label.c_str());
   }
   if (rows < legend.rows.size())
-    list.AddText(font, font->FontSize, {x + swatch * 1.6f, y}, c.text_faint, ("and " + std::to_string(legend.rows.size() - rows) + " more").c_str());
+    list.AddText(font, font->FontSize, {x + swatch * 1.6f, y}, c.text_faint,
+                 ("and " + std::to_string(legend.rows.size() - rows) + " more").c_str());
   if (legend.ramp.empty()) return;
   const float length = theme.px(is_large ? 300 : 190), step = length / static_cast<float>(legend.ramp.size() - 1);
   for (std::size_t k = 0; k + 1 < legend.ramp.size(); ++k) {
     const float left = x + step * static_cast<float>(k);
-    list.AddRectFilledMultiColor({left, y + theme.px(4)}, {left + step + 0.5f, y + theme.px(4) + swatch}, legend.ramp[k], legend.ramp[k + 1],
-                                 legend.ramp[k + 1], legend.ramp[k]);
+    list.AddRectFilledMultiColor({left, y + theme.px(4)}, {left + step + 0.5f, y + theme.px(4) + swatch}, legend.ramp[k],
+                                 legend.ramp[k + 1], legend.ramp[k + 1], legend.ramp[k]);
   }
   const auto put = [&](const std::string& text, float share) {
     const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());

@@ -33,7 +33,8 @@ double Camera::height_seen() const { return 2 * distance * std::tan(kFieldOfView
 
 Matrix Camera::matrix(const Point3& origin, double aspect, double near, double far) const {
   const Vector3 r = right(), u = up(), f = forward(), e = eye() - origin;
-  const double view[4][4] = {{r.x, r.y, r.z, -dot(r, e)}, {u.x, u.y, u.z, -dot(u, e)}, {-f.x, -f.y, -f.z, dot(f, e)}, {0, 0, 0, 1}};
+  const double view[4][4] = {
+      {r.x, r.y, r.z, -dot(r, e)}, {u.x, u.y, u.z, -dot(u, e)}, {-f.x, -f.y, -f.z, dot(f, e)}, {0, 0, 0, 1}};
   double lens[4][4] = {};
   if (is_parallel) {
     const double half = height_seen() / 2;

@@ -24,9 +24,9 @@ struct Seen {
 };
 
 struct Camera {
-  Point3 target;                              ///< what it turns around [m]
-  double azimuth = -0.6, elevation = 0.6;     ///< of the eye, seen from the target: from east anticlockwise, up [rad]
-  double distance = 200;                      ///< of the eye from the target [m]
+  Point3 target;                           ///< what it turns around [m]
+  double azimuth = -0.6, elevation = 0.6;  ///< of the eye, seen from the target: from east anticlockwise, up [rad]
+  double distance = 200;                   ///< of the eye from the target [m]
   bool is_parallel = false;
   bool operator==(const Camera&) const = default;
 
@@ -46,13 +46,13 @@ struct Camera {
   /// Metres that one pixel covers at a point.
   double metres_per_pixel(const Point3& point, double height) const;
 
-  void orbit(double dx, double dy);                                ///< [pixels]
-  void pan(double dx, double dy, double height);                   ///< the world follows the hand [pixels]
-  void zoom(double factor, const Point3& towards);                 ///< nearer for factors below 1; `towards` keeps its place
-  void look(double dx, double dy);                                 ///< turns the head, the eye stays
-  void walk(double ahead, double aside, double upwards);           ///< [m]
-  void fit(const Point3& centre, double radius, double aspect);    ///< a ball fills the picture
-  void limit();                                                    ///< keeps all numbers sane
+  void orbit(double dx, double dy);                              ///< [pixels]
+  void pan(double dx, double dy, double height);                 ///< the world follows the hand [pixels]
+  void zoom(double factor, const Point3& towards);               ///< nearer for factors below 1; `towards` keeps its place
+  void look(double dx, double dy);                               ///< turns the head, the eye stays
+  void walk(double ahead, double aside, double upwards);         ///< [m]
+  void fit(const Point3& centre, double radius, double aspect);  ///< a ball fills the picture
+  void limit();                                                  ///< keeps all numbers sane
 };
 
 /// In between, `t` from 0 to 1: the shorter way around, distances by ratio.

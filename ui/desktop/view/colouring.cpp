@@ -42,7 +42,9 @@ std::vector<double> values_of(const SceneFacts& facts, const std::string& choice
   return values;
 }
 
-std::string told(double value, Unit unit) { return unit == Unit::ratio ? report::percent(value) : report::quantity(value, unit); }
+std::string told(double value, Unit unit) {
+  return unit == Unit::ratio ? report::percent(value) : report::quantity(value, unit);
+}
 
 Colouring by_use(const SceneFacts& facts, const Theme& theme) {
   Colouring out;
@@ -51,13 +53,19 @@ Colouring by_use(const SceneFacts& facts, const Theme& theme) {
     const auto at = std::lower_bound(facts.uses.begin(), facts.uses.end(), volume.use);
     out.colours.push_back(theme.category(static_cast<std::size_t>(at - facts.uses.begin())));
   }
-  for (std::size_t k = 0; k < facts.uses.size(); ++k) out.legend.rows.push_back({label_of_use(facts.uses[k]), theme.category(k)});
+  for (std::size_t k = 0; k < facts.uses.size(); ++k)
+    out.legend.rows.push_back({label_of_use(facts.uses[k]), theme.category(k)});
   return out;
 }
 
 Colouring by_error(const SceneFacts& facts, const Theme& theme) {
   Colouring out;
-  out.legend = {"Volume against demand", {}, {}, report::signed_percent(-kLargestShownError), "met", report::signed_percent(kLargestShownError)};
+  out.legend = {"Volume against demand",
+                {},
+                {},
+                report::signed_percent(-kLargestShownError),
+                "met",
+                report::signed_percent(kLargestShownError)};
   for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(theme.diverging(volume.error() / kLargestShownError));
   for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(theme.diverging(2.0 * k / kRampSteps - 1));
   return out;
@@ -111,8 +119,8 @@ Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, con
   Colouring out;
   out.legend.title = title_of(facts, choice);
   for (const double value : values)
-    out.colours.push_back(std::isfinite(value) ? Theme::ramp(0.08 + 0.92 * (value - low) / span) : theme.colours().text_faint);
-  for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(Theme::ramp(0.08 + 0.92 * k / kRampSteps));
+    out.colours.push_back(std::isfinite(value) ? Theme::ramp(0.2 + 0.8 * (value - low) / span) : theme.colours().text_faint);
+  for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(Theme::ramp(0.2 + 0.8 * k / kRampSteps));
   out.legend.low = told(low, unit);
   out.legend.high = told(high, unit);
   if (high > low) out.legend.middle = told(0.5 * (low + high), unit);

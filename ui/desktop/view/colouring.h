@@ -23,13 +23,13 @@ struct Legend {
     std::string label;
     Colour colour = 0;
   };
-  std::vector<Row> rows;         ///< of categories
-  std::vector<Colour> ramp;      ///< of numbers, from low to high; empty for categories
-  std::string low, middle, high; ///< what its ends and its middle stand for, with units
+  std::vector<Row> rows;          ///< of categories
+  std::vector<Colour> ramp;       ///< of numbers, from low to high; empty for categories
+  std::string low, middle, high;  ///< what its ends and its middle stand for, with units
 };
 
 struct Colouring {
-  std::vector<Colour> colours;   ///< as facts.volumes
+  std::vector<Colour> colours;  ///< as facts.volumes
   Legend legend;
 };
 Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme);

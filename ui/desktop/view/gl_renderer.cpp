@@ -66,17 +66,19 @@ bool GlRenderer::build(std::string& failure) {
     std::vector<const char*> captured;
   };
   const std::string nothing = version + "void main() {}\n";
-  const Recipe recipes[] = {
-      {&p.volumes, divide + shaders::kVolumeVertex, version + light + shaders::kVolumeFragment, {}},
-      {&p.cut_volumes, divide + shaders::kVolumeVertex, version + "#define WITH_SECTION\n" + light + shaders::kVolumeFragment, {}},
-      {&p.shadow, divide + shaders::kShadowVertex, version + shaders::kShadowFragment, {}},
-      {&p.heights, divide + shaders::kShadowVertex, version + shaders::kHeightFragment, {}},
-      {&p.capture, divide + shaders::kCaptureVertex, nothing, {"captured"}},
-      {&p.ground, version + shaders::kGroundVertex, version + light + shaders::kGroundFragment, {}},
-      {&p.surfaces, version + shaders::kSurfaceVertex, version + shaders::kSurfaceFragment, {}},
-      {&p.lines, version + shaders::kLineVertex, version + shaders::kLineFragment, {}},
-      {&p.blur, version + shaders::kWholeVertex, version + shaders::kBlurFragment, {}},
-      {&p.finish, version + shaders::kWholeVertex, version + shaders::kFinishFragment, {}}};
+  const Recipe recipes[] = {{&p.volumes, divide + shaders::kVolumeVertex, version + light + shaders::kVolumeFragment, {}},
+                            {&p.cut_volumes,
+                             divide + shaders::kVolumeVertex,
+                             version + "#define WITH_SECTION\n" + light + shaders::kVolumeFragment,
+                             {}},
+                            {&p.shadow, divide + shaders::kShadowVertex, version + shaders::kShadowFragment, {}},
+                            {&p.heights, divide + shaders::kShadowVertex, version + shaders::kHeightFragment, {}},
+                            {&p.capture, divide + shaders::kCaptureVertex, nothing, {"captured"}},
+                            {&p.ground, version + shaders::kGroundVertex, version + light + shaders::kGroundFragment, {}},
+                            {&p.surfaces, version + shaders::kSurfaceVertex, version + shaders::kSurfaceFragment, {}},
+                            {&p.lines, version + shaders::kLineVertex, version + shaders::kLineFragment, {}},
+                            {&p.blur, version + shaders::kWholeVertex, version + shaders::kBlurFragment, {}},
+                            {&p.finish, version + shaders::kWholeVertex, version + shaders::kFinishFragment, {}}};
   for (const Recipe& recipe : recipes)
     if (!recipe.program->build(recipe.vertex, recipe.fragment, recipe.captured)) {
       failure = "the graphics driver refuses a shader: " + recipe.program->failure();
@@ -162,7 +164,8 @@ std::uintptr_t GlRenderer::draw(const ViewScene& scene, int width, int height) {
 // Where the sun reaches, and what stands how high: both are drawn coarser than the picture, because both are soft.
 void GlRenderer::draw_maps(const ViewScene& scene) {
   const int size = is_software_ ? 1024 : 2048, depth = std::clamp(depth_ - 1, 0, 2);
-  if (!shadow_.resize(size, size) || !heights_.resize(kHeightMap, kHeightMap) || !blurred_.resize(kHeightMap, kHeightMap)) return;
+  if (!shadow_.resize(size, size) || !heights_.resize(kHeightMap, kHeightMap) || !blurred_.resize(kHeightMap, kHeightMap))
+    return;
   sun_matrix_ = box_matrix(scene, scene.sun, scene.radius);
   map_matrix_ = box_matrix(scene, {0, 0, 1}, 1.3 * scene.radius);
   shadow_.bind();

@@ -65,10 +65,10 @@ void GlRenderer::send_lines(const ViewScene& scene) {
   for (const ViewLine& line : scene.lines) {
     const Vector3 a = line.from - scene.origin, b = line.to - scene.origin;
     items.push_back({{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)},
-                       {static_cast<float>(b.x), static_cast<float>(b.y), static_cast<float>(b.z)},
-                       line.colour,
-                       line.width,
-                       line.hidden_share});
+                     {static_cast<float>(b.x), static_cast<float>(b.y), static_cast<float>(b.z)},
+                     line.colour,
+                     line.width,
+                     line.hidden_share});
   }
   line_buffer_.reserve(items.size() * sizeof(Item));
   line_buffer_.write(0, items.data(), items.size() * sizeof(Item), traffic_);
@@ -96,7 +96,8 @@ void GlRenderer::draw_lines(const ViewScene& scene) {
   program.set("size", static_cast<float>(picture_.width()), static_cast<float>(picture_.height()));
   program.set("pixel", pixel_);
   glBindVertexArray(line_array_);
-  const bool has_hidden = std::any_of(scene.lines.begin(), scene.lines.end(), [](const ViewLine& l) { return l.hidden_share > 0; });
+  const bool has_hidden =
+      std::any_of(scene.lines.begin(), scene.lines.end(), [](const ViewLine& l) { return l.hidden_share > 0; });
   for (int pass = 0; pass < (has_hidden ? 2 : 1); ++pass) {
     program.set("bias", pass == 0 ? kLineBias : 0.0f);
     glDepthFunc(pass == 0 ? GL_LEQUAL : GL_GREATER);

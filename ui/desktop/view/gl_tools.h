@@ -70,7 +70,9 @@ class GlTexels {
   GlTexels& operator=(const GlTexels&) = delete;
 
   bool reserve(std::size_t bytes);
-  void write(std::size_t offset, const void* data, std::size_t bytes, Traffic& traffic) { buffer.write(offset, data, bytes, traffic); }
+  void write(std::size_t offset, const void* data, std::size_t bytes, Traffic& traffic) {
+    buffer.write(offset, data, bytes, traffic);
+  }
   void bind(int unit) const;
 
   GlBuffer buffer;

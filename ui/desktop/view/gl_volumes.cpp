@@ -2,19 +2,16 @@
 #include "ui/desktop/view/gl_volumes.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstring>
 
 namespace bl::desktop {
 
 namespace {
 
-// Corners by their index in the slot, and the place of the centre that they move towards.
+// Corners by their index in the slot: the face's centre and two of its corners.
 struct Instance {
-  std::uint16_t c = 0, a = 0, b = 0, centre = 0;
-  std::uint32_t volume = 0;
+  std::uint16_t c = 0, a = 0, b = 0, volume = 0;
 };
-static_assert(sizeof(Instance) == 12);
+static_assert(sizeof(Instance) == 8);
 
 constexpr std::size_t kCornerBytes = 16, kRecordBytes = 48;
 constexpr std::uint32_t kStep = 8;
@@ -31,9 +28,12 @@ std::uint32_t with_room(std::uint32_t count) { return (count + kStep / 2 + kStep
 
 // Are the triangles the same, and do they move towards centres in the same places?
 bool is_alike(const Mesh& a, const Mesh& b) {
-  if (a.vertices.size() != b.vertices.size() || a.triangles != b.triangles || a.wrap->parts.size() != b.wrap->parts.size()) return false;
+  if (a.vertices.size() != b.vertices.size() || a.triangles != b.triangles || a.wrap->parts.size() != b.wrap->parts.size())
+    return false;
   for (std::size_t p = 0; p < a.wrap->parts.size(); ++p)
-    if (a.wrap->parts[p].triangles != b.wrap->parts[p].triangles || a.wrap->parts[p].seams.size() != b.wrap->parts[p].seams.size()) return false;
+    if (a.wrap->parts[p].triangles != b.wrap->parts[p].triangles ||
+        a.wrap->parts[p].seams.size() != b.wrap->parts[p].seams.size())
+      return false;
   return true;
 }
 
@@ -45,7 +45,14 @@ std::vector<float> corner_texels(const Mesh& cell) {
     for (const double x : {at.x, at.y, at.z}) out.push_back(static_cast<float>(x));
     out.push_back(static_cast<float>(mark));
   };
-  for (std::size_t v = 0; v < cell.vertices.size(); ++v) add(cell.vertices[v], v < cell.wrap->seams.size() ? cell.wrap->seams[v] : 0);
+  for (std::size_t v = 0; v < cell.vertices.size(); ++v)
+    add(cell.vertices[v], v < cell.wrap->seams.size() ? cell.wrap->seams[v] : 0);
+  std::size_t t = 0, centre = cell.vertices.size();
+  for (const MeshWrap::Part& part : cell.wrap->parts) {
+    for (std::uint32_t k = 0; k < part.triangles && t < cell.triangles.size(); ++k, ++t)
+      out[4 * cell.triangles[t][0] + 3] = static_cast<float>(centre);
+    centre += 1 + part.seams.size();
+  }
   for (const MeshWrap::Part& part : cell.wrap->parts) {
     add(part.centre, 0);
     for (const Point3& seam : part.seams) add(seam, 0);
@@ -53,17 +60,14 @@ std::vector<float> corner_texels(const Mesh& cell) {
   return out;
 }
 
-std::vector<Instance> instances_of(const Mesh& cell, std::uint32_t volume, std::uint32_t room) {
-  std::vector<Instance> out(room);
-  for (Instance& filler : out) filler.volume = volume;
-  std::size_t t = 0, centre = cell.vertices.size();
-  for (const MeshWrap::Part& part : cell.wrap->parts) {
-    for (std::uint32_t k = 0; k < part.triangles && t < cell.triangles.size() && t < room; ++k, ++t) {
-      const auto& corners = cell.triangles[t];
-      out[t] = {static_cast<std::uint16_t>(corners[0]), static_cast<std::uint16_t>(corners[1]),
-                static_cast<std::uint16_t>(corners[2]), static_cast<std::uint16_t>(centre), volume};
-    }
-    centre += 1 + part.seams.size();
+// `count` of them: those beyond the triangles have no extent.
+std::vector<Instance> instances_of(const Mesh& cell, std::size_t volume, std::size_t count) {
+  const auto number = static_cast<std::uint16_t>(volume);
+  std::vector<Instance> out(count, Instance{0, 0, 0, number});
+  for (std::size_t t = 0; t < std::min(count, cell.triangles.size()); ++t) {
+    const auto& corners = cell.triangles[t];
+    out[t] = {static_cast<std::uint16_t>(corners[0]), static_cast<std::uint16_t>(corners[1]),
+              static_cast<std::uint16_t>(corners[2]), number};
   }
   return out;
 }
@@ -120,7 +124,7 @@ void GlVolumes::make_grids() {
   glBindVertexArray(0);
 }
 
-void GlVolumes::lay_out(const std::vector<ViewVolume>& volumes) {
+void GlVolumes::lay_out(std::span<const ViewVolume> volumes) {
   slots_.assign(volumes.size(), {});
   corner_room_ = triangle_room_ = 0;
   for (std::size_t k = 0; k < volumes.size(); ++k) {
@@ -140,9 +144,6 @@ void GlVolumes::lay_out(const std::vector<ViewVolume>& volumes) {
     glEnableVertexAttribArray(1);
     glVertexAttribIPointer(1, 4, GL_UNSIGNED_SHORT, sizeof(Instance), nullptr);
     glVertexAttribDivisor(1, 1);
-    glEnableVertexAttribArray(2);
-    glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, sizeof(Instance), reinterpret_cast<const void*>(offsetof(Instance, volume)));
-    glVertexAttribDivisor(2, 1);
     glBindVertexArray(0);
   }
 }
@@ -152,7 +153,9 @@ void GlVolumes::send_cell(std::size_t k, const ViewVolume& volume, bool is_laid_
   if (slot.cell == volume.cell) return;
   const bool has_new_triangles = is_laid_out || !slot.cell || !is_alike(*slot.cell, *volume.cell);
   if (has_new_triangles) {
-    const auto instances = instances_of(*volume.cell, static_cast<std::uint32_t>(k), slot.triangle_room);
+    // What a longer list has left behind is cleared with it.
+    const std::size_t before = is_laid_out || !slot.cell ? slot.triangle_room : slot.cell->triangles.size();
+    const auto instances = instances_of(*volume.cell, k, std::max(before, volume.cell->triangles.size()));
     instances_.write(slot.first_triangle * sizeof(Instance), instances.data(), instances.size() * sizeof(Instance), traffic);
   }
   const std::vector<float> texels = corner_texels(*volume.cell);
@@ -185,10 +188,13 @@ void GlVolumes::send_record(std::size_t k, const ViewVolume& volume, const Point
 }
 
 void GlVolumes::update(const ViewScene& scene, int depth, Traffic& traffic) {
-  const std::vector<ViewVolume>& volumes = scene.volumes;
+  // More than the numbers of the instances reach would need another layout; no scene of volumes comes near it.
+  const std::size_t count = std::min<std::size_t>(scene.volumes.size(), 0xffff);
+  const std::span<const ViewVolume> volumes = std::span(scene.volumes).first(count);
   bool is_laid_out = slots_.size() != volumes.size();
   for (std::size_t k = 0; k < volumes.size() && !is_laid_out; ++k)
-    is_laid_out = corners_of(*volumes[k].cell) > slots_[k].corner_room || volumes[k].cell->triangles.size() > slots_[k].triangle_room;
+    is_laid_out =
+        corners_of(*volumes[k].cell) > slots_[k].corner_room || volumes[k].cell->triangles.size() > slots_[k].triangle_room;
   if (is_laid_out) lay_out(volumes);
   for (std::size_t k = 0; k < volumes.size(); ++k) {
     send_cell(k, volumes[k], is_laid_out, depth, traffic);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "ui/desktop/view/gl_tools.h"
@@ -37,7 +38,7 @@ class GlVolumes {
     GLint base = 0;
   };
   void make_grids();
-  void lay_out(const std::vector<ViewVolume>& volumes);
+  void lay_out(std::span<const ViewVolume> volumes);
   void send_cell(std::size_t k, const ViewVolume& volume, bool is_laid_out, int depth, Traffic& traffic);
   void send_record(std::size_t k, const ViewVolume& volume, const Point3& origin, Traffic& traffic);
 

@@ -40,8 +40,8 @@ VolumeFacts read_volume(const State& state, std::uint32_t node) {
   if (const auto ref = state.plan->find(node, PortPath{"node", "position", ""}))
     facts.tension = state.nodes[node].types[ref->type].tension[ref->port];
   facts.cell = report::mesh_at(state, node, kVolume, "cell");
-  const bool is_usable = facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() && facts.cell->vertices.size() < 60000 &&
-                         facts.volume > 0;
+  const bool is_usable = facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() &&
+                         facts.cell->vertices.size() < 60000 && facts.volume > 0;
   if (is_usable) return facts;
   facts.cell = nullptr;
   if (!(facts.volume > 0) || !(facts.radius > 0)) return facts;
@@ -76,7 +76,8 @@ void read_pulls(const State& state, SceneFacts& facts) {
       const auto* change = std::get_if<Vector3>(&voice.value);
       if (change == nullptr || !is_finite(*change) || voice.target.type == PortRef::kNodeId) continue;
       const PortDefinition& port = state.plan->port(voice.target);
-      if (port.rule == CombineRule::sum && port.id == "position") facts.pulls.push_back({l, voice.target.node, voice.strength * *change});
+      if (port.rule == CombineRule::sum && port.id == "position")
+        facts.pulls.push_back({l, voice.target.node, voice.strength * *change});
     }
 }
 
@@ -128,7 +129,8 @@ void read_extent(const SceneFacts* last, SceneFacts& facts) {
   if (!(low.x <= high.x)) return;
   const Point3 centre = 0.5 * (low + high);
   const double radius = std::clamp(0.5 * distance(low, high), 1.0, 1e6);
-  const bool still_fits = last != nullptr && distance(centre, last->centre) < 0.05 * radius && std::abs(radius - last->radius) < 0.05 * radius;
+  const bool still_fits =
+      last != nullptr && distance(centre, last->centre) < 0.05 * radius && std::abs(radius - last->radius) < 0.05 * radius;
   facts.centre = still_fits ? last->centre : centre;
   facts.radius = still_fits ? last->radius : radius;
   if (!has_boundary) facts.ground = still_fits ? last->ground : low.z;
@@ -137,7 +139,8 @@ void read_extent(const SceneFacts* last, SceneFacts& facts) {
 }  // namespace
 
 const VolumeFacts* SceneFacts::volume_of(std::uint32_t node) const {
-  const auto at = std::lower_bound(volumes.begin(), volumes.end(), node, [](const VolumeFacts& v, std::uint32_t n) { return v.node < n; });
+  const auto at =
+      std::lower_bound(volumes.begin(), volumes.end(), node, [](const VolumeFacts& v, std::uint32_t n) { return v.node < n; });
   return at != volumes.end() && at->node == node ? &*at : nullptr;
 }
 
@@ -152,11 +155,13 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
       VolumeFacts volume = read_volume(state, n);
       // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
       const VolumeFacts* before = last != nullptr && volume.is_ball ? last->volume_of(n) : nullptr;
-      if (before != nullptr && before->is_ball && before->position == volume.position && before->radius == volume.radius) volume.cell = before->cell;
+      if (before != nullptr && before->is_ball && before->position == volume.position && before->radius == volume.radius)
+        volume.cell = before->cell;
       uses.insert(volume.use);
       facts->volumes.push_back(std::move(volume));
     } else if (!report::has_type(state, n, "boundary")) {
-      facts->marks.push_back({n, state.plan->nodes[n].id, report::name_at(state, n), role_of(state.plan->nodes[n]), facts->places.back()});
+      facts->marks.push_back(
+          {n, state.plan->nodes[n].id, report::name_at(state, n), role_of(state.plan->nodes[n]), facts->places.back()});
     }
   }
   facts->uses.assign(uses.begin(), uses.end());
@@ -178,7 +183,8 @@ MeshPointer ball_cell(const Point3& centre, double radius) {
       {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
   for (const auto& face : kFaces) {
     const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(0.25 * (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]] + mesh.vertices[face[3]]));
+    mesh.vertices.push_back(
+        0.25 * (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]] + mesh.vertices[face[3]]));
     for (std::size_t i = 0; i < 4; ++i) mesh.triangles.push_back({middle, face[i], face[(i + 1) % 4]});
   }
   MeshWrap wrap{centre, radius, {{24, centre, {}}}, std::vector<std::uint32_t>(mesh.vertices.size(), 0)};

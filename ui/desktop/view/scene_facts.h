@@ -18,9 +18,9 @@ struct VolumeFacts {
   std::string id, name, use, state, reason;
   Point3 position;
   double radius = 0, wanted = 0, volume = 0, floor_area = 0, storey = 0, bottom = 0, height = 0;  ///< [m], [m³], [m²]
-  double tension = 0;                                                               ///< of its place [m]
-  MeshPointer cell;        ///< coarse, with its wrap; a ball where the solver gives a volume but no shape; none without a volume
-  bool is_ball = false;    ///< the shape is not known, only its radius
+  double tension = 0;                                                                             ///< of its place [m]
+  MeshPointer cell;      ///< coarse, with its wrap; a ball where the solver gives a volume but no shape; none without a volume
+  bool is_ball = false;  ///< the shape is not known, only its radius
 
   double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
   /// Where its label and links are tied to.
@@ -60,13 +60,13 @@ struct SceneFacts {
   std::vector<VolumeFacts> volumes;  ///< ascending node
   std::vector<MarkFacts> marks;
   std::vector<BoundaryFacts> boundaries;
-  std::vector<LinkFacts> links;      ///< of sets that are not too large
+  std::vector<LinkFacts> links;  ///< of sets that are not too large
   std::vector<PullFacts> pulls;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;  ///< nodes that share a face, the lower first
-  std::vector<std::string> uses;     ///< ascending
-  std::vector<Point3> places;        ///< of all nodes; of a boundary the middle of its ground
-  Point3 centre;                     ///< of volumes and boundaries [m]
-  double radius = 50, ground = 0;    ///< [m]
+  std::vector<std::string> uses;                                    ///< ascending
+  std::vector<Point3> places;                                       ///< of all nodes; of a boundary the middle of its ground
+  Point3 centre;                                                    ///< of volumes and boundaries [m]
+  double radius = 50, ground = 0;                                   ///< [m]
 
   const VolumeFacts* volume_of(std::uint32_t node) const;
 };

@@ -13,7 +13,6 @@ uniform samplerBuffer corners;
 uniform samplerBuffer records;
 layout(location = 0) in vec2 weights;
 layout(location = 1) in uvec4 triangle;
-layout(location = 2) in uint volume;
 
 struct Divided { vec3 flat_place, place, normal; float centre_weight; vec4 ball; };
 
@@ -30,18 +29,19 @@ vec3 wrapped(vec3 place, float radius, vec3 inside) {
 
 Divided divided() {
   Divided d;
-  d.ball = texelFetch(records, 3 * int(volume));
-  int first = int(texelFetch(records, 3 * int(volume) + 2).z);
+  int volume = int(triangle.w);
+  d.ball = texelFetch(records, 3 * volume);
+  int first = int(texelFetch(records, 3 * volume + 2).z);
   vec4 c = texelFetch(corners, first + int(triangle.x));
   vec4 a = texelFetch(corners, first + int(triangle.y));
   vec4 b = texelFetch(corners, first + int(triangle.z));
   d.flat_place = c.xyz + weights.x * (a.xyz - c.xyz) + weights.y * (b.xyz - c.xyz);
   d.centre_weight = 1.0 - weights.x - weights.y;
-  int seams = 0xffffff;
-  if (d.centre_weight > 1e-6) seams &= int(c.w);
+  // The face's centre lies on no seam: its fourth number says instead where its part's wrap has its centre.
+  int seams = d.centre_weight > 1e-6 ? 0 : 0xffffff;
   if (weights.x > 1e-6) seams &= int(a.w);
   if (weights.y > 1e-6) seams &= int(b.w);
-  int centre = first + int(triangle.w);
+  int centre = first + int(c.w);
   for (int s = 0; s < 23 && seams != 0; ++s)
     if (((seams >> s) & 1) != 0) {
       centre += 1 + s;
@@ -106,7 +106,7 @@ void main() {
   flat_place = d.flat_place;
   centre_weight = d.centre_weight;
   facet_normal = d.normal;
-  number = int(volume);
+  number = int(triangle.w);
   gl_Position = matrix * vec4(world, 1.0);
 }
 )";
@@ -173,7 +173,9 @@ vec3 to_screen(vec3 c) { return sqrt(clamp(c, 0.0, 1.0)); }
 float line(float distance, float width) { return 1.0 - smoothstep(width - 0.5, width + 0.6, distance); }
 
 void main() {
-  vec4 ball = texelFetch(records, 3 * number), paint = texelFetch(records, 3 * number + 1), storey = texelFetch(records, 3 * number + 2);
+  vec4 ball = texelFetch(records, 3 * number);
+  vec4 paint = texelFetch(records, 3 * number + 1);
+  vec4 storey = texelFetch(records, 3 * number + 2);
   int flags = int(paint.w);
   label = uint(4 * (number + 1) + (flags & 3));
   float reach = length(flat_place);
@@ -205,7 +207,9 @@ void main() {
   own = mix(own, ground_colour.rgb, 0.72 * faint);
   vec3 shown = to_screen(lit(to_linear(own), world, normal));
   if (with_storeys > 0.5 && storey.y > 0.0 && abs(normal.z) < 0.93) {
-    float level = (world.z - storey.x) / storey.y;
+    // On the ball itself, not on the triangles that stand for it: lines stay level however coarse these are.
+    float height = is_round ? ball.z + normal.z * ball.w : world.z;
+    float level = (height - storey.x) / storey.y;
     float per_pixel = fwidth(level);
     float near = abs(fract(level + 0.5) - 0.5) / max(per_pixel, 1e-6);
     float room = smoothstep(0.34, 0.12, per_pixel);

@@ -113,7 +113,8 @@ void Builder::add_boundary() {
     const bool is_chosen = picks.nodes.contains(boundary.id), is_hovered = picks.hovered_node == boundary.id;
     const Colour ink = is_chosen ? c.accent : theme.is_dark() ? 0xffe8e4e0u : 0xff4a423cu;
     scene.surfaces.push_back({boundary.shape, faded(ink, is_chosen || is_hovered ? 0.05f : theme.is_dark() ? 0.018f : 0.028f)});
-    for (const auto& [a, b] : boundary.edges) line(a, b, faded(ink, is_chosen ? 0.95f : 0.5f), is_chosen || is_hovered ? 2.0f : 1.1f, 0.22f);
+    for (const auto& [a, b] : boundary.edges)
+      line(a, b, faded(ink, is_chosen ? 0.95f : 0.5f), is_chosen || is_hovered ? 2.0f : 1.1f, 0.22f);
   }
 }
 
@@ -136,7 +137,8 @@ void Builder::add_weights() {
   for (std::size_t k = 0; k < facts.volumes.size(); ++k) {
     const VolumeFacts& volume = facts.volumes[k];
     if (!(volume.radius > 0)) continue;
-    const Colour colour = theme.is_dark() ? mixed(colouring.colours[k], 0xffffffffu, 0.25f) : mixed(colouring.colours[k], 0xff000000u, 0.35f);
+    const Colour colour =
+        theme.is_dark() ? mixed(colouring.colours[k], 0xffffffffu, 0.25f) : mixed(colouring.colours[k], 0xff000000u, 0.35f);
     const Point3 centre = place_of(volume.node);
     Point3 before = centre + Vector3{volume.radius, 0, 0};
     for (int i = 1; i <= kCircleParts; ++i) {
@@ -162,7 +164,8 @@ void Builder::add_cells() {
   for (std::size_t k = 0; k < facts.volumes.size(); ++k) {
     const VolumeFacts& volume = facts.volumes[k];
     if (!volume.cell || volume.is_ball) continue;
-    const Colour colour = theme.is_dark() ? mixed(colouring.colours[k], 0xffffffffu, 0.3f) : mixed(colouring.colours[k], 0xff000000u, 0.4f);
+    const Colour colour =
+        theme.is_dark() ? mixed(colouring.colours[k], 0xffffffffu, 0.3f) : mixed(colouring.colours[k], 0xff000000u, 0.4f);
     const auto& vertices = volume.cell->vertices;
     // Each edge belongs to two faces, once in each direction; the first corner of a triangle is its face's centre.
     for (const auto& t : volume.cell->triangles)
@@ -202,7 +205,8 @@ bool is_on(const PersonSettings& person, const std::string& layer) {
 }
 
 void set_layer(PersonSettings& person, const std::string& layer, bool is_on) {
-  const bool at_first = std::any_of(kLayers.begin(), kLayers.end(), [&](const Layer& l) { return l.id == layer && l.is_on_at_first; });
+  const bool at_first =
+      std::any_of(kLayers.begin(), kLayers.end(), [&](const Layer& l) { return l.id == layer && l.is_on_at_first; });
   if (is_on == at_first) person.layers.erase(layer);
   else person.layers[layer] = is_on;
 }

@@ -16,8 +16,8 @@ using Colour = std::uint32_t;
 /// A volume: its coarse cell, which the renderer divides and wraps onto the ball that the cell's wrap names.
 struct ViewVolume {
   enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, failing = 8 };
-  std::uint32_t node = 0;        ///< index in the state, for picking
-  MeshPointer cell;              ///< never empty, always with a wrap
+  std::uint32_t node = 0;  ///< index in the state, for picking
+  MeshPointer cell;        ///< never empty, always with a wrap
   Colour colour = 0;
   float bottom = 0, storey = 0;  ///< [m], of the storey lines; 0: none
   std::uint32_t flags = 0;
@@ -62,15 +62,15 @@ struct ViewLayers {
 
 struct ViewScene {
   Camera camera;
-  Point3 origin;                    ///< what coordinates on the graphics processor are relative to [m]
-  Point3 centre;                    ///< of everything that is drawn [m]
-  double radius = 100;              ///< of the ball around it [m]
-  double ground = 0;                ///< height of the ground [m]
-  double grid = 10;                 ///< distance of its lines [m]
-  Vector3 sun{-0.45, -0.6, 0.66};   ///< towards the light, a unit vector
-  float scale = 1;                  ///< pixels per point
-  int most_triangles = 0;           ///< of one picture; 0: as the renderer sees fit
-  bool is_hurried = false;          ///< pictures follow each other: a slow renderer may divide volumes less finely
+  Point3 origin;                   ///< what coordinates on the graphics processor are relative to [m]
+  Point3 centre;                   ///< of everything that is drawn [m]
+  double radius = 100;             ///< of the ball around it [m]
+  double ground = 0;               ///< height of the ground [m]
+  double grid = 10;                ///< distance of its lines [m]
+  Vector3 sun{-0.45, -0.6, 0.66};  ///< towards the light, a unit vector
+  float scale = 1;                 ///< pixels per point
+  int most_triangles = 0;          ///< of one picture; 0: as the renderer sees fit
+  bool is_hurried = false;         ///< pictures follow each other: a slow renderer may divide volumes less finely
   ViewColours colours;
   ViewLayers layers;
   ViewSection section;
