@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLabelZoom = 0.72, kFigureZoom = 0.5, kPulseSeconds = 0.9;
 constexpr float kDash = 7, kDashGap = 5;
+constexpr std::size_t kReasonLetters = 44;
 
 struct Stroke {
   ImU32 colour = 0;
@@ -17,7 +18,7 @@ struct Stroke {
 };
 
 std::string error_of(const Board& board, const Line& line) {
-  if (line.definition == nullptr) return line.label + ": kept as it is, not run";
+  if (line.definition == nullptr) return "kept as it is, not run";
   if (line.in_state == kNoIndex) return "";
   const State& state = board.editor.state();
   const auto& error =
@@ -124,12 +125,16 @@ void draw_labels(Board& board, const Line& line, const Stroke& stroke, const std
   if (!line.is_enabled && !text.empty()) text += " (off)";
   const bool shows_figure = line.is_enabled && pulse != nullptr && !pulse->text.empty();
   if ((zoom > kFigureZoom || stroke.is_lit) && shows_figure) text += (text.empty() ? "" : "  ") + pulse->text;
-  const float pixels = std::max(10.5f * k, stroke.is_lit ? 10.5f * board.theme().scale() : 0.0f);
+  const float pixels = std::max(10.5f * k, (stroke.is_lit ? 10.5f : 8.5f) * board.theme().scale());
   if (!error.empty()) {
     const float radius = std::max(3.0f, 6 * k);
     ImGui::GetWindowDrawList()->AddCircleFilled(middle, radius, line.definition == nullptr ? c.text_faint : c.bad, 16);
-    if (zoom > kFigureZoom || stroke.is_lit)
-      draw_chip(board, {middle.x, middle.y + radius + 0.8f * pixels}, line.label + ": " + error, pixels, c.bad, 0);
+    if (zoom <= kFigureZoom && !stroke.is_lit) return;
+    // The whole reason stands beside a link that is pointed at; else its beginning is enough.
+    std::string reason = line.label + ": " + error;
+    if (!stroke.is_lit && reason.size() > kReasonLetters) reason = line.label + ": not running";
+    draw_chip(board, {middle.x, middle.y + radius + 0.8f * pixels}, reason, pixels,
+              line.definition == nullptr ? c.text_faint : c.bad, 0);
     return;
   }
   if (!text.empty())

@@ -104,16 +104,15 @@ void draw_bar_line(const Ink& ink, const NodeBox& box, const Section& section, f
   draw_bar_of(ink, box, section, ink.at(left, y + 6), ink.at(std::max(text_right, left + 24), y + 12));
 }
 
-// From further away fewer rows, in a size that can still be read: results before settings, the settled rest before the residual.
+// From further away fewer rows, in a size that can still be read: the residual is the first to go, for the bar shows it too.
 float draw_rows(const Ink& ink, const NodeBox& box, const Section& section, float y) {
   const float foot = y + kRowHeight * static_cast<float>(section.rows.size());
   const float size = std::max(kRowText * ink.k, kLeastText * ink.board.theme().scale());
   const float step = std::max(kRowHeight, 1.25f * size / ink.k);
   std::size_t room = static_cast<std::size_t>((foot - y) / step + 0.05f);
-  const std::size_t count = section.rows.size();
-  for (std::size_t row = 0; row < count && room > 0; ++row) {
-    const PortDefinition& port = section.type->ports[section.rows[row].port];
-    if (port.is_residual && room < count) continue;
+  const bool is_short = room < section.rows.size();
+  for (std::size_t row = 0; row < section.rows.size() && room > 0; ++row) {
+    if (is_short && section.type->ports[section.rows[row].port].is_residual) continue;
     draw_row(ink, box, section, row, y, size);
     y += step;
     --room;
@@ -196,7 +195,7 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
           colour_of(ink.board, section), 10);
     }
   const float size = std::max(kHeadText * ink.k, std::min(kLeastHead * ink.board.theme().scale(), 0.8f * screen.size.y));
-  draw_text(ink.board, {screen.low().x + kPad * ink.k, y - 0.62f * size}, size, box.is_ghost() ? ink.c.text_faint : ink.c.text,
+  draw_text(ink.board, {screen.low().x + kPad * ink.k, y - 0.59f * size}, size, box.is_ghost() ? ink.c.text_faint : ink.c.text,
             box.name, room);
 }
 
