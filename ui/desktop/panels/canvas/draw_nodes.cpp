@@ -11,6 +11,7 @@ namespace {
 // Below the first zoom a box is a name; below the second, fewer values are written larger.
 constexpr double kNameZoom = 0.42, kTextZoom = 0.6;
 constexpr float kRounding = 5, kPad = 9, kHeadText = 13, kSectionText = 10.5f, kRowText = 11.5f, kLeastText = 9, kLeastHead = 11;
+constexpr double kLeastSpan = 0.02;  // of a spark-line, as a share of its value
 
 struct Ink {
   Board& board;
@@ -44,7 +45,7 @@ void draw_spark(const Ink& ink, const Spark& spark, ImVec2 low, ImVec2 high, ImU
   double least = samples.front().second, most = least;
   for (const auto& [time, value] : samples) least = std::min(least, value), most = std::max(most, value);
   // A value that stands still is a straight line in the middle, not its own rounding magnified.
-  const double span = std::max(most - least, 1e-3 * std::max(std::abs(most), 1e-9));
+  const double span = std::max(most - least, kLeastSpan * std::max(std::abs(most), 1e-9));
   const double middle = (least + most) / 2, now = ink.board.editor.now;
   std::vector<ImVec2> points;
   for (const auto& [time, value] : samples) {
