@@ -155,7 +155,8 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
     if (section.has_bar && !box.is_collapsed)
       draw_bar_of(ink, box, section, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2));
   if (screen.size.x < 34) return;
-  const float pixels = std::clamp(screen.size.x / 5.4f, 8.0f * ink.board.theme().scale(), 12.5f * ink.board.theme().scale());
+  const float scale = ink.board.theme().scale(), least = std::min(8 * scale, screen.size.x / 4.6f);
+  const float pixels = std::clamp(screen.size.x / 5.4f, least, std::max(least, 12.5f * scale));
   const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar - 2);
   ImFont* font = ink.board.theme().canvas_font(pixels);
   const float pad = std::max(5.0f, 10 * ink.k);
