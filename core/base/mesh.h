@@ -10,10 +10,28 @@
 
 namespace bl {
 
+/// How a coarse mesh becomes a finely divided one on a ball: each triangle is split in four so many times, then every vertex that
+/// lies beyond the ball moves along the line to the centre of its part until it lies on the ball.
+struct MeshWrap {
+  static constexpr std::size_t kMostSeams = 23;  ///< exact in the 24 bits of a float, as graphics processors get them
+  struct Part {
+    std::uint32_t triangles = 0;  ///< how many; the parts follow each other
+    Point3 centre;                ///< what its vertices move towards [m]
+    std::vector<Point3> seams;    ///< what vertices on its seams with other parts move towards instead [m]
+    bool operator==(const Part&) const = default;
+  };
+  Point3 ball_centre;                ///< [m]
+  double radius = 0;                 ///< [m]
+  std::vector<Part> parts;
+  std::vector<std::uint32_t> seams;  ///< per vertex: bit s is set where it lies on seam s of its part; the lowest bit counts
+  bool operator==(const MeshWrap&) const = default;
+};
+
 /// Triangles over shared vertices. Closed meshes are oriented outward (counter-clockwise seen from outside).
 struct Mesh {
   std::vector<Point3> vertices;                         ///< [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
+  std::shared_ptr<const MeshWrap> wrap = {};            ///< of coarse meshes only: the first corner of each triangle is its face's centre
   bool operator==(const Mesh&) const = default;
 };
 

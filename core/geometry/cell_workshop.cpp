@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/base/text.h"
+#include "core/geometry/cell_mesh.h"
 #include "core/geometry/coincidence.h"
-#include "core/geometry/tessellate.h"
 
 namespace bl {
 
@@ -18,20 +18,11 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Facets below this share of the shape's squared reach are slivers of rounding: they carry no name.
 constexpr double kSliverShare = 1e-14;
-// A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
-constexpr double kInsideShare = 1e-6;
 constexpr std::size_t kChunk = 16;
 // Runs a few times as many as threads even out the load. Whole cells, which tell the next ones of a run who borders them, lose
 // that at the ends of a run: theirs are at least so many blocks thick, about.
 constexpr std::size_t kRunsPerThread = 4;
 constexpr double kThickness = 4;
-
-bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin) {
-  for (const PolyhedronFace& face : part.faces) {
-    if (!(dot(face.normal, point) <= face.offset - margin)) return false;
-  }
-  return squared_norm(point) <= squared_radius;
-}
 
 void add_facet(FaceKind kind, std::uint32_t index, double area, std::vector<FacetArea>& facets) {
   // Faces come in the order of kind and index, so only parts of other pieces have to look back.
@@ -67,91 +58,6 @@ void add_up(std::span<const PowerSite> sites, std::uint32_t site, CellMeasure& o
     if (facet.kind != FacetArea::Kind::site) continue;
     out.volume_by_own_weight += facet.area / (2 * distance(sites[site].position, sites[facet.index].position));
   }
-}
-
-Mesh mesh_of(const Polyhedron& part, double radius, int depth, const Point3& wrap_centre, const Point3& at) {
-  std::vector<FaceLoop> loops;
-  for (const PolyhedronFace& face : part.faces) {
-    if (face.kind != FaceKind::inner) loops.push_back(part.loop(face));
-  }
-  return tessellate(part.vertices, loops, depth, {}, radius, wrap_centre, at);
-}
-
-// Nearest point of a face to the middle of its ball: where the ball reaches the face at all, it is in the ball and in the face.
-Point3 nearest_on_face(const Polyhedron& part, const PolyhedronFace& face) {
-  const Point3 foot = face.offset * face.normal;
-  const FaceLoop loop = part.loop(face);
-  Point3 best = foot;
-  double least = kInfinity;
-  bool is_inside = true;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Point3 a = part.vertices[loop[i]], along = part.vertices[loop[(i + 1) % loop.size()]] - a;
-    is_inside = is_inside && dot(face.normal, cross(along, foot - a)) >= 0;
-    const Point3 on_edge = a + std::clamp(dot(foot - a, along) / std::max(1e-300, squared_norm(along)), 0.0, 1.0) * along;
-    if (squared_norm(foot - on_edge) >= least) continue;
-    least = squared_norm(foot - on_edge);
-    best = on_edge;
-  }
-  return is_inside ? foot : best;
-}
-
-// The place on the ball, on the way from a point in it to one beyond it.
-Point3 place_on_ball(double squared_radius, const Point3& inside, const Point3& beyond) {
-  const Vector3 way = beyond - inside;
-  const double a = squared_norm(way), b = dot(way, inside), rest = std::max(0.0, squared_radius - squared_norm(inside));
-  const double root = std::sqrt(b * b + a * rest), t = b > 0 ? rest / (b + root) : (root - b) / a;
-  return inside + std::min(1.0, t) * way;
-}
-
-// One of several parts. Each moves its vertices towards a point of its own, because the way to one in another part may lead out
-// of the domain. What lies on a face between two parts stays there and moves to a point that both of them see, so that no gap
-// opens.
-Mesh mesh_of_part(const Polyhedron& part, const PowerSite& site, int depth, const Point3& centre) {
-  struct Seam {
-    Vector3 normal;
-    double offset;
-    Point3 centre;
-  };
-  std::vector<Seam> seams;
-  for (const PolyhedronFace& face : part.faces) {
-    if (face.kind != FaceKind::inner || std::abs(face.offset) * std::abs(face.offset) >= site.weight) continue;
-    const Point3 nearest = nearest_on_face(part, face);
-    if (squared_norm(nearest) < site.weight) seams.push_back({face.normal, face.offset, nearest});
-  }
-  const double rounding = 1e-9 * std::sqrt(part.reach_squared);
-  Mesh mesh = mesh_of(part, kInfinity, depth, {}, {});
-  for (Point3& vertex : mesh.vertices) {
-    const auto seam = std::find_if(seams.begin(), seams.end(),
-                                   [&](const Seam& s) { return std::abs(dot(s.normal, vertex) - s.offset) <= rounding; });
-    if (squared_norm(vertex) > site.weight) {
-      vertex = place_on_ball(site.weight, seam == seams.end() ? centre : seam->centre, vertex);
-    }
-    vertex += site.position;
-  }
-  return mesh;
-}
-
-// The parts in the pieces of the domain become one mesh without the faces between the pieces.
-MeshPointer make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
-                      const Point3& centroid) {
-  // Towards the site, or where it is not inside its own cell, towards the centroid.
-  const double margin = kInsideShare * std::sqrt(site.weight);
-  const bool is_inside =
-      std::any_of(parts.begin(), parts.end(), [&](const Polyhedron& part) { return holds(part, site.weight, {}, margin); });
-  if (parts.size() == 1) {
-    return std::make_shared<const Mesh>(
-        mesh_of(parts[0], std::sqrt(site.weight), depth, is_inside ? Point3{} : centroid, site.position));
-  }
-  Mesh whole;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (shapes[k].is_empty) continue;
-    const Point3 centre = holds(parts[k], site.weight, {}, margin) ? Point3{} : shapes[k].centroid;
-    const Mesh mesh = mesh_of_part(parts[k], site, depth, centre);
-    const std::uint32_t first = static_cast<std::uint32_t>(whole.vertices.size());
-    whole.vertices.insert(whole.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const auto& t : mesh.triangles) whole.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  return std::make_shared<const Mesh>(std::move(whole));
 }
 
 // Height, floor area and footprint of all parts together.
@@ -205,7 +111,8 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
     const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[index];
     measure_storeys(parts, bench.shapes, site, storey, out);
   }
-  if (options.tessellation_depth >= 0) { out.mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid); }
+  if (options.tessellation_depth >= 0) out.mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid);
+  if (options.with_coarse_mesh && options.with_shape) out.coarse_mesh = make_coarse_mesh(parts, bench.shapes, site, centroid);
 }
 
 // Farther from the domain than so many times its size, the ball that reaches it is so large that rounding moves it by a share of

@@ -62,7 +62,7 @@ struct PowerDiagram::Workshop {
   bool asks_the_same(const CellOptions& options) const {
     return last.storey_height == options.storey_height && last.with_shape == options.with_shape &&
            last.with_centroid == options.with_centroid && last.with_outlines == options.with_outlines &&
-           last.tessellation_depth == options.tessellation_depth &&
+           last.with_coarse_mesh == options.with_coarse_mesh && last.tessellation_depth == options.tessellation_depth &&
            std::equal(storey_heights.begin(), storey_heights.end(), options.storey_heights.begin(), options.storey_heights.end());
   }
 

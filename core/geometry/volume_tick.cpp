@@ -39,7 +39,10 @@ Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vec
   take_weights(*fit, sites);
   if (auto set = kept.shown.set_domain(domain); !set) return set.error();
   const auto cells =
-      kept.shown.update(sites, {.storey_heights = storey_heights, .tessellation_depth = tessellation_depth, .pool = pool});
+      kept.shown.update(sites, {.storey_heights = storey_heights,
+                                .with_coarse_mesh = true,
+                                .tessellation_depth = tessellation_depth,
+                                .pool = pool});
   if (!cells) return cells.error();
   return Outcome{std::move(fit->state), std::move(fit->losses), "", *cells};
 }

@@ -1,12 +1,232 @@
-// Draws the 3D view and answers to the mouse.
+// The 3D view's frame: follow the state, answer to people, draw; and the camera's ways of going somewhere.
 #include "ui/desktop/panels/scene_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/json_text.h"
 
 namespace bl::desktop {
 
-void SceneView::draw(ImVec2) {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kChangeSeconds = 0.28;
+// Nothing has moved for so long: there is time for a finer picture.
+constexpr double kStillSeconds = 0.3;
+
+}  // namespace
+
+void SceneView::draw(ImVec2 size) {
+  at_ = ImGui::GetWindowPos();
+  size_ = size;
+  if (!editor_->moment || size.x < 8 || size.y < 8) return;
+  is_hovered_ = ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered();
   if (ImGui::IsWindowHovered()) editor_->area = Area::view;
+  follow_document();
+  follow_state();
+  advance_camera();
+  pointed_at_.clear();
+  take_keys();
+  take_mouse();
+  choices_.held.clear();
+  if (move_)
+    for (const auto& [id, start] : move_->starts)
+      if (const std::uint32_t node = editor_->index_of(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
+  colouring_ = colour_volumes(*facts_, choices_.colour_by, editor_->theme);
+  ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
+  if (scene.camera != still_camera_ || facts_ != still_facts_) still_since_ = editor_->now;
+  still_camera_ = scene.camera;
+  still_facts_ = facts_;
+  scene.is_hurried = editor_->now < still_since_ + kStillSeconds;
+  const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
+  const float dense = density.x > 0 ? density.x : 1;
+  const std::uintptr_t picture = renderer_->draw(scene, static_cast<int>(size.x * dense), static_cast<int>(size.y * dense));
+  // Pictures of OpenGL stand on their heads.
+  if (picture != 0)
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(picture), at_, {at_.x + size.x, at_.y + size.y}, {0, 1}, {1, 0});
+  draw_overlay();
+  last_frame_ = editor_->now;
 }
 
-void SceneView::fit(bool) {}
+void SceneView::draw_overlay() {
+  ImGui::GetWindowDrawList()->PushClipRect(at_, {at_.x + size_.x, at_.y + size_.y}, true);
+  draw_marks();
+  draw_labels();
+  draw_gizmo();
+  draw_scale_and_north();
+  draw_legend(editor_->is_beamer);
+  if (drag_ == Drag::box) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const Colours& c = editor_->theme.colours();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 low{std::min(mouse.x, pressed_at_.x), std::min(mouse.y, pressed_at_.y)};
+    const ImVec2 high{std::max(mouse.x, pressed_at_.x), std::max(mouse.y, pressed_at_.y)};
+    // To the right it encloses, to the left it touches; the fill says which.
+    list.AddRectFilled(low, high, faded(c.accent, mouse.x >= pressed_at_.x ? 0.06f : 0.16f));
+    list.AddRect(low, high, c.accent);
+  }
+  draw_card();
+  draw_typed();
+  ImGui::GetWindowDrawList()->PopClipRect();
+  if (editor_->is_beamer) draw_title();
+  else draw_tools();
+}
+
+void SceneView::follow_document() {
+  if (document_ == editor_->document.get()) return;
+  document_ = editor_->document.get();
+  facts_ = nullptr;
+  move_.reset();
+  drag_ = Drag::none;
+  is_walking_ = false;
+  choices_ = ViewChoices{.camera = choices_.camera, .section = {}, .colour_by = choices_.colour_by, .held = {}};
+  wants_fit_ = true;
+  has_fitted_boundary_ = false;
+}
+
+void SceneView::follow_state() {
+  if (!facts_ || facts_->state != editor_->moment->state) facts_ = read_facts(editor_->moment->state, facts_.get());
+  // A boundary has no shape before the first tick: the first view is made again with it.
+  const bool has_boundary_now = !facts_->boundaries.empty() && !has_fitted_boundary_;
+  if (!wants_fit_ && !has_boundary_now) return;
+  has_fitted_boundary_ = !facts_->boundaries.empty();
+  if (!wants_fit_ && drag_ != Drag::none) return;
+  wants_fit_ = false;
+  Camera camera;
+  camera.azimuth = -0.9;
+  camera.elevation = 0.52;
+  camera.fit({facts_->centre.x, facts_->centre.y, facts_->ground + 0.35 * (facts_->centre.z - facts_->ground)}, 0.86 * facts_->radius,
+             width() / std::max(1.0f, height()));
+  set_camera(camera);
+}
+
+void SceneView::set_camera(const Camera& camera) {
+  choices_.camera = to_ = camera;
+  choices_.camera.limit();
+  change_began_ = -1;
+}
+
+void SceneView::go_to(const Camera& camera) {
+  from_ = choices_.camera;
+  to_ = camera;
+  to_.limit();
+  change_began_ = editor_->now;
+}
+
+void SceneView::advance_camera() {
+  if (change_began_ < 0) return;
+  const double t = (editor_->now - change_began_) / kChangeSeconds;
+  choices_.camera = between(from_, to_, std::clamp(t, 0.0, 1.0));
+  if (t >= 1) change_began_ = -1;
+}
+
+Point3 SceneView::place_of(std::uint32_t node) const {
+  const auto held = choices_.held.find(node);
+  return held == choices_.held.end() ? facts_->places[node] : held->second;
+}
+
+Seen SceneView::place_in_window(const Point3& point) const {
+  Seen place = seen(point);
+  place.x += at_.x;
+  place.y += at_.y;
+  return place;
+}
+
+void SceneView::fit(bool all) {
+  if (!facts_) return;
+  Camera camera = change_began_ >= 0 ? to_ : choices_.camera;
+  Vector3 low{1e300, 1e300, 1e300}, high = -low;
+  for (std::uint32_t n = 0; n < facts_->places.size() && !all; ++n) {
+    if (!editor_->picks.nodes.contains(id_of(n))) continue;
+    const VolumeFacts* volume = facts_->volume_of(n);
+    const double around = volume != nullptr && volume->radius > 0 ? volume->radius : 0.05 * facts_->radius;
+    const Point3 p = facts_->places[n];
+    low = {std::min(low.x, p.x - around), std::min(low.y, p.y - around), std::min(low.z, p.z - around)};
+    high = {std::max(high.x, p.x + around), std::max(high.y, p.y + around), std::max(high.z, p.z + around)};
+  }
+  const double aspect = width() / std::max(1.0f, height());
+  if (low.x <= high.x) camera.fit(0.5 * (low + high), 0.55 * distance(low, high), aspect);
+  else camera.fit(facts_->centre, 0.86 * facts_->radius, aspect);
+  go_to(camera);
+}
+
+void SceneView::look_from(Side side) {
+  Camera camera = change_began_ >= 0 ? to_ : choices_.camera;
+  is_walking_ = false;
+  camera.azimuth = side == Side::east ? 0 : side == Side::axonometric ? -kPi / 4 : -kPi / 2;
+  camera.elevation = side == Side::plan ? kPi / 2 : side == Side::axonometric ? 0.6155 : 0;
+  camera.is_parallel = true;
+  go_to(camera);
+}
+
+void SceneView::toggle_parallel() {
+  Camera camera = change_began_ >= 0 ? to_ : choices_.camera;
+  camera.is_parallel = !camera.is_parallel;
+  set_camera(camera);
+}
+
+void SceneView::toggle_walk() {
+  if (!facts_) return;
+  is_walking_ = !is_walking_;
+  walk_began_ = editor_->now;
+  if (!is_walking_) return;
+  // Down to the height of people's eyes, before what is seen now.
+  Camera camera = choices_.camera;
+  const Point3 eye = camera.eye();
+  Vector3 out{eye.x - facts_->centre.x, eye.y - facts_->centre.y, 0};
+  // From above nobody knows where to stand: outside, on the side that is lowest in the picture.
+  if (norm(out) < 0.9 * facts_->radius) out = {std::cos(camera.azimuth), std::sin(camera.azimuth), 0};
+  const Point3 stand = Point3{facts_->centre.x, facts_->centre.y, facts_->ground + 1.7} + (1.15 * facts_->radius / norm(out)) * out;
+  camera.is_parallel = false;
+  camera.azimuth = std::atan2(out.y, out.x);
+  camera.elevation = -0.06;
+  camera.distance = 10;
+  camera.target = stand + camera.distance * camera.forward();
+  go_to(camera);
+}
+
+void SceneView::toggle_section() {
+  if (choices_.section.is_on) {
+    choices_.section.is_on = false;
+    return;
+  }
+  choices_.section = {};
+  next_section();
+}
+
+void SceneView::next_section() {
+  if (!facts_) return;
+  ViewSection& section = choices_.section;
+  const Point3 middle = facts_->centre;
+  if (!section.is_on) section = {true, {0, 0, 1}, facts_->ground + 0.45 * 2 * (middle.z - facts_->ground)};
+  else if (section.normal.z != 0) section = {true, {0, -1, 0}, -middle.y};
+  else if (section.normal.y != 0) section = {true, {1, 0, 0}, middle.x};
+  else section = {};
+}
+
+void SceneView::store_camera(int number) {
+  if (!editor_->document || number < 1 || number > 9) return;
+  const std::string key = std::to_string(number);
+  if (editor_->arrange("{\"cameras\": {\"" + key + "\": " + to_json_text(choices_.camera) + "}}"))
+    editor_->tell(NoticeKind::told, "This view is kept as number " + key + "; in beamer mode (F1) the key " + key + " goes back to it.");
+}
+
+void SceneView::recall_camera(int number) {
+  if (!editor_->document) return;
+  const Json view = Json::parse(editor_->scene().view, nullptr, false);
+  const auto cameras = view.is_object() ? view.find("cameras") : view.end();
+  const bool has_cameras = view.is_object() && cameras != view.end() && cameras->is_object();
+  const std::string key = std::to_string(number);
+  if (!has_cameras || !cameras->contains(key)) {
+    editor_->tell(NoticeKind::told, "There is no view number " + key + " yet: Ctrl+" + key + " keeps the present one.");
+    return;
+  }
+  is_walking_ = false;
+  go_to(camera_from_json_text((*cameras)[key].dump(), choices_.camera));
+}
 
 }  // namespace bl::desktop

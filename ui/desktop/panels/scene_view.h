@@ -1,8 +1,19 @@
 // The 3D view as a panel: camera, picking, gizmo, labels and the card of the nearest node.
 #pragma once
 
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "ui/desktop/app/editor.h"
+#include "ui/desktop/view/colouring.h"
+#include "ui/desktop/view/picking.h"
 #include "ui/desktop/view/renderer.h"
+#include "ui/desktop/view/scene_facts.h"
+#include "ui/desktop/view/view_builder.h"
 
 namespace bl::desktop {
 
@@ -11,11 +22,130 @@ class SceneView {
   SceneView(Editor& editor, Renderer& renderer) : editor_(&editor), renderer_(&renderer) {}
   /// Fills the current pane, of `size` pixels.
   void draw(ImVec2 size);
+  /// Moves the camera so that the selection fills the view, or everything where `all` or where nothing is chosen.
   void fit(bool all);
 
+  // --- What actions ask for.
+  enum class Side { plan, south, east, axonometric };
+  void look_from(Side side);
+  void toggle_parallel();
+  void toggle_walk();
+  /// Off, level, from south to north, from east to west, off.
+  void next_section();
+  void toggle_section();
+  void store_camera(int number);
+  void recall_camera(int number);
+  void begin_move_by_key();
+  void colour_by(const std::string& choice) { choices_.colour_by = choice; }
+
+  const Camera& camera() const { return choices_.camera; }
+  void set_camera(const Camera& camera);
+  const ViewSection& section() const { return choices_.section; }
+  const std::string& colour_choice() const { return choices_.colour_by; }
+  bool is_walking() const { return is_walking_; }
+  bool is_moving() const { return move_.has_value(); }
+  /// The node under the mouse in the last frame, so that other panels can light it in the next one.
+  /// Where a point is in the window [pixels].
+  Seen place_in_window(const Point3& point) const;
+
  private:
+  // What a hand does with the selection: 0 to 2 along an axis, 3 to 5 in the plane across it, 6 level or facing the eye.
+  struct Move {
+    static constexpr int kFree = 6;
+    int handle = kFree;
+    bool is_by_key = false;
+    Point3 anchor, grip;                     // middle of what moves; where it was taken hold of
+    Vector3 shift;                           // so far
+    std::map<std::string, Point3> starts;
+    std::int64_t gesture = 0;
+    bool has_submitted = false;
+    std::string typed;
+  };
+  enum class Drag { none, pressed, orbit, pan, zoom, box };
+
+  // Every frame, in this order.
+  void follow_document();
+  void follow_state();
+  void advance_camera();
+  void take_keys();
+  void take_mouse();
+  void draw_overlay();
+
+  // scene_view_mouse.cpp
+  void navigate(ImVec2 moved);
+  void take_wheel();
+  void take_left_button();
+  void click(bool is_double);
+  void select_box();
+  void point_at();
+  Drag drag_of_preset(int& button) const;
+  Ray ray_at(ImVec2 mouse) const;
+  Point3 place_under(ImVec2 mouse) const;
+  void walk_about();
+  void choose(const std::string& node, bool is_node);
+
+  // scene_view_move.cpp
+  std::vector<std::string> movable(bool tells);
+  std::optional<Point3> gizmo_centre();
+  int handle_at(ImVec2 mouse);
+  void begin_move(int handle, bool is_by_key);
+  void go_on_moving();
+  void take_typed();
+  std::optional<Vector3> hand_shift() const;
+  void apply_move();
+  void end_move(bool is_kept);
+  void draw_gizmo();
+  void draw_typed();
+
+  // scene_view_overlay.cpp
+  void draw_marks();
+  void draw_labels();
+  Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
+  void draw_scale_and_north();
+  void draw_legend(bool is_large);
+  void draw_tools();
+  void draw_layers_popup();
+
+  // scene_view_card.cpp
+  void draw_card();
+  void draw_title();
+  std::vector<std::string> pulls_on(std::uint32_t node) const;
+
+  float width() const { return size_.x; }
+  float height() const { return size_.y; }
+  ImVec2 on_screen(const Seen& seen) const { return {at_.x + static_cast<float>(seen.x), at_.y + static_cast<float>(seen.y)}; }
+  Seen seen(const Point3& point) const { return choices_.camera.project(point, width(), height()); }
+  bool shows(const char* layer) const { return is_on(editor_->person, layer); }
+  const std::string& id_of(std::uint32_t node) const { return facts_->state->plan->nodes[node].id; }
+  void go_to(const Camera& camera);
+  Point3 place_of(std::uint32_t node) const;
+
   Editor* editor_;
   Renderer* renderer_;
+  ViewChoices choices_;
+  std::shared_ptr<const SceneFacts> facts_;
+  Colouring colouring_;
+  const Document* document_ = nullptr;
+  bool wants_fit_ = true, has_fitted_boundary_ = false;
+  Camera from_, to_;
+  double change_began_ = -1, last_frame_ = 0;
+  Camera still_camera_;
+  std::shared_ptr<const SceneFacts> still_facts_;
+  double still_since_ = 0;
+  bool is_walking_ = false;
+  double walk_began_ = -1;
+  ImVec2 at_{}, size_{};
+  bool is_hovered_ = false;
+
+  Drag drag_ = Drag::none;
+  int drag_button_ = 0;
+  ImVec2 pressed_at_{}, mouse_before_{};
+  bool pressed_on_chosen_ = false;
+  std::optional<Hit> hit_;
+  std::string pointed_at_;
+  double pointed_since_ = 0;
+  std::optional<Move> move_;
+  int hot_handle_ = -1;
 };
 
 }  // namespace bl::desktop

@@ -6,9 +6,98 @@
 
 namespace bl::desktop {
 
+namespace {
+
+bool is_editing(const Editor& e) { return has_document(e) && !e.is_beamer; }
+bool is_in_beamer(const Editor& e) { return e.is_beamer; }
+
+template <SceneView::Side side>
+void look(Editor& e) {
+  e.view->look_from(side);
+}
+
+void add_camera_actions(std::vector<Action>& list) {
+  using Side = SceneView::Side;
+  list.push_back({"View", "Frame selection, or all", {GLFW_KEY_F}, {GLFW_KEY_KP_DECIMAL}, Area::view, has_document, [](Editor& e) { e.view->fit(false); }});
+  list.push_back({"View", "Frame all", {GLFW_KEY_HOME}, {}, Area::view, has_document, [](Editor& e) { e.view->fit(true); }});
+  list.push_back({"View", "Plan, from above", {GLFW_KEY_1}, {}, Area::view, is_editing, look<Side::plan>});
+  list.push_back({"View", "From the south", {GLFW_KEY_2}, {}, Area::view, is_editing, look<Side::south>});
+  list.push_back({"View", "From the east", {GLFW_KEY_3}, {}, Area::view, is_editing, look<Side::east>});
+  list.push_back({"View", "Axonometric", {GLFW_KEY_4}, {}, Area::view, is_editing, look<Side::axonometric>});
+  list.push_back({"View", "Perspective or parallel", {GLFW_KEY_5}, {}, Area::view, is_editing, [](Editor& e) { e.view->toggle_parallel(); }, false,
+                  [](const Editor& e) { return e.view != nullptr && !e.view->camera().is_parallel; }});
+  list.push_back({"View", "Walk (W A S D)", {GLFW_KEY_6}, {}, Area::view, is_editing, [](Editor& e) { e.view->toggle_walk(); }, false,
+                  [](const Editor& e) { return e.view != nullptr && e.view->is_walking(); }});
+  list.push_back({"View", "Section plane", {GLFW_KEY_B, false, false, true}, {}, Area::view, has_document, [](Editor& e) { e.view->toggle_section(); },
+                  false, [](const Editor& e) { return e.view != nullptr && e.view->section().is_on; }});
+  list.push_back({"View", "Turn the section plane", {GLFW_KEY_B, false, true, true}, {}, Area::view, has_document, [](Editor& e) { e.view->next_section(); }});
+  list.push_back({"View", "Move the selection", {GLFW_KEY_G}, {}, Area::view, [](const Editor& e) { return is_editing(e) && !e.picks.nodes.empty(); },
+                  [](Editor& e) { e.view->begin_move_by_key(); }});
+}
+
+constexpr const char* kKeepLabels[] = {"Keep this view as 1", "Keep this view as 2", "Keep this view as 3", "Keep this view as 4", "Keep this view as 5",
+                                       "Keep this view as 6", "Keep this view as 7", "Keep this view as 8", "Keep this view as 9"};
+constexpr const char* kGoLabels[] = {"Go to kept view 1", "Go to kept view 2", "Go to kept view 3", "Go to kept view 4", "Go to kept view 5",
+                                     "Go to kept view 6", "Go to kept view 7", "Go to kept view 8", "Go to kept view 9"};
+
+template <int number>
+void add_kept_view(std::vector<Action>& list) {
+  list.push_back({"View", kKeepLabels[number - 1], {GLFW_KEY_0 + number, true}, {}, Area::view, has_document,
+                  [](Editor& e) { e.view->store_camera(number); }});
+  list.push_back({"View", kGoLabels[number - 1], {GLFW_KEY_0 + number}, {}, Area::view, is_in_beamer, [](Editor& e) { e.view->recall_camera(number); }});
+  if constexpr (number < 9) add_kept_view<number + 1>(list);
+}
+
+// A layer's switch; the action knows its layer by position, because actions are plain functions.
+template <std::size_t index>
+void add_layer_actions(std::vector<Action>& list) {
+  static const std::string label = std::string("Layer: ") + layers()[index].label;
+  list.push_back({"View", label.c_str(), {}, {}, Area::none, has_document,
+                  [](Editor& e) { set_layer(e.person, layers()[index].id, !is_on(e.person, layers()[index].id)); }, false,
+                  [](const Editor& e) { return is_on(e.person, layers()[index].id); }});
+  if constexpr (index + 1 < 13) add_layer_actions<index + 1>(list);
+}
+
+template <int percent>
+void add_scale(std::vector<Action>& list, const char* label) {
+  list.push_back({"View", label, {}, {}, Area::none, nullptr, [](Editor& e) { e.person.scale = percent / 100.0f; }, false,
+                  [](const Editor& e) { return e.person.scale == percent / 100.0f; }});
+}
+
+void add_navigation(std::vector<Action>& list) {
+  list.push_back({"View", "Mouse as in Rhino", {}, {}, Area::none, nullptr, [](Editor& e) { e.person.navigation = "rhino"; }, false,
+                  [](const Editor& e) { return e.person.navigation == "rhino"; }});
+  list.push_back({"View", "Mouse as in Blender", {}, {}, Area::none, nullptr, [](Editor& e) { e.person.navigation = "blender"; }, false,
+                  [](const Editor& e) { return e.person.navigation == "blender"; }});
+  list.push_back({"View", "Mouse as in SketchUp", {}, {}, Area::none, nullptr, [](Editor& e) { e.person.navigation = "sketchup"; }, false,
+                  [](const Editor& e) { return e.person.navigation == "sketchup"; }});
+  list.push_back({"View", "Mouse as in Polyscope", {}, {}, Area::none, nullptr, [](Editor& e) { e.person.navigation = "polyscope"; }, false,
+                  [](const Editor& e) { return e.person.navigation == "polyscope"; }});
+}
+
+void add_window_actions(std::vector<Action>& list) {
+  list.push_back({"View", "Beamer mode", {GLFW_KEY_F1}, {}, Area::none, has_document, [](Editor& e) { e.is_beamer = !e.is_beamer; }, false, is_in_beamer});
+  list.push_back({"View", "Leave beamer mode", {GLFW_KEY_ESCAPE}, {}, Area::none, is_in_beamer, [](Editor& e) { e.is_beamer = false; }});
+  list.push_back({"View", "Show inspector", {GLFW_KEY_N}, {}, Area::view, has_document, [](Editor& e) { e.person.shows_side = !e.person.shows_side; }, false,
+                  [](const Editor& e) { return e.person.shows_side; }});
+  list.push_back({"View", "Show lists", {GLFW_KEY_T}, {}, Area::view, has_document, [](Editor& e) { e.person.shows_bottom = !e.person.shows_bottom; },
+                  false, [](const Editor& e) { return e.person.shows_bottom; }});
+  list.push_back({"View", "Dark", {}, {}, Area::none, nullptr, [](Editor& e) { e.person.is_dark = !e.person.is_dark; }, false,
+                  [](const Editor& e) { return e.person.is_dark; }});
+  add_scale<100>(list, "Scale 100 %");
+  add_scale<125>(list, "Scale 125 %");
+  add_scale<150>(list, "Scale 150 %");
+  add_scale<200>(list, "Scale 200 %");
+  add_navigation(list);
+}
+
+}  // namespace
+
 void add_view_actions(std::vector<Action>& list) {
-  list.push_back({"View", "Frame selection, or all", {GLFW_KEY_F}, {}, Area::view, has_document,
-                  [](Editor& e) { e.view->fit(false); }});
+  add_window_actions(list);
+  add_camera_actions(list);
+  add_layer_actions<0>(list);
+  add_kept_view<1>(list);
 }
 
 }  // namespace bl::desktop

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-namespace bl::desktop {
+#include "ui/desktop/view/view_scene.h"
 
-struct ViewScene;
+namespace bl::desktop {
 
 class Renderer {
  public:
@@ -15,16 +15,34 @@ class Renderer {
   virtual std::uintptr_t draw(const ViewScene& scene, int width, int height) = 0;
   /// Bytes that were sent to the graphics processor since the last call.
   virtual std::uint64_t take_bytes_sent() = 0;
+  /// Bytes that the meshes of the same volumes would have taken, had they been divided and wrapped before; since the last call.
+  virtual std::uint64_t take_bytes_spared() { return 0; }
   /// Name of the driver, for the statistics.
   virtual std::string description() const = 0;
 };
 
-/// Draws nothing and counts what it would have been sent.
+/// Draws nothing, and keeps what it was given to draw.
 class NullRenderer final : public Renderer {
  public:
-  std::uintptr_t draw(const ViewScene&, int, int) override { return 0; }
+  std::uintptr_t draw(const ViewScene& scene, int width, int height) override {
+    last_ = scene;
+    width_ = width;
+    height_ = height;
+    ++count_;
+    return 0;
+  }
   std::uint64_t take_bytes_sent() override { return 0; }
   std::string description() const override { return "no renderer"; }
+
+  /// For tests: the last picture that was asked for, its size, and how many there were.
+  const ViewScene& last() const { return last_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int count() const { return count_; }
+
+ private:
+  ViewScene last_;
+  int width_ = 0, height_ = 0, count_ = 0;
 };
 
 }  // namespace bl::desktop

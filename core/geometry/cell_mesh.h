@@ -1,0 +1,24 @@
+// The meshes of one cell in all pieces of its domain: finely divided and wrapped, or coarse for a graphics processor to wrap.
+#pragma once
+
+#include <span>
+
+#include "core/base/mesh.h"
+#include "core/geometry/power_cells.h"
+#include "core/geometry/shape_measure.h"
+
+namespace bl {
+
+/// Is the point in the ball, and behind all faces by at least `margin` [m]? Relative to the site, as the part is.
+bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin);
+
+/// The parts in the pieces of the domain become one mesh without the faces between the pieces. `centroid` of the shape,
+/// relative to the site.
+MeshPointer make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
+                      const Point3& centroid);
+/// The same parts as fans of triangles, a face's centre first, not wrapped; `wrap` says how make_mesh would go on. The triangles
+/// come in the order in which make_mesh divides them.
+MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site,
+                             const Point3& centroid);
+
+}  // namespace bl

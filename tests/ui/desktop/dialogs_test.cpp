@@ -1,0 +1,84 @@
+// Dialogs by keyboard alone: palette, new scene, and the question before something is lost.
+#include <set>
+
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include "tests/ui/desktop/null_desktop.h"
+#include "ui/desktop/app/actions.h"
+#include "ui/desktop/app/fuzzy.h"
+
+namespace bl::desktop {
+namespace {
+
+TEST(Dialogs, PaletteRunsWhatIsTyped) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  desktop.key(GLFW_KEY_K, true);
+  desktop.frames(3);
+  desktop.type("one tick");
+  desktop.frames(1);
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.editor().document->session().settle();
+  desktop.frames(2);
+  EXPECT_EQ(desktop.editor().state().tick, 1);
+}
+
+TEST(Dialogs, NewSceneFromFilesByKeyboard) {
+  NullDesktop desktop;
+  desktop.key(GLFW_KEY_N, true);
+  desktop.frames(3);
+  desktop.type(BL_SOURCE_DIR "/tests/data/plan_dutch.geojson");
+  desktop.key(GLFW_KEY_TAB);
+  desktop.frames(2);
+  desktop.type(BL_SOURCE_DIR "/tests/data/functions.csv");
+  desktop.frames(1);
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(3);
+  ASSERT_TRUE(desktop.editor().document);
+  EXPECT_GT(desktop.editor().scene().nodes.size(), 5u);
+  EXPECT_EQ(desktop.desktop().title(), "Untitled scene - BehaviourLinks");
+}
+
+TEST(Dialogs, QuittingWithUnsavedChangesAsks) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  ASSERT_TRUE(desktop.editor().submit(command<RenameNode>({"library", "Reading room"})));
+  desktop.key(GLFW_KEY_Q, true);
+  desktop.frames(2);
+  EXPECT_FALSE(desktop.editor().wants_quit);
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.editor().undo();
+  desktop.key(GLFW_KEY_Q, true);
+  EXPECT_TRUE(desktop.editor().wants_quit);
+}
+
+// A key that means two things in one place is a trap.
+TEST(Actions, KeysAreUniqueWhereTheyCount) {
+  std::set<std::string> taken;
+  for (const Area area : {Area::canvas, Area::view}) {
+    taken.clear();
+    for (const Action& action : actions())
+      for (const Chord& chord : {action.chord, action.other}) {
+        if (chord.key == 0 || (action.area != Area::none && action.area != area)) continue;
+        EXPECT_TRUE(taken.insert(text_of(chord)).second) << text_of(chord) << " of " << action.label;
+      }
+  }
+}
+
+TEST(Actions, EachSaysWhatItDoesAndCanBeRun) {
+  for (const Action& action : actions()) {
+    EXPECT_NE(action.run, nullptr) << action.label;
+    EXPECT_FALSE(std::string(action.label).empty());
+    EXPECT_EQ(text_of(action.chord).find('?'), std::string::npos) << action.label;
+  }
+}
+
+TEST(Fuzzy, StartsOfWordsComeFirst) {
+  EXPECT_FALSE(fuzzy_match("xyz", "Set value"));
+  EXPECT_TRUE(fuzzy_match("", "anything"));
+  EXPECT_GT(*fuzzy_match("sv", "Set value"), *fuzzy_match("sv", "absolve"));
+  EXPECT_GT(*fuzzy_match("rew", "Rewind five seconds"), *fuzzy_match("rew", "Take a picture of the window"));
+  EXPECT_FALSE(fuzzy_match("a", ""));
+}
+
+}  // namespace
+}  // namespace bl::desktop

@@ -1,0 +1,257 @@
+// The 3D view as people use it, without a window: choosing, moving, kept views, layers, beamer mode.
+#include <cmath>
+
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include "tests/ui/desktop/null_desktop.h"
+#include "ui/desktop/panels/scene_view.h"
+#include "ui/desktop/view/picking.h"
+
+namespace bl::desktop {
+namespace {
+
+class ViewPanel : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    desktop.ticks(60);
+    desktop.frames(30);
+    look_from_above();
+  }
+  void look_from_above() {
+    move_into_view();
+    desktop.key(GLFW_KEY_1);
+    desktop.frames(30);
+  }
+  void move_into_view() { desktop.move_to(empty_place()); }
+  ImVec2 on_screen(const Point3& p) const {
+    const Seen at = desktop_editor().view->place_in_window(p);
+    return {static_cast<float>(at.x), static_cast<float>(at.y)};
+  }
+  // Below the tools, beside the site.
+  ImVec2 empty_place() { return {1440 - 330 - 30, 130}; }
+  Editor& editor() { return desktop.editor(); }
+  const Editor& desktop_editor() const { return const_cast<ViewPanel*>(this)->desktop.editor(); }
+  Point3 place(const std::string& id) {
+    return std::get<Vector3>(editor().state().value(*editor().state().plan->find(editor().index_of(id), {"node", "position", ""})));
+  }
+  Point3 set_place(const std::string& id) {
+    return std::get<Vector3>(editor().scene().nodes.at(id).types.at("node").at("position"));
+  }
+  // A place in the picture that belongs to the node alone, seen from above.
+  ImVec2 spot_of(const std::string& id) { return on_screen(place(id)); }
+
+  NullDesktop desktop{"scenes/start/quarter.json"};
+};
+
+TEST_F(ViewPanel, DrawsEveryVolumeWithItsCell) {
+  const auto facts = read_facts(editor().moment->state, nullptr);
+  EXPECT_EQ(facts->volumes.size(), 17u);
+  for (const VolumeFacts& volume : facts->volumes) {
+    ASSERT_NE(volume.cell, nullptr) << volume.id;
+    EXPECT_FALSE(volume.is_ball) << volume.id;
+  }
+  EXPECT_EQ(facts->boundaries.size(), 1u);
+  EXPECT_FALSE(facts->boundaries[0].edges.empty());
+  const Colouring colouring = colour_volumes(*facts, "use", editor().theme);
+  const ViewScene scene = build_view(*facts, colouring, {}, editor().picks, editor().person, editor().theme);
+  EXPECT_EQ(scene.volumes.size(), 17u);
+  EXPECT_EQ(scene.surfaces.size(), 1u);
+}
+
+TEST_F(ViewPanel, ClicksChooseAddAndToggle) {
+  desktop.click(spot_of("theatre"));
+  EXPECT_EQ(editor().picks.nodes, std::set<std::string>{"theatre"});
+  desktop.hold(false, true);
+  desktop.click(spot_of("housing-2"));
+  EXPECT_EQ(editor().picks.nodes, (std::set<std::string>{"theatre", "housing-2"}));
+  desktop.hold(true, false);
+  desktop.click(spot_of("theatre"));
+  EXPECT_EQ(editor().picks.nodes, std::set<std::string>{"housing-2"});
+  desktop.hold(false, false);
+  desktop.frames(30);  // no double click
+  desktop.click(empty_place());
+  EXPECT_TRUE(editor().picks.nodes.empty());
+}
+
+TEST_F(ViewPanel, PointingLightsTheNode) {
+  desktop.move_to(spot_of("theatre"));
+  EXPECT_EQ(editor().picks.hovered_node, "theatre");
+  EXPECT_EQ(editor().view->pointed_at(), "theatre");
+}
+
+TEST_F(ViewPanel, BoxesToTheRightEncloseAndToTheLeftTouch) {
+  const ImVec2 p = spot_of("theatre");
+  const ImVec2 low{p.x - 8, p.y - 8}, high{p.x + 8, p.y + 8};
+  // Begin where nothing can be dragged: nothing is chosen yet.
+  desktop.drag(low, high);
+  EXPECT_FALSE(editor().picks.nodes.contains("theatre")) << "too small to hold it";
+  desktop.drag(high, low);
+  EXPECT_TRUE(editor().picks.nodes.contains("theatre"));
+}
+
+TEST_F(ViewPanel, MovesByAxisAndTypedLengthAsOneStep) {
+  const std::string before = desktop.scene_text();
+  desktop.click(spot_of("theatre"));
+  const Point3 start = place("theatre");
+  desktop.move_to(empty_place());
+  desktop.key(GLFW_KEY_G);
+  ASSERT_TRUE(editor().view->is_moving());
+  desktop.key(GLFW_KEY_Y);
+  desktop.type("250 cm");
+  desktop.key(GLFW_KEY_ENTER);
+  EXPECT_FALSE(editor().view->is_moving());
+  const Point3 now = set_place("theatre");
+  EXPECT_NEAR(now.x, start.x, 1e-3);
+  EXPECT_NEAR(now.y, start.y + 2.5, 1e-3);
+  EXPECT_NEAR(now.z, start.z, 1e-3);
+  desktop.key(GLFW_KEY_Z, true);
+  EXPECT_EQ(desktop.scene_text(), before);
+}
+
+TEST_F(ViewPanel, EscapeTakesAMoveBack) {
+  const std::string before = desktop.scene_text();
+  desktop.click(spot_of("theatre"));
+  desktop.key(GLFW_KEY_G);
+  desktop.move_to({empty_place().x - 60, empty_place().y + 90});
+  EXPECT_NE(desktop.scene_text(), before);
+  desktop.key(GLFW_KEY_ESCAPE);
+  EXPECT_EQ(desktop.scene_text(), before);
+}
+
+TEST_F(ViewPanel, DraggingWhatIsChosenMovesItLevelAndSnapsWithControl) {
+  const std::string before = desktop.scene_text();
+  desktop.click(spot_of("theatre"));
+  desktop.frames(30);
+  const ImVec2 grip{spot_of("theatre").x - 14, spot_of("theatre").y + 14};  // beside the gizmo
+  desktop.drag(grip, {grip.x + 40, grip.y});
+  const Point3 moved = set_place("theatre");
+  EXPECT_GT(moved.x, place("theatre").x + 2);
+  EXPECT_NE(desktop.scene_text(), before);
+  desktop.key(GLFW_KEY_Z, true);
+  EXPECT_EQ(desktop.scene_text(), before) << "one drag is one step";
+}
+
+TEST_F(ViewPanel, TheGizmosArmMovesAlongItsAxisAlone) {
+  desktop.click(spot_of("theatre"));
+  desktop.frames(30);
+  const Point3 start = place("theatre");
+  const ImVec2 middle = spot_of("theatre"), arm{middle.x + 60, middle.y};
+  desktop.drag(arm, {arm.x + 50, arm.y + 30});
+  const Point3 now = set_place("theatre");
+  EXPECT_GT(now.x, start.x + 1);
+  EXPECT_NEAR(now.y, start.y, 1e-3);
+  EXPECT_NEAR(now.z, start.z, 1e-3);
+}
+
+TEST_F(ViewPanel, ALockedPlaceSaysSo) {
+  ASSERT_TRUE(editor().submit(command<LockPort>({"theatre", {"node.position"}})));
+  desktop.ticks(1);
+  const std::string before = desktop.scene_text();
+  desktop.click(spot_of("theatre"));
+  desktop.key(GLFW_KEY_G);
+  EXPECT_FALSE(editor().view->is_moving());
+  EXPECT_EQ(desktop.scene_text(), before);
+  ASSERT_FALSE(editor().notices.empty());
+  EXPECT_NE(editor().notices.back().text.find("locked"), std::string::npos);
+}
+
+TEST_F(ViewPanel, KeepsViewsInTheSceneAndGoesBackToThemInBeamerMode) {
+  desktop.move_to(empty_place());
+  desktop.key(GLFW_KEY_4);
+  desktop.frames(30);
+  const Camera kept = editor().view->camera();
+  desktop.key(GLFW_KEY_2, true);
+  EXPECT_NE(editor().scene().view.find("cameras"), std::string::npos);
+  desktop.key(GLFW_KEY_1);
+  desktop.frames(30);
+  EXPECT_GT(std::abs(editor().view->camera().elevation - kept.elevation), 0.1);
+  desktop.key(GLFW_KEY_F1);
+  ASSERT_TRUE(editor().is_beamer);
+  desktop.key(GLFW_KEY_2);
+  desktop.frames(30);
+  EXPECT_NEAR(editor().view->camera().elevation, kept.elevation, 1e-6);
+  EXPECT_NEAR(editor().view->camera().distance, kept.distance, 1e-6);
+  desktop.key(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(editor().is_beamer);
+}
+
+TEST_F(ViewPanel, WheelZoomsAndShiftWheelMovesTheSection) {
+  desktop.move_to(spot_of("theatre"));
+  const double before = editor().view->camera().distance;
+  desktop.wheel(2);
+  EXPECT_LT(editor().view->camera().distance, before);
+  desktop.hold(false, true);
+  desktop.wheel(1);
+  EXPECT_TRUE(editor().view->section().is_on);
+  const double at = editor().view->section().offset;
+  desktop.wheel(-1);
+  EXPECT_LT(editor().view->section().offset, at);
+  desktop.hold(false, false);
+}
+
+TEST_F(ViewPanel, WalkingHoldsTheKeysUntilEscape) {
+  desktop.move_to(empty_place());
+  desktop.key(GLFW_KEY_6);
+  ASSERT_TRUE(editor().view->is_walking());
+  desktop.frames(30);
+  const Point3 before = editor().view->camera().eye();
+  ImGui::GetIO().KeysDown[GLFW_KEY_W] = true;
+  desktop.frames(20);
+  ImGui::GetIO().KeysDown[GLFW_KEY_W] = false;
+  EXPECT_GT(distance(before, editor().view->camera().eye()), 0.5);
+  EXPECT_NEAR(editor().view->camera().eye().z, before.z, 1e-6);
+  desktop.key(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(editor().view->is_walking());
+}
+
+TEST_F(ViewPanel, LayersAddTheirLines) {
+  const auto facts = read_facts(editor().moment->state, nullptr);
+  const Colouring colouring = colour_volumes(*facts, "error", editor().theme);
+  const auto lines = [&] { return build_view(*facts, colouring, {}, editor().picks, editor().person, editor().theme).lines.size(); };
+  const std::size_t plain = lines();
+  for (const char* layer : {"links", "weights", "neighbours", "cells"}) {
+    set_layer(editor().person, layer, true);
+    EXPECT_GT(lines(), plain) << layer;
+    set_layer(editor().person, layer, false);
+    EXPECT_EQ(lines(), plain) << layer;
+  }
+  EXPECT_TRUE(editor().person.layers.empty()) << "only what differs is kept";
+}
+
+TEST_F(ViewPanel, EveryColourChoiceHasALegend) {
+  const auto facts = read_facts(editor().moment->state, nullptr);
+  for (const ColourChoice& choice : colour_choices(*facts)) {
+    const Colouring colouring = colour_volumes(*facts, choice.id, editor().theme);
+    EXPECT_EQ(colouring.colours.size(), facts->volumes.size()) << choice.id;
+    EXPECT_FALSE(colouring.legend.title.empty()) << choice.id;
+    EXPECT_TRUE(!colouring.legend.rows.empty() || colouring.legend.ramp.size() > 2) << choice.id;
+  }
+  EXPECT_EQ(colour_volumes(*facts, "no.such_port", editor().theme).colours.size(), facts->volumes.size());
+}
+
+TEST(ViewPicking, MeetsTheBallInsideTheCellOnly) {
+  const MeshPointer cell = ball_cell({0, 0, 0}, 10);
+  const Ray from_above{{0, 0, 100}, {0, 0, -1}};
+  const auto at = meet(from_above, *cell, {});
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(*at, 90, 1e-9);
+  EXPECT_FALSE(meet({{11, 0, 100}, {0, 0, -1}}, *cell, {}));
+  // Half of it is cut away.
+  const auto cut = meet(from_above, *cell, {true, {0, 0, 1}, 0});
+  ASSERT_TRUE(cut);
+  EXPECT_NEAR(*cut, 100, 1e-9);
+  EXPECT_FALSE(meet({{0, 0, 100}, {0, 0, 1}}, *cell, {}));
+}
+
+TEST(ViewPicking, OtherMetricsAreShownAsTheirBalls) {
+  NullDesktop desktop("scenes/studies/other_metrics.json");
+  desktop.ticks(2);
+  const auto facts = read_facts(desktop.editor().moment->state, nullptr);
+  std::size_t balls = 0;
+  for (const VolumeFacts& volume : facts->volumes) balls += volume.is_ball ? 1 : 0;
+  EXPECT_GT(balls, 0u);
+}
+
+}  // namespace
+}  // namespace bl::desktop

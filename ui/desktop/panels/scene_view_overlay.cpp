@@ -1,0 +1,253 @@
+// What is written over the picture: marks, labels, legend, scale, north, and the small tools in the corner.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/scene_view.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr std::size_t kMostLabels = 70;
+constexpr float kLeastVolumeOnScreen = 9;  // [points]: smaller ones have no label of their own
+
+struct Rectangle {
+  float left, top, right, bottom;
+  bool meets(const Rectangle& o) const { return left < o.right && o.left < right && top < o.bottom && o.top < bottom; }
+};
+
+struct Wish {
+  const std::string* text;
+  Seen at;
+  double importance;
+  bool is_chosen, is_mark;
+  std::uint32_t node;
+};
+
+const char* sign_of(const std::string& type) {
+  if (type == "programme") return icon::kFile;
+  if (type == "statistics") return icon::kBalance;
+  if (type == "smart_volumes_solver") return icon::kReset;
+  if (type == "smart_volume") return icon::kCube;
+  if (type == "control") return icon::kPlus;
+  if (type == "expression") return icon::kStep;
+  return icon::kLink;
+}
+
+}  // namespace
+
+// Nodes without a shape: small round marks with a sign of their role. A volume that has none yet is one of them.
+void SceneView::draw_marks() {
+  const Theme& theme = editor_->theme;
+  const Colours& c = theme.colours();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto draw = [&](std::uint32_t node, const std::string& id, const std::string& type, ImU32 tone) {
+    const Seen at = seen(place_of(node));
+    if (!at.is_in_front) return;
+    const ImVec2 p = on_screen(at);
+    const bool is_chosen = editor_->picks.nodes.contains(id), is_hovered = editor_->picks.hovered_node == id;
+    const float r = theme.px(is_hovered ? 11 : 9.5f);
+    list.AddCircleFilled(p, r, is_chosen ? c.accent : faded(c.raised, 0.92f), 24);
+    list.AddCircle(p, r, is_chosen || is_hovered ? c.accent : tone, 24, theme.px(is_hovered ? 2.0f : 1.2f));
+    const char* sign = sign_of(type);
+    ImFont* font = theme.fonts().small;
+    const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, sign);
+    list.AddText(font, font->FontSize, {std::round(p.x - extent.x / 2), std::round(p.y - extent.y / 2)}, is_chosen ? c.on_accent : c.text_soft, sign);
+  };
+  if (shows("marks"))
+    for (const MarkFacts& mark : facts_->marks) draw(mark.node, mark.id, mark.type, c.line);
+  for (std::size_t k = 0; k < facts_->volumes.size(); ++k) {
+    const VolumeFacts& volume = facts_->volumes[k];
+    const bool is_held = choices_.held.contains(volume.node);
+    if (!volume.cell || is_held) draw(volume.node, volume.id, "smart_volume", colouring_.colours[k]);
+  }
+}
+
+// Where a volume can be spoken of: its middle, or its upper part where others stand before it; nowhere where it is hidden.
+Seen SceneView::visible_anchor(std::uint32_t node, const Seen& middle) const {
+  const VolumeFacts* volume = facts_->volume_of(node);
+  if (volume == nullptr || !volume->cell) return middle;
+  const Point3 p = volume->position;
+  const double top = volume->height > 0 ? volume->bottom + 0.93 * volume->height : p.z;
+  for (const Seen& at : {middle, seen({p.x, p.y, top})}) {
+    const auto front = pick(choices_.camera.ray(at.x, at.y, width(), height()), *facts_, choices_.section);
+    if (front && front->node == node) return at;
+  }
+  Seen nowhere = middle;
+  nowhere.is_in_front = false;
+  return nowhere;
+}
+
+void SceneView::draw_labels() {
+  if (!shows("labels")) return;
+  const Theme& theme = editor_->theme;
+  const Colours& c = theme.colours();
+  std::vector<Wish> wishes;
+  const auto wish = [&](const std::string& id, const std::string& text, std::uint32_t node, double size, bool is_mark) {
+    const bool is_chosen = editor_->picks.nodes.contains(id), is_hovered = editor_->picks.hovered_node == id;
+    const Seen at = seen(place_of(node));
+    const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
+    if (!at.is_in_front || !is_inside) return;
+    if (!is_chosen && !is_hovered && size < kLeastVolumeOnScreen * theme.scale()) return;
+    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
+  };
+  for (const VolumeFacts& volume : facts_->volumes)
+    wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()), false);
+  if (shows("marks"))
+    for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
+  std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.importance > b.importance; });
+  if (wishes.size() > kMostLabels) wishes.resize(kMostLabels);
+
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  ImFont* font = theme.fonts().small;
+  std::vector<Rectangle> taken;
+  for (const Wish& w : wishes) {
+    const Seen anchor = w.is_mark || w.is_chosen ? w.at : visible_anchor(w.node, w.at);
+    if (!anchor.is_in_front) continue;
+    const ImVec2 p = on_screen(anchor);
+    const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.text->c_str());
+    const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
+    const std::array<ImVec2, 6> offsets = {{{0, w.is_mark ? theme.px(20) : 0}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+      const ImVec2 middle{p.x + offsets[k].x, p.y + offsets[k].y};
+      const Rectangle place{middle.x - extent.x / 2 - padding, middle.y - extent.y / 2 - theme.px(2), middle.x + extent.x / 2 + padding,
+                            middle.y + extent.y / 2 + theme.px(2)};
+      if (std::any_of(taken.begin(), taken.end(), [&](const Rectangle& r) { return r.meets(place); })) continue;
+      taken.push_back(place);
+      if (k > 0 && !w.is_mark) {
+        list.AddLine(p, middle, faded(c.text, 0.55f), 1);
+        list.AddCircleFilled(p, theme.px(2), faded(c.text, 0.8f));
+      }
+      list.AddRectFilled({place.left, place.top}, {place.right, place.bottom}, w.is_chosen ? c.accent : faded(c.panel, 0.74f), theme.px(4));
+      list.AddText(font, font->FontSize, {std::round(middle.x - extent.x / 2), std::round(middle.y - extent.y / 2)},
+                   w.is_chosen ? c.on_accent : c.text, w.text->c_str());
+      break;
+    }
+  }
+}
+
+void SceneView::draw_scale_and_north() {
+  const Theme& theme = editor_->theme;
+  const Colours& c = theme.colours();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const Camera& camera = choices_.camera;
+  // The arrow of north lies flat in the scene, so that it turns and tilts with it.
+  const double turn = (90 - facts_->state->plan->settings.true_north) * std::numbers::pi / 180;
+  const Vector3 north{std::cos(turn), std::sin(turn), 0}, east{north.y, -north.x, 0};
+  const ImVec2 middle{at_.x + width() - theme.px(38), at_.y + height() - theme.px(44)};
+  const float r = theme.px(17);
+  const auto at = [&](const Vector3& v) {
+    return ImVec2{middle.x + r * static_cast<float>(dot(v, camera.right())), middle.y - r * static_cast<float>(dot(v, camera.up()))};
+  };
+  std::array<ImVec2, 32> ring;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / ring.size();
+    ring[k] = at({std::cos(angle), std::sin(angle), 0});
+  }
+  list.AddPolyline(ring.data(), static_cast<int>(ring.size()), faded(c.text_soft, 0.6f), ImDrawFlags_Closed, theme.px(1));
+  list.AddTriangleFilled(at(1.0 * north), at(-0.35 * north + 0.42 * east), at(-0.1 * north), c.text_soft);
+  list.AddTriangleFilled(at(1.0 * north), at(-0.35 * north - 0.42 * east), at(-0.1 * north), faded(c.text_soft, 0.5f));
+  ImFont* font = theme.fonts().small;
+  const ImVec2 n = at(1.45 * north);
+  list.AddText(font, font->FontSize, {n.x - theme.px(4), n.y - theme.px(7)}, c.text_soft, "N");
+  // A bar of a round length, true at the point that the camera turns around.
+  const double unit = camera.metres_per_pixel(camera.target, height());
+  const double metres = round_distance(unit * theme.px(90));
+  const float length = static_cast<float>(metres / unit);
+  const ImVec2 end{at_.x + width() - theme.px(76), at_.y + height() - theme.px(26)}, begin{end.x - length, end.y};
+  list.AddLine(begin, end, c.text_soft, theme.px(1.5f));
+  for (const ImVec2 p : {begin, end, ImVec2{(begin.x + end.x) / 2, end.y}}) list.AddLine({p.x, p.y - theme.px(4)}, p, c.text_soft, theme.px(1.2f));
+  const std::string text = report::quantity(metres, Unit::metre);
+  const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
+  list.AddText(font, font->FontSize, {(begin.x + end.x - extent.x) / 2, end.y - theme.px(5) - extent.y}, c.text_soft, text.c_str());
+}
+
+void SceneView::draw_legend(bool is_large) {
+  const Theme& theme = editor_->theme;
+  const Colours& c = theme.colours();
+  const Legend& legend = colouring_.legend;
+  if (legend.rows.empty() && legend.ramp.empty()) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  ImFont* font = is_large ? theme.fonts().body : theme.fonts().small;
+  const float line = font->FontSize * 1.35f, swatch = font->FontSize * 0.8f;
+  const float margin = theme.px(is_large ? 28 : 14), room = height() - 2 * margin - theme.px(60);
+  const std::size_t most = static_cast<std::size_t>(std::max(1.0f, room / line - 2));
+  const std::size_t rows = std::min(legend.rows.size(), most);
+  const float x = at_.x + margin;
+  float y = at_.y + height() - margin - line * (legend.ramp.empty() ? static_cast<float>(rows + (rows < legend.rows.size() ? 1 : 0)) : 2.4f);
+  list.AddText(theme.fonts().strong, font->FontSize, {x, y - line}, c.text, legend.title.c_str());
+  for (std::size_t k = 0; k < rows; ++k, y += line) {
+    const float top = y + (line - swatch) / 2 - font->FontSize * 0.14f;
+    list.AddRectFilled({x, top}, {x + swatch, top + swatch}, legend.rows[k].colour, theme.px(2));
+    list.AddText(font, font->FontSize, {x + swatch * 1.6f, y}, c.text_soft, legend.rows[k].label.c_str());
+  }
+  if (rows < legend.rows.size())
+    list.AddText(font, font->FontSize, {x + swatch * 1.6f, y}, c.text_faint, ("and " + std::to_string(legend.rows.size() - rows) + " more").c_str());
+  if (legend.ramp.empty()) return;
+  const float length = theme.px(is_large ? 300 : 190), step = length / static_cast<float>(legend.ramp.size() - 1);
+  for (std::size_t k = 0; k + 1 < legend.ramp.size(); ++k) {
+    const float left = x + step * static_cast<float>(k);
+    list.AddRectFilledMultiColor({left, y + theme.px(4)}, {left + step + 0.5f, y + theme.px(4) + swatch}, legend.ramp[k], legend.ramp[k + 1],
+                                 legend.ramp[k + 1], legend.ramp[k]);
+  }
+  const auto put = [&](const std::string& text, float share) {
+    const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
+    list.AddText(font, font->FontSize, {x + share * (length - extent.x), y + theme.px(8) + swatch}, c.text_soft, text.c_str());
+  };
+  put(legend.low, 0);
+  put(legend.middle, 0.5f);
+  put(legend.high, 1);
+}
+
+void SceneView::draw_layers_popup() {
+  PersonSettings& person = editor_->person;
+  ImGui::PushFont(editor_->theme.fonts().strong);
+  ImGui::TextUnformatted("Layers");
+  ImGui::PopFont();
+  for (const Layer& layer : layers()) {
+    bool is_shown = is_on(person, layer.id);
+    if (ImGui::Checkbox(layer.label, &is_shown)) set_layer(person, layer.id, is_shown);
+  }
+  ImGui::Separator();
+  bool is_cut = choices_.section.is_on;
+  if (ImGui::Checkbox("Section plane (Shift+wheel moves it)", &is_cut)) toggle_section();
+  if (choices_.section.is_on && ImGui::SmallButton("Turn it")) next_section();
+}
+
+// Two quiet buttons: what is shown, and what the colours mean.
+void SceneView::draw_tools() {
+  const Theme& theme = editor_->theme;
+  const Colours& c = theme.colours();
+  ImGui::SetCursorScreenPos({at_.x + theme.px(10), at_.y + theme.px(10)});
+  ImGui::PushStyleColor(ImGuiCol_Button, faded(c.raised, 0.85f));
+  if (ImGui::Button((std::string(icon::kEye) + "  Show##layers").c_str())) ImGui::OpenPopup("layers");
+  ImGui::SameLine(0, theme.px(6));
+  std::string label = "Use";
+  const auto known = colour_choices(*facts_);
+  for (const ColourChoice& choice : known)
+    if (choice.id == choices_.colour_by) label = choice.label;
+  if (ImGui::Button(("Colour: " + label + "##colours").c_str())) ImGui::OpenPopup("colours");
+  ImGui::PopStyleColor();
+  if (is_walking_) {
+    ImGui::SameLine(0, theme.px(12));
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Walking: W A S D, drag to look around, E and Q up and down, Esc ends it");
+  }
+  if (ImGui::BeginPopup("layers")) {
+    draw_layers_popup();
+    ImGui::EndPopup();
+  }
+  ImGui::SetNextWindowSizeConstraints({theme.px(240), 0}, {theme.px(420), theme.px(420)});
+  if (ImGui::BeginPopup("colours")) {
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      if (k == 4) ImGui::Separator();
+      if (ImGui::Selectable(known[k].label.c_str(), known[k].id == choices_.colour_by)) choices_.colour_by = known[k].id;
+    }
+    ImGui::EndPopup();
+  }
+}
+
+}  // namespace bl::desktop

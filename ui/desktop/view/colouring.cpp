@@ -1,0 +1,122 @@
+// Categories for uses, a diverging ramp for errors, an even ramp for everything else that is a number.
+#include "ui/desktop/view/colouring.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "ui/cli/report/figures.h"
+#include "ui/cli/report/report_model.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr double kLargestShownError = 0.25;
+constexpr int kRampSteps = 24;
+
+// A number port of any kind that people and links read as a quantity.
+bool is_numeric(const PortDefinition& port) { return port.kind == ValueKind::number || port.kind == ValueKind::integer; }
+
+std::vector<double> values_of(const SceneFacts& facts, const std::string& choice, Unit& unit) {
+  std::vector<double> values;
+  const auto path = parse_port_path(choice);
+  for (const VolumeFacts& volume : facts.volumes) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (choice == "tension") {
+      value = volume.tension;
+      unit = Unit::metre;
+    } else if (choice == "fill") {
+      value = volume.wanted > 0 ? volume.volume / volume.wanted : value;
+      unit = Unit::ratio;
+    } else if (path) {
+      if (const auto ref = facts.state->plan->find(volume.node, *path)) {
+        unit = facts.state->plan->port(*ref).unit;
+        value = as_number(facts.state->value(*ref));
+      }
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
+std::string told(double value, Unit unit) { return unit == Unit::ratio ? report::percent(value) : report::quantity(value, unit); }
+
+Colouring by_use(const SceneFacts& facts, const Theme& theme) {
+  Colouring out;
+  out.legend.title = "Use";
+  for (const VolumeFacts& volume : facts.volumes) {
+    const auto at = std::lower_bound(facts.uses.begin(), facts.uses.end(), volume.use);
+    out.colours.push_back(theme.category(static_cast<std::size_t>(at - facts.uses.begin())));
+  }
+  for (std::size_t k = 0; k < facts.uses.size(); ++k) out.legend.rows.push_back({label_of_use(facts.uses[k]), theme.category(k)});
+  return out;
+}
+
+Colouring by_error(const SceneFacts& facts, const Theme& theme) {
+  Colouring out;
+  out.legend = {"Volume against demand", {}, {}, report::signed_percent(-kLargestShownError), "met", report::signed_percent(kLargestShownError)};
+  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(theme.diverging(volume.error() / kLargestShownError));
+  for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(theme.diverging(2.0 * k / kRampSteps - 1));
+  return out;
+}
+
+std::string title_of(const SceneFacts& facts, const std::string& choice) {
+  for (const ColourChoice& known : colour_choices(facts))
+    if (known.id == choice) return known.label;
+  return choice;
+}
+
+}  // namespace
+
+std::string label_of_use(const std::string& use) {
+  if (use.empty()) return "No use";
+  std::string label = use;
+  std::replace(label.begin(), label.end(), '_', ' ');
+  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
+}
+
+std::vector<ColourChoice> colour_choices(const SceneFacts& facts) {
+  std::vector<ColourChoice> choices = {
+      {"use", "Use"}, {"error", "Volume against demand"}, {"tension", "Tension on its place"}, {"fill", "Fill of the demand"}};
+  std::set<const TypificationDefinition*> seen;
+  std::vector<ColourChoice> ports;
+  for (const VolumeFacts& volume : facts.volumes)
+    for (const TypePlan& type : facts.state->plan->nodes[volume.node].types) {
+      if (type.definition->id == kBaseNode || !seen.insert(type.definition).second) continue;
+      for (const PortDefinition& port : type.definition->ports) {
+        if (!is_numeric(port) || port.id.starts_with("last_")) continue;
+        ports.push_back({type.definition->id + "." + port.id, type.definition->label + ": " + label_of_use(port.id)});
+      }
+    }
+  std::sort(ports.begin(), ports.end(), [](const ColourChoice& a, const ColourChoice& b) { return a.label < b.label; });
+  choices.insert(choices.end(), ports.begin(), ports.end());
+  return choices;
+}
+
+Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme) {
+  if (choice == "error") return by_error(facts, theme);
+  if (choice == "use" || choice.empty()) return by_use(facts, theme);
+  Unit unit = Unit::none;
+  const std::vector<double> values = values_of(facts, choice, unit);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values)
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  if (choice == "fill") low = 0, high = 1;
+  if (!(low <= high)) low = 0, high = 1;
+  const double span = high > low ? high - low : 1;
+  Colouring out;
+  out.legend.title = title_of(facts, choice);
+  for (const double value : values)
+    out.colours.push_back(std::isfinite(value) ? Theme::ramp(0.08 + 0.92 * (value - low) / span) : theme.colours().text_faint);
+  for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(Theme::ramp(0.08 + 0.92 * k / kRampSteps));
+  out.legend.low = told(low, unit);
+  out.legend.high = told(high, unit);
+  if (high > low) out.legend.middle = told(0.5 * (low + high), unit);
+  return out;
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,71 @@
+// The 3D view drawn with OpenGL 3.3: daylight with soft shadows, outlines, and cells that are wrapped where they are drawn.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ui/desktop/view/gl_volumes.h"
+#include "ui/desktop/view/renderer.h"
+
+namespace bl::desktop {
+
+class GlRenderer final : public Renderer {
+ public:
+  /// An OpenGL context has to be current, now and whenever it is used. Nothing where the driver refuses; `failure` says why.
+  static std::unique_ptr<GlRenderer> make(std::string& failure);
+  ~GlRenderer() override;
+
+  std::uintptr_t draw(const ViewScene& scene, int width, int height) override;
+  std::uint64_t take_bytes_sent() override;
+  std::uint64_t take_bytes_spared() override;
+  std::string description() const override { return description_; }
+
+  /// The corners of all triangles as the shaders make them, relative to the balls' centres: three floats each. For tests.
+  std::vector<float> divided(const ViewScene& scene, int depth);
+  /// The picture's pixels, RGBA, from the lower left corner. For tests and stills.
+  std::vector<std::uint8_t> pixels() const;
+  int width() const { return final_.width(); }
+  int height() const { return final_.height(); }
+  /// Splits of each triangle in the last picture.
+  int depth() const { return depth_; }
+
+ private:
+  GlRenderer();
+  bool build(std::string& failure);
+  int affordable(const ViewScene& scene, int least_depth_off) const;
+  void draw_maps(const ViewScene& scene);
+  void draw_volumes(const ViewScene& scene);
+  void draw_ground(const ViewScene& scene);
+  void draw_surfaces(const ViewScene& scene);
+  void draw_lines(const ViewScene& scene);
+  void send_surfaces(const ViewScene& scene);
+  void send_lines(const ViewScene& scene);
+  void finish(const ViewScene& scene);
+  void set_light(const GlProgram& program, const ViewScene& scene) const;
+  static std::array<float, 4> section_of(const ViewScene& scene);
+  bool has_new_shapes(const ViewScene& scene) const;
+
+  struct Programs {
+    GlProgram volumes, cut_volumes, shadow, heights, capture, ground, surfaces, lines, blur, finish;
+  };
+  std::unique_ptr<Programs> programs_;
+  std::string description_;
+  bool is_software_ = false;
+  int oversampling_ = 1, depth_ = 0;
+  float pixel_ = 1;
+  Traffic traffic_;
+  GlVolumes volumes_;
+  GlTarget picture_, final_, shadow_, heights_, blurred_;
+  GLuint empty_ = 0, surface_array_ = 0, line_array_ = 0;
+  GlBuffer surface_buffer_, line_buffer_;
+  std::vector<ViewSurface> sent_surfaces_;
+  Point3 surface_origin_, line_origin_;
+  std::vector<ViewLine> sent_lines_;
+  Matrix matrix_{}, sun_matrix_{}, map_matrix_{};
+  ViewScene last_;
+  bool has_last_ = false;
+};
+
+}  // namespace bl::desktop

@@ -1,0 +1,125 @@
+// Lines of sight against coarse cells and their balls.
+#include "ui/desktop/view/picking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bl::desktop {
+
+namespace {
+
+struct Span {
+  double from, to;
+};
+
+std::optional<Span> through_ball(const Ray& ray, const Point3& centre, double radius) {
+  const Vector3 to = ray.origin - centre;
+  const double b = dot(to, ray.direction), c = squared_norm(to) - radius * radius, d = b * b - c;
+  if (!(d >= 0)) return {};
+  const double root = std::sqrt(d);
+  if (-b + root < 0) return {};
+  return Span{std::max(0.0, -b - root), -b + root};
+}
+
+// Where the line crosses the triangle, and in which direction: +1 into the body, -1 out of it, 0 not at all.
+int crossing(const Ray& ray, const Point3& a, const Point3& b, const Point3& c, double& t) {
+  const Vector3 u = b - a, v = c - a, n = cross(u, v);
+  const double across = dot(n, ray.direction);
+  if (across == 0) return 0;
+  t = dot(n, a - ray.origin) / across;
+  const Vector3 at = ray.origin + t * ray.direction - a;
+  const double nn = squared_norm(n), along_u = dot(cross(at, v), n) / nn, along_v = dot(cross(u, at), n) / nn;
+  constexpr double kRim = -1e-9;
+  if (!(along_u >= kRim && along_v >= kRim && along_u + along_v <= 1 - kRim)) return 0;
+  return across < 0 ? 1 : -1;
+}
+
+}  // namespace
+
+std::optional<double> meet(const Ray& ray, const Mesh& cell, const ViewSection& section) {
+  if (!cell.wrap) return {};
+  auto span = through_ball(ray, cell.wrap->ball_centre, cell.wrap->radius);
+  if (!span) return {};
+  if (section.is_on) {
+    const double across = dot(section.normal, ray.direction), above = dot(section.normal, ray.origin) - section.offset;
+    if (across == 0 && above > 0) return {};
+    if (across > 0) span->to = std::min(span->to, -above / across);
+    if (across < 0) span->from = std::max(span->from, -above / across);
+  }
+  // Ways in and out of the cell, in order: the first stretch inside both the cell and the ball counts.
+  std::vector<std::pair<double, int>> crossings;
+  for (const auto& t : cell.triangles) {
+    double at = 0;
+    const int way = crossing(ray, cell.vertices[t[0]], cell.vertices[t[1]], cell.vertices[t[2]], at);
+    if (way != 0 && std::isfinite(at)) crossings.emplace_back(at, way);
+  }
+  std::sort(crossings.begin(), crossings.end());
+  double entered = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [at, way] : crossings) {
+    if (way > 0) {
+      if (std::isnan(entered)) entered = at;
+      continue;
+    }
+    const double from = std::max(entered, span->from), to = std::min(at, span->to);
+    if (from <= to) return from;
+    entered = std::numeric_limits<double>::quiet_NaN();
+  }
+  return {};
+}
+
+std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section) {
+  std::optional<Hit> nearest;
+  for (const VolumeFacts& volume : facts.volumes) {
+    if (!volume.cell) continue;
+    const auto at = meet(ray, *volume.cell, section);
+    if (at && (!nearest || *at < nearest->distance)) nearest = Hit{volume.node, *at, ray.origin + *at * ray.direction};
+  }
+  return nearest;
+}
+
+std::vector<std::uint32_t> pick_box(const Box& box, bool touches, const SceneFacts& facts, const Camera& camera, double width,
+                                    double height) {
+  std::vector<std::uint32_t> found;
+  const auto take = [&](std::uint32_t node, const Point3& centre, double radius) {
+    const Seen seen = camera.project(centre, width, height);
+    if (!seen.is_in_front) return;
+    const double reach = radius / std::max(1e-9, camera.metres_per_pixel(centre, height));
+    const double x = std::clamp(seen.x, box.left, box.right), y = std::clamp(seen.y, box.top, box.bottom);
+    const bool is_touched = std::hypot(seen.x - x, seen.y - y) <= reach;
+    const bool is_held = box.holds(seen.x - reach, seen.y - reach) && box.holds(seen.x + reach, seen.y + reach);
+    if (touches ? is_touched : is_held) found.push_back(node);
+  };
+  for (const VolumeFacts& volume : facts.volumes) {
+    if (!volume.cell) {
+      take(volume.node, volume.position, 0);
+      continue;
+    }
+    // The shape is inside both the ball and the cell's own extent: the smaller of the two speaks for it.
+    const Point3& centre = volume.cell->wrap->ball_centre;
+    double far = 0;
+    for (const Point3& vertex : volume.cell->vertices) far = std::max(far, distance(vertex, centre));
+    take(volume.node, centre, 0.9 * std::min(far, volume.cell->wrap->radius));
+  }
+  for (const MarkFacts& mark : facts.marks) take(mark.node, mark.position, 0);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::optional<Point3> nearest_on_axis(const Ray& ray, const Point3& through, const Vector3& axis) {
+  const Vector3 between = through - ray.origin;
+  const double aa = squared_norm(axis), ad = dot(axis, ray.direction), across = aa - ad * ad;
+  if (!(across > 1e-6 * aa)) return {};
+  const double t = (ad * dot(between, ray.direction) - dot(between, axis)) / across;
+  return through + t * axis;
+}
+
+std::optional<Point3> meet_plane(const Ray& ray, const Point3& through, const Vector3& normal) {
+  const double across = dot(normal, ray.direction);
+  if (std::abs(across) < 1e-6) return {};
+  const double t = dot(normal, through - ray.origin) / across;
+  if (!(t > 0) || !std::isfinite(t)) return {};
+  return ray.origin + t * ray.direction;
+}
+
+}  // namespace bl::desktop

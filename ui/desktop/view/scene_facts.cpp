@@ -1,0 +1,203 @@
+// Reads volumes, marks, boundaries and links from a state; a node without the ports is simply no volume.
+#include "ui/desktop/view/scene_facts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "ui/cli/report/mesh_lines.h"
+#include "ui/cli/report/report_model.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr const char* kVolume = "smart_volume";
+// Links over sets with more pairs than this would hide what they join.
+constexpr std::size_t kMostPairs = 80;
+// Faces that meet at a smaller angle than this look like one (cosine).
+constexpr double kSharp = 0.97;
+
+VolumeFacts read_volume(const State& state, std::uint32_t node) {
+  const auto number = [&](const char* port) { return report::number_at(state, node, kVolume, port); };
+  VolumeFacts facts;
+  facts.node = node;
+  facts.id = state.plan->nodes[node].id;
+  facts.name = report::name_at(state, node);
+  facts.use = report::text_at(state, node, kVolume, "use");
+  facts.state = report::text_at(state, node, kVolume, "state");
+  facts.reason = report::text_at(state, node, kVolume, "reason");
+  facts.position = report::point_at(state, node, "node", "position");
+  facts.radius = std::max(0.0, number("radius"));
+  facts.wanted = report::number_at(state, node, kVolume, "wanted", number("demand"));
+  if (!(facts.wanted > 0)) facts.wanted = number("demand");
+  facts.volume = number("volume");
+  facts.floor_area = number("floor_area");
+  facts.storey = number("storey_height");
+  facts.bottom = number("bottom");
+  facts.height = number("height");
+  if (const auto ref = state.plan->find(node, PortPath{"node", "position", ""}))
+    facts.tension = state.nodes[node].types[ref->type].tension[ref->port];
+  facts.cell = report::mesh_at(state, node, kVolume, "cell");
+  const bool is_usable = facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() && facts.cell->vertices.size() < 60000 &&
+                         facts.volume > 0;
+  if (is_usable) return facts;
+  facts.cell = nullptr;
+  if (!(facts.volume > 0) || !(facts.radius > 0)) return facts;
+  facts.is_ball = true;
+  facts.cell = ball_cell(facts.position, facts.radius);
+  return facts;
+}
+
+// The role that a mark shows: the first that is more than being a node.
+std::string role_of(const NodePlan& node) {
+  for (const TypePlan& type : node.types)
+    if (type.definition->id != kBaseNode) return type.definition->id;
+  return std::string(kBaseNode);
+}
+
+void read_links(const Plan& plan, SceneFacts& facts) {
+  for (std::size_t l = 0; l < plan.links.size(); ++l) {
+    const LinkPlan& link = plan.links[l];
+    const auto& from = link.nodes[0];
+    const auto& to = link.nodes[1];
+    if (from.size() * to.size() > (link.is_symmetric ? 2 : 1) * kMostPairs) continue;
+    const std::string kind = link.definition != nullptr ? link.definition->id : "";
+    for (const std::uint32_t a : from)
+      for (const std::uint32_t b : to)
+        if (a != b && (!link.is_symmetric || a < b)) facts.links.push_back({l, link.id, kind, a, b});
+  }
+}
+
+void read_pulls(const State& state, SceneFacts& facts) {
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    for (const Voice& voice : state.links[l].voices) {
+      const auto* change = std::get_if<Vector3>(&voice.value);
+      if (change == nullptr || !is_finite(*change) || voice.target.type == PortRef::kNodeId) continue;
+      const PortDefinition& port = state.plan->port(voice.target);
+      if (port.rule == CombineRule::sum && port.id == "position") facts.pulls.push_back({l, voice.target.node, voice.strength * *change});
+    }
+}
+
+void read_neighbours(const State& state, SceneFacts& facts) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const VolumeFacts& volume : facts.volumes) {
+    const Table* table = report::table_at(state, volume.node, kVolume, "neighbours");
+    for (std::size_t row = 0; table != nullptr && row < table->rows.size(); ++row) {
+      const std::uint32_t other = state.plan->node_index(table->text(row, "node"));
+      if (other < state.plan->nodes.size()) pairs.insert(std::minmax(volume.node, other));
+    }
+  }
+  facts.neighbours.assign(pairs.begin(), pairs.end());
+}
+
+void read_boundary(const State& state, std::uint32_t node, const SceneFacts* last, SceneFacts& facts) {
+  BoundaryFacts boundary{node, state.plan->nodes[node].id, report::mesh_at(state, node, "boundary", "shape"), {}};
+  if (!boundary.shape || boundary.shape->triangles.empty()) return;
+  if (last != nullptr)
+    for (const BoundaryFacts& earlier : last->boundaries)
+      if (earlier.shape == boundary.shape) boundary.edges = earlier.edges;
+  if (boundary.edges.empty()) boundary.edges = sharp_edges(*boundary.shape);
+  Point3 middle;
+  double low = boundary.shape->vertices.front().z;
+  for (const Point3& vertex : boundary.shape->vertices) {
+    middle += vertex / static_cast<double>(boundary.shape->vertices.size());
+    low = std::min(low, vertex.z);
+  }
+  facts.places[node] = {middle.x, middle.y, low};
+  facts.boundaries.push_back(std::move(boundary));
+}
+
+// The ball around boundaries, or volumes where there are none; it stays as it was while it still fits.
+void read_extent(const SceneFacts* last, SceneFacts& facts) {
+  Vector3 low{1e300, 1e300, 1e300}, high = -low;
+  const auto take = [&](const Point3& p, double around) {
+    if (!is_finite(p)) return;
+    low = {std::min(low.x, p.x - around), std::min(low.y, p.y - around), std::min(low.z, p.z - around)};
+    high = {std::max(high.x, p.x + around), std::max(high.y, p.y + around), std::max(high.z, p.z + around)};
+  };
+  for (const BoundaryFacts& boundary : facts.boundaries)
+    for (const Point3& vertex : boundary.shape->vertices) take(vertex, 0);
+  const bool has_boundary = low.x <= high.x;
+  if (has_boundary) facts.ground = low.z;
+  if (!has_boundary)
+    for (const VolumeFacts& volume : facts.volumes) take(volume.position, volume.radius);
+  if (!(low.x <= high.x))
+    for (const Point3& place : facts.places) take(place, 5);
+  if (!(low.x <= high.x)) return;
+  const Point3 centre = 0.5 * (low + high);
+  const double radius = std::clamp(0.5 * distance(low, high), 1.0, 1e6);
+  const bool still_fits = last != nullptr && distance(centre, last->centre) < 0.05 * radius && std::abs(radius - last->radius) < 0.05 * radius;
+  facts.centre = still_fits ? last->centre : centre;
+  facts.radius = still_fits ? last->radius : radius;
+  if (!has_boundary) facts.ground = still_fits ? last->ground : low.z;
+}
+
+}  // namespace
+
+const VolumeFacts* SceneFacts::volume_of(std::uint32_t node) const {
+  const auto at = std::lower_bound(volumes.begin(), volumes.end(), node, [](const VolumeFacts& v, std::uint32_t n) { return v.node < n; });
+  return at != volumes.end() && at->node == node ? &*at : nullptr;
+}
+
+std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given, const SceneFacts* last) {
+  auto facts = std::make_shared<SceneFacts>();
+  const State& state = *given;
+  std::set<std::string> uses;
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
+    facts->places.push_back(report::point_at(state, n, "node", "position"));
+    if (report::has_type(state, n, "boundary")) read_boundary(state, n, last, *facts);
+    if (report::has_type(state, n, kVolume)) {
+      VolumeFacts volume = read_volume(state, n);
+      // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
+      const VolumeFacts* before = last != nullptr && volume.is_ball ? last->volume_of(n) : nullptr;
+      if (before != nullptr && before->is_ball && before->position == volume.position && before->radius == volume.radius) volume.cell = before->cell;
+      uses.insert(volume.use);
+      facts->volumes.push_back(std::move(volume));
+    } else if (!report::has_type(state, n, "boundary")) {
+      facts->marks.push_back({n, state.plan->nodes[n].id, report::name_at(state, n), role_of(state.plan->nodes[n]), facts->places.back()});
+    }
+  }
+  facts->uses.assign(uses.begin(), uses.end());
+  read_links(*state.plan, *facts);
+  read_pulls(state, *facts);
+  read_neighbours(state, *facts);
+  read_extent(last, *facts);
+  facts->state = std::move(given);
+  return facts;
+}
+
+MeshPointer ball_cell(const Point3& centre, double radius) {
+  Mesh mesh;
+  for (int k = 0; k < 8; ++k) {
+    const Vector3 corner{(k & 1) != 0 ? 1.0 : -1.0, (k & 2) != 0 ? 1.0 : -1.0, (k & 4) != 0 ? 1.0 : -1.0};
+    mesh.vertices.push_back(centre + 1.01 * radius * corner);
+  }
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kFaces = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const auto& face : kFaces) {
+    const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(0.25 * (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]] + mesh.vertices[face[3]]));
+    for (std::size_t i = 0; i < 4; ++i) mesh.triangles.push_back({middle, face[i], face[(i + 1) % 4]});
+  }
+  MeshWrap wrap{centre, radius, {{24, centre, {}}}, std::vector<std::uint32_t>(mesh.vertices.size(), 0)};
+  mesh.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
+  return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+std::vector<std::pair<Point3, Point3>> sharp_edges(const Mesh& given) {
+  const Mesh mesh = report::joined(given);
+  const std::vector<Vector3> normals = report::unit_normals(mesh);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> sides;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) sides[std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3])].push_back(t);
+  std::vector<std::pair<Point3, Point3>> edges;
+  for (const auto& [edge, faces] : sides) {
+    const bool is_smooth = faces.size() == 2 && dot(normals[faces[0]], normals[faces[1]]) > kSharp;
+    if (!is_smooth) edges.emplace_back(mesh.vertices[edge.first], mesh.vertices[edge.second]);
+  }
+  return edges;
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,82 @@
+// What the 3D view shows of a state, read once for each tick by the names of its ports.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/graph/state.h"
+#include "ui/desktop/view/view_scene.h"
+
+namespace bl::desktop {
+
+struct VolumeFacts {
+  std::uint32_t node = 0;
+  std::string id, name, use, state, reason;
+  Point3 position;
+  double radius = 0, wanted = 0, volume = 0, floor_area = 0, storey = 0, bottom = 0, height = 0;  ///< [m], [m³], [m²]
+  double tension = 0;                                                               ///< of its place [m]
+  MeshPointer cell;        ///< coarse, with its wrap; a ball where the solver gives a volume but no shape; none without a volume
+  bool is_ball = false;    ///< the shape is not known, only its radius
+
+  double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
+  /// Where its label and links are tied to.
+  const Point3& anchor() const { return position; }
+};
+
+/// A node without a volume, as a small mark.
+struct MarkFacts {
+  std::uint32_t node = 0;
+  std::string id, name, type;
+  Point3 position;
+};
+
+struct BoundaryFacts {
+  std::uint32_t node = 0;
+  std::string id;
+  MeshPointer shape;
+  std::vector<std::pair<Point3, Point3>> edges;
+};
+
+/// One pair of nodes that a link joins.
+struct LinkFacts {
+  std::size_t link = 0;  ///< index in the plan
+  std::string id, kind;
+  std::uint32_t from = 0, to = 0;
+};
+
+/// What one link wants of one node's place in this tick.
+struct PullFacts {
+  std::size_t link = 0;
+  std::uint32_t node = 0;
+  Vector3 change;  ///< [m]
+};
+
+struct SceneFacts {
+  std::shared_ptr<const State> state;
+  std::vector<VolumeFacts> volumes;  ///< ascending node
+  std::vector<MarkFacts> marks;
+  std::vector<BoundaryFacts> boundaries;
+  std::vector<LinkFacts> links;      ///< of sets that are not too large
+  std::vector<PullFacts> pulls;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;  ///< nodes that share a face, the lower first
+  std::vector<std::string> uses;     ///< ascending
+  std::vector<Point3> places;        ///< of all nodes; of a boundary the middle of its ground
+  Point3 centre;                     ///< of volumes and boundaries [m]
+  double radius = 50, ground = 0;    ///< [m]
+
+  const VolumeFacts* volume_of(std::uint32_t node) const;
+};
+
+/// `last`: facts of an earlier state, of which what has not changed is taken over; may be null.
+std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> state, const SceneFacts* last);
+
+/// A coarse mesh around a ball, to be wrapped onto it: for volumes whose shape nobody has.
+MeshPointer ball_cell(const Point3& centre, double radius);
+/// Edges of a closed mesh where its faces meet at an angle [m].
+std::vector<std::pair<Point3, Point3>> sharp_edges(const Mesh& mesh);
+
+}  // namespace bl::desktop

@@ -1,0 +1,226 @@
+// Shader texts that divide coarse cells, wrap them onto their balls, and paint them as buildings.
+#pragma once
+
+namespace bl::desktop::shaders {
+
+inline constexpr const char* kVersion = "#version 330 core\n";
+
+// The formula of core/geometry/tessellate: a point of the coarse triangle by its two weights, then along the line to the wrap's
+// centre until it lies on the ball. Lengths are relative to the ball's centre, so that floats are as fine as the cell is small.
+// Records: (ball's centre, radius), (colour, flags), (bottom, storey height, first corner, number).
+inline constexpr const char* kDivide = R"(
+uniform samplerBuffer corners;
+uniform samplerBuffer records;
+layout(location = 0) in vec2 weights;
+layout(location = 1) in uvec4 triangle;
+layout(location = 2) in uint volume;
+
+struct Divided { vec3 flat_place, place, normal; float centre_weight; vec4 ball; };
+
+vec3 wrapped(vec3 place, float radius, vec3 inside) {
+  float squared = radius * radius;
+  if (dot(place, place) <= squared) return place;
+  float rest = max(0.0, squared - dot(inside, inside));
+  vec3 ray = place - inside;
+  float a = dot(ray, ray), b = dot(ray, inside);
+  float root = sqrt(b * b + a * rest);
+  float t = b > 0.0 ? rest / (b + root) : (root - b) / a;
+  return inside + min(1.0, t) * ray;
+}
+
+Divided divided() {
+  Divided d;
+  d.ball = texelFetch(records, 3 * int(volume));
+  int first = int(texelFetch(records, 3 * int(volume) + 2).z);
+  vec4 c = texelFetch(corners, first + int(triangle.x));
+  vec4 a = texelFetch(corners, first + int(triangle.y));
+  vec4 b = texelFetch(corners, first + int(triangle.z));
+  d.flat_place = c.xyz + weights.x * (a.xyz - c.xyz) + weights.y * (b.xyz - c.xyz);
+  d.centre_weight = 1.0 - weights.x - weights.y;
+  int seams = 0xffffff;
+  if (d.centre_weight > 1e-6) seams &= int(c.w);
+  if (weights.x > 1e-6) seams &= int(a.w);
+  if (weights.y > 1e-6) seams &= int(b.w);
+  int centre = first + int(triangle.w);
+  for (int s = 0; s < 23 && seams != 0; ++s)
+    if (((seams >> s) & 1) != 0) {
+      centre += 1 + s;
+      break;
+    }
+  d.place = wrapped(d.flat_place, d.ball.w, texelFetch(corners, centre).xyz);
+  vec3 across = cross(a.xyz - c.xyz, b.xyz - c.xyz);
+  float size = length(across);
+  d.normal = size > 0.0 ? across / size : vec3(0.0, 0.0, 1.0);
+  return d;
+}
+)";
+
+inline constexpr const char* kCaptureVertex = R"(
+out vec3 captured;
+void main() {
+  Divided d = divided();
+  captured = d.place;
+  gl_Position = vec4(d.place, 1.0);
+}
+)";
+
+// For shadows and heights: the place alone.
+inline constexpr const char* kShadowVertex = R"(
+uniform mat4 matrix;
+out vec3 world;
+void main() {
+  Divided d = divided();
+  world = d.ball.xyz + d.place;
+  gl_Position = matrix * vec4(world, 1.0);
+}
+)";
+
+inline constexpr const char* kShadowFragment = R"(
+uniform vec4 section;
+in vec3 world;
+void main() { if (dot(section.xyz, world) > section.w) discard; }
+)";
+
+// What stands where: the highest point above a place, and how near to the ground something is; kept by the largest of each.
+inline constexpr const char* kHeightFragment = R"(
+uniform vec4 section;
+uniform vec2 heights;
+in vec3 world;
+layout(location = 0) out vec2 found;
+void main() {
+  if (dot(section.xyz, world) > section.w) discard;
+  float above = world.z - heights.x;
+  found = vec2(clamp(above / heights.y, 0.0, 1.0), exp(-max(above, 0.0) / (0.12 * heights.y)));
+}
+)";
+
+inline constexpr const char* kVolumeVertex = R"(
+uniform mat4 matrix;
+out vec3 world, flat_place;
+out float centre_weight;
+flat out vec3 facet_normal;
+flat out int number;
+void main() {
+  Divided d = divided();
+  world = d.ball.xyz + d.place;
+  flat_place = d.flat_place;
+  centre_weight = d.centre_weight;
+  facet_normal = d.normal;
+  number = int(volume);
+  gl_Position = matrix * vec4(world, 1.0);
+}
+)";
+
+// Daylight: a sun with soft shadows, a sky, and less of it low between neighbours.
+inline constexpr const char* kLight = R"(
+uniform vec3 sun;
+uniform mat4 sun_matrix, map_matrix;
+uniform sampler2DShadow shadow_map;
+uniform sampler2D height_map;
+uniform vec2 heights;
+uniform float shadow_strength, shadow_texel, light_gain;
+
+float sunlight(vec3 place, vec3 normal) {
+  if (shadow_strength <= 0.0) return 1.0;
+  vec4 s = sun_matrix * vec4(place + heights.y * 0.012 * normal, 1.0);
+  vec3 at = 0.5 * s.xyz / s.w + 0.5;
+  if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
+  at.z -= 0.0015;
+  float lit = 0.0;
+  for (int i = -1; i <= 1; i += 2)
+    for (int j = -1; j <= 1; j += 2) lit += texture(shadow_map, vec3(at.xy + 0.8 * shadow_texel * vec2(i, j), at.z));
+  return mix(1.0, 0.25 * lit, shadow_strength);
+}
+
+vec2 surroundings(vec3 place) {
+  vec4 at = map_matrix * vec4(place, 1.0);
+  return texture(height_map, 0.5 * at.xy + 0.5).xy;
+}
+
+vec3 lit(vec3 colour, vec3 place, vec3 normal) {
+  float direct = max(0.0, dot(normal, sun));
+  if (direct > 0.0) direct *= sunlight(place, normal);
+  float open = 1.0;
+  if (shadow_strength > 0.0) {
+    float around = surroundings(place + 0.05 * heights.y * vec3(normal.xy, 0.0)).x * heights.y;
+    float sunk = clamp((around - (place.z - heights.x)) / (0.55 * heights.y), 0.0, 1.0);
+    open = 1.0 - 0.5 * sunk * (1.0 - max(normal.z, 0.0));
+  }
+  vec3 sky = mix(vec3(0.40, 0.385, 0.37), vec3(0.62, 0.65, 0.70), 0.5 + 0.5 * normal.z) * open;
+  vec3 light = sky + direct * vec3(0.66, 0.63, 0.57);
+  return colour * light * light_gain;
+}
+)";
+
+inline constexpr const char* kVolumeFragment = R"(
+uniform samplerBuffer records;
+uniform vec4 edge_colour, chosen_colour, hovered_colour, cut_colour, section, ground_colour;
+uniform float pixel, with_edges, with_storeys;
+#ifdef WITH_SECTION
+uniform mat4 matrix;
+uniform vec3 eye, looking;
+uniform float is_parallel;
+#endif
+in vec3 world, flat_place;
+in float centre_weight;
+flat in vec3 facet_normal;
+flat in int number;
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint label;
+
+vec3 to_linear(vec3 c) { return c * c; }
+vec3 to_screen(vec3 c) { return sqrt(clamp(c, 0.0, 1.0)); }
+float line(float distance, float width) { return 1.0 - smoothstep(width - 0.5, width + 0.6, distance); }
+
+void main() {
+  vec4 ball = texelFetch(records, 3 * number), paint = texelFetch(records, 3 * number + 1), storey = texelFetch(records, 3 * number + 2);
+  int flags = int(paint.w);
+  label = uint(4 * (number + 1) + (flags & 3));
+  float reach = length(flat_place);
+  bool is_round = reach > ball.w;
+  vec3 normal = is_round ? normalize(world - ball.xyz) : facet_normal;
+  vec3 own = paint.rgb;
+  float faint = (flags & 4) != 0 ? 1.0 : 0.0;
+#ifdef WITH_SECTION
+  gl_FragDepth = gl_FragCoord.z;
+  if (dot(section.xyz, world) > section.w) discard;
+  if (!gl_FrontFacing) {
+    // The inside is seen first only where the cut opens it, because volumes share no space: there the solid is painted. A wall
+    // that two volumes share belongs to the one that is cut: it moves a little towards the cut.
+    vec3 way = is_parallel > 0.5 ? looking : normalize(world - eye);
+    float across = dot(section.xyz, way);
+    float back = abs(across) > 1e-4 ? max(0.0, (dot(section.xyz, world) - section.w) / across) : 0.0;
+    vec4 clip = matrix * vec4(world - 0.03 * back * way, 1.0);
+    gl_FragDepth = clamp(0.5 * clip.z / clip.w + 0.5, 0.0, 1.0);
+    colour = vec4(mix(cut_colour.rgb, own, 0.66), 1.0);
+    if ((flags & 1) != 0) colour.rgb = mix(colour.rgb, vec3(1.0), 0.14);
+    if ((flags & 2) != 0) colour.rgb = mix(colour.rgb, chosen_colour.rgb, 0.5);
+    return;
+  }
+#else
+  if (!gl_FrontFacing) normal = -normal;
+#endif
+  if ((flags & 2) != 0) own = mix(own, chosen_colour.rgb, 0.22);
+  if ((flags & 1) != 0) own = mix(own, vec3(1.0), 0.14);
+  own = mix(own, ground_colour.rgb, 0.72 * faint);
+  vec3 shown = to_screen(lit(to_linear(own), world, normal));
+  if (with_storeys > 0.5 && storey.y > 0.0 && abs(normal.z) < 0.93) {
+    float level = (world.z - storey.x) / storey.y;
+    float per_pixel = fwidth(level);
+    float near = abs(fract(level + 0.5) - 0.5) / max(per_pixel, 1e-6);
+    float room = smoothstep(0.34, 0.12, per_pixel);
+    shown = mix(shown, edge_colour.rgb, 0.34 * room * line(near, 0.35 * pixel) * (1.0 - 0.6 * faint));
+    shown *= 1.0 - 0.05 * room * fract(level);
+  }
+  if (with_edges > 0.5) {
+    float rim = centre_weight / max(fwidth(centre_weight), 1e-6);
+    float crease = abs(reach - ball.w) / max(fwidth(reach), 1e-6);
+    float edge = is_round ? 0.0 : line(rim, 0.55 * pixel);
+    edge = max(edge, 0.6 * line(crease, 0.45 * pixel));
+    shown = mix(shown, edge_colour.rgb, 0.62 * edge * (1.0 - 0.6 * faint));
+  }
+  colour = vec4(shown, 1.0);
+}
+)";
+
+}  // namespace bl::desktop::shaders

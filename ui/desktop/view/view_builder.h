@@ -1,0 +1,41 @@
+// Makes the picture's plain data from what the state says, what is chosen and which layers are on; knows no OpenGL.
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+
+#include "ui/desktop/app/editor.h"
+#include "ui/desktop/view/colouring.h"
+#include "ui/desktop/view/scene_facts.h"
+#include "ui/desktop/view/view_scene.h"
+
+namespace bl::desktop {
+
+/// A part of the picture that people switch on and off.
+struct Layer {
+  const char *id, *label;
+  bool is_on_at_first;
+};
+std::span<const Layer> layers();
+/// As the person has it, or as it is at first.
+bool is_on(const PersonSettings& person, const std::string& layer);
+void set_layer(PersonSettings& person, const std::string& layer, bool is_on);
+
+/// What the view itself decides.
+struct ViewChoices {
+  Camera camera;
+  ViewSection section;
+  std::string colour_by = "use";
+  std::map<std::uint32_t, Point3> held;  ///< nodes in somebody's hand: where the hand has them
+};
+
+/// `is_pointed` of links: drawn whatever the layers say.
+ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const ViewChoices& choices, const Picks& picks,
+                     const PersonSettings& person, const Theme& theme);
+
+/// A distance of lines that people count with: 1, 2 or 5 times a power of ten, near to `wanted` [m].
+double round_distance(double wanted);
+
+}  // namespace bl::desktop

@@ -1,0 +1,89 @@
+// Everything that a renderer needs for one picture of the scene, as plain data: no OpenGL, no state of the simulation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/mesh.h"
+#include "ui/desktop/view/camera.h"
+
+namespace bl::desktop {
+
+/// Packed as ImGui packs them: red in the lowest byte, alpha in the highest.
+using Colour = std::uint32_t;
+
+/// A volume: its coarse cell, which the renderer divides and wraps onto the ball that the cell's wrap names.
+struct ViewVolume {
+  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, failing = 8 };
+  std::uint32_t node = 0;        ///< index in the state, for picking
+  MeshPointer cell;              ///< never empty, always with a wrap
+  Colour colour = 0;
+  float bottom = 0, storey = 0;  ///< [m], of the storey lines; 0: none
+  std::uint32_t flags = 0;
+  bool operator==(const ViewVolume&) const = default;
+};
+
+/// A line of a width in pixels; what lies behind volumes is hidden, or faint where `hidden_share` is above 0.
+struct ViewLine {
+  Point3 from, to;
+  Colour colour = 0;
+  float width = 1;
+  float hidden_share = 0;
+  bool operator==(const ViewLine&) const = default;
+};
+
+/// A translucent surface, such as the boundary.
+struct ViewSurface {
+  MeshPointer mesh;
+  Colour colour = 0;
+  bool operator==(const ViewSurface&) const = default;
+};
+
+/// The half-space that is shown: normal · x <= offset.
+struct ViewSection {
+  bool is_on = false;
+  Vector3 normal{0, 0, 1};
+  double offset = 0;  ///< [m]
+  bool operator==(const ViewSection&) const = default;
+};
+
+struct ViewColours {
+  Colour sky = 0, horizon = 0, ground = 0, grid = 0, edge = 0, chosen = 0, hovered = 0, cut = 0;
+  bool is_dark = true;
+  bool operator==(const ViewColours&) const = default;
+};
+
+/// Parts of the picture that can be left out.
+struct ViewLayers {
+  bool shadows = true, edges = true, storeys = true, ground = true;
+  bool operator==(const ViewLayers&) const = default;
+};
+
+struct ViewScene {
+  Camera camera;
+  Point3 origin;                    ///< what coordinates on the graphics processor are relative to [m]
+  Point3 centre;                    ///< of everything that is drawn [m]
+  double radius = 100;              ///< of the ball around it [m]
+  double ground = 0;                ///< height of the ground [m]
+  double grid = 10;                 ///< distance of its lines [m]
+  Vector3 sun{-0.45, -0.6, 0.66};   ///< towards the light, a unit vector
+  float scale = 1;                  ///< pixels per point
+  int most_triangles = 0;           ///< of one picture; 0: as the renderer sees fit
+  bool is_hurried = false;          ///< pictures follow each other: a slow renderer may divide volumes less finely
+  ViewColours colours;
+  ViewLayers layers;
+  ViewSection section;
+  std::vector<ViewVolume> volumes;  ///< ascending node
+  std::vector<ViewSurface> surfaces;
+  std::vector<ViewLine> lines;
+  bool operator==(const ViewScene&) const = default;
+
+  double near_plane() const;  ///< [m] from the eye
+  double far_plane() const;
+};
+
+/// Splits of each coarse triangle (0 to 4) so that a picture has no more than so many triangles in all.
+int depth_within(std::size_t coarse_triangles, int most_triangles, int deepest);
+
+}  // namespace bl::desktop
