@@ -8,7 +8,6 @@
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/canvas.h"
-#include "ui/desktop/panels/canvas/fuzzy.h"
 
 namespace bl::desktop {
 namespace {
@@ -265,6 +264,33 @@ TEST_F(CanvasEditTest, SwipeCutsLinksInOneStep) {
   expect_undone();
 }
 
+TEST_F(CanvasEditTest, HeldYCutsToo) {
+  look_at({"hotel", "market_hall", "cafe"});
+  editor().picks.clear();
+  const ImVec2 a = canvas().screen_of_link("hotel_market").value();
+  ImGui::GetIO().KeysDown[GLFW_KEY_Y] = true;
+  desktop.drag({a.x, a.y - 30}, {a.x + 1, a.y + 30});
+  ImGui::GetIO().KeysDown[GLFW_KEY_Y] = false;
+  desktop.frames(1);
+  EXPECT_FALSE(scene().links.contains("hotel_market"));
+  expect_undone();
+}
+
+TEST_F(CanvasEditTest, MiddleClickPinsTheCard) {
+  desktop.click(at("theatre"), 2);
+  EXPECT_EQ(board().pinned, std::vector<std::string>{"theatre"});
+  desktop.click(at("theatre"), 2);
+  EXPECT_TRUE(board().pinned.empty());
+}
+
+TEST_F(CanvasEditTest, PointingAtALinkLightsItInAllPanels) {
+  look_at({"hotel", "market_hall"});
+  desktop.move_to(canvas().screen_of_link("hotel_market").value());
+  EXPECT_EQ(editor().picks.lit_link, "hotel_market");
+  desktop.move_to(at("hotel"));
+  EXPECT_EQ(editor().picks.lit_node, "hotel");
+}
+
 TEST_F(CanvasEditTest, CtrlShiftDragMovesAllLinks) {
   look_at({"hotel", "office-1", "market_hall"});
   editor().picks.clear();
@@ -360,14 +386,6 @@ TEST_F(CanvasEditTest, EmptySceneAndGhosts) {
   editor().take(Document::from_text(full_registry(), R"({"format": "behaviourlinks", "version": 1})", "", 1, problems));
   desktop.frames(3);
   EXPECT_TRUE(board().model.boxes.empty());
-}
-
-TEST(CanvasFuzzy, LettersInOrderBeginningsFirst) {
-  EXPECT_GT(canvas::fuzzy_score("lib", "Library"), canvas::fuzzy_score("lib", "Calibre"));
-  EXPECT_GE(canvas::fuzzy_score("svol", "SmartVolume"), 0);
-  EXPECT_GE(canvas::fuzzy_score("solver smart", "SmartVolumes solver"), 0);
-  EXPECT_LT(canvas::fuzzy_score("zebra", "SmartVolume"), 0);
-  EXPECT_EQ(canvas::fuzzy_score("", "anything"), 0);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/canvas/fits.h"
+#include "ui/desktop/panels/canvas/fuzzy.h"
 
 namespace bl::desktop {
 namespace {
@@ -280,14 +281,12 @@ TEST_F(CanvasTest, FindGoesThere) {
 TEST_F(CanvasTest, ArrowsGoFromNodeToNode) {
   desktop.move_to(empty());
   editor().picks.only_node("theatre");
-  const float x = at("theatre").x;
   desktop.key(GLFW_KEY_RIGHT);
   ASSERT_EQ(editor().picks.nodes.size(), 1u);
   EXPECT_NE(*editor().picks.nodes.begin(), "theatre");
   const std::string next = *editor().picks.nodes.begin();
   desktop.frames(30);
   EXPECT_GT(at(next).x, at("theatre").x);
-  (void)x;
 }
 
 TEST_F(CanvasTest, EnterEditsTheName) {
@@ -316,6 +315,14 @@ TEST(CanvasLarge, AThousandNodesAreDrawnInTime) {
   // A machine under load is slow; what matters is that nothing is quadratic.
   EXPECT_LT(each, 0.1);
   EXPECT_TRUE(desktop.editor().canvas->screen_of("v0426").has_value());
+}
+
+TEST(CanvasFuzzy, LettersInOrderBeginningsFirst) {
+  EXPECT_GT(canvas::fuzzy_score("lib", "Library"), canvas::fuzzy_score("lib", "Calibre"));
+  EXPECT_GE(canvas::fuzzy_score("svol", "SmartVolume"), 0);
+  EXPECT_GE(canvas::fuzzy_score("solver smart", "SmartVolumes solver"), 0);
+  EXPECT_LT(canvas::fuzzy_score("zebra", "SmartVolume"), 0);
+  EXPECT_EQ(canvas::fuzzy_score("", "anything"), 0);
 }
 
 }  // namespace

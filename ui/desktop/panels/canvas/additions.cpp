@@ -74,11 +74,16 @@ void add_node(Board& board, const std::string& type, ImVec2 at) {
   editor.picks.only_node(id);
 }
 
+bool lacks_role(const Scene& scene, const std::string& node, const std::string& type) {
+  const auto found = scene.nodes.find(node);
+  return found != scene.nodes.end() && !found->second.types.contains(type);
+}
+
 void add_role(Board& board, const std::string& type) {
   Editor& editor = board.editor;
   std::vector<Command> commands;
   for (const std::string& id : editor.picks.nodes)
-    if (!editor.scene().nodes.at(id).types.contains(type)) commands.push_back(command<Typify>({id, type, {"{}"}}));
+    if (lacks_role(editor.scene(), id, type)) commands.push_back(command<Typify>({id, type, {"{}"}}));
   if (editor.submit(commands, editor.new_gesture())) remember(editor, type);
 }
 
@@ -143,8 +148,8 @@ void open_addition(Board& board, ImVec2 screen) {
     const std::string whom = picks.size() == 1 ? editor.name_of(*picks.begin()) : std::to_string(picks.size()) + " chosen nodes";
     for (const auto& [id, type] : editor.registry.typifications()) {
       if (!is_role(type)) continue;
-      const bool has_all = std::all_of(picks.begin(), picks.end(),
-                                       [&](const std::string& n) { return editor.scene().nodes.at(n).types.contains(id); });
+      const bool has_all =
+          std::all_of(picks.begin(), picks.end(), [&](const std::string& n) { return !lacks_role(editor.scene(), n, id); });
       picker.choices.push_back({id, type.label + " as a role of " + whom, first_sentence(type.doc),
                                 has_all ? "It has this role already." : "", colour_of_type(board, id),
                                 2 * recency_of(editor, id) + 1, "typification", "role"});

@@ -77,6 +77,11 @@ void link_chosen(Editor& e) {
   else e.tell(NoticeKind::told, "Choose two nodes to link them, or one to link it to a new one.");
 }
 
+template <Alignment kind>
+void align(Editor& e) {
+  align_chosen(board_of(e), kind);
+}
+
 void add_edit_commands(std::vector<Action>& list) {
   const Area area = Area::canvas;
   list.push_back({"Canvas", "Add...", {GLFW_KEY_TAB}, {}, area, has_document, [](Editor& e) {
@@ -117,22 +122,13 @@ void add_arrangement_commands(std::vector<Action>& list) {
   list.push_back({"Canvas", "Frame", {GLFW_KEY_G, true}, {}, area, has_choice, [](Editor& e) { frame_chosen(board_of(e)); }});
   list.push_back(
       {"Canvas", "Comment", {GLFW_KEY_C, false, true}, {}, area, has_document, [](Editor& e) { add_comment(board_of(e)); }});
-  list.push_back({"Canvas", "Align left", {GLFW_KEY_LEFT, false, false, true}, {}, area, has_several, [](Editor& e) {
-                    align_chosen(board_of(e), Alignment::left);
-                  }});
-  list.push_back({"Canvas", "Align right", {GLFW_KEY_RIGHT, false, false, true}, {}, area, has_several, [](Editor& e) {
-                    align_chosen(board_of(e), Alignment::right);
-                  }});
-  list.push_back({"Canvas", "Align top", {GLFW_KEY_UP, false, false, true}, {}, area, has_several, [](Editor& e) {
-                    align_chosen(board_of(e), Alignment::top);
-                  }});
-  list.push_back({"Canvas", "Align bottom", {GLFW_KEY_DOWN, false, false, true}, {}, area, has_several, [](Editor& e) {
-                    align_chosen(board_of(e), Alignment::bottom);
-                  }});
+  list.push_back({"Canvas", "Align left", {GLFW_KEY_LEFT, false, false, true}, {}, area, has_several, align<Alignment::left>});
+  list.push_back({"Canvas", "Align right", {GLFW_KEY_RIGHT, false, false, true}, {}, area, has_several, align<Alignment::right>});
+  list.push_back({"Canvas", "Align top", {GLFW_KEY_UP, false, false, true}, {}, area, has_several, align<Alignment::top>});
   list.push_back(
-      {"Canvas", "Align centres", {}, {}, area, has_several, [](Editor& e) { align_chosen(board_of(e), Alignment::centre); }});
-  list.push_back(
-      {"Canvas", "Align middles", {}, {}, area, has_several, [](Editor& e) { align_chosen(board_of(e), Alignment::middle); }});
+      {"Canvas", "Align bottom", {GLFW_KEY_DOWN, false, false, true}, {}, area, has_several, align<Alignment::bottom>});
+  list.push_back({"Canvas", "Align centres", {}, {}, area, has_several, align<Alignment::centre>});
+  list.push_back({"Canvas", "Align middles", {}, {}, area, has_several, align<Alignment::middle>});
   list.push_back({"Canvas", "Distribute across", {GLFW_KEY_D, false, true}, {}, area, has_several, [](Editor& e) {
                     distribute_chosen(board_of(e), true);
                   }});

@@ -7,8 +7,9 @@ namespace bl::desktop::canvas {
 
 namespace {
 
-constexpr double kLabelZoom = 0.72, kFigureZoom = 0.5, kPulseSeconds = 0.9;
+constexpr double kLabelZoom = 0.72, kFigureZoom = 0.5, kPulseSeconds = 0.9, kPulseZoom = 0.14;
 constexpr float kDash = 7, kDashGap = 5;
+constexpr std::size_t kReasonLetters = 44;
 
 struct Stroke {
   ImU32 colour = 0;
@@ -17,7 +18,7 @@ struct Stroke {
 };
 
 std::string error_of(const Board& board, const Line& line) {
-  if (line.definition == nullptr) return line.label + ": kept as it is, not run";
+  if (line.definition == nullptr) return "kept as it is, not run";
   if (line.in_state == kNoIndex) return "";
   const State& state = board.editor.state();
   const auto& error =
@@ -98,7 +99,7 @@ void draw_chip(Board& board, ImVec2 middle, const std::string& text, float pixel
 
 void draw_pulse(Board& board, const Line& line, const LinkPulse& pulse, float width) {
   const double age = board.editor.now - pulse.pulse_at;
-  if (pulse.pulse_at < 0 || age > kPulseSeconds) return;
+  if (pulse.pulse_at < 0 || age > kPulseSeconds || board.camera.zoom() < kPulseZoom) return;
   // Where a link writes in every tick, its pulse goes on running; it fades once the writing ends.
   const double share = std::fmod(board.editor.now, kPulseSeconds) / kPulseSeconds;
   const float light = static_cast<float>(1 - age / kPulseSeconds);
@@ -106,7 +107,8 @@ void draw_pulse(Board& board, const Line& line, const LinkPulse& pulse, float wi
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 colour = faded(mixed(line.family.colour, board.theme().colours().text, 0.45f), light);
   const auto spot = [&](double at) {
-    list.AddCircleFilled(board.camera.to_screen(line.at_share(static_cast<float>(at))), width * 1.25f + 1, colour, 10);
+    list.AddCircleFilled(board.camera.to_screen(line.at_share(static_cast<float>(at))),
+                         width * 1.2f + static_cast<float>(std::min(1.0, board.camera.zoom())), colour, 10);
   };
   if (line.changes_to) spot(share);
   if (line.changes_from && (is_back || line.changes_to)) spot(1 - share);
@@ -124,12 +126,16 @@ void draw_labels(Board& board, const Line& line, const Stroke& stroke, const std
   if (!line.is_enabled && !text.empty()) text += " (off)";
   const bool shows_figure = line.is_enabled && pulse != nullptr && !pulse->text.empty();
   if ((zoom > kFigureZoom || stroke.is_lit) && shows_figure) text += (text.empty() ? "" : "  ") + pulse->text;
-  const float pixels = std::max(10.5f * k, stroke.is_lit ? 10.5f * board.theme().scale() : 0.0f);
+  const float pixels = std::max(10.5f * k, (stroke.is_lit ? 10.5f : 8.5f) * board.theme().scale());
   if (!error.empty()) {
     const float radius = std::max(3.0f, 6 * k);
     ImGui::GetWindowDrawList()->AddCircleFilled(middle, radius, line.definition == nullptr ? c.text_faint : c.bad, 16);
-    if (zoom > kFigureZoom || stroke.is_lit)
-      draw_chip(board, {middle.x, middle.y + radius + 0.8f * pixels}, line.label + ": " + error, pixels, c.bad, 0);
+    if (zoom <= kFigureZoom && !stroke.is_lit) return;
+    // The whole reason stands beside a link that is pointed at; else its beginning is enough.
+    std::string reason = line.label + ": " + error;
+    if (!stroke.is_lit && reason.size() > kReasonLetters) reason = line.label + ": not running";
+    draw_chip(board, {middle.x, middle.y + radius + 0.8f * pixels}, reason, pixels,
+              line.definition == nullptr ? c.text_faint : c.bad, 0);
     return;
   }
   if (!text.empty())
@@ -211,6 +217,7 @@ void draw_pills(Board& board) {
             1.8f * k, c.accent, 8);
     // Too small to be written in, it is named below.
     const float pixels = 11.5f * k, least = 9.5f * board.theme().scale();
+    if (board.camera.zoom() < kPulseZoom) continue;
     if (pixels < 0.7f * least)
       draw_text(board, {screen.low().x, screen.high().y + 2}, least, c.text_soft, pill.label, std::max(90.0f, screen.size.x));
     else

@@ -11,6 +11,7 @@ namespace {
 // Below the first zoom a box is a name; below the second, fewer values are written larger.
 constexpr double kNameZoom = 0.42, kTextZoom = 0.6;
 constexpr float kRounding = 5, kPad = 9, kHeadText = 13, kSectionText = 10.5f, kRowText = 11.5f, kLeastText = 9, kLeastHead = 11;
+constexpr double kLeastSpan = 0.02;  // of a spark-line, as a share of its value
 
 struct Ink {
   Board& board;
@@ -44,7 +45,7 @@ void draw_spark(const Ink& ink, const Spark& spark, ImVec2 low, ImVec2 high, ImU
   double least = samples.front().second, most = least;
   for (const auto& [time, value] : samples) least = std::min(least, value), most = std::max(most, value);
   // A value that stands still is a straight line in the middle, not its own rounding magnified.
-  const double span = std::max(most - least, 1e-3 * std::max(std::abs(most), 1e-9));
+  const double span = std::max(most - least, kLeastSpan * std::max(std::abs(most), 1e-9));
   const double middle = (least + most) / 2, now = ink.board.editor.now;
   std::vector<ImVec2> points;
   for (const auto& [time, value] : samples) {
@@ -104,16 +105,15 @@ void draw_bar_line(const Ink& ink, const NodeBox& box, const Section& section, f
   draw_bar_of(ink, box, section, ink.at(left, y + 6), ink.at(std::max(text_right, left + 24), y + 12));
 }
 
-// From further away fewer rows, in a size that can still be read: results before settings, the settled rest before the residual.
+// From further away fewer rows, in a size that can still be read: the residual is the first to go, for the bar shows it too.
 float draw_rows(const Ink& ink, const NodeBox& box, const Section& section, float y) {
   const float foot = y + kRowHeight * static_cast<float>(section.rows.size());
   const float size = std::max(kRowText * ink.k, kLeastText * ink.board.theme().scale());
   const float step = std::max(kRowHeight, 1.25f * size / ink.k);
   std::size_t room = static_cast<std::size_t>((foot - y) / step + 0.05f);
-  const std::size_t count = section.rows.size();
-  for (std::size_t row = 0; row < count && room > 0; ++row) {
-    const PortDefinition& port = section.type->ports[section.rows[row].port];
-    if (port.is_residual && room < count) continue;
+  const bool is_short = room < section.rows.size();
+  for (std::size_t row = 0; row < section.rows.size() && room > 0; ++row) {
+    if (is_short && section.type->ports[section.rows[row].port].is_residual) continue;
     draw_row(ink, box, section, row, y, size);
     y += step;
     --room;
@@ -155,7 +155,8 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
     if (section.has_bar && !box.is_collapsed)
       draw_bar_of(ink, box, section, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2));
   if (screen.size.x < 34) return;
-  const float pixels = std::clamp(screen.size.x / 5.4f, 8.0f * ink.board.theme().scale(), 12.5f * ink.board.theme().scale());
+  const float scale = ink.board.theme().scale(), least = std::min(8 * scale, screen.size.x / 4.6f);
+  const float pixels = std::clamp(screen.size.x / 5.4f, least, std::max(least, 12.5f * scale));
   const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar - 2);
   ImFont* font = ink.board.theme().canvas_font(pixels);
   const float pad = std::max(5.0f, 10 * ink.k);
@@ -196,7 +197,7 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
           colour_of(ink.board, section), 10);
     }
   const float size = std::max(kHeadText * ink.k, std::min(kLeastHead * ink.board.theme().scale(), 0.8f * screen.size.y));
-  draw_text(ink.board, {screen.low().x + kPad * ink.k, y - 0.62f * size}, size, box.is_ghost() ? ink.c.text_faint : ink.c.text,
+  draw_text(ink.board, {screen.low().x + kPad * ink.k, y - 0.59f * size}, size, box.is_ghost() ? ink.c.text_faint : ink.c.text,
             box.name, room);
 }
 

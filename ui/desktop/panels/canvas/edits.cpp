@@ -95,6 +95,8 @@ std::set<std::string> links_of_choice(const Board& board) {
   for (const Line& line : board.model.lines)
     for (const std::size_t end : {line.from, line.to})
       if (end < boxes.size() && board.editor.picks.nodes.contains(boxes[end].id)) links.insert(line.id);
+  // Another panel may have removed some since the canvas was drawn last.
+  std::erase_if(links, [&](const std::string& id) { return !board.editor.scene().links.contains(id); });
   return links;
 }
 

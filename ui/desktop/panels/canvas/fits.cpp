@@ -2,6 +2,7 @@
 #include "ui/desktop/panels/canvas/fits.h"
 
 #include <algorithm>
+#include <map>
 
 namespace bl::desktop::canvas {
 
@@ -15,6 +16,11 @@ std::string label_of(const Registry& registry, const std::string& type) {
 bool is_numeric(const PortDefinition& port) {
   return port.kind == ValueKind::number || port.kind == ValueKind::integer || port.kind == ValueKind::boolean;
 }
+
+struct Candidate {
+  std::string port;
+  Unit unit = Unit::none;
+};
 
 // The ports of an end that the kind works on, as far as the declaration names them.
 std::vector<PortPath> fixed_paths(const LinkDefinition& kind, End end) {
@@ -65,20 +71,19 @@ std::optional<std::string> lack_at_end(const Registry& registry, const Scene& sc
   return selection.is_query() ? first : std::nullopt;
 }
 
-// The first port of the nodes that a chosen read or proposal can work on: results before settings for reads.
-std::string port_for(const Registry& registry, const NodeRecord& node, bool is_write) {
-  std::string fallback;
+// Ports that a chosen read or proposal can work on, the likeliest first: results before settings for reads.
+std::vector<Candidate> candidates(const Registry& registry, const NodeRecord& node, bool is_write) {
+  std::vector<Candidate> results, settings;
   for (const auto& [type_id, values] : node.types) {
     const TypificationDefinition* type = registry.typification(type_id);
     if (type == nullptr || type_id == kBaseNode) continue;
     for (const PortDefinition& port : type->ports) {
-      if (!is_numeric(port)) continue;
-      if (is_write && (port.is_computed || port.rule == CombineRule::none)) continue;
-      if (is_write || port.is_computed) return type_id + "." + port.id;
-      if (fallback.empty()) fallback = type_id + "." + port.id;
+      if (!is_numeric(port) || (is_write && (port.is_computed || port.rule == CombineRule::none))) continue;
+      (port.is_computed ? results : settings).push_back({type_id + "." + port.id, unit_of(registry, node, *type, port)});
     }
   }
-  return fallback;
+  results.insert(results.end(), settings.begin(), settings.end());
+  return results;
 }
 
 template <class Paths>
@@ -94,9 +99,9 @@ std::optional<std::string> misfit(const Registry& registry, const Scene& scene, 
   if (auto why = lack_at_end(registry, scene, kind, End::from, from)) return why;
   if (auto why = lack_at_end(registry, scene, kind, End::to, to)) return why;
   const auto first_of = [&](const Selection& selection) { return scene.nodes.at(resolve(scene, registry, selection).front()); };
-  if (chooses_port(kind.reads, End::from) && port_for(registry, first_of(from), false).empty())
+  if (chooses_port(kind.reads, End::from) && candidates(registry, first_of(from), false).empty())
     return "the first end has no number to read";
-  if (chooses_port(kind.proposes, End::to) && port_for(registry, first_of(to), true).empty())
+  if (chooses_port(kind.proposes, End::to) && candidates(registry, first_of(to), true).empty())
     return "the second end has no number that links may change";
   return std::nullopt;
 }
@@ -108,24 +113,39 @@ std::optional<std::string> misfit_with_new(const Registry& registry, const Scene
   NodeRecord node;
   node.types[role.id];
   const auto sources = resolve(scene, registry, from);
-  if (chooses_port(kind.reads, End::from) && port_for(registry, scene.nodes.at(sources.front()), false).empty())
+  if (chooses_port(kind.reads, End::from) && candidates(registry, scene.nodes.at(sources.front()), false).empty())
     return "there is no number to read";
-  if (chooses_port(kind.proposes, End::to) && port_for(registry, node, true).empty())
+  if (chooses_port(kind.proposes, End::to) && candidates(registry, node, true).empty())
     return "it has no number that links may change";
   return std::nullopt;
 }
 
 PortValues chosen_ports(const Registry& registry, const Scene& scene, const LinkDefinition& kind, const Selection& from,
                         const Selection& to) {
-  PortValues values;
-  const auto choose = [&](const PortPath& path, const Selection& selection, bool is_write) {
+  std::map<std::string, std::vector<Candidate>> offers;
+  const auto offer = [&](const PortPath& path, const Selection& selection, bool is_write) {
     const auto ids = resolve(scene, registry, selection);
     if (path.chosen_by.empty() || ids.empty()) return;
-    if (const std::string port = port_for(registry, scene.nodes.at(ids.front()), is_write); !port.empty())
-      values[path.chosen_by] = port;
+    offers[path.chosen_by] = candidates(registry, scene.nodes.at(ids.front()), is_write);
   };
-  for (const LinkRead& read : kind.reads) choose(read.path, read.end == End::from ? from : to, false);
-  for (const LinkWrite& write : kind.proposes) choose(write.path, write.end == End::from ? from : to, true);
+  for (const LinkRead& read : kind.reads) offer(read.path, read.end == End::from ? from : to, false);
+  for (const LinkWrite& write : kind.proposes) offer(write.path, write.end == End::from ? from : to, true);
+  PortValues values;
+  for (const auto& [parameter, ports] : offers)
+    if (!ports.empty()) values[parameter] = ports.front().port;
+  // Where two of them have to have one unit, the first pair that has it.
+  for (const auto& [a, b] : kind.same_units) {
+    const auto find_pair = [&] {
+      for (const Candidate& one : offers[a])
+        for (const Candidate& other : offers[b])
+          if (same_dimension(one.unit, other.unit)) {
+            values[a] = one.port;
+            values[b] = other.port;
+            return;
+          }
+    };
+    find_pair();
+  }
   return values;
 }
 

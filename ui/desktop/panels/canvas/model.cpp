@@ -239,11 +239,14 @@ void Model::place(const Editor& editor) {
   const bool is_complete =
       std::all_of(boxes.begin(), boxes.end(), [&](const NodeBox& b) { return view.boxes.contains(b.id) || known(b.id); }) &&
       std::all_of(pills.begin(), pills.end(), [&](const Pill& p) { return view.sets.contains(p.key) || known("\n" + p.key); });
+  std::set<std::string> fresh;  // placed for the first time
   if (!is_complete) {
     const std::vector<ImVec2> places = lay_out(items, links);
-    for (std::size_t k = 0; k < boxes.size(); ++k) kept_.emplace(boxes[k].id, places[k]);
+    for (std::size_t k = 0; k < boxes.size(); ++k)
+      if (kept_.emplace(boxes[k].id, places[k]).second) fresh.insert(boxes[k].id);
     for (std::size_t k = 0; k < pills.size(); ++k)
-      kept_.emplace("\n" + pills[k].key, places[boxes.size() + k] + ImVec2(0, kLoopRoom));
+      if (kept_.emplace("\n" + pills[k].key, places[boxes.size() + k] + ImVec2(0, kLoopRoom)).second)
+        fresh.insert("\n" + pills[k].key);
   }
   for (NodeBox& box : boxes) {
     const auto stored = view.boxes.find(box.id);
@@ -255,6 +258,31 @@ void Model::place(const Editor& editor) {
     pill.is_stored = stored != view.sets.end();
     pill.box.at = pill.is_stored ? stored->second : kept_.at("\n" + pill.key);
   }
+  if (!view.boxes.empty() || !view.sets.empty()) make_room(fresh);
+}
+
+// What is placed for the first time gives way, downwards, to what people have placed.
+void Model::make_room(const std::set<std::string>& fresh) {
+  std::vector<Box> taken;
+  for (const NodeBox& box : boxes)
+    if (box.is_stored) taken.push_back(box.box);
+  for (const Pill& pill : pills)
+    if (pill.is_stored) taken.push_back(pill.box);
+  const auto give_way = [&](Box& box, const std::string& key) {
+    if (!fresh.contains(key)) return;
+    for (std::size_t tries = 0; tries <= taken.size(); ++tries) {
+      const auto blocker =
+          std::find_if(taken.begin(), taken.end(), [&](const Box& other) { return other.touches(box.grown(8)); });
+      if (blocker == taken.end()) break;
+      box.at.y = std::ceil((blocker->high().y + 2 * kGrid) / kGrid) * kGrid;
+    }
+    taken.push_back(box);
+    kept_[key] = box.at;
+  };
+  for (NodeBox& box : boxes)
+    if (!box.is_stored) give_way(box.box, box.id);
+  for (Pill& pill : pills)
+    if (!pill.is_stored) give_way(pill.box, "\n" + pill.key);
 }
 
 void Model::trace_lines() {

@@ -105,6 +105,7 @@ class Model {
   void number_uses(const Editor& editor);
   void make_lines(const Editor& editor);
   void place(const Editor& editor);
+  void make_room(const std::set<std::string>& fresh);
   void find_indices(const Editor& editor);
   std::size_t anchor_of(const Editor& editor, const Selection& selection);
 
