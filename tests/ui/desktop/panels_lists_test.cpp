@@ -1,5 +1,6 @@
 // Problems, history and statistics, on the null renderer.
 #include "tests/ui/desktop/panels_support.h"
+#include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/problems_list.h"
 #include "ui/desktop/panels/statistics_record.h"
 
@@ -110,6 +111,20 @@ TEST(Problems, OfAFileThatCannotBeOpenedAreListedBesideTheOldScene) {
   ASSERT_FALSE(listed.empty());
   EXPECT_TRUE(listed.front().is_error);
   EXPECT_EQ(listed.front().subject, "panels_garbage.json");
+}
+
+TEST(Problems, OfAFileThatCannotBeOpenedAreListedWithoutAnyScene) {
+  NullDesktop desktop;
+  EXPECT_FALSE(desktop.editor().open(std::string(BL_SOURCE_DIR) + "/scenes/README.md"));
+  for (int k = 0; k < 2; ++k) {
+    ImGui::NewFrame();
+    ImGui::Begin("alone");
+    draw_problems(desktop.editor());
+    ImGui::End();
+    ImGui::Render();
+  }
+  EXPECT_EQ(memory_of(desktop.editor()).problems->count(ProblemKind::file), desktop.editor().problems.size());
+  EXPECT_TRUE(memory_of(desktop.editor()).places.contains("problem/0"));
 }
 
 TEST(Problems, RowsKeepTheirPlacesWhileASettledSceneTicks) {

@@ -173,7 +173,11 @@ class Drawing {
       list_.AddCircleFilled({x, y_of(series.values[k])}, theme_.px(3), series.colour);
       text += "\n" + series.label + "  " + text_of(series.values[k]);
     }
-    ImGui::SetTooltip("%s", text.c_str());
+    // As wide as the longest text will be: a card that grows with each tick would be cut off for a frame.
+    ImGui::BeginTooltip();
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::Dummy({theme_.px(150), 0});
+    ImGui::EndTooltip();
   }
 
   const Theme& theme_;

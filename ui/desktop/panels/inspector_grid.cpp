@@ -131,7 +131,9 @@ GridEdit draw_rows(Editor& editor, const Grid& grid) {
         ImGui::TableNextRow(0, line);
         ImGui::TableSetColumnIndex(0);
         if (!grid.is_fixed) {
-          if (sign_button(editor, icon::kClose, "Take this row away", theme.colours().text_faint))
+          const float top = ImGui::GetCursorScreenPos().y, mouse = ImGui::GetIO().MousePos.y;
+          const bool is_near = ImGui::IsWindowHovered() && mouse >= top && mouse < top + line;
+          if (sign_button(editor, icon::kClose, "Take this row away", theme.colours().text_faint, is_near))
             edit = {GridEdit::What::remove, r, 0, 0.0};
           note_place(editor, grid.key + "/" + std::to_string(r) + "/remove");
           ImGui::SameLine(0, 0);

@@ -199,7 +199,12 @@ void draw_voices(Editor& editor, const std::string& id) {
     CellLook look;
     look.is_fixed = true;
     look.colour = c.text_soft;
-    const CellEvent event = cell(editor, key, port + ": " + report::voice_text(state, voice), "", width, look);
+    // Its loudness stands above; here counts what it says.
+    Voice plain = voice;
+    plain.strength = 1;
+    const bool is_silent = state.plan->port(voice.target).rule == CombineRule::sum && voice.magnitude < 5e-4;
+    const std::string says = is_silent ? std::string("hardly anything") : report::voice_text(state, plain);
+    const CellEvent event = cell(editor, key, port + ": " + says, "", width, look);
     if (event.is_hovered) {
       editor.picks.hovered_node = state.plan->nodes[to].id;
       card(editor, report::name_at(state, to) + " \xC2\xB7 " + port, report::voice_text(state, voice), "press to go there");

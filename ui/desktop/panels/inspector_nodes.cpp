@@ -75,7 +75,9 @@ std::string span_text(const State& state, const std::vector<PortRef>& refs, cons
     high = k == 0 ? number : std::max(high, number);
   }
   if (is_same) return value_text(state.value(refs.front()), port, unit);
-  return is_number ? report::readable(low) + " to " + report::quantity(high, unit) : "several";
+  if (!is_number) return "several";
+  const Unit first_unit = unit == Unit::ratio ? unit : Unit::none;
+  return value_text(low, port, first_unit) + " to " + value_text(high, port, unit);
 }
 
 void draw_computed(Editor& editor, const InspectorView& view, const TypificationDefinition& type, const PortDefinition& port) {

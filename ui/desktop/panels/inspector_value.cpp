@@ -183,7 +183,7 @@ std::optional<Change> point_field(Editor& editor, const Subject& subject, float 
     if (k > 0) ImGui::SameLine(0, gap);
     CellLook look;
     look.is_scrubbed = true;
-    look.hint = kSeveral;
+    look.hint = each > editor.theme.px(80) ? kSeveral : "\xE2\x80\x93";
     const std::string key = subject.key + kNames[k];
     const double now = point.*kParts[k];
     const CellEvent event = cell(editor, key, subject.is_mixed ? "" : shown_number(now, Unit::none),
