@@ -10,7 +10,7 @@
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/canvas/fits.h"
-#include "ui/desktop/panels/canvas/fuzzy.h"
+#include "ui/desktop/app/fuzzy.h"
 
 namespace bl::desktop {
 namespace {
@@ -318,11 +318,11 @@ TEST(CanvasLarge, AThousandNodesAreDrawnInTime) {
 }
 
 TEST(CanvasFuzzy, LettersInOrderBeginningsFirst) {
-  EXPECT_GT(canvas::fuzzy_score("lib", "Library"), canvas::fuzzy_score("lib", "Calibre"));
-  EXPECT_GE(canvas::fuzzy_score("svol", "SmartVolume"), 0);
-  EXPECT_GE(canvas::fuzzy_score("solver smart", "SmartVolumes solver"), 0);
-  EXPECT_LT(canvas::fuzzy_score("zebra", "SmartVolume"), 0);
-  EXPECT_EQ(canvas::fuzzy_score("", "anything"), 0);
+  EXPECT_GT(fuzzy_score("lib", "Library"), fuzzy_score("lib", "Calibre"));
+  EXPECT_GE(fuzzy_score("svol", "SmartVolume"), 0);
+  EXPECT_GE(fuzzy_score("solver smart", "SmartVolumes solver"), 0);
+  EXPECT_LT(fuzzy_score("zebra", "SmartVolume"), 0);
+  EXPECT_EQ(fuzzy_score("", "anything"), 0);
 }
 
 }  // namespace

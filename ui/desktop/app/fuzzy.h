@@ -1,13 +1,11 @@
-// Matching what people type against names, forgivingly: letters in order, starts of words first.
+// How well a few typed letters fit a name: all in order, better at the beginnings of words and side by side.
 #pragma once
 
-#include <optional>
 #include <string_view>
 
 namespace bl::desktop {
 
-/// How well `query` fits `text`, higher is better; nothing where its letters do not all occur in order. Case and spaces in the
-/// query do not matter; an empty query fits everything with 0.
-std::optional<int> fuzzy_match(std::string_view query, std::string_view text);
+/// The higher the better; below 0: does not fit. Case counts for nothing; words of the pattern may stand in any order.
+int fuzzy_score(std::string_view pattern, std::string_view text);
 
 }  // namespace bl::desktop

@@ -21,8 +21,8 @@ struct Hit {
 std::vector<Hit> hits_of(const std::string& query, const Editor& editor) {
   std::vector<Hit> hits;
   for (const Action& action : actions()) {
-    const auto score = fuzzy_match(query, std::string(action.label) + " " + action.menu);
-    if (score) hits.push_back({&action, *score - (action.can != nullptr && !action.can(editor) ? 100000 : 0)});
+    const int score = fuzzy_score(query, std::string(action.label) + " " + action.menu);
+    if (score >= 0) hits.push_back({&action, score - (action.can != nullptr && !action.can(editor) ? 100000 : 0)});
   }
   std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.score > b.score; });
   return hits;
@@ -89,7 +89,7 @@ void Dialogs::draw_keys() {
   if (ImGui::BeginTable("table", 3, kFlags)) {
     for (const Action& action : actions()) {
       const std::string keys = keys_of(action);
-      if (!fuzzy_match(query_, std::string(action.label) + " " + action.menu + " " + keys)) continue;
+      if (fuzzy_score(query_, std::string(action.label) + " " + action.menu + " " + keys) < 0) continue;
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       ImGui::TextDisabled("%s", action.menu);

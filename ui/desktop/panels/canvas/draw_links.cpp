@@ -218,7 +218,7 @@ void draw_pills(Board& board) {
     // Too small to be written in, it is named below.
     const float pixels = 11.5f * k, least = 9.5f * board.theme().scale();
     if (board.camera.zoom() < kPulseZoom) continue;
-    if (pixels < 0.7f * least)
+    if (pixels < 0.85f * least)
       draw_text(board, {screen.low().x, screen.high().y + 2}, least, c.text_soft, pill.label, std::max(90.0f, screen.size.x));
     else
       draw_text(board, {screen.low().x + 22 * k, screen.centre().y - 0.6f * pixels}, pixels, c.text, pill.label,

@@ -9,7 +9,7 @@
 #include <imgui_stdlib.h>
 
 #include "ui/desktop/panels/canvas/board.h"
-#include "ui/desktop/panels/canvas/fuzzy.h"
+#include "ui/desktop/app/fuzzy.h"
 
 namespace bl::desktop::canvas {
 
