@@ -45,6 +45,7 @@ class SceneView {
   bool is_walking() const { return is_walking_; }
   bool is_moving() const { return move_.has_value(); }
   /// The node under the mouse in the last frame, so that other panels can light it in the next one.
+  const std::string& pointed_at() const { return pointed_at_; }
   /// Where a point is in the window [pixels].
   Seen place_in_window(const Point3& point) const;
 
