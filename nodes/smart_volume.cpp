@@ -24,7 +24,7 @@ struct SmartVolume {
     Table neighbours;
     double last_step = 0, last_direction = 0;
     Point3 centroid;
-    MeshPointer mesh, cell;
+    MeshPointer mesh;
   };
 
   static void declare(TypificationBuilder<SmartVolume>& t) {
@@ -91,8 +91,6 @@ struct SmartVolume {
         .unit(Unit::metre)
         .doc("Centre of gravity of the shape; the node's position where the shape is empty.");
     t.out(&Out::mesh, "mesh").doc("The shape as a triangle mesh, for the eye and for export.");
-    t.out(&Out::cell, "cell")
-        .doc("The cell before the shrink-wrap as a coarse mesh; views divide it and wrap it on the graphics processor.");
   }
 
   static void declare_standing(TypificationBuilder<SmartVolume>& t) {

@@ -47,7 +47,7 @@ struct SmartVolumesSolver {
     std::string state, reason;
     Table neighbours;
     Point3 centroid;
-    MeshPointer mesh, cell;
+    MeshPointer mesh;
   };
   struct Out {
     std::int64_t count = 0;
@@ -131,8 +131,7 @@ struct SmartVolumesSolver {
     set.writes(&Reply::surface_area, "smart_volume.surface_area").writes(&Reply::spherical_area, "smart_volume.spherical_area");
     set.writes(&Reply::height, "smart_volume.height")
         .writes(&Reply::bottom, "smart_volume.bottom")
-        .writes(&Reply::mesh, "smart_volume.mesh")
-        .writes(&Reply::cell, "smart_volume.cell");
+        .writes(&Reply::mesh, "smart_volume.mesh");
     set.writes(&Reply::state, "smart_volume.state").writes(&Reply::reason, "smart_volume.reason");
     set.writes(&Reply::centroid, "smart_volume.centroid").writes(&Reply::neighbours, "smart_volume.neighbours");
   }
@@ -176,8 +175,7 @@ struct SmartVolumesSolver {
                 wanted > 0 ? with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
                 {{"node", "area"}, {}},
                 cell.centroid,
-                cell.mesh,
-                cell.coarse_mesh};
+                cell.mesh};
     for (const FacetArea& facet : cell.facets)
       if (facet.kind == FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
     return reply;

@@ -31,7 +31,10 @@ struct MeshWrap {
 struct Mesh {
   std::vector<Point3> vertices;                         ///< [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
-  std::shared_ptr<const MeshWrap> wrap = {};  ///< of coarse meshes only: the first corner of each triangle is its face's centre
+  /// Of a coarse mesh only: the first corner of each triangle is then the centre of its face.
+  std::shared_ptr<const MeshWrap> wrap = {};
+  /// Of a wrapped mesh: the coarse one that it follows from, for those who divide and wrap it themselves; may be null.
+  std::shared_ptr<const Mesh> coarse = {};
   bool operator==(const Mesh&) const = default;
 };
 

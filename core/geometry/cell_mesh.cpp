@@ -93,15 +93,14 @@ bool holds(const Polyhedron& part, double squared_radius, const Point3& point, d
   return squared_norm(point) <= squared_radius;
 }
 
-MeshPointer make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
-                      const Point3& centroid) {
+Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
+               const Point3& centroid) {
   // Towards the site, or where it is not inside its own cell, towards the centroid.
   const double margin = kInsideShare * std::sqrt(site.weight);
   const bool is_inside =
       std::any_of(parts.begin(), parts.end(), [&](const Polyhedron& part) { return holds(part, site.weight, {}, margin); });
   if (parts.size() == 1) {
-    return std::make_shared<const Mesh>(
-        mesh_of(parts[0], std::sqrt(site.weight), depth, is_inside ? Point3{} : centroid, site.position));
+    return mesh_of(parts[0], std::sqrt(site.weight), depth, is_inside ? Point3{} : centroid, site.position);
   }
   Mesh whole;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -112,7 +111,7 @@ MeshPointer make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMe
     whole.vertices.insert(whole.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     for (const auto& t : mesh.triangles) whole.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
-  return std::make_shared<const Mesh>(std::move(whole));
+  return whole;
 }
 
 MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site,

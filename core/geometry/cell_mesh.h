@@ -14,8 +14,8 @@ bool holds(const Polyhedron& part, double squared_radius, const Point3& point, d
 
 /// The parts in the pieces of the domain become one mesh without the faces between the pieces. `centroid` of the shape,
 /// relative to the site.
-MeshPointer make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
-                      const Point3& centroid);
+Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
+               const Point3& centroid);
 /// The same parts as fans of triangles, a face's centre first, not wrapped; `wrap` says how make_mesh would go on. The
 /// triangles come in the order in which make_mesh divides them.
 MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/geometry/cell_mesh.h"
@@ -111,8 +112,10 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
     const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[index];
     measure_storeys(parts, bench.shapes, site, storey, out);
   }
-  if (options.tessellation_depth >= 0) out.mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid);
-  if (options.with_coarse_mesh && options.with_shape) out.coarse_mesh = make_coarse_mesh(parts, bench.shapes, site, centroid);
+  if (options.tessellation_depth < 0) return;
+  Mesh mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid);
+  if (options.with_coarse_mesh && options.with_shape) mesh.coarse = make_coarse_mesh(parts, bench.shapes, site, centroid);
+  out.mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 
 // Farther from the domain than so many times its size, the ball that reaches it is so large that rounding moves it by a share of

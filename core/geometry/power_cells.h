@@ -71,7 +71,6 @@ struct CellMeasure {
   /// into. Null where not asked for.
   std::shared_ptr<const std::vector<Polyhedron>> outlines;
   MeshPointer mesh;  ///< tessellated and shrink-wrapped; null where not asked for or where the shape is empty
-  MeshPointer coarse_mesh;  ///< the cell not shrunk, as a fan for each face, with its wrap; null as `mesh` is
 };
 
 struct CellOptions {
@@ -81,7 +80,7 @@ struct CellOptions {
                                            ///< footprint, height and bottom stay 0, and hidden sites count as starved
   bool with_centroid = true;               ///< off: centroids are the sites' positions
   bool with_outlines = false;              ///< keep the polyhedra of the cells; together with `with_shape` only
-  bool with_coarse_mesh = false;           ///< keep the fans of the cells, to be wrapped elsewhere; together with `with_shape` only
+  bool with_coarse_mesh = false;           ///< the mesh, where it is asked for, brings the coarse one along
   int tessellation_depth = -1;             ///< -1: no mesh; 0 to 4: each face's triangles are split in four so many times
   ThreadPool* pool = nullptr;              ///< null: on the calling thread. The result does not depend on it
 };

@@ -32,7 +32,7 @@ Point3 wrapped(const Mesh& coarse, const MeshWrap::Part& part, std::uint32_t ver
 }
 
 void expect_same_surface(const CellMeasure& cell) {
-  const Mesh &coarse = *cell.coarse_mesh, &mesh = *cell.mesh;
+  const Mesh &coarse = *cell.mesh->coarse, &mesh = *cell.mesh;
   ASSERT_EQ(coarse.triangles.size(), mesh.triangles.size());
   std::size_t t = 0;
   for (const MeshWrap::Part& part : coarse.wrap->parts)
@@ -43,12 +43,19 @@ void expect_same_surface(const CellMeasure& cell) {
 }
 
 TEST(CellMesh, CoarseMeshWrapsToTheFineOne) {
-  const auto angle = site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
+  const auto angle =
+      site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
   ASSERT_TRUE(angle.ok());
   const std::vector<PowerSite> sites = {{{24, 24, 8}, 300}, {{10, 45, 10}, 160}, {{45, 12, 9}, 200}, {{27, 20, 4}, 60}};
   const auto cells = power_cells(*angle, sites, with_both_meshes());
   ASSERT_TRUE(cells.ok());
-  for (const CellMeasure& cell : *cells) expect_same_surface(cell);
+  std::size_t compared = 0;
+  for (const CellMeasure& cell : *cells) {
+    if (!cell.mesh) continue;
+    expect_same_surface(cell);
+    ++compared;
+  }
+  EXPECT_GE(compared, 3u);
 }
 
 TEST(CellMesh, IsThereOnlyWhereItIsAskedForAndThereIsAShape) {
@@ -56,11 +63,15 @@ TEST(CellMesh, IsThereOnlyWhereItIsAskedForAndThereIsAShape) {
   ASSERT_TRUE(box.ok());
   const std::vector<PowerSite> sites = {{{2, 5, 5}, 9}, {{8, 5, 5}, 0}};
   const auto with = power_cells(*box, sites, with_both_meshes());
-  const auto without = power_cells(*box, sites);
+  CellOptions plain;
+  plain.tessellation_depth = 0;
+  const auto without = power_cells(*box, sites, plain);
   ASSERT_TRUE(with.ok() && without.ok());
-  EXPECT_NE((*with)[0].coarse_mesh, nullptr);
-  EXPECT_EQ((*with)[1].coarse_mesh, nullptr) << "no ball, no shape";
-  EXPECT_EQ((*without)[0].coarse_mesh, nullptr);
+  ASSERT_NE((*with)[0].mesh, nullptr);
+  EXPECT_NE((*with)[0].mesh->coarse, nullptr);
+  EXPECT_EQ((*with)[1].mesh, nullptr) << "no ball, no shape";
+  ASSERT_NE((*without)[0].mesh, nullptr);
+  EXPECT_EQ((*without)[0].mesh->coarse, nullptr);
 }
 
 }  // namespace

@@ -26,10 +26,10 @@ class ViewGpu : public ::testing::Test {
   // The largest distance between corners of the same triangles, as a share of the cell's size.
   double worst_of(const CellMeasure& cell, int depth) {
     ViewScene scene;
-    scene.volumes.push_back({0, cell.coarse_mesh, 0, 0, 3, 0});
+    scene.volumes.push_back({0, cell.mesh->coarse, 0, 0, 3, 0});
     const std::vector<float> ours = renderer_->divided(scene, depth);
     const Mesh& theirs = *cell.mesh;
-    const Point3& ball = cell.coarse_mesh->wrap->ball_centre;
+    const Point3& ball = cell.mesh->coarse->wrap->ball_centre;
     EXPECT_GE(ours.size(), 9 * theirs.triangles.size());
     double size = 0, worst = 0;
     for (const Point3& vertex : theirs.vertices) size = std::max(size, distance(vertex, theirs.vertices[0]));
@@ -56,7 +56,7 @@ class ViewGpu : public ::testing::Test {
       for (const CellMeasure& cell : *cells) {
         if (!cell.mesh) continue;
         worst = std::max(worst, worst_of(cell, depth));
-        for (const MeshWrap::Part& part : cell.coarse_mesh->wrap->parts) seamed += part.seams.empty() ? 0 : 1;
+        for (const MeshWrap::Part& part : cell.mesh->coarse->wrap->parts) seamed += part.seams.empty() ? 0 : 1;
         ++compared;
       }
       EXPECT_GT(compared, 2u);

@@ -39,7 +39,7 @@ VolumeFacts read_volume(const State& state, std::uint32_t node) {
   facts.height = number("height");
   if (const auto ref = state.plan->find(node, PortPath{"node", "position", ""}))
     facts.tension = state.nodes[node].types[ref->type].tension[ref->port];
-  facts.cell = report::mesh_at(state, node, kVolume, "cell");
+  if (const MeshPointer mesh = report::mesh_at(state, node, kVolume, "mesh")) facts.cell = mesh->coarse;
   const bool is_usable = facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() &&
                          facts.cell->vertices.size() < 60000 && facts.volume > 0;
   if (is_usable) return facts;
