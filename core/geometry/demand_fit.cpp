@@ -9,6 +9,7 @@
 #include "core/geometry/cell_workshop.h"
 #include "core/geometry/fit_numbers.h"
 #include "core/geometry/fit_targets.h"
+#include "core/geometry/ray_start.h"
 #include "core/geometry/response_system.h"
 
 namespace bl {
@@ -27,7 +28,7 @@ constexpr double kFewOffenders = 0.02;
 constexpr double kFallWorthRepair = 0.5, kRepairedFall = 0.7;
 // A change of weight that moves no volume by more than this share of the tolerance is not made: what it would move stays as it
 // is, bit for bit, and need not be measured again.
-constexpr double kIdleShare = 0.02;
+constexpr double kIdleShare = 0.25;
 // Farther from the demands than this, a step of Newton's is careful with growth.
 constexpr double kFarError = 1.6;
 // Newton's step is halved no further than this.
@@ -38,14 +39,6 @@ constexpr double kStep = 0.8;
 constexpr double kLeastShare = 1e-4;
 // A free ball never exceeds so many times what it takes to hold the whole domain: more weight only drowns the others.
 constexpr double kMostReach = 4;
-
-// The position itself where it is inside; else the nearest place on the way to the middle of the nearest piece.
-Point3 place_inside(const Domain& domain, const Point3& position) {
-  if (domain.contains(position)) return position;
-  const ConvexDomain& piece = domain.nearest_piece(position);
-  const Vector3 way = position - piece.centroid;
-  return piece.centroid + (0.99 * piece.share_inside(way, 1)) * way;
-}
 
 class Fit {
  public:
@@ -109,6 +102,9 @@ class Fit {
       if (targets_.owner(i) != FitTargets::kNone) parts[i] = targets_.part(i);
     }
     if (all_fresh) start = initial_weights(domain_, sites_, parts);
+    if (all_fresh && options_.method == FitMethod::newton && targets_.is_plain()) {
+      start = weights_by_rays(domain_, sites_, std::move(start), parts, options_.pool);
+    }
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (targets_.owner(i) == FitTargets::kNone || sites_[i].weight > 0) continue;
       sites_[i].weight = all_fresh ? start[i] : weight_of_volume(parts[i]);
@@ -162,7 +158,7 @@ class Fit {
 
   // Weight that brings an emptied cell back: with it the site wins at its own position (or at a place inside the domain).
   double repaired_weight(std::size_t i) const {
-    const Point3 place = place_inside(domain_, sites_[i].position);
+    const Point3 place = domain_.place_inside(sites_[i].position);
     double best = 0.1 * weight_of_volume(targets_.part(i));
     for (std::size_t j = 0; j < sites_.size(); ++j) {
       if (j != i) best = std::max(best, sites_[j].weight - kRepair * squared_norm(sites_[j].position - place));

@@ -61,6 +61,13 @@ const ConvexDomain& Domain::nearest_piece(const Point3& point) const {
   return best->shape;
 }
 
+Point3 Domain::place_inside(const Point3& position) const {
+  if (contains(position)) return position;
+  const ConvexDomain& piece = nearest_piece(position);
+  const Vector3 way = position - piece.centroid;
+  return piece.centroid + (0.99 * piece.share_inside(way, 1)) * way;
+}
+
 const ConvexDomain& Domain::largest_piece() const {
   const auto is_smaller = [](const Piece& a, const Piece& b) { return a.shape.volume < b.shape.volume; };
   return std::max_element(pieces.begin(), pieces.end(), is_smaller)->shape;

@@ -40,6 +40,8 @@ struct Domain {
   /// The piece that holds the point, or the one whose planes it violates least; not for an empty domain.
   const ConvexDomain& nearest_piece(const Point3& point) const;
   const ConvexDomain& largest_piece() const;
+  /// The position itself where it is inside; else the nearest place on the way to the middle of the nearest piece.
+  Point3 place_inside(const Point3& position) const;
 };
 
 /// Pieces put together: volume, centroid, box and side count follow from them. Fails where there is no piece.

@@ -94,6 +94,14 @@ FitTargets::FitTargets(const FitProblem& problem) : first_(1, 0), owner_(problem
     aim_.push_back(std::isfinite(most_[k]) ? 0.5 * (least_[k] + most_[k]) : least_[k]);
 }
 
+bool FitTargets::is_plain() const {
+  for (std::size_t i = 0; i < owner_.size(); ++i) {
+    const std::uint32_t k = owner_[i];
+    if (k == kNone || sites(k).size() != 1 || least_[k] != most_[k]) return false;
+  }
+  return true;
+}
+
 void FitTargets::grant(std::span<const CellMeasure> cells, double domain_volume, std::span<const std::uint8_t> out_of_reach) {
   const std::vector<double> asked = least_;
   double wanted = 0, taken = 0;

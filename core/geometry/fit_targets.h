@@ -32,6 +32,8 @@ class FitTargets {
   std::uint32_t owner(std::size_t site) const { return owner_[site]; }
   /// Is the site's weight to be found?
   bool is_fitted(std::size_t site) const { return owner_[site] != kNone && most_[owner_[site]] > 0; }
+  /// Has every site a demand of its own, and that one volume?
+  bool is_plain() const;
   double least(std::size_t target) const { return least_[target]; }
   double most(std::size_t target) const { return most_[target]; }
   /// A site's part of what its demand aims at [m³].

@@ -28,14 +28,6 @@ constexpr double kMostReach = 100;
 // Steps go on to this share of the declared errors.
 constexpr double kSettled = 0.1;
 
-// The position itself where it is inside; else the nearest place on the way to the middle of the nearest piece.
-Point3 place_inside(const Domain& domain, const Point3& position) {
-  if (domain.contains(position)) return position;
-  const ConvexDomain& piece = domain.nearest_piece(position);
-  const Vector3 way = position - piece.centroid;
-  return piece.centroid + (0.99 * piece.share_inside(way, 1)) * way;
-}
-
 double reach_of(const Domain& domain, const PowerSite& site) { return domain.size() + distance(site.position, domain.centroid); }
 
 }  // namespace
@@ -267,7 +259,7 @@ void SampledNewton::follow(std::size_t i, double from) {
 
 // Weight that brings an emptied cell back: with it the site wins at its own position, or at a place inside the domain.
 double SampledNewton::repaired_weight(std::size_t i) const {
-  const Point3 place = place_inside(domain_, sites_[i].position);
+  const Point3 place = domain_.place_inside(sites_[i].position);
   const double own = distance(place, sites_[i].position);
   // The ball has to reach the place, and some way beyond.
   double radius = own + std::sqrt(0.1 * weight_of_volume(targets_.part(i)));

@@ -2,6 +2,7 @@
 #include "core/session/ledger.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/base/text.h"
 
@@ -72,14 +73,23 @@ Result<void> Ledger::take_back(const std::string& author, std::int64_t tick,
                  is_undo ? "there is nothing to undo for " + author : "there is nothing to redo for " + author};
   const std::int64_t gesture = stack[author].back();
   const std::vector<Command> commands = inverses_[gesture];
-  // Tried on a copy first: what somebody else removed meanwhile must not leave half of an undo behind.
-  Scene trial = scene_;
-  SceneEdit edit(trial, *registry_);
-  for (const Command& command : commands)
-    if (auto done = bl::apply(edit, command); !done) {
-      const std::string what = is_undo ? "cannot be undone" : "cannot be redone";
-      return Error{done.error().code, done.error().place, what + " because the scene has changed since: " + done.error().message};
+  // Tried first and taken back: what somebody else removed meanwhile must not leave half of an undo behind.
+  SceneEdit edit(scene_, *registry_);
+  std::vector<Command> back;
+  std::optional<Error> failure;
+  for (const Command& command : commands) {
+    auto done = bl::apply(edit, command);
+    if (!done) {
+      failure = done.error();
+      break;
     }
+    back.insert(back.begin(), done->begin(), done->end());
+  }
+  for (const Command& command : back) (void)bl::apply(edit, command);  // each was made for exactly this scene, so it fits
+  if (failure) {
+    const std::string what = is_undo ? "cannot be undone" : "cannot be redone";
+    return Error{failure->code, failure->place, what + " because the scene has changed since: " + failure->message};
+  }
   const std::int64_t fresh = new_gesture();
   for (const Command& command : commands)
     if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? gesture : 0, is_undo ? 0 : gesture}); !done) return done;

@@ -6,6 +6,7 @@
 
 #include "core/base/random.h"
 #include "core/define/codec.h"
+#include "tests/support/random_commands.h"
 #include "tests/support/scene_files.h"
 #include "tests/support/world.h"
 
@@ -114,34 +115,6 @@ TEST_P(SceneLaws, StepRewindStepGivesTheSame) {
   EXPECT_EQ(again.state()->hash, kept->hash);
   for (int i = 0; i < 5; ++i) again.step();
   EXPECT_EQ(again.state()->hash, first);
-}
-
-// Commands as a person might give them to this scene.
-Command random_command(const Scene& scene, Random& random, int number) {
-  auto pick = [&](const auto& map) {
-    auto it = map.begin();
-    std::advance(it, static_cast<std::ptrdiff_t>(random.below(map.size())));
-    return it->first;
-  };
-  const std::string fresh = "fresh" + std::to_string(number);
-  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 12);
-  const std::string number_text = std::to_string(random.below(40));
-  switch (kind) {
-    case 1: return command<SetPort>({pick(scene.nodes), {"node.position"}, {"[" + number_text + ", 12, 5]"}});
-    case 2: return command<RemoveNode>({pick(scene.nodes)});
-    case 3: return command<RenameNode>({pick(scene.nodes), "Name " + number_text});
-    case 4: return command<RemoveLink>({pick(scene.links)});
-    case 5: return command<EnableLink>({pick(scene.links), random.below(2) == 0});
-    case 6: return command<MuteLink>({pick(scene.links), random.below(2) == 0});
-    case 7: return command<SetLinkStrength>({pick(scene.links), random.uniform()});
-    case 8: return command<LockPort>({pick(scene.nodes), {"node.position"}});
-    case 9: return command<Typify>({pick(scene.nodes), "control", {R"({"value": 3})"}});
-    case 10: return command<SetSetting>({"title", {"\"" + number_text + "\""}});
-    case 11: return command<Untypify>({pick(scene.nodes), "smart_volume"});
-    default:
-      return command<AddNode>(
-          {fresh, {R"({"position": [)" + number_text + R"(, 8, 6], "types": {"smart_volume": {"demand": 900}}})"}});
-  }
 }
 
 TEST_P(SceneLaws, UndoingEverythingGivesTheScenesBytesAndReplayTheSameHash) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "ui/cli/scene_making.h"
+
 namespace bl::cli {
 
 /// Exit codes: all went well; the input is bad; what was asked for cannot be had; stopped by Ctrl-C.
@@ -35,16 +37,13 @@ struct ReplayOptions {
 };
 int replay_command(const ReplayOptions& options);
 
-struct NewOptions {
-  std::string boundary, programme, out, feature, crs, title;
-  double height = 0;           ///< [m]
-  double storey_height = 3.2;  ///< [m]
-  double margin = 1;           ///< [m]
-  std::uint64_t seed = 1;
-  bool use_hull = false, is_forced = false;
-  std::vector<std::string> columns;
-};
 int new_command(const NewOptions& options);
+
+struct OpenOptions {
+  std::vector<std::string> arguments;  ///< as the window's own program takes them
+};
+/// Returns only where that program could not be started.
+int open_command(const OpenOptions& options);
 
 struct DocsOptions {
   std::string type, out;

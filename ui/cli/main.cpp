@@ -22,6 +22,7 @@ constexpr const char* kOverview =
     "BehaviourLinks: nodes are entities, links are code, and every tick they negotiate.\n\n"
     "A first try:\n"
     "  behaviourlinks run scenes/start/quarter.json\n"
+    "  behaviourlinks open scenes/start/quarter.json\n"
     "  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json\n"
     "  behaviourlinks run scene.json --report proposal\n"
     "  behaviourlinks docs --list\n\n"
@@ -57,6 +58,14 @@ void declare_run(CLI::App& app, RunOptions& o) {
   c.footer(
       "Example:\n  behaviourlinks run scenes/start/quarter.json --set site/boundary.height=\"60 m\" --report proposal\n\n"
       "Exit codes: 0 settled, or all ticks done; 2 bad input; 3 not settled; 130 stopped by Ctrl-C, with everything written.");
+}
+
+void declare_open(CLI::App& app) {
+  CLI::App& c = *app.add_subcommand("open", "Opens the window: wire a scene by hand, and watch it negotiate.");
+  c.prefix_command();
+  c.footer(
+      "What follows is handed on: SCENE (without one, the start page opens), --paused, and more that\n"
+      "`behaviourlinks-desktop --help` lists.\n\nExample:\n  behaviourlinks open scenes/start/quarter.json");
 }
 
 void declare_new(CLI::App& app, NewOptions& o) {
@@ -224,6 +233,7 @@ int run_program(int count, char** arguments) {
   app.set_version_flag("--version", std::string("behaviourlinks ") + BL_VERSION, "Prints the version and ends.");
   app.require_subcommand(0, 1);
   RunOptions run;
+  OpenOptions window;
   NewOptions fresh;
   CheckOptions check;
   ReplayOptions replay;
@@ -233,6 +243,7 @@ int run_program(int count, char** arguments) {
   FitFileOptions fit;
   BenchOptions bench;
   declare_run(app, run);
+  declare_open(app);
   declare_new(app, fresh);
   declare_check(app, check);
   declare_papers(app, docs, schema);
@@ -257,6 +268,10 @@ int run_program(int count, char** arguments) {
     return kBadInput;
   }
   if (app.got_subcommand("run")) return run_command(run);
+  if (const CLI::App* open = app.get_subcommand("open"); open->parsed()) {
+    window.arguments = open->remaining();
+    return open_command(window);
+  }
   if (app.got_subcommand("new")) return new_command(fresh);
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand("docs")) return docs_command(docs);

@@ -1,6 +1,8 @@
 // Feeds ImGui's input by hand.
 #include "tests/ui/desktop/null_desktop.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
 
 #include <GLFW/glfw3.h>
@@ -16,11 +18,12 @@ constexpr double kFrame = 1.0 / 60;
 
 NullDesktop::NullDesktop(const std::string& scene, ImVec2 size) {
   // Journals of tests stay away from the person's own.
-  const std::string state = ::testing::TempDir() + "behaviourlinks_desktop_tests";
+  const std::string state = ::testing::TempDir() + "behaviourlinks_desktop_tests_" + std::to_string(getpid());
   setenv("XDG_STATE_HOME", state.c_str(), 1);
   context_ = ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // as the real window has: large canvases need it
   io.DisplaySize = size;
   io.DeltaTime = static_cast<float>(kFrame);
   io.MousePos = {-1, -1};

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/base/text.h"
 #include "ui/cli/report/figures.h"
@@ -11,9 +12,6 @@
 namespace bl::report {
 
 namespace {
-
-// Less than this share of what is pulled at is no conflict that anybody would want to read about.
-constexpr double kMinorSeverity = 0.002;
 
 // "north-east and up", by true north.
 std::string direction_of(const Vector3& pull, double true_north) {
@@ -29,22 +27,6 @@ std::string direction_of(const Vector3& pull, double true_north) {
   return text + (text.empty() ? "" : " and ") + (pull.z > 0 ? "up" : "down");
 }
 
-std::string pull_text(const State& state, const LinkPlan& link, const Voice& voice) {
-  const PortDefinition& port = state.plan->port(voice.target);
-  const std::string who = link.id + " (" + (link.definition ? link.definition->label : "unknown kind") + ") ";
-  const std::string loudness = voice.strength == 1 ? "" : ", strength " + shortest(voice.strength);
-  if (port.rule != CombineRule::sum) {
-    if (std::holds_alternative<Vector3>(voice.value)) return who + "wants another place" + loudness;
-    return who + "wants " + quantity(as_number(voice.value), port.unit) + loudness;
-  }
-  const auto* move = std::get_if<Vector3>(&voice.value);
-  if (move == nullptr) return who + "pulls by " + quantity(as_number(voice.value), port.unit) + loudness;
-  if (norm(*move) < 1e-3 * voice.magnitude || norm(*move) == 0)
-    return who + "pulls both ways, " + quantity(voice.magnitude, port.unit) + " in all" + loudness;
-  return who + "pulls " + quantity(norm(*move), port.unit) + " " + direction_of(*move, state.plan->settings.true_north) +
-         loudness;
-}
-
 double size_of(const State& state, PortRef ref) {
   const Value& value = state.value(ref);
   // Places have no size of their own: a pull counts against the radius of what it moves.
@@ -52,68 +34,107 @@ double size_of(const State& state, PortRef ref) {
   return std::max(std::abs(as_number(value)), 1e-9);
 }
 
-ConflictRow row_of(const State& state, PortRef ref, double tension) {
-  const PortDefinition& port = state.plan->port(ref);
-  const TypePlan& type = state.plan->nodes[ref.node].types[ref.type];
-  ConflictRow row{
-      name_at(state, ref.node), state.plan->path_text(ref), quantity(tension, port.unit), {}, tension / size_of(state, ref)};
-  for (std::size_t l = 0; l < state.links.size(); ++l) {
-    const LinkPlan& link = state.plan->links[l];
-    if (!link.is_enabled || link.is_muted) continue;
-    for (const Voice& voice : state.links[l].voices) {
-      const bool says_something = voice.magnitude > 0 || port.rule != CombineRule::sum;
-      if (voice.target == ref && voice.strength > 0 && says_something) row.pulls.push_back(pull_text(state, link, voice));
-    }
-  }
-  if (type.is_locked[ref.port]) row.pulls.push_back("locked by hand");
-  else if (type.is_set[ref.port] && port.rule == CombineRule::blend &&
-           !std::holds_alternative<Vector3>(type.set_values[ref.port]))
-    row.pulls.push_back("set by hand to " + quantity(as_number(type.set_values[ref.port]), port.unit));
-  return row;
+std::string speaker(const LinkPlan& link) {
+  return link.id + " (" + (link.definition ? link.definition->label : "unknown kind") + ") ";
+}
+
+// What people say themselves: a lock, or a value that has a voice among the others.
+std::string own_word(const TypePlan& type, std::uint16_t p) {
+  const PortDefinition& port = type.definition->ports[p];
+  if (type.is_locked[p]) return "locked by hand";
+  if (type.is_set[p] && port.rule == CombineRule::blend && !std::holds_alternative<Vector3>(type.set_values[p]))
+    return "set by hand to " + quantity(as_number(type.set_values[p]), port.unit);
+  return "";
 }
 
 }  // namespace
 
-void read_conflicts(const State& state, ReportModel& model) {
-  std::vector<std::pair<PortRef, double>> tense;
+std::string voice_text(const State& state, const Voice& voice) {
+  const PortDefinition& port = state.plan->port(voice.target);
+  const std::string loudness = voice.strength == 1 ? "" : ", strength " + shortest(voice.strength);
+  if (port.rule != CombineRule::sum) {
+    if (std::holds_alternative<Vector3>(voice.value)) return "wants another place" + loudness;
+    return "wants " + quantity(as_number(voice.value), port.unit) + loudness;
+  }
+  const auto* move = std::get_if<Vector3>(&voice.value);
+  if (move == nullptr) return "pulls by " + quantity(as_number(voice.value), port.unit) + loudness;
+  if (norm(*move) < 1e-3 * voice.magnitude || norm(*move) == 0)
+    return "pulls both ways, " + quantity(voice.magnitude, port.unit) + " in all" + loudness;
+  return "pulls " + quantity(norm(*move), port.unit) + " " + direction_of(*move, state.plan->settings.true_north) + loudness;
+}
+
+double severity_of(const State& state, PortRef ref, double tension) { return tension / size_of(state, ref); }
+
+std::vector<TensePort> tense_ports(const State& state) {
+  std::vector<TensePort> tense;
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
     for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t) {
       const std::vector<double>& tension = state.nodes[n].types[t].tension;
       for (std::uint16_t p = 0; p < tension.size(); ++p)
-        if (const PortRef ref{n, t, p}; tension[p] > 0) {
-          if (tension[p] < kMinorSeverity * size_of(state, ref)) ++model.minor_conflicts;
-          else tense.emplace_back(ref, tension[p]);
-        }
+        if (const PortRef ref{n, t, p}; tension[p] > 0) tense.push_back({ref, tension[p], severity_of(state, ref, tension[p])});
     }
-  for (const auto& [ref, tension] : tense) model.conflicts.push_back(row_of(state, ref, tension));
+  return tense;
+}
+
+ConflictRow conflict_row(const State& state, const TensePort& tense) {
+  const PortRef ref = tense.ref;
+  const PortDefinition& port = state.plan->port(ref);
+  ConflictRow row{name_at(state, ref.node),
+                  state.plan->path_text(ref),
+                  quantity(tense.tension, port.unit),
+                  {},
+                  tense.severity,
+                  ref,
+                  state.plan->nodes[ref.node].id,
+                  {}};
+  for (std::size_t l = 0; l < state.links.size(); ++l) {
+    const LinkPlan& link = state.plan->links[l];
+    if (!link.is_enabled || link.is_muted) continue;
+    const std::vector<Voice>& voices = state.links[l].voices;
+    auto voice = std::lower_bound(voices.begin(), voices.end(), ref, [](const Voice& v, PortRef r) { return v.target < r; });
+    for (; voice != voices.end() && voice->target == ref; ++voice) {
+      const bool says_something = voice->magnitude > 0 || port.rule != CombineRule::sum;
+      if (!(voice->strength > 0) || !says_something) continue;
+      row.pulls.push_back(speaker(link) + voice_text(state, *voice));
+      row.links.push_back(link.id);
+    }
+  }
+  if (std::string own = own_word(state.plan->nodes[ref.node].types[ref.type], ref.port); !own.empty()) {
+    row.pulls.push_back(std::move(own));
+    row.links.emplace_back();
+  }
+  return row;
+}
+
+void read_conflicts(const State& state, ReportModel& model) {
+  for (const TensePort& tense : tense_ports(state)) {
+    if (tense.severity < kMinorSeverity) ++model.minor_conflicts;
+    else model.conflicts.push_back(conflict_row(state, tense));
+  }
   std::stable_sort(model.conflicts.begin(), model.conflicts.end(),
                    [](const ConflictRow& a, const ConflictRow& b) { return a.severity > b.severity; });
 }
 
 void read_problems(const State& state, ReportModel& model) {
   const Plan& plan = *state.plan;
-  const auto add = [&](std::string place, std::string message) {
-    model.problems.push_back({std::move(place), std::move(message)});
+  std::set<std::pair<std::string, std::string>> said;
+  const auto add = [&](ProblemRow row) {
+    if (said.emplace(row.place, row.message).second) model.problems.push_back(std::move(row));
   };
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
+    const std::string& id = plan.nodes[n].id;
     for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t)
       if (const auto& error = state.nodes[n].types[t].error)
-        add("node " + name_at(state, n) + ", " + plan.nodes[n].types[t].definition->label, error->text());
+        add({"node " + name_at(state, n) + ", " + plan.nodes[n].types[t].definition->label, error->text(), id, "", false});
     if (const std::string message = text_at(state, n, "smart_volumes_solver", "message"); !message.empty())
-      add("node " + name_at(state, n), message);
+      add({"node " + name_at(state, n), message, id, "", true});
   }
   for (std::size_t l = 0; l < state.links.size(); ++l) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
-    if (error) add("link " + plan.links[l].id, error->text());
+    if (error) add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});
   }
   for (const SetPlan& set : plan.sets)
-    if (set.error) add("node " + name_at(state, set.node), set.error->text());
-  std::vector<ProblemRow> distinct;
-  for (ProblemRow& row : model.problems) {
-    const auto is_same = [&](const ProblemRow& other) { return other.place == row.place && other.message == row.message; };
-    if (std::none_of(distinct.begin(), distinct.end(), is_same)) distinct.push_back(std::move(row));
-  }
-  model.problems = std::move(distinct);
+    if (set.error) add({"node " + name_at(state, set.node), set.error->text(), plan.nodes[set.node].id, "", false});
 }
 
 }  // namespace bl::report

@@ -28,7 +28,7 @@ std::size_t group_of(const Plan& plan, std::uint32_t node) {
   return 0;
 }
 
-VolumeRow read_volume(const State& state, std::uint32_t node) {
+VolumeRow read_volume(const State& state, std::uint32_t node, bool with_shape) {
   const auto number = [&](const char* port) { return number_at(state, node, kVolume, port); };
   VolumeRow row;
   row.node = node;
@@ -37,14 +37,15 @@ VolumeRow read_volume(const State& state, std::uint32_t node) {
   row.use = text_at(state, node, kVolume, "use");
   row.state = text_at(state, node, kVolume, "state");
   row.reason = text_at(state, node, kVolume, "reason");
-  row.position = point_at(state, node, "node", "position");
   row.storey_height = number("storey_height");
   row.demand = number("demand");
   row.wanted = number_at(state, node, kVolume, "wanted", row.demand);
   row.volume = number("volume");
+  row.floor_area = number("floor_area");
+  if (!with_shape) return row;
+  row.position = point_at(state, node, "node", "position");
   row.cell_volume = number("cell_volume");
   row.weight = number("weight");
-  row.floor_area = number("floor_area");
   row.surface_area = number("surface_area");
   row.footprint = number("footprint");
   row.height = number("height");
@@ -191,6 +192,16 @@ std::vector<std::string> ReportModel::use_names() const {
   return names;
 }
 
+void read_figures(const State& state, ReportModel& model) {
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
+    if (!has_type(state, n, kVolume)) continue;
+    model.volumes.push_back(read_volume(state, n, false));
+    model.volumes.back().number = model.volumes.size();
+  }
+  read_uses(state, model);
+  add_totals(model);
+}
+
 void read_model(const State& state, ReportModel& model) {
   const Settings& settings = state.plan->settings;
   model.title = settings.title;
@@ -203,7 +214,7 @@ void read_model(const State& state, ReportModel& model) {
   model.is_settled = state.is_settled();
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
     if (has_type(state, n, kVolume)) {
-      model.volumes.push_back(read_volume(state, n));
+      model.volumes.push_back(read_volume(state, n, true));
       model.volumes.back().number = model.volumes.size();
     }
     if (has_type(state, n, "boundary")) model.sites.push_back(read_site(state, n));

@@ -48,15 +48,28 @@ struct SiteRow {
   std::vector<Polyline> ground, plan;  ///< outline of its underside, and of all of it seen from above
 };
 
-/// A port on which proposals disagree.
-struct ConflictRow {
-  std::string node, port, tension;
-  std::vector<std::string> pulls;
+/// A port on which proposals disagree, and how much.
+struct TensePort {
+  PortRef ref;
+  double tension = 0;   ///< in the port's unit
   double severity = 0;  ///< tension against the size of what is pulled at
 };
 
+/// The same in words.
+struct ConflictRow {
+  std::string node, port, tension;
+  std::vector<std::string> pulls;
+  double severity = 0;
+  PortRef ref;
+  std::string node_id;
+  std::vector<std::string> links;  ///< ids, one for each of `pulls`; empty for what people have set or locked
+};
+
+/// What failed or cannot be had.
 struct ProblemRow {
   std::string place, message;
+  std::string node, link;    ///< ids of where it is, as far as it is somewhere
+  bool is_shortage = false;  ///< nothing failed: there is less than what is wanted
 };
 
 struct ReportModel {
@@ -83,6 +96,20 @@ struct ReportModel {
 void read_model(const State& state, ReportModel& model);
 void read_conflicts(const State& state, ReportModel& model);
 void read_problems(const State& state, ReportModel& model);
+/// Names, demands, volumes and floor areas of volumes and uses, and their totals, for a window that reads them in every tick:
+/// without shapes and measures of them, sites, conflicts and problems.
+void read_figures(const State& state, ReportModel& model);
+
+/// Less than this share of what is pulled at is no conflict that anybody would want to read about.
+inline constexpr double kMinorSeverity = 0.002;
+/// All ports under tension, ascending; minor ones too.
+std::vector<TensePort> tense_ports(const State& state);
+/// A tension against the size of what is pulled at.
+double severity_of(const State& state, PortRef ref, double tension);
+/// Who pulls at it, and how.
+ConflictRow conflict_row(const State& state, const TensePort& tense);
+/// "wants 7 200 m³, strength 0.5": what a link says, without its name.
+std::string voice_text(const State& state, const Voice& voice);
 
 /// Values by name; a fallback where the node has no such port or it holds another kind.
 double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback = 0);

@@ -64,9 +64,10 @@ std::span<const Action> actions() {
 }
 
 void run_pressed_actions(Editor& editor) {
-  if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
-    return;
+  const bool is_elsewhere = ImGui::GetIO().WantTextInput ||
+                            ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   for (const Action& action : actions()) {
+    if (is_elsewhere && !action.is_always) continue;
     if (action.area != Area::none && action.area != editor.area) continue;
     if (is_pressed(action.chord, action.repeats) || is_pressed(action.other, action.repeats)) run(action, editor);
   }

@@ -28,6 +28,7 @@ struct Action {
   void (*run)(Editor&) = nullptr;
   bool repeats = false;                        ///< a key that is held goes on
   bool (*is_on)(const Editor&) = nullptr;      ///< for switches: shown with a mark
+  bool is_always = false;                      ///< its keys count over open dialogs as well
 };
 
 /// All actions, menu by menu, in the order of the menus.

@@ -9,6 +9,8 @@
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/scene_view.h"
+#include "ui/desktop/panels/start_page.h"
+#include "ui/desktop/view/renderer.h"
 
 namespace bl::desktop {
 
@@ -41,9 +43,13 @@ void pane(const char* name, ImVec2 at, ImVec2 size, ImU32 ground, ImVec2 padding
 Desktop::Desktop(const Registry& registry, PersonSettings& person, Renderer& renderer)
     : editor_(std::make_unique<Editor>(registry, person)),
       canvas_(std::make_unique<Canvas>(*editor_)),
-      view_(std::make_unique<SceneView>(*editor_, renderer)) {
+      view_(std::make_unique<SceneView>(*editor_, renderer)),
+      dialogs_(std::make_unique<Dialogs>(*editor_)),
+      start_page_(std::make_unique<StartPage>(*editor_)),
+      renderer_(&renderer) {
   editor_->canvas = canvas_.get();
   editor_->view = view_.get();
+  editor_->dialogs = dialogs_.get();
 }
 
 Desktop::~Desktop() = default;
@@ -53,9 +59,15 @@ std::string Desktop::title() {
   return std::string(editor_->document->is_unsaved() ? "* " : "") + editor_->document->name() + " - BehaviourLinks";
 }
 
-void Desktop::drop(const std::string& path) { open_or_ask(*editor_, path); }
+void Desktop::drop(const std::string& path) {
+  dialogs_->guard([this, path] { editor_->open(path); });
+}
 
-void Desktop::ask_to_quit() { quit_or_ask(*editor_); }
+void Desktop::ask_to_quit() {
+  dialogs_->guard([this] { editor_->wants_quit = true; });
+}
+
+void Desktop::offer_recovery() { dialogs_->offer_recovery(Journal::find(editor_->registry)); }
 
 void Desktop::frame(double now) {
   Editor& editor = *editor_;
@@ -71,12 +83,14 @@ void Desktop::frame(double now) {
     ImGui::EndMainMenuBar();
   }
   if (editor.document) {
+    start_page_->leave();
     draw_workspace(top);
   } else {
     const Colours& c = editor.theme.colours();
-    pane("start", {0, top}, {size.x, size.y - top}, c.window, {0, 0}, [&] { draw_start_page(editor); });
+    pane("start", {0, top}, {size.x, size.y - top}, c.window, {0, 0}, [&] { start_page_->draw(); });
   }
-  draw_dialogs(editor);
+  editor.bytes_sent += renderer_->take_bytes_sent();
+  dialogs_->draw();
   draw_notices();
 }
 
@@ -87,8 +101,9 @@ void Desktop::draw_workspace(float top) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  // What the 3D view was pointed at lights up in the canvas too, which is drawn before it.
-  editor.picks.hovered_node = view_->pointed_at();
+  editor.picks.lit_node = editor.picks.hovered_node;
+  editor.picks.lit_link = editor.picks.hovered_link;
+  editor.picks.hovered_node.clear();
   editor.picks.hovered_link.clear();
   if (editor.is_beamer) {
     pane("view", {0, 0}, size, c.sky, {0, 0}, [&] { view_->draw(size); });

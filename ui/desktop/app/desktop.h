@@ -9,6 +9,7 @@
 namespace bl::desktop {
 
 class Renderer;
+class StartPage;
 
 class Desktop {
  public:
@@ -25,6 +26,8 @@ class Desktop {
   void drop(const std::string& path);
   /// The person wants to close the window; asks first where something would be lost.
   void ask_to_quit();
+  /// Once, at the start: what windows that did not end well have left.
+  void offer_recovery();
 
  private:
   void draw_workspace(float top);
@@ -33,6 +36,9 @@ class Desktop {
   std::unique_ptr<Editor> editor_;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<SceneView> view_;
+  std::unique_ptr<Dialogs> dialogs_;
+  std::unique_ptr<StartPage> start_page_;
+  Renderer* renderer_;
 };
 
 }  // namespace bl::desktop

@@ -2,6 +2,7 @@
 #include "ui/desktop/app/editor.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/base/text.h"
 
@@ -56,7 +57,10 @@ void Editor::tell(NoticeKind kind, std::string text) {
   if (notices.size() > kMostNotices) notices.erase(notices.begin());
 }
 
-bool Editor::open(const std::string& path) {
+bool Editor::open(const std::string& wanted) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(wanted, error);
+  const std::string path = error ? wanted : absolute.lexically_normal().string();
   std::vector<Problem> found;
   auto fresh = Document::open(registry, path, kThreads, found);
   problems = std::move(found);
@@ -75,6 +79,7 @@ void Editor::take(std::unique_ptr<Document> fresh) {
   document = std::move(fresh);
   moment = document->session().moment();
   picks = {};
+  panels = nullptr;
 }
 
 }  // namespace bl::desktop

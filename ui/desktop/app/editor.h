@@ -15,12 +15,15 @@
 namespace bl::desktop {
 
 class Canvas;
+class Dialogs;
 class SceneView;
+struct PanelMemory;
 
 /// What is selected and pointed at, in all panels alike. Each person's own: no part of the scene, and not undone.
 struct Picks {
   std::set<std::string> nodes, links;
   std::string hovered_node, hovered_link;  ///< pointed at in this frame, in whatever panel
+  std::string lit_node, lit_link;          ///< the same of the frame before, so that panels drawn earlier know it too
 
   void clear() { nodes.clear(), links.clear(); }
   void only_node(const std::string& id) { links.clear(), nodes = {id}; }
@@ -51,11 +54,13 @@ class Editor {
   std::shared_ptr<const Moment> moment;       ///< taken once for each frame; none without a document
   Canvas* canvas = nullptr;                   ///< for actions that concern it
   SceneView* view = nullptr;                  ///< the same
+  Dialogs* dialogs = nullptr;                 ///< the same
   double now = 0;                             ///< the window's clock [s]
   Area area = Area::none;
   std::vector<Notice> notices;
-  bool is_beamer = false, wants_quit = false;
-  std::string open_panel;                     ///< a dialog that an action wants to be opened: "palette", "open", "save_as", ...
+  bool is_beamer = false, wants_quit = false, wants_picture = false;
+  std::shared_ptr<PanelMemory> panels;        ///< what inspector, lists and charts remember of this document
+  std::uint64_t bytes_sent = 0;               ///< to the graphics processor, since the window opened
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
   const Scene& scene() const { return document->scene(); }

@@ -14,6 +14,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <stb_image_write.h>
 
 #include "core/file/file_io.h"
 #include "ui/desktop/app/desktop.h"
@@ -31,6 +32,32 @@ constexpr double kIdleFrame = 0.25;
 struct FrameTimes {
   std::vector<double> milliseconds;
 };
+
+// Writes what the window shows as a numbered PNG; where to, or why not, becomes a notice.
+void take_picture(Editor& editor, const std::string& wanted_folder, int width, int height) {
+  const std::string folder = !wanted_folder.empty() ? wanted_folder : person_folder() + "/pictures";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  std::string path;
+  for (int k = 1; path.empty() || std::filesystem::exists(path, error); ++k)
+    path = folder + "/picture-" + (k < 10 ? "0" : "") + std::to_string(k) + ".png";
+  std::vector<unsigned char> pixels(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  for (std::size_t k = 3; k < pixels.size(); k += 4) pixels[k] = 255;
+  stbi_flip_vertically_on_write(1);
+  if (stbi_write_png(path.c_str(), width, height, 4, pixels.data(), 4 * width) != 0)
+    editor.tell(NoticeKind::told, "Took the picture " + path + ".");
+  else editor.tell(NoticeKind::error, "The picture " + path + " could not be written.");
+}
+
+// Without a display that paces the frames, the loop does it itself; an event ends the wait.
+void wait_for_next_frame(double begin) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  const double frame = 1.0 / (mode != nullptr && mode->refreshRate > 20 ? mode->refreshRate : 60);
+  const double rest = 0.9 * frame - (glfwGetTime() - begin);
+  if (rest > 0.001) glfwWaitEventsTimeout(rest);
+}
 
 void complain(const std::string& text) { std::fprintf(stderr, "behaviourlinks: %s\n", text.c_str()); }
 
@@ -112,6 +139,7 @@ int run_window(const WindowOptions& options) {
     bool is_dark = person.is_dark;
     float scale = 0;
     if (!options.scene.empty() && editor.open(options.scene)) editor.document->session().play(options.is_playing);
+    desktop.offer_recovery();
     std::string title;
     while (!editor.wants_quit) {
       glfwPollEvents();
@@ -144,11 +172,14 @@ int run_window(const WindowOptions& options) {
       glClear(GL_COLOR_BUFFER_BIT);
       ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
       if (!options.times.empty()) times.milliseconds.push_back(1000 * (glfwGetTime() - begin));
+      if (editor.wants_picture) take_picture(editor, options.pictures, width, height);
+      editor.wants_picture = false;
       glfwSwapBuffers(window.handle());
       if (std::string now_title = desktop.title(); now_title != title) {
         title = std::move(now_title);
         glfwSetWindowTitle(window.handle(), title.c_str());
       }
+      wait_for_next_frame(begin);
     }
     glfwGetWindowSize(window.handle(), &person.width, &person.height);
   }

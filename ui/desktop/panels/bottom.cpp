@@ -1,27 +1,40 @@
 // The tabs below canvas and 3D view.
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/panels.h"
+#include "ui/desktop/panels/problems_list.h"
+#include "ui/desktop/panels/statistics_record.h"
 
 namespace bl::desktop {
 
 void draw_bottom(Editor& editor) {
+  PanelMemory& memory = memory_of(editor);
+  if (!memory.problems) memory.problems = std::make_unique<ProblemList>();
+  if (!memory.record) memory.record = std::make_unique<RunRecord>();
+  // Every tick is recorded, and problems are counted, also while another tab is in front.
+  memory.record->sample(editor);
+  memory.problems->refresh(editor, &memory.record->figures(editor));
   if (!ImGui::BeginTabBar("bottom")) return;
-  if (ImGui::BeginTabItem("Problems")) {
+  const auto flags = [&](const char* name) {
+    return memory.wanted_tab == name ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+  };
+  const std::size_t pressing = memory.problems->pressing();
+  const std::string problems =
+      "Problems" + (pressing > 0 ? "  " + report::grouped(static_cast<double>(pressing)) : std::string()) + "###Problems";
+  if (ImGui::BeginTabItem(problems.c_str(), nullptr, flags("Problems"))) {
     draw_problems(editor);
     ImGui::EndTabItem();
   }
-  if (ImGui::BeginTabItem("Statistics")) {
+  if (ImGui::BeginTabItem("Statistics", nullptr, flags("Statistics"))) {
     draw_statistics(editor);
     ImGui::EndTabItem();
   }
-  if (ImGui::BeginTabItem("History")) {
+  if (ImGui::BeginTabItem("History", nullptr, flags("History"))) {
     draw_history(editor);
     ImGui::EndTabItem();
   }
+  memory.wanted_tab.clear();
   ImGui::EndTabBar();
 }
-
-void draw_problems(Editor&) {}
-void draw_statistics(Editor&) {}
-void draw_history(Editor&) {}
 
 }  // namespace bl::desktop

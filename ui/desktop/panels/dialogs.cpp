@@ -1,10 +1,191 @@
-// Windows over the window.
+// Which dialog is open, and the small ones: questions about unsaved changes and recovery.
 #include "ui/desktop/panels/dialogs.h"
+
+#include <filesystem>
+
+#include "ui/cli/report/report.h"
 
 namespace bl::desktop {
 
-void draw_dialogs(Editor&) {}
-void open_or_ask(Editor& editor, const std::string& path) { editor.open(path); }
-void quit_or_ask(Editor& editor) { editor.wants_quit = true; }
+namespace {
+
+constexpr int kThreads = 1;
+
+std::string folder_of(const Editor& editor) {
+  return editor.document && !editor.document->path().empty() ? editor.document->path() : ".";
+}
+
+}  // namespace
+
+void Dialogs::show(Kind kind) {
+  kind_ = kind;
+  is_fresh_ = true;
+  query_.clear();
+  marked_ = 0;
+}
+
+void Dialogs::close() {
+  kind_ = Kind::none;
+  ImGui::CloseCurrentPopup();
+}
+
+// A modal window in the middle; call EndPopup where it returns true.
+bool Dialogs::begin(const char* title, float width, float height) {
+  const Theme& theme = editor_->theme;
+  if (is_fresh_) ImGui::OpenPopup(title);
+  ImGui::SetNextWindowSize({theme.px(width), theme.px(height)}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+  bool stays = true;
+  if (ImGui::BeginPopupModal(title, &stays, ImGuiWindowFlags_NoSavedSettings)) {
+    const bool is_escaped = !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    if (stays && !is_escaped) return true;
+    close();
+    ImGui::EndPopup();
+    return false;
+  }
+  if (!is_fresh_) kind_ = Kind::none;
+  return false;
+}
+
+void Dialogs::draw() {
+  if (kind_ == Kind::palette) draw_palette();
+  else if (kind_ == Kind::keys) draw_keys();
+  else if (kind_ == Kind::fresh) draw_new_scene();
+  else if (kind_ == Kind::unsaved) draw_unsaved();
+  else if (kind_ == Kind::recovery) draw_recovery();
+  is_fresh_ = false;
+  if (kind_ == Kind::fresh) return;  // its chooser is drawn inside it
+  if (const auto path = chooser_.draw(*editor_)) chosen_(*path);
+}
+
+void Dialogs::ask_open() {
+  guard([this] {
+    chooser_.open(FileChooser::Purpose::open_file, "Open a scene", {".json"}, folder_of(*editor_));
+    chosen_ = [this](const std::string& path) { editor_->open(path); };
+  });
+}
+
+void Dialogs::ask_save_as() {
+  const std::string path = editor_->document->path();
+  chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"}, path.empty() ? "scene.json" : path);
+  chosen_ = [this](const std::string& chosen) {
+    if (auto saved = editor_->document->save(chosen); !saved) return editor_->tell(NoticeKind::error, saved.error().text());
+    editor_->person.remember(editor_->person.recent, chosen);
+    editor_->tell(NoticeKind::told, "Saved " + chosen + ".");
+    if (auto then = std::exchange(then_, nullptr)) then();
+  };
+}
+
+bool Dialogs::save() {
+  Document& document = *editor_->document;
+  if (document.path().empty()) {
+    ask_save_as();
+    return false;
+  }
+  if (auto saved = document.save(document.path()); !saved) {
+    editor_->tell(NoticeKind::error, saved.error().text());
+    return false;
+  }
+  editor_->tell(NoticeKind::told, "Saved " + document.name() + ".");
+  return true;
+}
+
+void Dialogs::ask_report() {
+  const std::string stem = std::filesystem::path(editor_->document->name()).stem().string();
+  chooser_.open(FileChooser::Purpose::choose_folder, "Write the report into a folder", {}, folder_of(*editor_));
+  chosen_ = [this, stem](const std::string& folder) {
+    ReportData data;
+    data.state = &editor_->state();
+    data.scene_path = editor_->document->path().empty() ? stem : editor_->document->path();
+    data.outcome = editor_->state().is_settled() ? "settled" : "still negotiating";
+    data.outcome += " at tick " + std::to_string(editor_->state().tick);
+    if (auto written = write_report(folder, data); !written)
+      return editor_->tell(NoticeKind::error, written.error().text());
+    editor_->tell(NoticeKind::told, "Wrote report.html, volumes.csv and volumes.obj into " + folder + ".");
+  };
+}
+
+void Dialogs::ask_log() {
+  chooser_.open(FileChooser::Purpose::save_file, "Save the log for replay", {".log"}, folder_of(*editor_));
+  chosen_ = [this](const std::string& path) {
+    if (auto written = editor_->document->save_log(path); !written)
+      return editor_->tell(NoticeKind::error, written.error().text());
+    editor_->tell(NoticeKind::told, "Saved the log " + path + "; `behaviourlinks replay` runs it again.");
+  };
+}
+
+void Dialogs::guard(std::function<void()> then) {
+  if (!editor_->document || !editor_->document->is_unsaved()) return then();
+  then_ = std::move(then);
+  show(Kind::unsaved);
+}
+
+void Dialogs::draw_unsaved() {
+  if (!begin("Unsaved changes", 460, 150)) return;
+  const Theme& theme = editor_->theme;
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted((editor_->document->name() + " has changes that are not saved.").c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Dummy({0, theme.px(10)});
+  const ImVec2 size{theme.px(130), 0};
+  if (ImGui::Button("Save", size)) {
+    close();
+    if (save())
+      if (auto then = std::exchange(then_, nullptr)) then();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Discard", size)) {
+    close();
+    if (auto then = std::exchange(then_, nullptr)) then();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", size)) {
+    then_ = nullptr;
+    close();
+  }
+  ImGui::EndPopup();
+}
+
+void Dialogs::offer_recovery(std::vector<Journal::Remains> remains) {
+  remains_ = std::move(remains);
+  if (!remains_.empty()) show(Kind::recovery);
+}
+
+void Dialogs::draw_recovery() {
+  if (!begin("Recover unsaved work", 620, 300)) return;
+  const Theme& theme = editor_->theme;
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted("A window did not end well. What was done in it is kept in its journal:");
+  ImGui::PopTextWrapPos();
+  ImGui::Dummy({0, theme.px(6)});
+  for (std::size_t k = 0; k < remains_.size(); ++k) {
+    const Journal::Remains& one = remains_[k];
+    ImGui::PushID(static_cast<int>(k));
+    const bool recovers = ImGui::Button("Recover", {theme.px(90), 0});
+    ImGui::SameLine();
+    const bool discards = ImGui::Button("Discard", {theme.px(90), 0});
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::Text("%s, %zu changes", one.scene_path.empty() ? "a scene without a file" : one.scene_path.c_str(),
+                one.log.entries.size());
+    ImGui::PopID();
+    if (!recovers && !discards) continue;
+    if (recovers) {
+      editor_->problems.clear();
+      editor_->problem_file = one.path;
+      if (auto document = Document::recover(editor_->registry, one, kThreads, editor_->problems)) {
+        editor_->take(std::move(document));
+        editor_->tell(NoticeKind::told, "Recovered. Save it to keep it.");
+      } else {
+        editor_->tell(NoticeKind::error, "The journal's scene could not be opened; the problems list says why.");
+      }
+    }
+    Journal::discard(one);
+    remains_.erase(remains_.begin() + static_cast<std::ptrdiff_t>(k));
+    if (remains_.empty() || recovers) close();
+    break;
+  }
+  ImGui::EndPopup();
+}
 
 }  // namespace bl::desktop

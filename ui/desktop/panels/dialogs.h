@@ -1,16 +1,61 @@
 // Windows over the window: files, a new scene, the command palette, the list of keys, questions before something is lost.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "ui/cli/scene_making.h"
 #include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/file_chooser.h"
 
 namespace bl::desktop {
 
-/// Draws whichever dialog is open; `editor.open_panel` opens one by name.
-void draw_dialogs(Editor& editor);
-/// Opens a scene, after asking what is to become of unsaved changes.
-void open_or_ask(Editor& editor, const std::string& path);
-void quit_or_ask(Editor& editor);
+class Dialogs {
+ public:
+  explicit Dialogs(Editor& editor) : editor_(&editor) {}
+  void draw();
+
+  void ask_open();
+  void ask_save_as();
+  void ask_report();
+  void ask_log();
+  void show_new_scene();
+  void show_palette();
+  void show_keys();
+  /// Journals of windows that did not end well: offered once, at the start.
+  void offer_recovery(std::vector<Journal::Remains> remains);
+  /// Saves to the document's file, or asks for one. Whether it was saved at once.
+  bool save();
+  /// Does `then` at once, or after people have said what becomes of unsaved changes.
+  void guard(std::function<void()> then);
+  bool is_choosing_file() const { return chooser_.is_open(); }
+
+ private:
+  enum class Kind { none, palette, keys, fresh, unsaved, recovery };
+  void show(Kind kind);
+  bool begin(const char* title, float width, float height);
+  void close();
+  void draw_palette();
+  void draw_keys();
+  void draw_new_scene();
+  void draw_file_field(const char* label, std::string& path, std::vector<std::string> endings);
+  void draw_unsaved();
+  void draw_recovery();
+  void make_scene();
+
+  Editor* editor_;
+  Kind kind_ = Kind::none;
+  bool is_fresh_ = false;
+  FileChooser chooser_;
+  std::function<void(const std::string&)> chosen_;
+  std::function<void()> then_;
+  std::string query_;
+  int marked_ = 0;
+  cli::NewOptions fresh_;
+  std::vector<std::string> told_;  ///< notes and errors of the last try to make a scene
+  bool is_told_error_ = false;
+  std::vector<Journal::Remains> remains_;
+};
 
 }  // namespace bl::desktop

@@ -6,16 +6,54 @@
 
 namespace bl::desktop {
 
+namespace {
+
+void close_document(Editor& editor) {
+  editor.dialogs->guard([&editor] {
+    editor.document.reset();
+    editor.moment.reset();
+    editor.picks = {};
+    editor.problems.clear();
+  });
+}
+
+void back_to_saved(Editor& editor) {
+  if (editor.document->path().empty()) return;
+  const std::string path = editor.document->path();
+  editor.dialogs->guard([&editor, path] { editor.open(path); });
+}
+
+bool has_file(const Editor& editor) { return has_document(editor) && !editor.document->path().empty(); }
+
+}  // namespace
+
 void add_file_actions(std::vector<Action>& list) {
-  list.push_back({"File", "Quit", {GLFW_KEY_Q, true}, {}, Area::none, nullptr, quit_or_ask});
+  auto file = [&](const char* label, Chord chord, bool (*can)(const Editor&), void (*run)(Editor&)) {
+    list.push_back({"File", label, chord, {}, Area::none, can, run});
+  };
+  file("New from boundary and programme ...", {GLFW_KEY_N, true}, nullptr, [](Editor& e) { e.dialogs->show_new_scene(); });
+  file("Open ...", {GLFW_KEY_O, true}, nullptr, [](Editor& e) { e.dialogs->ask_open(); });
+  file("Save", {GLFW_KEY_S, true}, has_document, [](Editor& e) { e.dialogs->save(); });
+  file("Save as ...", {GLFW_KEY_S, true, true}, has_document, [](Editor& e) { e.dialogs->ask_save_as(); });
+  file("Back to the saved scene", {}, has_file, back_to_saved);
+  file("Write the report ...", {GLFW_KEY_E, true}, has_document, [](Editor& e) { e.dialogs->ask_report(); });
+  file("Save the log for replay ...", {}, has_document, [](Editor& e) { e.dialogs->ask_log(); });
+  file("Take a picture of the window", {GLFW_KEY_F12}, nullptr, [](Editor& e) { e.wants_picture = true; });
+  list.back().is_always = true;
+  file("Close the scene", {GLFW_KEY_W, true}, has_document, close_document);
+  file("Quit", {GLFW_KEY_Q, true}, nullptr, [](Editor& e) { e.dialogs->guard([&e] { e.wants_quit = true; }); });
 }
 
 void add_edit_actions(std::vector<Action>& list) {
   list.push_back({"Edit", "Undo", {GLFW_KEY_Z, true}, {}, Area::none, has_document, [](Editor& e) { e.undo(); }, true});
   list.push_back({"Edit", "Redo", {GLFW_KEY_Y, true}, {GLFW_KEY_Z, true, true}, Area::none, has_document,
                   [](Editor& e) { e.redo(); }, true});
+  list.push_back({"Edit", "Commands ...", {GLFW_KEY_K, true}, {}, Area::none, nullptr, [](Editor& e) { e.dialogs->show_palette(); }});
 }
 
-void add_help_actions(std::vector<Action>&) {}
+void add_help_actions(std::vector<Action>& list) {
+  list.push_back({"Help", "Keys and gestures", {GLFW_KEY_SLASH, false, true}, {}, Area::none, nullptr,
+                  [](Editor& e) { e.dialogs->show_keys(); }});
+}
 
 }  // namespace bl::desktop

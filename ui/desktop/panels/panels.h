@@ -14,7 +14,5 @@ void draw_bottom(Editor& editor);
 void draw_problems(Editor& editor);
 void draw_history(Editor& editor);
 void draw_statistics(Editor& editor);
-/// Where no scene is open: shipped scenes as pictures, recent files, what to do first.
-void draw_start_page(Editor& editor);
 
 }  // namespace bl::desktop

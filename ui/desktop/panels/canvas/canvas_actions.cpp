@@ -1,15 +1,236 @@
-// The commands of the node canvas.
+// The commands of the node canvas, with their keys.
 #include <GLFW/glfw3.h>
 
 #include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/canvas/additions.h"
+#include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/canvas.h"
+#include "ui/desktop/panels/canvas/clipboard.h"
+#include "ui/desktop/panels/canvas/edits.h"
 
 namespace bl::desktop {
 
+using namespace canvas;
+
+namespace {
+
+constexpr double kZoomStep = 1.3;
+
+Board& board_of(Editor& e) { return e.canvas->board(); }
+
+bool has_nodes(const Editor& e) { return has_document(e) && !e.picks.nodes.empty(); }
+bool has_several(const Editor& e) { return has_document(e) && e.picks.nodes.size() > 1; }
+// Comments and frames are chosen too, and are no part of the shared picks: what is really there is seen by the action.
+bool has_choice(const Editor& e) {
+  return has_document(e) &&
+         (has_picks(e) || !e.canvas->board().picked_comments.empty() || !e.canvas->board().picked_frames.empty());
+}
+
+ImVec2 search_place(const Board& board) {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return board.camera.pane().holds(at) ? at : board.camera.pane().centre();
+}
+
+void select_all(Editor& e) {
+  e.picks.clear();
+  for (const auto& [id, node] : e.scene().nodes) e.picks.nodes.insert(id);
+  for (const auto& [id, comment] : board_of(e).model.view.comments) board_of(e).picked_comments.insert(id);
+}
+
+void select_none(Editor& e) {
+  if (board_of(e).drag.deed != Deed::none) return;  // Esc ends the drag, and no more
+  e.picks.clear();
+  board_of(e).picked_comments.clear();
+  board_of(e).picked_frames.clear();
+}
+
+void select_neighbours(Editor& e) {
+  const Model& model = board_of(e).model;
+  std::set<std::string> more = e.picks.nodes;
+  for (const Line& line : model.lines) {
+    if (line.from >= model.boxes.size() || line.to >= model.boxes.size()) continue;
+    const std::string &a = model.boxes[line.from].id, &b = model.boxes[line.to].id;
+    if (e.picks.nodes.contains(a)) more.insert(b);
+    if (e.picks.nodes.contains(b)) more.insert(a);
+  }
+  e.picks.nodes = more;
+}
+
+void edit_name(Editor& e) {
+  Board& board = board_of(e);
+  if (!e.picks.nodes.empty()) begin_edit(board, Thing::node, *e.picks.nodes.begin());
+  else if (!board.picked_comments.empty()) begin_edit(board, Thing::comment, *board.picked_comments.begin());
+  else if (!board.picked_frames.empty()) begin_edit(board, Thing::frame, *board.picked_frames.begin());
+}
+
+// A link between two chosen nodes without the mouse; with one chosen, to a new node.
+void link_chosen(Editor& e) {
+  Board& board = board_of(e);
+  std::vector<std::size_t> ends;
+  for (const std::string& id : e.picks.nodes)
+    if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size()) ends.push_back(k);
+  const ImVec2 at =
+      board.camera.to_screen(ends.empty() ? board.camera.sight().centre() : board.model.anchor(ends.back()).centre());
+  if (ends.size() == 2) open_link_menu(board, ends[0], ends[1], at);
+  else if (ends.size() == 1)
+    open_drop_menu(board, ends[0], board.camera.to_screen(board.model.anchor(ends[0]).high() + ImVec2(160, -60)));
+  else e.tell(NoticeKind::told, "Choose two nodes to link them, or one to link it to a new one.");
+}
+
+template <Alignment kind>
+void align(Editor& e) {
+  align_chosen(board_of(e), kind);
+}
+
+void add_edit_commands(std::vector<Action>& list) {
+  const Area area = Area::canvas;
+  list.push_back({"Canvas", "Add...", {GLFW_KEY_TAB}, {}, area, has_document, [](Editor& e) {
+                    open_addition(board_of(e), search_place(board_of(e)));
+                  }});
+  list.push_back({"Canvas", "Link...", {GLFW_KEY_L}, {}, area, has_nodes, link_chosen});
+  list.push_back({"Canvas", "Find...", {GLFW_KEY_F, true}, {}, area, has_document, [](Editor& e) { open_find(board_of(e)); }});
+  list.push_back({"Canvas", "Rename", {GLFW_KEY_ENTER}, {GLFW_KEY_F2}, area, has_choice, edit_name});
+  list.push_back({"Canvas", "Copy", {GLFW_KEY_C, true}, {}, area, has_choice, [](Editor& e) { copy_chosen(board_of(e)); }});
+  list.push_back({"Canvas", "Cut", {GLFW_KEY_X, true}, {}, area, has_choice, [](Editor& e) { cut_chosen(board_of(e)); }});
+  list.push_back({"Canvas", "Paste", {GLFW_KEY_V, true}, {}, area, has_document, [](Editor& e) { paste(board_of(e)); }});
+  list.push_back({"Canvas", "Duplicate", {GLFW_KEY_D, true}, {}, area, has_choice, [](Editor& e) {
+                    duplicate_chosen(board_of(e), {30, 30});
+                  }});
+  list.push_back(
+      {"Canvas", "Delete", {GLFW_KEY_DELETE}, {}, area, has_choice, [](Editor& e) { remove_chosen(board_of(e), false); }});
+  list.push_back({"Canvas", "Delete and reconnect", {GLFW_KEY_DELETE, true}, {}, area, has_nodes, [](Editor& e) {
+                    remove_chosen(board_of(e), true);
+                  }});
+  list.push_back({"Canvas", "Mute", {GLFW_KEY_M}, {}, area, has_picks, [](Editor& e) { mute_chosen(board_of(e)); }});
+  list.push_back({"Canvas",
+                  "Solo",
+                  {GLFW_KEY_Q},
+                  {},
+                  area,
+                  has_document,
+                  [](Editor& e) { solo_chosen(board_of(e)); },
+                  false,
+                  [](const Editor& e) { return has_document(e) && !e.canvas->board().soloed.empty(); }});
+  list.push_back({"Canvas", "Select all", {GLFW_KEY_A, true}, {}, area, has_document, select_all});
+  list.push_back({"Canvas", "Select nothing", {GLFW_KEY_ESCAPE}, {}, area, has_choice, select_none});
+  list.push_back({"Canvas", "Select neighbours too", {GLFW_KEY_N}, {}, area, has_nodes, select_neighbours});
+}
+
+void add_arrangement_commands(std::vector<Action>& list) {
+  const Area area = Area::canvas;
+  list.push_back({"Canvas", "Collapse", {GLFW_KEY_H}, {}, area, has_nodes, [](Editor& e) { collapse_chosen(board_of(e)); }});
+  list.push_back({"Canvas", "Frame", {GLFW_KEY_G, true}, {}, area, has_choice, [](Editor& e) { frame_chosen(board_of(e)); }});
+  list.push_back(
+      {"Canvas", "Comment", {GLFW_KEY_C, false, true}, {}, area, has_document, [](Editor& e) { add_comment(board_of(e)); }});
+  list.push_back({"Canvas", "Align left", {GLFW_KEY_LEFT, false, false, true}, {}, area, has_several, align<Alignment::left>});
+  list.push_back({"Canvas", "Align right", {GLFW_KEY_RIGHT, false, false, true}, {}, area, has_several, align<Alignment::right>});
+  list.push_back({"Canvas", "Align top", {GLFW_KEY_UP, false, false, true}, {}, area, has_several, align<Alignment::top>});
+  list.push_back(
+      {"Canvas", "Align bottom", {GLFW_KEY_DOWN, false, false, true}, {}, area, has_several, align<Alignment::bottom>});
+  list.push_back({"Canvas", "Align centres", {}, {}, area, has_several, align<Alignment::centre>});
+  list.push_back({"Canvas", "Align middles", {}, {}, area, has_several, align<Alignment::middle>});
+  list.push_back({"Canvas", "Distribute across", {GLFW_KEY_D, false, true}, {}, area, has_several, [](Editor& e) {
+                    distribute_chosen(board_of(e), true);
+                  }});
+  list.push_back({"Canvas", "Distribute down", {GLFW_KEY_D, false, true, true}, {}, area, has_several, [](Editor& e) {
+                    distribute_chosen(board_of(e), false);
+                  }});
+  list.push_back({"Canvas", "Lay out selection, or all", {GLFW_KEY_L, false, true}, {}, area, has_document, [](Editor& e) {
+                    lay_out_chosen(board_of(e));
+                  }});
+  list.push_back({"Canvas",
+                  "Snap to grid",
+                  {GLFW_KEY_S, false, true},
+                  {},
+                  area,
+                  has_document,
+                  [](Editor& e) { board_of(e).snaps = !board_of(e).snaps; },
+                  false,
+                  [](const Editor& e) { return has_document(e) && e.canvas->board().snaps; }});
+  list.push_back({"Canvas",
+                  "Minimap",
+                  {GLFW_KEY_M, false, true},
+                  {},
+                  area,
+                  has_document,
+                  [](Editor& e) { board_of(e).shows_minimap = !board_of(e).shows_minimap; },
+                  false,
+                  [](const Editor& e) { return has_document(e) && e.canvas->board().shows_minimap; }});
+}
+
+void add_sight_commands(std::vector<Action>& list) {
+  const Area area = Area::canvas;
+  list.push_back(
+      {"Canvas", "Fit selection, or all", {GLFW_KEY_F}, {}, area, has_document, [](Editor& e) { e.canvas->fit(false); }});
+  list.push_back(
+      {"Canvas", "Fit all", {GLFW_KEY_HOME}, {GLFW_KEY_A}, area, has_document, [](Editor& e) { e.canvas->fit(true); }});
+  list.push_back({"Canvas",
+                  "Zoom in",
+                  {GLFW_KEY_EQUAL, true},
+                  {GLFW_KEY_KP_ADD, true},
+                  area,
+                  has_document,
+                  [](Editor& e) { board_of(e).camera.glide_to_zoom(board_of(e).camera.zoom() * kZoomStep); },
+                  true});
+  list.push_back({"Canvas",
+                  "Zoom out",
+                  {GLFW_KEY_MINUS, true},
+                  {GLFW_KEY_KP_SUBTRACT, true},
+                  area,
+                  has_document,
+                  [](Editor& e) { board_of(e).camera.glide_to_zoom(board_of(e).camera.zoom() / kZoomStep); },
+                  true});
+  list.push_back({"Canvas", "Full size", {GLFW_KEY_0, true}, {}, area, has_document, [](Editor& e) {
+                    board_of(e).camera.glide_to_zoom(1);
+                  }});
+  list.push_back({"Canvas",
+                  "Go left",
+                  {GLFW_KEY_LEFT},
+                  {},
+                  area,
+                  has_document,
+                  [](Editor& e) {
+                    step_choice(board_of(e), {-1, 0});
+                  },
+                  true});
+  list.push_back({"Canvas",
+                  "Go right",
+                  {GLFW_KEY_RIGHT},
+                  {},
+                  area,
+                  has_document,
+                  [](Editor& e) {
+                    step_choice(board_of(e), {1, 0});
+                  },
+                  true});
+  list.push_back({"Canvas",
+                  "Go up",
+                  {GLFW_KEY_UP},
+                  {},
+                  area,
+                  has_document,
+                  [](Editor& e) {
+                    step_choice(board_of(e), {0, -1});
+                  },
+                  true});
+  list.push_back({"Canvas",
+                  "Go down",
+                  {GLFW_KEY_DOWN},
+                  {},
+                  area,
+                  has_document,
+                  [](Editor& e) {
+                    step_choice(board_of(e), {0, 1});
+                  },
+                  true});
+}
+
+}  // namespace
+
 void add_canvas_actions(std::vector<Action>& list) {
-  list.push_back({"Canvas", "Fit selection, or all", {GLFW_KEY_F}, {}, Area::canvas, has_document,
-                  [](Editor& e) { e.canvas->fit(false); }});
-  list.push_back({"Canvas", "Fit all", {GLFW_KEY_HOME}, {}, Area::canvas, has_document, [](Editor& e) { e.canvas->fit(true); }});
+  add_edit_commands(list);
+  add_arrangement_commands(list);
+  add_sight_commands(list);
 }
 
 }  // namespace bl::desktop

@@ -1,0 +1,201 @@
+// The inspector, driven by keys and mouse on the null renderer.
+#include "tests/ui/desktop/panels_support.h"
+
+namespace bl::desktop {
+namespace {
+
+constexpr const char* kQuarter = "scenes/start/quarter.json";
+
+TEST(Inspector, ANumberWithTheWrongUnitIsRefusedWithAReason) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  const std::string before = desktop.scene_text();
+  desktop.type_into("smart_volume.demand", "0.4 ha");
+  EXPECT_EQ(desktop.scene_text(), before);
+  EXPECT_NE(desktop.complaint().find("square metres"), std::string::npos) << desktop.complaint();
+  EXPECT_NE(desktop.complaint().find("cubic metres"), std::string::npos) << desktop.complaint();
+  desktop.type_into("smart_volume.demand", "7200 m3");
+  EXPECT_EQ(desktop.number("library", "smart_volume", "demand"), 7200);
+  EXPECT_EQ(desktop.complaint(), "");
+}
+
+TEST(Inspector, NumbersTakeArithmeticAndUnits) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  const auto now = [&] { return desktop.number("library", "smart_volume", "demand"); };
+  desktop.type_into("smart_volume.demand", "1200*1.5");
+  EXPECT_EQ(now(), 1800);
+  desktop.type_into("smart_volume.demand", "+10%");
+  EXPECT_DOUBLE_EQ(now(), 1980);
+  desktop.type_into("smart_volume.demand", "0.4 ha * 3.2 m");
+  EXPECT_DOUBLE_EQ(now(), 12800);
+  desktop.type_into("smart_volume.demand", "/2");
+  EXPECT_DOUBLE_EQ(now(), 6400);
+  desktop.type_into("smart_volume.demand", "-5");
+  EXPECT_DOUBLE_EQ(now(), 6400);
+  EXPECT_NE(desktop.complaint().find("between 0 and"), std::string::npos) << desktop.complaint();
+}
+
+TEST(Inspector, EscapeKeepsTheOldValueAndTabGoesToTheNext) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  const std::string before = desktop.scene_text();
+  desktop.type_into("smart_volume.demand", "5", GLFW_KEY_ESCAPE);
+  EXPECT_EQ(desktop.scene_text(), before);
+  desktop.type_into("smart_volume.demand", "3000", GLFW_KEY_TAB);
+  EXPECT_EQ(desktop.number("library", "smart_volume", "demand"), 3000);
+  EXPECT_EQ(memory_of(desktop.editor()).typing.key, "smart_volume.demand_limit");
+  desktop.frames(3);
+  desktop.key(GLFW_KEY_A, true);
+  desktop.type("5000");
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(2);
+  EXPECT_EQ(desktop.number("library", "smart_volume", "demand_limit"), 5000);
+}
+
+TEST(Inspector, WhatIsTypedGoesWhereItWasMeantToWhenAnotherNodeIsChosen) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  desktop.press_on("smart_volume.demand");
+  desktop.frames(3);
+  desktop.key(GLFW_KEY_A, true);
+  desktop.type("4321");
+  desktop.editor().picks.only_node("cafe");
+  desktop.click({5, 5});
+  desktop.frames(3);
+  EXPECT_EQ(desktop.number("library", "smart_volume", "demand"), 4321);
+  EXPECT_EQ(desktop.number("cafe", "smart_volume", "demand"), 1000);
+}
+
+TEST(Inspector, AScrubIsOneStep) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  const std::string before = desktop.scene_text();
+  const ImVec2 at = desktop.middle("smart_volume.demand");
+  desktop.drag(at, {at.x + 40, at.y}, 0, 10);
+  EXPECT_GT(desktop.number("library", "smart_volume", "demand"), 1000);
+  EXPECT_EQ(desktop.steps(), 1u);
+  desktop.editor().undo();
+  EXPECT_EQ(desktop.scene_text(), before);
+}
+
+TEST(Inspector, SeveralNodesAreEditedInOneStep) {
+  PanelDesktop desktop(kQuarter);
+  desktop.editor().picks.nodes = {"library", "cafe", "hotel"};
+  desktop.frames(2);
+  const std::string before = desktop.scene_text();
+  desktop.type_into("smart_volume.demand", "2500");
+  desktop.type_into("smart_volume.use", "mixed");
+  EXPECT_EQ(desktop.steps(), 2u);
+  for (const char* node : {"library", "cafe", "hotel"}) EXPECT_EQ(desktop.number(node, "smart_volume", "demand"), 2500) << node;
+  ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"cafe", {"smart_volume.demand"}, {"1000"}})));
+  desktop.frames(2);
+  desktop.type_into("smart_volume.demand", "*2");
+  EXPECT_EQ(desktop.number("cafe", "smart_volume", "demand"), 2000);
+  EXPECT_EQ(desktop.number("hotel", "smart_volume", "demand"), 5000);
+  while (desktop.steps() > 0) desktop.editor().undo();
+  EXPECT_EQ(desktop.scene_text(), before);
+}
+
+TEST(Inspector, ResetAndLock) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  const std::string before = desktop.scene_text();
+  desktop.type_into("smart_volume.demand", "2500");
+  desktop.press_on("smart_volume.demand/reset");
+  EXPECT_EQ(desktop.scene_text(), before);
+  desktop.press_on("smart_volume.demand/lock");
+  EXPECT_TRUE(desktop.editor().scene().nodes.at("library").locked.contains("smart_volume.demand"));
+  desktop.press_on("smart_volume.demand/lock");
+  EXPECT_EQ(desktop.scene_text(), before);
+}
+
+TEST(Inspector, TheTableOfTheBriefIsEditedByCell) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("programme");
+  desktop.press_on("programme.rows");
+  desktop.frames(2);
+  const auto rows = [&] { return *std::get<Shared<Table>>(desktop.setting("programme", "programme", "rows")); };
+  desktop.type_into("programme.rows/0/floor_area", "0.5 ha");
+  EXPECT_EQ(rows().number(0, "floor_area"), 5000);
+  desktop.type_into("programme.rows/0/floor_area", "3 m");
+  EXPECT_EQ(rows().number(0, "floor_area"), 5000);
+  EXPECT_NE(desktop.complaint(), "");
+  const std::size_t count = rows().rows.size();
+  desktop.press_on("programme.rows/add");
+  EXPECT_EQ(rows().rows.size(), count + 1);
+  desktop.press_on("programme.rows/0/remove");
+  EXPECT_EQ(rows().rows.size(), count);
+  EXPECT_EQ(rows().text(0, "use"), "student housing");
+}
+
+TEST(Inspector, RenamesAndGivesAndTakesRoles) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  const std::string before = desktop.scene_text();
+  desktop.type_into("name", "Reading room");
+  EXPECT_EQ(desktop.editor().name_of("library"), "Reading room");
+  desktop.press_on("add role");
+  desktop.frames(2);
+  desktop.type("control");
+  desktop.press_on("entry/Control");
+  desktop.frames(2);
+  EXPECT_TRUE(desktop.editor().scene().nodes.at("library").types.contains("control"));
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.frames(2);
+  desktop.press_on("section/control/remove");
+  EXPECT_FALSE(desktop.editor().scene().nodes.at("library").types.contains("control"));
+  while (desktop.steps() > 0) desktop.editor().undo();
+  EXPECT_EQ(desktop.scene_text(), before);
+}
+
+TEST(Inspector, LinksStrengthEndsAndParameters) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose_link("library_cafe");
+  const auto link = [&] { return desktop.editor().scene().links.at("library_cafe"); };
+  desktop.type_into("strength", "40%");
+  EXPECT_DOUBLE_EQ(link().strength, 0.4);
+  desktop.type_into("strength", "2");
+  EXPECT_DOUBLE_EQ(link().strength, 0.4);
+  EXPECT_NE(desktop.complaint(), "");
+  desktop.press_on("swap");
+  EXPECT_EQ(link().from.ids, std::vector<std::string>{"cafe"});
+  desktop.press_on("to");
+  desktop.frames(2);
+  desktop.type("hotel");
+  desktop.press_on("entry/Hotel  hotel");
+  desktop.frames(2);
+  EXPECT_EQ(link().to.ids, (std::vector<std::string>{"hotel", "library"}));
+  desktop.click({1300, 2390});  // beside the list closes it
+  desktop.frames(2);
+  desktop.type_into("parameter.rest", "30 m");
+  EXPECT_EQ(as_number(link().parameters.at("rest")), 30);
+  desktop.press_on("muted");
+  EXPECT_TRUE(link().is_muted);
+}
+
+TEST(Inspector, SettingsOfTheScene) {
+  PanelDesktop desktop(kQuarter);
+  desktop.type_into("settings.title", "Another quarter");
+  EXPECT_EQ(settings_of(desktop.editor().scene()).title, "Another quarter");
+  desktop.type_into("settings.tolerance", "5%");
+  EXPECT_DOUBLE_EQ(settings_of(desktop.editor().scene()).tolerance, 0.05);
+}
+
+TEST(Inspector, AnExpressionDrivesANumberInOneStep) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  const std::string before = desktop.scene_text();
+  desktop.move_to(desktop.middle("smart_volume.storey_height"));
+  desktop.press_on("smart_volume.storey_height/drive");
+  ASSERT_EQ(desktop.steps(), 1u);
+  const std::string id = *desktop.editor().picks.nodes.begin();
+  EXPECT_TRUE(desktop.editor().scene().nodes.at(id).types.contains("expression"));
+  desktop.ticks(4);
+  EXPECT_FALSE(has_failure(desktop.editor().state()));
+  desktop.editor().undo();
+  EXPECT_EQ(desktop.scene_text(), before);
+}
+
+}  // namespace
+}  // namespace bl::desktop

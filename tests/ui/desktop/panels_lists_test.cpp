@@ -1,0 +1,196 @@
+// Problems, history and statistics, on the null renderer.
+#include "tests/ui/desktop/panels_support.h"
+#include "ui/desktop/panels/panels.h"
+#include "ui/desktop/panels/problems_list.h"
+#include "ui/desktop/panels/statistics_record.h"
+
+namespace bl::desktop {
+namespace {
+
+constexpr const char* kQuarter = "scenes/start/quarter.json";
+
+class ListDesktop : public PanelDesktop {
+ public:
+  explicit ListDesktop(const std::string& scene) : PanelDesktop(scene) {}
+  ProblemList& problems() { return *memory_of(editor()).problems; }
+  RunRecord& record() { return *memory_of(editor()).record; }
+  // The items of a kind, written out.
+  std::vector<ProblemItem> of(ProblemKind kind) {
+    std::vector<ProblemItem> found;
+    for (ProblemItem item : problems().items()) {
+      if (item.kind != kind) continue;
+      problems().write(editor().state(), item);
+      found.push_back(item);
+    }
+    return found;
+  }
+  void open_tab(const std::string& name) {
+    memory_of(editor()).wanted_tab = name;
+    frames(3);
+  }
+};
+
+TEST(Problems, AConflictNamesWhoPullsAndHowMuch) {
+  ListDesktop desktop(kQuarter);
+  ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"library", {"smart_volume.demand"}, {"4000"}})));
+  desktop.ticks(10);
+  bool is_found = false;
+  for (const ProblemItem& item : desktop.of(ProblemKind::conflict)) {
+    if (item.nodes.front() != "library" || item.subject.find("demand of Library") == std::string::npos) continue;
+    is_found = true;
+    EXPECT_EQ(item.subject, "One link pulls on the demand of Library");
+    EXPECT_NE(item.text.find("brief (Demand) wants 7200"), std::string::npos) << item.text;
+    EXPECT_NE(item.text.find("set by hand to 4000"), std::string::npos) << item.text;
+    EXPECT_EQ(item.links, std::vector<std::string>{"brief"});
+  }
+  EXPECT_TRUE(is_found);
+}
+
+TEST(Problems, APressGoesThere) {
+  ListDesktop desktop(kQuarter);
+  desktop.ticks(10);
+  ASSERT_FALSE(desktop.problems().items().empty());
+  const std::string node = desktop.problems().items().front().nodes.front();
+  desktop.press_on("problem/0");
+  EXPECT_TRUE(desktop.editor().picks.nodes.contains(node));
+}
+
+TEST(Problems, ABoundaryThatIsTooSmallNamesTheLosers) {
+  ListDesktop desktop(kQuarter);
+  ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"site", {"boundary.height"}, {"12"}})));
+  desktop.ticks(25);
+  const auto short_of = desktop.of(ProblemKind::shortage);
+  ASSERT_FALSE(short_of.empty());
+  bool names_a_use = false, names_the_solver = false, names_a_volume = false;
+  for (const ProblemItem& item : short_of) {
+    names_a_use = names_a_use || (item.subject.find("Not all") == 0 && item.text.find("go without") != std::string::npos);
+    names_the_solver = names_the_solver ||
+                       (item.nodes == std::vector<std::string>{"solver"} && item.text.find("can be had") != std::string::npos);
+    names_a_volume = names_a_volume || item.key.starts_with("volume/");
+  }
+  EXPECT_TRUE(names_a_use);
+  EXPECT_TRUE(names_the_solver);
+  EXPECT_TRUE(names_a_volume);
+}
+
+TEST(Problems, FailuresAndSwitchedOffLinksAreListedAndFiltered) {
+  ListDesktop desktop(kQuarter);
+  ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"floor_area", {"statistics.port"}, {"\"\""}})));
+  ASSERT_TRUE(desktop.editor().submit(command<MuteLink>({"library_cafe", true})));
+  desktop.ticks(2);
+  const auto failing = desktop.of(ProblemKind::failing);
+  ASSERT_EQ(failing.size(), 1u);
+  EXPECT_EQ(failing.front().nodes, std::vector<std::string>{"floor_area"});
+  const auto idle = desktop.of(ProblemKind::idle);
+  ASSERT_EQ(idle.size(), 1u);
+  EXPECT_EQ(idle.front().links, std::vector<std::string>{"library_cafe"});
+  desktop.press_on("problems/filter/Switched off");
+  EXPECT_EQ(desktop.problems().filter, static_cast<int>(ProblemKind::idle));
+  desktop.frames(1);
+  desktop.press_on("problem/0");
+  EXPECT_TRUE(desktop.editor().picks.links.contains("library_cafe"));
+}
+
+TEST(Problems, OfAnOldFileAreListedWithTheirPlace) {
+  ListDesktop desktop("scenes/old/v1/everything.json");
+  const auto file = desktop.of(ProblemKind::file);
+  ASSERT_FALSE(file.empty());
+  EXPECT_EQ(file.front().nodes, std::vector<std::string>{"flat-2"});
+}
+
+TEST(Problems, OfAFileThatCannotBeOpenedAreListedBesideTheOldScene) {
+  ListDesktop desktop(kQuarter);
+  const std::string path = ::testing::TempDir() + "panels_garbage.json";
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  ASSERT_NE(file, nullptr);
+  std::fputs("{\"format\": 7, \xff", file);
+  std::fclose(file);
+  EXPECT_FALSE(desktop.editor().open(path));
+  desktop.frames(2);
+  const auto listed = desktop.of(ProblemKind::file);
+  ASSERT_FALSE(listed.empty());
+  EXPECT_TRUE(listed.front().is_error);
+  EXPECT_EQ(listed.front().subject, "panels_garbage.json");
+}
+
+TEST(Problems, OfAFileThatCannotBeOpenedAreListedWithoutAnyScene) {
+  NullDesktop desktop;
+  EXPECT_FALSE(desktop.editor().open(std::string(BL_SOURCE_DIR) + "/scenes/README.md"));
+  for (int k = 0; k < 2; ++k) {
+    ImGui::NewFrame();
+    ImGui::Begin("alone");
+    draw_problems(desktop.editor());
+    ImGui::End();
+    ImGui::Render();
+  }
+  EXPECT_EQ(memory_of(desktop.editor()).problems->count(ProblemKind::file), desktop.editor().problems.size());
+  EXPECT_TRUE(memory_of(desktop.editor()).places.contains("problem/0"));
+}
+
+TEST(Problems, RowsKeepTheirPlacesWhileASettledSceneTicks) {
+  ListDesktop desktop(kQuarter);
+  desktop.ticks(300);
+  const auto order = [&] {
+    std::string text;
+    for (const ProblemItem& item : desktop.problems().items()) text += item.nodes.empty() ? "-" : item.nodes.front() + " ";
+    return text;
+  };
+  const std::string before = order();
+  int changes = 0;
+  for (int k = 0; k < 30; ++k) {
+    desktop.ticks(1);
+    changes += order() == before ? 0 : 1;
+  }
+  EXPECT_EQ(changes, 0);
+}
+
+TEST(History, APressTakesBackAndBringsBack) {
+  ListDesktop desktop(kQuarter);
+  const std::string before = desktop.scene_text();
+  for (const char* name : {"One", "Two", "Three"}) ASSERT_TRUE(desktop.editor().submit(command<RenameNode>({"library", name})));
+  const std::string after = desktop.scene_text();
+  desktop.open_tab("History");
+  desktop.press_on("step/1");
+  EXPECT_EQ(desktop.editor().name_of("library"), "One");
+  desktop.press_on("step/3");
+  EXPECT_EQ(desktop.scene_text(), after);
+  desktop.press_on("step/0");
+  EXPECT_EQ(desktop.scene_text(), before);
+  EXPECT_EQ(desktop.editor().document->history().size(), 3u);
+}
+
+TEST(Statistics, SamplesEveryTickAndForgetsWhatWasRewound) {
+  ListDesktop desktop(kQuarter);
+  for (int k = 0; k < 12; ++k) desktop.ticks(1);
+  EXPECT_EQ(desktop.record().tick.size(), 13u);
+  EXPECT_EQ(desktop.record().tick.back(), 12);
+  EXPECT_GT(desktop.record().volume.back(), 1000);
+  desktop.editor().document->session().rewind(5);
+  desktop.frames(2);
+  EXPECT_EQ(desktop.record().tick.back(), 7);
+  EXPECT_EQ(desktop.record().tick.size(), 8u);
+}
+
+TEST(Statistics, APressOnABarChoosesItsVolume) {
+  ListDesktop desktop(kQuarter);
+  desktop.ticks(5);
+  desktop.open_tab("Statistics");
+  desktop.press_on("order/name");
+  desktop.frames(2);
+  const auto& volumes = desktop.record().figures(desktop.editor()).volumes;
+  EXPECT_EQ(volumes[desktop.record().ordered(desktop.editor()).front()].id, "assisted_living");
+  desktop.press_on("volume/assisted_living");
+  EXPECT_EQ(desktop.editor().picks.nodes, std::set<std::string>{"assisted_living"});
+}
+
+TEST(Statistics, AThousandVolumesAreDrawnOnlyWhereTheyAreSeen) {
+  ListDesktop desktop("scenes/studies/thousand_volumes.json");
+  desktop.open_tab("Statistics");
+  std::size_t drawn = 0;
+  for (const auto& [key, place] : memory_of(desktop.editor()).places) drawn += key.starts_with("volume/") ? 1 : 0;
+  EXPECT_GT(drawn, 2u);
+  EXPECT_LT(drawn, 60u);
+}
+
+}  // namespace
+}  // namespace bl::desktop

@@ -1,0 +1,240 @@
+// Lists of choices for the search box, and the commands that a choice becomes.
+#include "ui/desktop/panels/canvas/additions.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/file/scene_file.h"
+#include "ui/desktop/panels/canvas/arrangement.h"
+#include "ui/desktop/panels/canvas/draw.h"
+#include "ui/desktop/panels/canvas/edits.h"
+#include "ui/desktop/panels/canvas/fits.h"
+#include "ui/desktop/panels/canvas/placing.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+int recency_of(const Editor& editor, const std::string& id) {
+  const auto& recent = editor.person.recent_additions;
+  const auto found = std::find(recent.begin(), recent.end(), id);
+  return found == recent.end() ? 1000 : static_cast<int>(found - recent.begin());
+}
+
+void remember(Editor& editor, const std::string& id) { editor.person.remember(editor.person.recent_additions, id); }
+
+std::string first_sentence(const std::string& doc) {
+  const std::size_t end = doc.find(". ");
+  return end == std::string::npos ? doc : doc.substr(0, end + 1);
+}
+
+ImU32 colour_of_type(const Board& board, const std::string& id) {
+  const auto& all = board.editor.registry.typifications();
+  return board.theme().category(static_cast<std::size_t>(std::distance(all.begin(), all.find(id))));
+}
+
+bool is_role(const TypificationDefinition& type) { return type.id != kBaseNode; }
+
+// A new node with one role; its box's head lies at `at`.
+Command new_node(Board& board, const TypificationDefinition& role, const std::string& id, ImVec2 at, Json& patch) {
+  Json node = Json::object();
+  const std::size_t number = id.rfind('-');
+  node["name"] = role.label + (number == std::string::npos ? "" : " " + id.substr(number + 1));
+  Json values = Json::object();
+  if (role.id == "smart_volume") {
+    const NewVolume volume = place_volume(board.editor.registry, board.editor.scene());
+    node["position"] = Json::array({volume.position.x, volume.position.y, volume.position.z});
+    if (volume.demand != 1000) values["demand"] = volume.demand;
+  }
+  node["types"][role.id] = values;
+  patch["boxes"][id] =
+      place_json({std::round((at.x - kBoxWidth / 2) / kGrid) * kGrid, std::round((at.y - kHeadHeight / 2) / kGrid) * kGrid});
+  return command<AddNode>({id, {write_json_line(node)}});
+}
+
+Command new_link(const Board& board, const LinkDefinition& kind, const std::string& id, const Selection& from,
+                 const Selection& to, PortValues parameters) {
+  LinkRecord link;
+  link.kind = kind.id;
+  link.from = from;
+  link.to = to;
+  link.parameters = std::move(parameters);
+  return command<AddLink>({id, {write_json_line(link_to_json(link, board.editor.registry))}});
+}
+
+void add_node(Board& board, const std::string& type, ImVec2 at) {
+  Editor& editor = board.editor;
+  const TypificationDefinition& role = *editor.registry.typification(type);
+  FreshIds ids(editor);
+  const std::string id = ids.of(role.label);
+  Json patch = Json::object();
+  std::vector<Command> commands{new_node(board, role, id, at, patch)};
+  add_view_patch(commands, patch);
+  if (!editor.submit(commands, editor.new_gesture())) return;
+  remember(editor, type);
+  editor.picks.only_node(id);
+}
+
+bool lacks_role(const Scene& scene, const std::string& node, const std::string& type) {
+  const auto found = scene.nodes.find(node);
+  return found != scene.nodes.end() && !found->second.types.contains(type);
+}
+
+void add_role(Board& board, const std::string& type) {
+  Editor& editor = board.editor;
+  std::vector<Command> commands;
+  for (const std::string& id : editor.picks.nodes)
+    if (lacks_role(editor.scene(), id, type)) commands.push_back(command<Typify>({id, type, {"{}"}}));
+  if (editor.submit(commands, editor.new_gesture())) remember(editor, type);
+}
+
+std::string short_name(const Board& board, const Selection& selection) {
+  if (!selection.is_query() && selection.ids.size() == 1) return selection.ids.front();
+  return selection.is_query() ? (selection.tag.empty() ? selection.typification + "s" : selection.tag)
+                              : text_of(board.editor, selection);
+}
+
+void lay_link(Board& board, const std::string& kind, const Selection& from, const Selection& to) {
+  Editor& editor = board.editor;
+  const LinkDefinition& definition = *editor.registry.link(kind);
+  FreshIds ids(editor);
+  const std::string id = ids.of(short_name(board, from).substr(0, 24) + "_" + short_name(board, to).substr(0, 24));
+  if (!editor.submit(
+          new_link(board, definition, id, from, to, chosen_ports(editor.registry, editor.scene(), definition, from, to)),
+          editor.new_gesture()))
+    return;
+  remember(editor, kind);
+  editor.picks.only_link(id);
+}
+
+void add_linked_node(Board& board, const std::string& kind, const std::string& type, const Selection& from, ImVec2 at) {
+  Editor& editor = board.editor;
+  const LinkDefinition& definition = *editor.registry.link(kind);
+  const TypificationDefinition& role = *editor.registry.typification(type);
+  FreshIds ids(editor);
+  const std::string node = ids.of(role.label);
+  const std::string link = ids.of(short_name(board, from).substr(0, 24) + "_" + node.substr(0, 24));
+  Json patch = Json::object();
+  Selection to;
+  to.ids = {node};
+  // The ports that the link chooses are looked for in a scene that has the node already.
+  Scene after = editor.scene();
+  after.nodes[node].types[role.id];
+  std::vector<Command> commands{
+      new_node(board, role, node, at, patch),
+      new_link(board, definition, link, from, to, chosen_ports(editor.registry, after, definition, from, to))};
+  add_view_patch(commands, patch);
+  if (!editor.submit(commands, editor.new_gesture())) return;
+  remember(editor, kind);
+  remember(editor, type);
+  editor.picks.only_node(node);
+}
+
+}  // namespace
+
+void open_addition(Board& board, ImVec2 screen) {
+  const Editor& editor = board.editor;
+  Picker picker;
+  picker.at = screen;
+  picker.title = "Add";
+  picker.hint = "What do you want to add?";
+  picker.empty_text = "Nothing of that name";
+  const ImVec2 at = board.camera.to_plane(screen);
+  for (const auto& [id, type] : editor.registry.typifications())
+    if (is_role(type))
+      picker.choices.push_back({id, type.label, first_sentence(type.doc), "", colour_of_type(board, id),
+                                2 * recency_of(editor, id), "new node", "node"});
+  const auto& picks = editor.picks.nodes;
+  if (!picks.empty()) {
+    const std::string whom = picks.size() == 1 ? editor.name_of(*picks.begin()) : std::to_string(picks.size()) + " chosen nodes";
+    for (const auto& [id, type] : editor.registry.typifications()) {
+      if (!is_role(type)) continue;
+      const bool has_all =
+          std::all_of(picks.begin(), picks.end(), [&](const std::string& n) { return !lacks_role(editor.scene(), n, id); });
+      picker.choices.push_back({id, type.label + " as a role of " + whom, first_sentence(type.doc),
+                                has_all ? "It has this role already." : "", colour_of_type(board, id),
+                                2 * recency_of(editor, id) + 1, "typification", "role"});
+    }
+  }
+  picker.choices.push_back(
+      {"comment", "Comment", "A note on the canvas.", "", board.theme().colours().warning, 3000, "text note", "comment"});
+  picker.taken = [at](Board& b, const Choice& choice) {
+    if (choice.extra == "comment") add_comment(b);
+    else if (choice.extra == "role") add_role(b, choice.id);
+    else add_node(b, choice.id, at);
+  };
+  open_picker(board, std::move(picker));
+}
+
+void open_link_menu(Board& board, std::size_t from, std::size_t to, ImVec2 screen) {
+  const Editor& editor = board.editor;
+  const Selection a = board.model.selection_of(from), b = board.model.selection_of(to);
+  Picker picker;
+  picker.at = screen;
+  picker.title = text_of(editor, a) + "  \xe2\x86\x92  " + text_of(editor, b);
+  picker.hint = "Which link?";
+  picker.empty_text = "No kind of that name";
+  for (const auto& [id, kind] : editor.registry.links()) {
+    const auto why = misfit(editor.registry, editor.scene(), kind, a, b);
+    picker.choices.push_back({id, kind.label, first_sentence(kind.doc), why ? "Does not fit: " + *why + "." : "",
+                              editor.theme.family_of(id).colour, recency_of(editor, id),
+                              std::string(editor.theme.family_of(id).label), ""});
+  }
+  picker.taken = [a, b](Board& board_now, const Choice& choice) { lay_link(board_now, choice.id, a, b); };
+  open_picker(board, std::move(picker));
+}
+
+void open_drop_menu(Board& board, std::size_t from, ImVec2 screen) {
+  const Editor& editor = board.editor;
+  const Selection a = board.model.selection_of(from);
+  const ImVec2 at = board.camera.to_plane(screen);
+  Picker picker;
+  picker.at = screen;
+  picker.title = "A new node, linked from " + text_of(editor, a);
+  picker.hint = "Which link, to what?";
+  picker.empty_text = "Nothing that fits";
+  for (const auto& [id, kind] : editor.registry.links())
+    for (const auto& [role, type] : editor.registry.typifications()) {
+      if (!is_role(type) || misfit_with_new(editor.registry, editor.scene(), kind, a, type)) continue;
+      // Places are everybody's; a link that only moves things is offered with volumes first.
+      const int taste = role == "smart_volume" ? 0 : 200;
+      picker.choices.push_back({id, kind.label + "  \xe2\x86\x92  " + type.label, first_sentence(kind.doc), "",
+                                editor.theme.family_of(id).colour, recency_of(editor, id) + taste, "", role});
+    }
+  picker.taken = [a, at](Board& b, const Choice& choice) { add_linked_node(b, choice.id, choice.extra, a, at); };
+  open_picker(board, std::move(picker));
+}
+
+void open_find(Board& board) {
+  Picker picker;
+  const Box& pane = board.camera.pane();
+  picker.at = {pane.high().x - board.theme().px(400), pane.low().y + board.theme().px(44)};
+  picker.title = "Find";
+  picker.hint = "Name, id or role; arrows go from one to the next";
+  picker.empty_text = "No node of that name";
+  for (const NodeBox& box : board.model.boxes) {
+    std::string roles;
+    for (const Section& section : box.sections) roles += (roles.empty() ? "" : ", ") + section.label;
+    picker.choices.push_back({box.id, box.name, box.id + "  ·  " + roles, "",
+                              box.sections.empty() ? 0 : colour_of(board, box.sections.front()), 1000, roles, ""});
+  }
+  for (const Line& line : board.model.lines)
+    picker.choices.push_back(
+        {line.id, line.label + " (" + line.id + ")", "link", "", line.family.colour, 2000, line.kind, "link"});
+  picker.text = board.find_text;
+  const auto go = [](Board& b, const Choice& choice) {
+    if (choice.extra == "link") {
+      b.editor.picks.only_link(choice.id);
+      if (const std::size_t k = b.model.find_line(choice.id); k < b.model.lines.size())
+        b.camera.fit(b.model.lines[k].bounds.grown(120), true);
+    } else {
+      b.editor.picks.only_node(choice.id);
+      show_node(b, choice.id);
+    }
+    b.find_text = b.picker.text;
+  };
+  picker.looked_at = go;
+  picker.taken = go;
+  open_picker(board, std::move(picker));
+}
+
+}  // namespace bl::desktop::canvas

@@ -1,0 +1,94 @@
+// What the parts of the canvas share: the editor, what is on the plane, where it is looked at, and what the person is doing.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/canvas/camera.h"
+#include "ui/desktop/panels/canvas/live.h"
+#include "ui/desktop/panels/canvas/model.h"
+#include "ui/desktop/panels/canvas/picker.h"
+
+namespace bl::desktop::canvas {
+
+/// What lies under the cursor.
+enum class Thing { nothing, node, node_edge, pill, pill_edge, link, dot, comment, comment_corner, frame, minimap, chip };
+struct Hit {
+  Thing thing = Thing::nothing;
+  std::string id;         ///< of the node, link, comment or frame; the family of a chip
+  std::size_t index = 0;  ///< of the anchor, dot or chip
+  bool operator==(const Hit&) const = default;
+};
+
+/// What a held mouse button does.
+enum class Deed { none, pan, box, move, link, relink, cut, dot, comment_corner, minimap };
+
+/// A drag from press to release. Nothing is submitted before the end: one drag is one step, and Esc leaves no trace.
+struct Drag {
+  Deed deed = Deed::none;
+  Hit grabbed;
+  int button = 0;
+  ImVec2 begin;                                  ///< in the plane
+  bool is_far = false;                           ///< moved beyond a click's tremble
+  bool is_double = false;                        ///< the second press of a double click, unless it goes far
+  bool copies = false, leaves = false;           ///< with Alt; with Shift
+  bool adds = false, toggles = false;            ///< box selection with Shift; with Ctrl
+  std::set<std::string> base_nodes, base_links;  ///< what was chosen before a box selection
+  std::size_t revision = 0;                      ///< of the model; a scene that changes meanwhile ends the drag
+  std::vector<ImVec2> swipe;                     ///< of a cut
+  std::vector<std::size_t> anchors;              ///< that move
+  std::vector<std::string> comments;
+  std::vector<std::pair<std::string, std::size_t>> dots;
+  std::vector<Box> old_anchors, old_comments;
+  std::vector<ImVec2> old_dots;
+  ImVec2 shift;                                   ///< how far they have been moved
+  std::vector<std::pair<ImVec2, ImVec2>> guides;  ///< that they have snapped to
+};
+
+/// A text that is being edited in its place.
+struct InlineEdit {
+  Thing thing = Thing::nothing;
+  std::string id;
+  std::string text;
+  bool is_fresh = true;
+};
+
+struct Board {
+  explicit Board(Editor& the_editor) : editor(the_editor) {}
+
+  Editor& editor;
+  Camera camera;
+  Model model;
+  Live live;
+  Picker picker;
+  Drag drag;
+  InlineEdit edit;
+  Hit hovered;
+  double hovered_since = 0;
+  std::set<std::string> hidden_families;  ///< the person's own, not the scene's
+  std::set<std::string> picked_comments, picked_frames;
+  std::vector<std::string> pinned;                 ///< nodes whose cards stay
+  std::set<std::string> soloed;                    ///< links that solo has muted
+  std::vector<std::pair<std::string, Box>> chips;  ///< families and where their switches are on the screen
+  Box minimap;                                     ///< on the screen; no size where it is not shown
+  bool shows_minimap = true, snaps = true, is_reset = true;
+  double space_since = -1;  ///< Space is held, perhaps to pan
+  bool has_space_panned = false;
+  std::string find_text;
+  std::function<void(Board&)> after_frame;  ///< what has to wait until nothing is being walked over
+  const Document* document = nullptr;
+
+  const Theme& theme() const { return editor.theme; }
+  bool is_hidden(const Line& line) const { return hidden_families.contains(std::string(line.family.label)); }
+  /// Where the cursor is, in the plane; the middle of the pane where it is elsewhere.
+  ImVec2 cursor() const;
+};
+
+/// What lies at a place on the screen.
+Hit hit_at(const Board& board, ImVec2 at);
+
+}  // namespace bl::desktop::canvas

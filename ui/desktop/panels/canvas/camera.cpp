@@ -1,0 +1,102 @@
+// Maps between plane and screen; doubles keep the point under the cursor where it is over many steps of zoom.
+#include "ui/desktop/panels/canvas/camera.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr double kGlideSeconds = 0.22;
+constexpr float kFitMargin = 26;
+
+}  // namespace
+
+void Camera::set_pane(Box pane, float scale, double now) {
+  // The middle stays the middle when a splitter moves.
+  const Pose kept = pose();
+  const bool is_changed = pane.size.x != pane_.size.x || pane.size.y != pane_.size.y || scale_ != static_cast<double>(scale);
+  pane_ = pane;
+  scale_ = static_cast<double>(scale);
+  now_ = now;
+  if (is_changed) set(kept);
+  if (glide_end_ < 0) return;
+  const double t = std::clamp((now - glide_begin_) / kGlideSeconds, 0.0, 1.0);
+  const double eased = t * t * (3 - 2 * t);
+  const double zoom = begin_.zoom * std::pow(goal_.zoom / begin_.zoom, eased);
+  // The middle follows the zoom, so that nothing rushes past on the way.
+  const double share =
+      std::abs(goal_.zoom - begin_.zoom) < 1e-9 ? eased : (1 / begin_.zoom - 1 / zoom) / (1 / begin_.zoom - 1 / goal_.zoom);
+  set({begin_.x + (goal_.x - begin_.x) * share, begin_.y + (goal_.y - begin_.y) * share, zoom});
+  if (t >= 1) set(goal_), glide_end_ = -1;
+}
+
+ImVec2 Camera::to_screen(ImVec2 p) const {
+  const double k = zoom_ * scale_;
+  return {static_cast<float>(pane_.at.x + (static_cast<double>(p.x) - x_) * k),
+          static_cast<float>(pane_.at.y + (static_cast<double>(p.y) - y_) * k)};
+}
+
+ImVec2 Camera::to_plane(ImVec2 p) const {
+  const double k = zoom_ * scale_;
+  return {static_cast<float>(x_ + static_cast<double>(p.x - pane_.at.x) / k),
+          static_cast<float>(y_ + static_cast<double>(p.y - pane_.at.y) / k)};
+}
+
+Camera::Pose Camera::pose() const {
+  const double k = zoom_ * scale_;
+  return {x_ + static_cast<double>(pane_.size.x) / 2 / k, y_ + static_cast<double>(pane_.size.y) / 2 / k, zoom_};
+}
+
+void Camera::set(const Pose& pose) {
+  zoom_ = std::clamp(pose.zoom, kLeastZoom, kMostZoom);
+  const double k = zoom_ * scale_;
+  x_ = pose.x - static_cast<double>(pane_.size.x) / 2 / k;
+  y_ = pose.y - static_cast<double>(pane_.size.y) / 2 / k;
+}
+
+void Camera::pan(ImVec2 pixels) {
+  glide_end_ = -1;
+  const double k = zoom_ * scale_;
+  x_ -= static_cast<double>(pixels.x) / k;
+  y_ -= static_cast<double>(pixels.y) / k;
+}
+
+void Camera::zoom_at(ImVec2 at, double factor) {
+  glide_end_ = -1;
+  const double before = zoom_ * scale_;
+  zoom_ = std::clamp(zoom_ * factor, kLeastZoom, kMostZoom);
+  const double after = zoom_ * scale_;
+  x_ += static_cast<double>(at.x - pane_.at.x) * (1 / before - 1 / after);
+  y_ += static_cast<double>(at.y - pane_.at.y) * (1 / before - 1 / after);
+}
+
+void Camera::centre_on(ImVec2 p) {
+  glide_end_ = -1;
+  set({static_cast<double>(p.x), static_cast<double>(p.y), zoom_});
+}
+
+void Camera::glide(const Pose& goal) {
+  begin_ = pose();
+  goal_ = goal;
+  goal_.zoom = std::clamp(goal_.zoom, kLeastZoom, kMostZoom);
+  glide_begin_ = now_;
+  glide_end_ = now_ + kGlideSeconds;
+}
+
+void Camera::fit(const Box& box, bool is_soft) {
+  const double margin = 2 * static_cast<double>(kFitMargin) * scale_;
+  const double across = (static_cast<double>(pane_.size.x) - margin) / std::max(1.0, static_cast<double>(box.size.x));
+  const double down = (static_cast<double>(pane_.size.y) - margin - head_) / std::max(1.0, static_cast<double>(box.size.y));
+  const double zoom = std::clamp(std::min(across, down) / scale_, kLeastZoom, 1.0);
+  // The switches lie over the upper edge.
+  const Pose goal{static_cast<double>(box.centre().x), static_cast<double>(box.centre().y) - head_ / 2 / (zoom * scale_), zoom};
+  if (is_soft) return glide(goal);
+  glide_end_ = -1;
+  set(goal);
+}
+
+void Camera::glide_to_zoom(double zoom) {
+  const Pose from = is_gliding() ? goal_ : pose();
+  glide({from.x, from.y, zoom});
+}
+
+}  // namespace bl::desktop::canvas

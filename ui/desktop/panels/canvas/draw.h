@@ -1,0 +1,35 @@
+// The layers of the canvas, from the ground up; each draws what is in sight.
+#pragma once
+
+#include <string_view>
+
+#include "ui/desktop/panels/canvas/board.h"
+
+namespace bl::desktop::canvas {
+
+/// Text of a height in pixels, cut with "…" where it is wider than `room`; returns its width.
+float draw_text(const Board& board, ImVec2 at, float pixels, ImU32 colour, std::string_view text, float room = 1e9f);
+float text_width(const Board& board, float pixels, std::string_view text);
+/// The colour of a typification's section.
+ImU32 colour_of(const Board& board, const Section& section);
+
+/// The colour of a box as a whole: of a volume's use, else of its first role.
+ImU32 tone_of(const Board& board, const NodeBox& box);
+
+void draw_ground(Board& board);
+void draw_frames_and_comments(Board& board);
+void draw_lines(Board& board);
+/// Names and last changes of links, and why they fail; above all lines.
+void draw_line_labels(Board& board);
+void draw_pills(Board& board);
+void draw_nodes(Board& board);
+/// What a drag in progress shows: box, new link, swipe, guides.
+void draw_deed(Board& board);
+/// Where the switches of the families go, in rows along the upper edge; what is fitted into sight stays below them.
+void place_chips(Board& board);
+/// Switches of families, the minimap, hints where the canvas is empty.
+void draw_overlays(Board& board);
+/// Cards of hovered and pinned nodes and links.
+void draw_cards(Board& board);
+
+}  // namespace bl::desktop::canvas

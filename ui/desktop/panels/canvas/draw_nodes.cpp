@@ -1,0 +1,312 @@
+// Boxes of nodes: far away a name and a colour, nearer their sections, nearest all values.
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/canvas/draw.h"
+#include "ui/desktop/panels/canvas/sections.h"
+#include "ui/desktop/panels/canvas/tension.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+// Below the first zoom a box is a name; below the second, fewer values are written larger.
+constexpr double kNameZoom = 0.42, kTextZoom = 0.6;
+constexpr float kRounding = 5, kPad = 9, kHeadText = 13, kSectionText = 10.5f, kRowText = 11.5f, kLeastText = 9, kLeastHead = 11;
+constexpr double kLeastSpan = 0.02;  // of a spark-line, as a share of its value
+
+struct Ink {
+  Board& board;
+  ImDrawList& list;
+  const Colours& c;
+  float k;  // pixels for one unit of the plane
+  double zoom;
+
+  ImVec2 at(float x, float y) const { return board.camera.to_screen(ImVec2(x, y)); }
+};
+
+void draw_bar_of(const Ink& ink, const NodeBox& box, const Section& section, ImVec2 low, ImVec2 high) {
+  const Editor& editor = ink.board.editor;
+  const double volume = number_of(editor, box, section, "volume", 0), wanted = number_of(editor, box, section, "wanted", 0);
+  const double demand = number_of(editor, box, section, "demand", wanted);
+  const double most = std::max({volume, wanted, demand, 1e-9});
+  const double error = wanted > 0 ? std::abs(volume - wanted) / wanted : 1;
+  const ImU32 tone = error < 0.02 ? ink.c.good : error < 0.1 ? ink.c.warning : ink.c.bad;
+  const auto x_of = [&](double v) { return low.x + (high.x - low.x) * static_cast<float>(v / most); };
+  ink.list.AddRectFilled(low, high, ink.c.sunken);
+  ink.list.AddRectFilled(low, {x_of(volume), high.y}, faded(tone, 0.85f));
+  if (ink.zoom < kNameZoom) return;
+  // What it wants inside its limits, and what it asks for where that is more.
+  const float reach = std::max(1.0f, 1.5f * ink.k);
+  ink.list.AddRectFilled({x_of(wanted) - reach, low.y - reach}, {x_of(wanted), high.y + reach}, ink.c.text);
+  if (demand > wanted * 1.001) ink.list.AddRectFilled({x_of(demand) - reach, low.y}, {x_of(demand), high.y}, ink.c.warning);
+}
+
+void draw_spark(const Ink& ink, const Spark& spark, ImVec2 low, ImVec2 high, ImU32 colour) {
+  const auto& samples = spark.samples;
+  double least = samples.front().second, most = least;
+  for (const auto& [time, value] : samples) least = std::min(least, value), most = std::max(most, value);
+  // A value that stands still is a straight line in the middle, not its own rounding magnified.
+  const double span = std::max(most - least, kLeastSpan * std::max(std::abs(most), 1e-9));
+  const double middle = (least + most) / 2, now = ink.board.editor.now;
+  std::vector<ImVec2> points;
+  for (const auto& [time, value] : samples) {
+    const double x = std::clamp(1 - (now - time) / kSparkSeconds, 0.0, 1.0);
+    const double y = std::clamp(0.5 - (value - middle) / span, 0.0, 1.0);
+    points.push_back({low.x + static_cast<float>(x) * (high.x - low.x), low.y + static_cast<float>(y) * (high.y - low.y)});
+  }
+  points.push_back({high.x, points.back().y});
+  ink.list.AddPolyline(points.data(), static_cast<int>(points.size()), faded(colour, 0.9f), 0, std::max(1.0f, 1.2f * ink.k));
+  ink.list.AddCircleFilled(points.back(), std::max(1.5f, 2 * ink.k), colour, 8);
+}
+
+// A sign that is read without its colour: an upright triangle.
+void draw_warning(const Ink& ink, ImVec2 middle, float size, ImU32 colour) {
+  ink.list.AddTriangleFilled({middle.x, middle.y - size}, {middle.x + size, middle.y + 0.8f * size},
+                             {middle.x - size, middle.y + 0.8f * size}, colour);
+  ink.list.AddRectFilled({middle.x - 0.12f * size, middle.y - 0.4f * size}, {middle.x + 0.12f * size, middle.y + 0.5f * size},
+                         ink.c.node);
+}
+
+void draw_row(const Ink& ink, const NodeBox& box, const Section& section, std::size_t row, float y, float size) {
+  const float left = box.box.at.x + kPad, right = box.box.high().x - kPad;
+  const std::string& text = section.texts[row];
+  const float width = std::min(text_width(ink.board, size, text), 112 * ink.k);
+  bool is_tense = false;
+  if (box.in_state != kNoIndex && section.in_state != kNoIndex)
+    is_tense = tension_share(ink.board.editor.state(), {box.in_state, static_cast<std::uint16_t>(section.in_state),
+                                                        static_cast<std::uint16_t>(section.rows[row].port)}) > kMarkedTension;
+  const ImVec2 at = ink.at(left, y + 1.5f), end = ink.at(right, y);
+  if (is_tense) draw_warning(ink, {end.x - width - 8 * ink.k, at.y + 0.55f * size}, 4 * ink.k, ink.c.warning);
+  draw_text(ink.board, at, size, ink.c.text_soft, section.rows[row].label, end.x - at.x - width - 14 * ink.k);
+  draw_text(ink.board, {end.x - width, at.y}, size, is_tense ? ink.c.warning : ink.c.text, text, width + 1);
+}
+
+void draw_section_head(const Ink& ink, const NodeBox& box, const Section& section, float y) {
+  const ImU32 tone = colour_of(ink.board, section);
+  const ImVec2 low = ink.at(box.box.at.x, y), high = ink.at(box.box.high().x, y + kSectionHeight - 2);
+  ink.list.AddRectFilled(low, high, mixed(ink.c.node, tone, 0.22f));
+  ink.list.AddRectFilled(low, {low.x + 3 * ink.k, high.y}, tone);
+  if (ink.zoom >= kTextZoom)
+    draw_text(ink.board, ink.at(box.box.at.x + kPad, y + 2), kSectionText * ink.k, mixed(ink.c.text, tone, 0.25f), section.label,
+              (kBoxWidth - 2 * kPad) * ink.k);
+}
+
+void draw_bar_line(const Ink& ink, const NodeBox& box, const Section& section, float y) {
+  const float left = box.box.at.x + kPad, right = box.box.high().x - kPad;
+  const Editor& editor = ink.board.editor;
+  const double volume = number_of(editor, box, section, "volume", 0), wanted = number_of(editor, box, section, "wanted", 0);
+  float text_right = right;
+  if (ink.zoom >= kTextZoom) {
+    const std::string text = report::readable(volume) + " / " + report::quantity(wanted, Unit::cubic_metre);
+    const float size = 10 * ink.k, width = text_width(ink.board, size, text);
+    const ImVec2 end = ink.at(right, y + 3);
+    draw_text(ink.board, {end.x - width, end.y}, size, ink.c.text_soft, text);
+    text_right = right - width / ink.k - 7;
+  }
+  draw_bar_of(ink, box, section, ink.at(left, y + 6), ink.at(std::max(text_right, left + 24), y + 12));
+}
+
+// From further away fewer rows, in a size that can still be read: the residual is the first to go, for the bar shows it too.
+float draw_rows(const Ink& ink, const NodeBox& box, const Section& section, float y) {
+  const float foot = y + kRowHeight * static_cast<float>(section.rows.size());
+  const float size = std::max(kRowText * ink.k, kLeastText * ink.board.theme().scale());
+  const float step = std::max(kRowHeight, 1.25f * size / ink.k);
+  std::size_t room = static_cast<std::size_t>((foot - y) / step + 0.05f);
+  const bool is_short = room < section.rows.size();
+  for (std::size_t row = 0; row < section.rows.size() && room > 0; ++row) {
+    if (is_short && section.type->ports[section.rows[row].port].is_residual) continue;
+    draw_row(ink, box, section, row, y, size);
+    y += step;
+    --room;
+  }
+  return foot;
+}
+
+float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::size_t number, float y) {
+  draw_section_head(ink, box, section, y);
+  y += kSectionHeight;
+  if (section.type == nullptr) {
+    if (ink.zoom >= kTextZoom)
+      draw_text(ink.board, ink.at(box.box.at.x + kPad, y + 1), kRowText * ink.k, ink.c.text_faint, "kept as it is, not run",
+                (kBoxWidth - 2 * kPad) * ink.k);
+    return y + kRowHeight;
+  }
+  if (section.has_bar) draw_bar_line(ink, box, section, y), y += kBarHeight;
+  refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
+  y = draw_rows(ink, box, section, y);
+  if (section.spark != kNoIndex) {
+    const Spark* spark = ink.board.live.spark(box.id, number);
+    const ImVec2 low = ink.at(box.box.at.x + kPad, y + 4), high = ink.at(box.box.high().x - kPad, y + kSparkHeight - 4);
+    ink.list.AddLine({low.x, high.y}, high, faded(ink.c.line, 0.8f));
+    if (spark != nullptr && spark->samples.size() > 1) draw_spark(ink, *spark, low, high, colour_of(ink.board, section));
+    y += kSparkHeight;
+  }
+  return y;
+}
+
+bool is_result(const PortDefinition& port) { return port.is_computed && !port.is_residual; }
+
+// Far away: the name as large as fits, on the colour of the first role.
+void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
+  const ImU32 tone = tone_of(ink.board, box);
+  const float round = screen.size.x > 40 ? 3.0f : 0.0f, stripe = std::max(2.0f, 6 * ink.k), bar = std::max(2.0f, 12 * ink.k);
+  ink.list.AddRectFilled(screen.low(), screen.high(), mixed(ink.c.node, tone, 0.14f), round);
+  ink.list.AddRectFilled(screen.low(), {screen.low().x + stripe, screen.high().y}, tone, round, ImDrawFlags_RoundCornersLeft);
+  for (const Section& section : box.sections)
+    if (section.has_bar && !box.is_collapsed)
+      draw_bar_of(ink, box, section, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2));
+  if (screen.size.x < 34) return;
+  const float scale = ink.board.theme().scale(), least = std::min(8 * scale, screen.size.x / 4.6f);
+  const float pixels = std::clamp(screen.size.x / 5.4f, least, std::max(least, 12.5f * scale));
+  const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar - 2);
+  ImFont* font = ink.board.theme().canvas_font(pixels);
+  const float pad = std::max(5.0f, 10 * ink.k);
+  ink.list.AddText(font, pixels, {screen.low().x + pad, screen.low().y + 3}, ink.c.text, box.name.c_str(), nullptr,
+                   screen.size.x - pad - 3, &clip);
+  // Its first result at the foot, where there is room for it.
+  if (screen.size.x < 58 || screen.size.y < 52 || box.sections.empty() || box.sections.front().type == nullptr) return;
+  Section& section = box.sections.front();
+  refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
+  std::size_t row = 0;
+  while (row < section.rows.size() && !is_result(section.type->ports[section.rows[row].port])) ++row;
+  if (row < section.texts.size())
+    draw_text(ink.board, {screen.low().x + pad, screen.high().y - bar - 5 - pixels}, 0.85f * pixels, ink.c.text_soft,
+              section.texts[row], screen.size.x - pad - 4);
+}
+
+void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_error) {
+  const Box screen = ink.board.camera.to_screen(Box{box.box.at, {kBoxWidth, kHeadHeight}});
+  const float round = kRounding * ink.k;
+  ink.list.AddRectFilled(screen.low(), screen.high(), ink.c.node_head, round,
+                         box.is_collapsed ? ImDrawFlags_RoundCornersAll : ImDrawFlags_RoundCornersTop);
+  ink.list.AddRectFilled(screen.low(), {screen.low().x + 4 * ink.k, screen.high().y}, tone_of(ink.board, box), round,
+                         box.is_collapsed ? ImDrawFlags_RoundCornersLeft : ImDrawFlags_RoundCornersTopLeft);
+  float room = (kBoxWidth - 2 * kPad) * ink.k;
+  const float y = screen.centre().y;
+  float x = screen.high().x - 13 * ink.k;
+  if (has_error) {
+    ink.list.AddCircleFilled({x, y}, 6 * ink.k, ink.c.bad, 16);
+    draw_text(ink.board, {x - 1.6f * ink.k, y - 6.2f * ink.k}, 11 * ink.k, ink.c.on_accent, "!");
+    x -= 16 * ink.k, room -= 16 * ink.k;
+  }
+  if (tension > kMarkedTension) draw_warning(ink, {x, y}, 5.5f * ink.k, ink.c.warning), room -= 16 * ink.k;
+  if (box.is_collapsed)
+    for (const Section& section : box.sections) {
+      room -= 10 * ink.k;
+      ink.list.AddCircleFilled(
+          {screen.high().x - 10 * ink.k - (static_cast<float>(&section - box.sections.data())) * 10 * ink.k, y}, 3 * ink.k,
+          colour_of(ink.board, section), 10);
+    }
+  const float size = std::max(kHeadText * ink.k, std::min(kLeastHead * ink.board.theme().scale(), 0.8f * screen.size.y));
+  draw_text(ink.board, {screen.low().x + kPad * ink.k, y - 0.59f * size}, size, box.is_ghost() ? ink.c.text_faint : ink.c.text,
+            box.name, room);
+}
+
+void draw_outline(const Ink& ink, const NodeBox& box, const Box& screen, bool has_error) {
+  const Editor& editor = ink.board.editor;
+  const bool is_picked = editor.picks.nodes.contains(box.id), is_hovered = editor.picks.lit_node == box.id;
+  const float round = ink.zoom < kNameZoom ? (screen.size.x > 40 ? 3.0f : 0.0f) : kRounding * ink.k;
+  const float scale = ink.board.theme().scale();
+  // Thousands of small boxes are told apart by the ground between them.
+  if (!is_picked && !is_hovered && !has_error && screen.size.x < 40) return;
+  const ImU32 colour = is_picked    ? ink.c.accent
+                       : has_error  ? ink.c.bad
+                       : is_hovered ? mixed(ink.c.line, ink.c.accent, 0.6f)
+                                    : ink.c.line;
+  ink.list.AddRect(screen.low(), screen.high(), colour, round, 0, (is_picked ? 2.0f : 1.0f) * scale);
+}
+
+// Places to pull a link from.
+void draw_handles(const Ink& ink, const Box& screen, bool is_at_edge) {
+  const float radius = (is_at_edge ? 5.0f : 3.5f) * ink.board.theme().scale();
+  const ImVec2 middle = screen.centre();
+  for (const ImVec2 p : {ImVec2(screen.low().x, middle.y), ImVec2(screen.high().x, middle.y), ImVec2(middle.x, screen.low().y),
+                         ImVec2(middle.x, screen.high().y)}) {
+    ink.list.AddCircleFilled(p, radius, ink.c.canvas, 16);
+    ink.list.AddCircle(p, radius, ink.c.accent, 16, 1.5f);
+  }
+}
+
+void draw_node(const Ink& ink, NodeBox& box) {
+  const Box screen = ink.board.camera.to_screen(box.box);
+  const Editor& editor = ink.board.editor;
+  std::string error;
+  double tension = 0;
+  if (box.in_state != kNoIndex) {
+    error = error_of(editor.state(), box.in_state);
+    if (ink.zoom >= kNameZoom) tension = worst_tension(editor.state(), box.in_state);
+  }
+  if (ink.zoom < kNameZoom) {
+    draw_as_name(ink, box, screen);
+  } else {
+    const float round = kRounding * ink.k;
+    ink.list.AddRectFilled(screen.low() + ImVec2(0, 2 * ink.k), screen.high() + ImVec2(0, 3 * ink.k), IM_COL32(0, 0, 0, 38),
+                           round);
+    ink.list.AddRectFilled(screen.low(), screen.high(), ink.c.node, round);
+    draw_head(ink, box, tension, !error.empty());
+    float y = box.box.at.y + kHeadHeight;
+    if (!box.is_collapsed)
+      for (std::size_t k = 0; k < box.sections.size(); ++k) y = draw_section(ink, box, box.sections[k], k, y);
+    if (!error.empty() && ink.zoom >= kTextZoom)
+      draw_text(ink.board, {screen.low().x, screen.high().y + 3 * ink.k}, 10.5f * ink.k, ink.c.bad, error, 2 * screen.size.x);
+  }
+  draw_outline(ink, box, screen, !error.empty());
+}
+
+}  // namespace
+
+float text_width(const Board& board, float pixels, std::string_view text) {
+  ImFont* font = board.theme().canvas_font(pixels);
+  return font->CalcTextSizeA(pixels, 1e9f, 0, text.data(), text.data() + text.size()).x;
+}
+
+float draw_text(const Board& board, ImVec2 at, float pixels, ImU32 colour, std::string_view text, float room) {
+  if (pixels < 4 || text.empty() || room <= 0) return 0;
+  ImFont* font = board.theme().canvas_font(pixels);
+  const char *begin = text.data(), *end = begin + text.size();
+  float width = font->CalcTextSizeA(pixels, 1e9f, 0, begin, end).x;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (width <= room + 0.5f) {
+    list.AddText(font, pixels, at, colour, begin, end);
+    return width;
+  }
+  constexpr std::string_view kDots = "\xe2\x80\xa6";
+  const float dots = font->CalcTextSizeA(pixels, 1e9f, 0, kDots.data(), kDots.data() + kDots.size()).x;
+  const char* rest = begin;
+  width = font->CalcTextSizeA(pixels, std::max(1.0f, room - dots), 0, begin, end, &rest).x;
+  list.AddText(font, pixels, at, colour, begin, rest);
+  list.AddText(font, pixels, {at.x + width, at.y}, colour, kDots.data(), kDots.data() + kDots.size());
+  return width + dots;
+}
+
+ImU32 colour_of(const Board& board, const Section& section) {
+  if (section.type == nullptr) return board.theme().colours().text_faint;
+  const ImU32 tone = board.theme().category(section.category);
+  // The categories are light inks; on a light ground they need depth.
+  return board.theme().is_dark() ? tone : mixed(tone, IM_COL32(40, 44, 60, 255), 0.3f);
+}
+
+ImU32 tone_of(const Board& board, const NodeBox& box) {
+  if (box.use == kNoIndex)
+    return box.sections.empty() ? board.theme().colours().text_faint : colour_of(board, box.sections.front());
+  const ImU32 tone = board.theme().category(box.use);
+  return board.theme().is_dark() ? tone : mixed(tone, IM_COL32(40, 44, 60, 255), 0.15f);
+}
+
+void draw_nodes(Board& board) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const Ink ink{board, list, board.theme().colours(), board.camera.factor(), board.camera.zoom()};
+  const Box sight = board.camera.sight().grown(20);
+  const auto& picks = board.editor.picks.nodes;
+  // What is chosen or pointed at lies above the rest.
+  for (NodeBox& box : board.model.boxes)
+    if (box.box.touches(sight) && !picks.contains(box.id) && board.editor.picks.lit_node != box.id) draw_node(ink, box);
+  for (NodeBox& box : board.model.boxes)
+    if (box.box.touches(sight) && (picks.contains(box.id) || board.editor.picks.lit_node == box.id)) draw_node(ink, box);
+  const Thing thing = board.hovered.thing;
+  const bool is_body = thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge;
+  if (is_body && board.drag.deed == Deed::none && board.hovered.index < board.model.anchors() && ink.zoom > 0.15)
+    draw_handles(ink, board.camera.to_screen(board.model.anchor(board.hovered.index)),
+                 thing == Thing::node_edge || thing == Thing::pill_edge);
+}
+
+}  // namespace bl::desktop::canvas

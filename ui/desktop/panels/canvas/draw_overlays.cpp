@@ -1,0 +1,217 @@
+// What lies above the plane: switches of families, minimap, hints, and cards.
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/canvas/draw.h"
+#include "ui/desktop/panels/canvas/sections.h"
+#include "ui/desktop/panels/canvas/tension.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr std::size_t kMostCardRows = 14, kMostVoices = 4;
+constexpr double kCardSeconds = 0.3;
+constexpr float kChipText = 11;
+
+void draw_chips(Board& board) {
+  const Colours& c = board.theme().colours();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float scale = board.theme().scale(), pixels = kChipText * scale;
+  for (const auto& [label, chip] : board.chips) {
+    const bool is_off = board.hidden_families.contains(label);
+    const bool is_hovered = board.hovered.thing == Thing::chip && board.hovered.id == label;
+    list.AddRectFilled(chip.low(), chip.high(), faded(c.panel, 0.9f), 11 * scale);
+    list.AddRect(chip.low(), chip.high(), is_hovered ? c.accent : c.line, 11 * scale);
+    const ImVec2 dot = chip.low() + ImVec2(12, 11) * scale;
+    ImU32 colour = c.text_faint;
+    for (const Line& line : board.model.lines)
+      if (line.family.label == label) colour = line.family.colour;
+    if (is_off) list.AddCircle(dot, 4 * scale, c.text_faint, 12);
+    else list.AddCircleFilled(dot, 4 * scale, colour, 12);
+    draw_text(board, chip.low() + ImVec2(21, 4.5f) * scale, pixels, is_off ? c.text_faint : c.text_soft, label);
+    if (is_off)
+      list.AddLine(chip.low() + ImVec2(20 * scale, 11 * scale), chip.high() - ImVec2(7 * scale, 11 * scale), c.text_faint);
+  }
+}
+
+void draw_minimap(Board& board) {
+  board.minimap = {};
+  const Box& pane = board.camera.pane();
+  const float scale = board.theme().scale();
+  if (!board.shows_minimap || board.model.boxes.size() < 2 || pane.size.x < 380 * scale || pane.size.y < 300 * scale) return;
+  const Colours& c = board.theme().colours();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 size = ImVec2(150, 100) * scale;
+  board.minimap = {{pane.low().x + 10 * scale, pane.high().y - size.y - 10 * scale}, size};
+  const Box all = board.model.bounds().grown(60);
+  const float k = std::min(size.x / all.size.x, size.y / all.size.y);
+  const ImVec2 origin = board.minimap.centre() - all.centre() * k;
+  list.AddRectFilled(board.minimap.low(), board.minimap.high(), faded(c.sunken, 0.88f), 4 * scale);
+  list.PushClipRect(board.minimap.low(), board.minimap.high(), true);
+  for (std::size_t n = 0; n < board.model.anchors(); ++n) {
+    const Box& box = board.model.anchor(n);
+    const bool is_box = n < board.model.boxes.size();
+    const NodeBox* node = is_box ? &board.model.boxes[n] : nullptr;
+    ImU32 tone = node == nullptr ? c.text_faint : faded(tone_of(board, *node), 0.75f);
+    if (node != nullptr && board.editor.picks.nodes.contains(node->id)) tone = c.accent;
+    const ImVec2 low = origin + box.low() * k, high = origin + box.high() * k;
+    list.AddRectFilled(low, {std::max(high.x, low.x + 1), std::max(high.y, low.y + 1)}, tone);
+  }
+  const Box sight = board.camera.sight();
+  list.AddRect(origin + sight.low() * k, origin + sight.high() * k, c.accent, 0, 0, 1.5f);
+  list.PopClipRect();
+  list.AddRect(board.minimap.low(), board.minimap.high(), c.line, 4 * scale);
+}
+
+void draw_hints(Board& board) {
+  const Colours& c = board.theme().colours();
+  const Box& pane = board.camera.pane();
+  const float scale = board.theme().scale();
+  if (board.model.boxes.empty()) {
+    const std::string first = "Nothing here yet", second = "Press Tab, or double-click, to add a node";
+    const ImVec2 middle = pane.centre();
+    draw_text(board, middle - ImVec2(text_width(board, 17 * scale, first) / 2, 24 * scale), 17 * scale, c.text_soft, first);
+    draw_text(board, middle - ImVec2(text_width(board, 13 * scale, second) / 2, -2 * scale), 13 * scale, c.text_faint, second);
+  }
+  if (board.model.undrawn > 0)
+    draw_text(board, {pane.low().x + 12 * scale, board.camera.pane().low().y + 64 * scale}, 11 * scale, c.warning,
+              report::counted(board.model.undrawn, "link") + " of an unknown kind: kept as it is, not drawn");
+}
+
+struct CardRow {
+  std::string label, value;
+  ImU32 colour = 0;
+};
+
+void draw_card(Board& board, const Box& beside, const std::string& title, const std::vector<CardRow>& rows, bool is_pinned) {
+  const Colours& c = board.theme().colours();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float scale = board.theme().scale(), pixels = 12 * scale, step = 17 * scale, pad = 10 * scale;
+  float width = text_width(board, 13 * scale, title) + (is_pinned ? 16 * scale : 0);
+  for (const CardRow& row : rows)
+    width = std::max(width, text_width(board, pixels, row.label) +
+                                (row.value.empty() ? 0 : 18 * scale + text_width(board, pixels, row.value)));
+  width = std::min(width, 380 * scale);
+  const Box& pane = board.camera.pane();
+  const ImVec2 size{width + 2 * pad, 2 * pad + 20 * scale + step * static_cast<float>(rows.size())};
+  ImVec2 at{beside.high().x + 12 * scale, beside.low().y};
+  if (at.x + size.x > pane.high().x) at.x = beside.low().x - size.x - 12 * scale;
+  if (!is_pinned) {
+    at.x = std::clamp(at.x, pane.low().x + 4, std::max(pane.low().x + 4, pane.high().x - size.x - 4));
+    at.y = std::clamp(at.y, pane.low().y + 4, std::max(pane.low().y + 4, pane.high().y - size.y - 4));
+  }
+  list.AddRectFilled(at + ImVec2(0, 3), at + size + ImVec2(0, 4), IM_COL32(0, 0, 0, 60), 6 * scale);
+  list.AddRectFilled(at, at + size, c.raised, 6 * scale);
+  list.AddRect(at, at + size, is_pinned ? c.accent : c.line, 6 * scale);
+  draw_text(board, at + ImVec2(pad, pad - 2 * scale), 13 * scale, c.text, title, width);
+  float y = at.y + pad + 20 * scale;
+  for (const CardRow& row : rows) {
+    const float value = row.value.empty() ? 0 : std::min(text_width(board, pixels, row.value), 0.6f * width);
+    draw_text(board, {at.x + pad, y}, pixels, row.colour != 0 ? row.colour : c.text_soft, row.label, width - value);
+    if (!row.value.empty()) draw_text(board, {at.x + pad + width - value, y}, pixels, c.text, row.value, value + 1);
+    y += step;
+  }
+}
+
+std::vector<CardRow> rows_of(const Board& board, const NodeBox& box) {
+  const Editor& editor = board.editor;
+  const Colours& c = board.theme().colours();
+  std::vector<CardRow> rows;
+  for (const Section& section : box.sections) {
+    rows.push_back({section.label, section.type == nullptr ? "unknown here" : "", colour_of(board, section)});
+    if (section.type == nullptr) continue;
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < section.type->ports.size() && count < kMostCardRows; ++p) {
+      const PortDefinition& port = section.type->ports[p];
+      if (port.kind == ValueKind::mesh || port.kind == ValueKind::table) continue;
+      const Value* value = value_of(editor, box, section, p);
+      if (value == nullptr || (!port.is_computed && *value == port.default_value)) continue;
+      std::string label = port.id;
+      std::replace(label.begin(), label.end(), '_', ' ');
+      rows.push_back({label, text_of(editor, box, section, p)});
+      ++count;
+    }
+  }
+  if (box.in_state == kNoIndex) {
+    rows.push_back({"Computed from the next tick on.", "", c.text_faint});
+    return rows;
+  }
+  if (const std::string error = error_of(editor.state(), box.in_state); !error.empty()) rows.push_back({error, "", c.bad});
+  for (const Pull& pull : pulls_of(editor.state(), box.in_state)) {
+    rows.push_back({"Tension on " + pull.text, "", c.warning});
+    const auto voices = voices_at(editor.state(), pull.port);
+    for (std::size_t k = 0; k < voices.size() && k < kMostVoices; ++k) rows.push_back({"   " + voices[k], ""});
+    if (voices.size() > kMostVoices) rows.push_back({"   and " + std::to_string(voices.size() - kMostVoices) + " more", ""});
+  }
+  return rows;
+}
+
+void draw_link_card(Board& board, const Line& line) {
+  const Editor& editor = board.editor;
+  const Colours& c = board.theme().colours();
+  const LinkRecord& link = editor.scene().links.at(line.id);
+  std::vector<CardRow> rows{{text_of(editor, board.model.selection_of(line.from)) + "  \xe2\x86\x92  " +
+                                 text_of(editor, board.model.selection_of(line.to)),
+                             ""}};
+  rows.push_back({"strength", report::readable(link.strength)});
+  for (const auto& [parameter, value] : link.parameters)
+    if (const PortDefinition* port = line.definition == nullptr ? nullptr : line.definition->find_port(parameter)) {
+      const auto* text = std::get_if<std::string>(&value);
+      rows.push_back({parameter, text != nullptr ? *text : report::quantity(as_number(value), port->unit)});
+    }
+  if (link.is_muted) rows.push_back({"muted: shown, but its voice does not count", "", c.warning});
+  if (!link.is_enabled) rows.push_back({"off: not evaluated", "", c.warning});
+  if (const LinkPulse* pulse = board.live.pulse(line.id); pulse != nullptr && !pulse->text.empty())
+    rows.push_back({"last change", pulse->text});
+  if (line.definition == nullptr) rows.push_back({"This kind is unknown here: kept as it is, not run.", "", c.text_faint});
+  if (line.in_state != kNoIndex) {
+    const State& state = editor.state();
+    const auto& error =
+        state.links[line.in_state].error ? state.links[line.in_state].error : state.plan->links[line.in_state].error;
+    if (error) rows.push_back({error->message, "", c.bad});
+  }
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  draw_card(board, {at, {8, 8}}, line.label + "  (" + line.id + ")", rows, false);
+}
+
+}  // namespace
+
+void place_chips(Board& board) {
+  const float scale = board.theme().scale();
+  std::set<std::string> families;
+  for (const Line& line : board.model.lines) families.insert(std::string(line.family.label));
+  board.chips.clear();
+  const Box& pane = board.camera.pane();
+  ImVec2 at = pane.low() + ImVec2(10, 10) * scale;
+  for (const std::string& label : families) {
+    const float width = text_width(board, kChipText * scale, label) + 28 * scale;
+    const bool is_full = at.x + width > pane.high().x - 10 * scale && at.x > pane.low().x + 11 * scale;
+    if (is_full) at = {pane.low().x + 10 * scale, at.y + 26 * scale};
+    board.chips.emplace_back(label, Box{at, {width, 22 * scale}});
+    at.x += width + 6 * scale;
+  }
+  board.camera.set_head(board.chips.empty() ? 0 : at.y + 24 * scale - pane.low().y);
+}
+
+void draw_overlays(Board& board) {
+  draw_chips(board);
+  draw_minimap(board);
+  draw_hints(board);
+}
+
+void draw_cards(Board& board) {
+  for (const std::string& id : board.pinned)
+    if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size())
+      draw_card(board, board.camera.to_screen(board.model.boxes[k].box), board.model.boxes[k].name + "  (" + id + ")",
+                rows_of(board, board.model.boxes[k]), true);
+  if (board.drag.deed != Deed::none || board.editor.now - board.hovered_since < kCardSeconds) return;
+  const Hit& hit = board.hovered;
+  const bool is_pinned = std::find(board.pinned.begin(), board.pinned.end(), hit.id) != board.pinned.end();
+  if ((hit.thing == Thing::node || hit.thing == Thing::node_edge) && !is_pinned && hit.index < board.model.boxes.size())
+    draw_card(board, board.camera.to_screen(board.model.boxes[hit.index].box),
+              board.model.boxes[hit.index].name + "  (" + hit.id + ")", rows_of(board, board.model.boxes[hit.index]), false);
+  if (hit.thing == Thing::link)
+    if (const std::size_t k = board.model.find_line(hit.id); k < board.model.lines.size())
+      draw_link_card(board, board.model.lines[k]);
+}
+
+}  // namespace bl::desktop::canvas

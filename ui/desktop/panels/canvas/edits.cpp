@@ -1,0 +1,246 @@
+// Removing, muting, moving links, dots: what people do to what is there.
+#include "ui/desktop/panels/canvas/edits.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/file/scene_file.h"
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/canvas/fits.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr std::size_t kMostReconnections = 32;
+
+// The view's entries of nodes and links that go.
+Json forgetting(const ViewData& view, const std::set<std::string>& nodes, const std::set<std::string>& links) {
+  Json patch = Json::object();
+  for (const std::string& id : nodes) {
+    if (view.boxes.contains(id)) patch["boxes"][id] = nullptr;
+    if (view.collapsed.contains(id)) patch["collapsed"][id] = nullptr;
+    if (const std::string frame = view.frame_of_node(id); !frame.empty()) patch["frames"][frame]["nodes"][id] = nullptr;
+  }
+  for (const std::string& id : links)
+    if (view.dots.contains(id)) patch["dots"][id] = nullptr;
+  return patch;
+}
+
+const std::string* only_id(const Selection& selection) {
+  return !selection.is_query() && selection.ids.size() == 1 ? &selection.ids.front() : nullptr;
+}
+
+// For each kind: whom the node's links come from, and whom they lead to; one of the links lends its parameters.
+struct Meeting {
+  std::vector<std::string> before, after;
+  const LinkRecord* example = nullptr;
+};
+
+void reconnect(const Board& board, const std::string& node, const std::set<std::string>& going, FreshIds& ids,
+               std::vector<Command>& commands) {
+  const Scene& scene = board.editor.scene();
+  std::map<std::string, Meeting> meetings;
+  for (const auto& [id, link] : scene.links) {
+    const std::string *from = only_id(link.from), *to = only_id(link.to);
+    if (from == nullptr || to == nullptr || *from == *to || !link.ghost.empty() || (*from != node && *to != node)) continue;
+    const std::string& other = *from == node ? *to : *from;
+    if (going.contains(other)) continue;
+    Meeting& meeting = meetings[link.kind];
+    if (meeting.example == nullptr) meeting.example = &link;
+    (*from == node ? meeting.after : meeting.before).push_back(other);
+  }
+  for (auto& [kind, meeting] : meetings) {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    // Kinds that change both of their ends have no direction: the neighbours are joined one after the other.
+    const Line* line = nullptr;
+    for (const Line& known : board.model.lines)
+      if (known.kind == kind) line = &known;
+    if (line != nullptr && line->changes_from) {
+      meeting.before.insert(meeting.before.end(), meeting.after.begin(), meeting.after.end());
+      for (std::size_t k = 1; k < meeting.before.size(); ++k) pairs.emplace_back(meeting.before[k - 1], meeting.before[k]);
+    } else {
+      for (const std::string& a : meeting.before)
+        for (const std::string& b : meeting.after) pairs.emplace_back(a, b);
+    }
+    for (std::size_t k = 0; k < pairs.size() && k < kMostReconnections; ++k) {
+      LinkRecord link = *meeting.example;
+      link.from.ids = {pairs[k].first};
+      link.to.ids = {pairs[k].second};
+      if (pairs[k].first == pairs[k].second) continue;
+      commands.push_back(command<AddLink>(
+          {ids.of(pairs[k].first + "_" + pairs[k].second), {write_json_line(link_to_json(link, board.editor.registry))}}));
+    }
+  }
+}
+
+}  // namespace
+
+std::string FreshIds::of(const std::string& wish) {
+  const std::string base = to_identifier(wish).substr(0, 56);
+  std::string id = base;
+  for (int k = 2; given_.contains(id) || editor_->scene().nodes.contains(id) || editor_->scene().links.contains(id); ++k)
+    id = base + "-" + std::to_string(k);
+  given_.insert(id);
+  return id;
+}
+
+void add_view_patch(std::vector<Command>& commands, const Json& patch) {
+  if (!patch.empty()) commands.push_back(command<SetView>({{write_json_line(patch)}, false}));
+}
+
+std::set<std::string> links_of_choice(const Board& board) {
+  std::set<std::string> links = board.editor.picks.links;
+  const auto& boxes = board.model.boxes;
+  for (const Line& line : board.model.lines)
+    for (const std::size_t end : {line.from, line.to})
+      if (end < boxes.size() && board.editor.picks.nodes.contains(boxes[end].id)) links.insert(line.id);
+  // Another panel may have removed some since the canvas was drawn last.
+  std::erase_if(links, [&](const std::string& id) { return !board.editor.scene().links.contains(id); });
+  return links;
+}
+
+void remove_chosen(Board& board, bool reconnects) {
+  Editor& editor = board.editor;
+  const std::set<std::string> nodes = editor.picks.nodes;
+  std::set<std::string> links = editor.picks.links;
+  std::vector<Command> commands;
+  FreshIds ids(editor);
+  if (reconnects)
+    for (const std::string& id : nodes) reconnect(board, id, nodes, ids, commands);
+  for (const std::string& id : links) commands.push_back(command<RemoveLink>({id}));
+  for (const std::string& id : nodes) commands.push_back(command<RemoveNode>({id}));
+  // Links that go with their last node.
+  for (const auto& [id, link] : editor.scene().links) {
+    const auto goes = [&](const Selection& end) {
+      return !end.is_query() && !end.ids.empty() &&
+             std::all_of(end.ids.begin(), end.ids.end(), [&](const auto& n) { return nodes.contains(n); });
+    };
+    if (goes(link.from) || goes(link.to)) links.insert(id);
+  }
+  Json patch = forgetting(board.model.view, nodes, links);
+  for (const std::string& id : board.picked_comments) {
+    patch["comments"][id] = nullptr;
+    if (const std::string frame = board.model.view.frame_of_comment(id); !frame.empty())
+      patch["frames"][frame]["comments"][id] = nullptr;
+  }
+  for (const std::string& id : board.picked_frames) {
+    patch["frames"][id] = nullptr;
+    for (const auto& [other, frame] : board.model.view.frames)
+      if (frame.in == id && !board.picked_frames.contains(other)) {
+        const std::string& outer = board.model.view.frames.at(id).in;
+        patch["frames"][other]["in"] = outer.empty() ? Json() : Json(outer);
+      }
+  }
+  add_view_patch(commands, patch);
+  if (commands.empty()) return editor.tell(NoticeKind::told, "Nothing is chosen that could be removed.");
+  editor.submit(commands, editor.new_gesture());
+}
+
+void remove_links(Board& board, const std::set<std::string>& links) {
+  std::vector<Command> commands;
+  for (const std::string& id : links) commands.push_back(command<RemoveLink>({id}));
+  add_view_patch(commands, forgetting(board.model.view, {}, links));
+  if (board.editor.submit(commands, board.editor.new_gesture()))
+    board.editor.tell(NoticeKind::told, report::counted(links.size(), "link") + " removed.");
+}
+
+void mute_chosen(Board& board) {
+  const std::set<std::string> links = links_of_choice(board);
+  const auto& all = board.editor.scene().links;
+  if (links.empty()) return board.editor.tell(NoticeKind::told, "Choose links, or nodes with links, to mute them.");
+  const bool mutes = std::any_of(links.begin(), links.end(), [&](const std::string& id) { return !all.at(id).is_muted; });
+  std::vector<Command> commands;
+  for (const std::string& id : links)
+    if (all.at(id).is_muted != mutes) commands.push_back(command<MuteLink>({id, mutes}));
+  board.editor.submit(commands, board.editor.new_gesture());
+}
+
+void solo_chosen(Board& board) {
+  Editor& editor = board.editor;
+  std::vector<Command> commands;
+  const auto& all = editor.scene().links;
+  if (!board.soloed.empty()) {
+    for (const std::string& id : board.soloed)
+      if (all.contains(id) && all.at(id).is_muted) commands.push_back(command<MuteLink>({id, false}));
+    board.soloed.clear();
+    if (editor.submit(commands, editor.new_gesture())) editor.tell(NoticeKind::told, "All links speak again.");
+    return;
+  }
+  const std::set<std::string> heard = links_of_choice(board);
+  if (heard.empty()) return editor.tell(NoticeKind::told, "Choose links, or nodes with links, to hear them alone.");
+  for (const auto& [id, link] : all)
+    if (!heard.contains(id) && !link.is_muted) commands.push_back(command<MuteLink>({id, true})), board.soloed.insert(id);
+  if (commands.empty()) return editor.tell(NoticeKind::told, "No other link speaks.");
+  if (editor.submit(commands, editor.new_gesture()))
+    editor.tell(NoticeKind::told, report::counted(board.soloed.size(), "other link") + " muted; Q brings them back.");
+}
+
+void move_links(Board& board, std::size_t from, std::size_t to) {
+  Editor& editor = board.editor;
+  const Selection target = board.model.selection_of(to);
+  std::vector<Command> commands;
+  std::string refused;
+  std::size_t count = 0;
+  for (const Line& line : board.model.lines) {
+    if ((line.from != from && line.to != from) || line.definition == nullptr) continue;
+    Selection a = board.model.selection_of(line.from), b = board.model.selection_of(line.to);
+    if (line.from == from) a = target;
+    if (line.to == from) b = target;
+    if (const auto why = misfit(editor.registry, editor.scene(), *line.definition, a, b))
+      refused = line.label + " stays: " + *why;
+    else commands.push_back(command<SetLinkEnds>({line.id, a, b})), ++count;
+  }
+  if (!commands.empty()) editor.submit(commands, editor.new_gesture());
+  if (!refused.empty()) return editor.tell(NoticeKind::warning, refused);
+  editor.tell(NoticeKind::told, count == 0 ? "It has no links that could be moved." : report::counted(count, "link") + " moved.");
+}
+
+void collapse_chosen(Board& board) {
+  const auto& nodes = board.editor.picks.nodes;
+  if (nodes.empty()) return;
+  const auto& collapsed = board.model.view.collapsed;
+  const bool closes = std::any_of(nodes.begin(), nodes.end(), [&](const std::string& id) { return !collapsed.contains(id); });
+  Json patch = Json::object();
+  for (const std::string& id : nodes) {
+    if (closes) patch["collapsed"][id] = true;
+    else patch["collapsed"][id] = nullptr;
+  }
+  board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
+}
+
+namespace {
+
+void arrange_dots(Board& board, const std::string& link, const std::vector<ImVec2>& dots) {
+  Json patch = Json::object();
+  Json& list = patch["dots"][link];
+  list = dots.empty() ? Json() : Json::array();
+  for (const ImVec2& p : dots) list.push_back(place_json(p));
+  board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
+}
+
+}  // namespace
+
+void add_dot(Board& board, std::size_t line, ImVec2 at) {
+  if (line >= board.model.lines.size()) return;
+  const Line& known = board.model.lines[line];
+  // Between the two neighbours that the curve passes there: counted by how many dots come before the nearest stretch.
+  std::size_t nearest = 1;
+  for (std::size_t s = 1; s < known.points.size(); ++s)
+    if (distance(at, known.points[s - 1], known.points[s]) < distance(at, known.points[nearest - 1], known.points[nearest]))
+      nearest = s;
+  const std::size_t steps = std::max<std::size_t>(1, (known.points.size() - 1) / (known.dots.size() + 1));
+  std::vector<ImVec2> dots = known.dots;
+  const std::size_t place = std::min((nearest - 1) / steps, dots.size());
+  dots.insert(dots.begin() + static_cast<std::ptrdiff_t>(place), at);
+  arrange_dots(board, known.id, dots);
+}
+
+void remove_dot(Board& board, std::size_t line, std::size_t dot) {
+  if (line >= board.model.lines.size() || dot >= board.model.lines[line].dots.size()) return;
+  std::vector<ImVec2> dots = board.model.lines[line].dots;
+  dots.erase(dots.begin() + static_cast<std::ptrdiff_t>(dot));
+  arrange_dots(board, board.model.lines[line].id, dots);
+}
+
+}  // namespace bl::desktop::canvas

@@ -1,0 +1,82 @@
+// Samples at most ten times a second, however fast the ticks are.
+#include "ui/desktop/panels/canvas/live.h"
+
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/canvas/sections.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr double kSampleSeconds = 0.1;
+// Moves of less than 2 mm, and changes below a thousandth, are not worth a pulse.
+constexpr double kStillMove = 0.002, kStillShare = 1e-3;
+
+}  // namespace
+
+void Live::update(const Editor& editor, const Model& model) {
+  if (document_ != editor.document.get()) {
+    *this = {};
+    document_ = editor.document.get();
+  }
+  if (seen_ == model.state_revision) return;
+  seen_ = model.state_revision;
+  if (tick_ != editor.state().tick) listen(editor, model);
+  tick_ = editor.state().tick;
+  if (sampled_at_ >= 0 && editor.now - sampled_at_ < kSampleSeconds) return;
+  sampled_at_ = editor.now;
+  sample(editor, model);
+}
+
+void Live::sample(const Editor& editor, const Model& model) {
+  for (const NodeBox& box : model.boxes) {
+    if (box.in_state == kNoIndex) continue;
+    for (std::size_t k = 0; k < box.sections.size(); ++k) {
+      const Section& section = box.sections[k];
+      if (section.spark == kNoIndex) continue;
+      const Value* value = value_of(editor, box, section, section.spark);
+      if (value == nullptr) continue;
+      auto& samples = sparks_[{box.id, k}].samples;
+      samples.emplace_back(editor.now, as_number(*value));
+      while (samples.size() > 2 && samples[1].first < editor.now - kSparkSeconds) samples.erase(samples.begin());
+    }
+  }
+}
+
+void Live::listen(const Editor& editor, const Model& model) {
+  const State& state = editor.state();
+  for (const Line& line : model.lines) {
+    if (line.in_state == kNoIndex || line.in_state >= state.links.size()) continue;
+    LinkPulse& pulse = pulses_[line.id];
+    double loudest = 0;
+    bool has_moved = false;
+    const Voice* shown = nullptr;
+    for (const Voice& voice : state.links[line.in_state].voices) {
+      const bool is_sum = state.plan->port(voice.target).rule == CombineRule::sum;
+      const double size = is_sum ? voice.magnitude : std::abs(as_number(voice.value));
+      if (shown == nullptr || size > loudest) loudest = size, shown = &voice;
+      has_moved |= is_sum && voice.magnitude > kStillMove;
+    }
+    if (shown == nullptr) {
+      pulse.text.clear();
+      continue;
+    }
+    const PortDefinition& port = state.plan->port(shown->target);
+    if (port.rule != CombineRule::sum) has_moved = std::abs(loudest - pulse.magnitude) > kStillShare * std::abs(loudest);
+    pulse.magnitude = loudest;
+    if (has_moved && !line.is_muted) pulse.pulse_at = editor.now;
+    pulse.text = port.rule == CombineRule::sum && loudest <= kStillMove ? "" : report::quantity(loudest, port.unit);
+  }
+}
+
+const Spark* Live::spark(const std::string& node, std::size_t section) const {
+  const auto found = sparks_.find({node, section});
+  return found == sparks_.end() ? nullptr : &found->second;
+}
+
+const LinkPulse* Live::pulse(const std::string& link) const {
+  const auto found = pulses_.find(link);
+  return found == pulses_.end() ? nullptr : &found->second;
+}
+
+}  // namespace bl::desktop::canvas

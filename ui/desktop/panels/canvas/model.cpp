@@ -1,0 +1,368 @@
+// Makes boxes, pills and lines from the scene; places by the view where it speaks, else by the automatic layout.
+#include "ui/desktop/panels/canvas/model.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "ui/desktop/panels/canvas/auto_layout.h"
+#include "ui/desktop/panels/canvas/link_paths.h"
+#include "ui/desktop/panels/canvas/sections.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr float kFramePadding = 18, kFrameHead = 26;
+constexpr float kLoopRoom = 46;  // above a pill, for links from a set to itself
+constexpr int kDeepestFrame = 32;
+constexpr std::size_t kOneColumn = 7;
+
+Selection ends_of_ghost(const Json& json, const char* key) {
+  Selection selection;
+  const auto found = json.find(key);
+  if (found == json.end()) return selection;
+  if (found->is_string()) selection.ids = {found->get<std::string>()};
+  if (found->is_array())
+    for (const Json& id : *found)
+      if (id.is_string()) selection.ids.push_back(id.get<std::string>());
+  return selection;
+}
+
+}  // namespace
+
+bool NodeBox::is_ghost() const {
+  return std::any_of(sections.begin(), sections.end(), [](const Section& s) { return s.type == nullptr; });
+}
+
+ImVec2 Line::at_share(float share) const {
+  if (points.empty()) return {};
+  float whole = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) whole += length(points[k] - points[k - 1]);
+  float left = whole * share;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const float step = length(points[k] - points[k - 1]);
+    if (left <= step) return points[k - 1] + (points[k] - points[k - 1]) * (step > 0 ? left / step : 0);
+    left -= step;
+  }
+  return points.back();
+}
+
+ImVec2 Line::middle() const { return at_share(0.5f); }
+
+std::string key_of(const Selection& selection) {
+  if (selection.is_query()) return selection.typification + (selection.tag.empty() ? "" : "#" + selection.tag);
+  std::string key;
+  for (const std::string& id : selection.ids) key += (key.empty() ? "" : ",") + id;
+  return key;
+}
+
+std::string text_of(const Editor& editor, const Selection& selection) {
+  if (selection.is_query()) {
+    const TypificationDefinition* type = editor.registry.typification(selection.typification);
+    const std::string label = type != nullptr ? type->label : selection.typification;
+    if (selection.tag.empty()) return "all " + label + "s";
+    return (label.empty() ? "" : label + "s ") + "#" + selection.tag;
+  }
+  if (selection.ids.size() == 1) return editor.name_of(selection.ids.front());
+  return std::to_string(selection.ids.size()) + " nodes";
+}
+
+void Model::update(const Editor& editor) {
+  const Document* document = editor.document.get();
+  const std::size_t log_size = editor.document->session().log().size();
+  const Scene& scene = editor.scene();
+  const bool is_other = document != document_ || boxes.size() != scene.nodes.size() || log_size < log_size_;
+  if (is_other || log_size != log_size_) {
+    if (document != document_ || log_size < log_size_) kept_.clear();
+    document_ = document;
+    log_size_ = log_size;
+    if (scene.view != view_text_ || revision == 0) view = read_view(view_text_ = scene.view);
+    ++revision;
+    make_boxes(editor);
+    make_lines(editor);
+    place(editor);
+    trace_lines();
+    plan_ = nullptr;
+    state_ = nullptr;
+  }
+  if (plan_ != editor.state().plan) find_indices(editor);
+  if (state_ != editor.moment->state) {
+    state_ = editor.moment->state;
+    ++state_revision;
+  }
+}
+
+void Model::forget_places() {
+  kept_.clear();
+  log_size_ = 0;
+  document_ = nullptr;
+}
+
+void Model::make_boxes(const Editor& editor) {
+  boxes.clear();
+  for (const auto& [id, node] : editor.scene().nodes) {
+    NodeBox& box = boxes.emplace_back();
+    box.id = id;
+    box.name = node.name.empty() ? id : node.name;
+    box.sections = sections_of(editor.registry, node);
+    box.is_collapsed = view.collapsed.contains(id);
+    box.box.size = {kBoxWidth, box.is_collapsed ? kHeadHeight : height_of(box.sections)};
+  }
+  number_uses(editor);
+}
+
+// Uses in the order of the programme, then by name: the order that the report and its colours have.
+void Model::number_uses(const Editor& editor) {
+  std::vector<std::string> uses;
+  std::set<std::string> others;
+  const auto text_in = [](const PortValues& values) {
+    const auto use = values.find("use");
+    const auto* text = use == values.end() ? nullptr : std::get_if<std::string>(&use->second);
+    return text == nullptr ? std::string() : *text;
+  };
+  for (const auto& [id, node] : editor.scene().nodes) {
+    if (const auto volume = node.types.find("smart_volume"); volume != node.types.end()) others.insert(text_in(volume->second));
+    const auto programme = node.types.find("programme");
+    if (programme == node.types.end()) continue;
+    const auto rows = programme->second.find("rows");
+    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
+    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row)
+      if (std::find(uses.begin(), uses.end(), (*table)->text(row, "use")) == uses.end())
+        uses.push_back((*table)->text(row, "use"));
+  }
+  for (const std::string& use : others)
+    if (std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
+  for (NodeBox& box : boxes) {
+    const auto& types = editor.scene().nodes.at(box.id).types;
+    if (const auto volume = types.find("smart_volume"); volume != types.end())
+      box.use = static_cast<std::size_t>(std::find(uses.begin(), uses.end(), text_in(volume->second)) - uses.begin());
+  }
+}
+
+std::size_t Model::find_box(const std::string& id) const {
+  const auto found =
+      std::lower_bound(boxes.begin(), boxes.end(), id, [](const NodeBox& b, const std::string& key) { return b.id < key; });
+  return found != boxes.end() && found->id == id ? static_cast<std::size_t>(found - boxes.begin()) : boxes.size();
+}
+
+std::size_t Model::find_line(const std::string& id) const {
+  const auto found =
+      std::lower_bound(lines.begin(), lines.end(), id, [](const Line& l, const std::string& key) { return l.id < key; });
+  return found != lines.end() && found->id == id ? static_cast<std::size_t>(found - lines.begin()) : lines.size();
+}
+
+// The box of a single node, or the pill of a set; makes the pill where there is none yet. kNoIndex for nothing at all.
+std::size_t Model::anchor_of(const Editor& editor, const Selection& selection) {
+  if (!selection.is_query() && selection.ids.size() <= 1) {
+    const std::size_t box = selection.ids.empty() ? boxes.size() : find_box(selection.ids.front());
+    return box < boxes.size() ? box : kNoIndex;
+  }
+  const std::string key = key_of(selection);
+  for (std::size_t k = 0; k < pills.size(); ++k)
+    if (pills[k].key == key) return boxes.size() + k;
+  Pill& pill = pills.emplace_back();
+  pill.key = key;
+  pill.selection = selection;
+  pill.label = text_of(editor, selection);
+  for (const std::string& id : resolve(editor.scene(), editor.registry, selection))
+    if (const std::size_t box = find_box(id); box < boxes.size()) pill.members.push_back(box);
+  if (selection.is_query()) pill.label += "  ·  " + std::to_string(pill.members.size());
+  const float letters =
+      static_cast<float>(std::count_if(pill.label.begin(), pill.label.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  pill.box.size = {std::ceil((40 + 7.2f * letters) / kGrid) * kGrid, kPillHeight};
+  return boxes.size() + pills.size() - 1;
+}
+
+void Model::make_lines(const Editor& editor) {
+  pills.clear();
+  lines.clear();
+  undrawn = 0;
+  for (const auto& [id, link] : editor.scene().links) {
+    Selection from = link.from, to = link.to;
+    if (!link.ghost.empty()) {
+      const Json json = Json::parse(link.ghost, nullptr, false);
+      if (json.is_object()) from = ends_of_ghost(json, "from"), to = ends_of_ghost(json, "to");
+    }
+    const std::size_t a = anchor_of(editor, from), b = anchor_of(editor, to);
+    if (a == kNoIndex || b == kNoIndex) {
+      ++undrawn;
+      continue;
+    }
+    Line& line = lines.emplace_back();
+    line.id = id;
+    line.kind = link.kind;
+    line.definition = link.ghost.empty() ? editor.registry.link(link.kind) : nullptr;
+    line.label = line.definition != nullptr ? line.definition->label : link.kind + " (unknown here)";
+    line.from = a;
+    line.to = b;
+    line.is_muted = link.is_muted;
+    line.is_enabled = link.is_enabled;
+    line.strength = static_cast<float>(link.strength);
+    line.family = editor.theme.family_of(link.kind);
+    if (line.definition != nullptr) {
+      const auto& writes = line.definition->proposes;
+      line.changes_from = std::any_of(writes.begin(), writes.end(), [](const LinkWrite& w) { return w.end == End::from; });
+      line.changes_to = std::any_of(writes.begin(), writes.end(), [](const LinkWrite& w) { return w.end == End::to; });
+    }
+    if (const auto dots = view.dots.find(id); dots != view.dots.end()) line.dots = dots->second;
+  }
+}
+
+// Boxes and pills together: sources in a column or two, then pills, then the rest in the field.
+void Model::place(const Editor& editor) {
+  std::vector<LayoutItem> items;
+  std::size_t sources = 0;
+  for (const NodeBox& box : boxes) {
+    const NodeRecord& node = editor.scene().nodes.at(box.id);
+    const bool is_volume = node.types.contains("smart_volume");
+    const bool is_first = node.types.contains("programme") || node.types.contains("control") || node.types.contains("expression");
+    const bool is_second =
+        node.types.contains("boundary") || node.types.contains("smart_volumes_solver") || node.types.contains("statistics");
+    LayoutItem& item = items.emplace_back();
+    item.size = {kBoxWidth, height_of(box.sections)};
+    item.column = is_volume ? -1 : is_first ? 0 : is_second ? 1 : -1;
+    sources += item.column >= 0 ? 1 : 0;
+    const auto values = node.types.find("smart_volume");
+    if (is_volume)
+      if (const auto use = values->second.find("use"); use != values->second.end())
+        if (const auto* text = std::get_if<std::string>(&use->second)) item.kin = *text;
+  }
+  // A few sources stand in one column, which leaves the field more room.
+  for (LayoutItem& item : items)
+    if (sources <= kOneColumn && item.column == 1) item.column = 0;
+  for (const Pill& pill : pills) items.push_back({pill.box.size + ImVec2(0, kLoopRoom), 2, ""});
+  std::vector<std::pair<std::size_t, std::size_t>> links;
+  for (const Line& line : lines)
+    if (line.from < boxes.size() && line.to < boxes.size()) links.emplace_back(line.from, line.to);
+  const auto known = [&](const std::string& key) { return kept_.contains(key); };
+  const bool is_complete =
+      std::all_of(boxes.begin(), boxes.end(), [&](const NodeBox& b) { return view.boxes.contains(b.id) || known(b.id); }) &&
+      std::all_of(pills.begin(), pills.end(), [&](const Pill& p) { return view.sets.contains(p.key) || known("\n" + p.key); });
+  std::set<std::string> fresh;  // placed for the first time
+  if (!is_complete) {
+    const std::vector<ImVec2> places = lay_out(items, links);
+    for (std::size_t k = 0; k < boxes.size(); ++k)
+      if (kept_.emplace(boxes[k].id, places[k]).second) fresh.insert(boxes[k].id);
+    for (std::size_t k = 0; k < pills.size(); ++k)
+      if (kept_.emplace("\n" + pills[k].key, places[boxes.size() + k] + ImVec2(0, kLoopRoom)).second)
+        fresh.insert("\n" + pills[k].key);
+  }
+  for (NodeBox& box : boxes) {
+    const auto stored = view.boxes.find(box.id);
+    box.is_stored = stored != view.boxes.end();
+    box.box.at = box.is_stored ? stored->second : kept_.at(box.id);
+  }
+  for (Pill& pill : pills) {
+    const auto stored = view.sets.find(pill.key);
+    pill.is_stored = stored != view.sets.end();
+    pill.box.at = pill.is_stored ? stored->second : kept_.at("\n" + pill.key);
+  }
+  if (!view.boxes.empty() || !view.sets.empty()) make_room(fresh);
+}
+
+// What is placed for the first time gives way, downwards, to what people have placed.
+void Model::make_room(const std::set<std::string>& fresh) {
+  std::vector<Box> taken;
+  for (const NodeBox& box : boxes)
+    if (box.is_stored) taken.push_back(box.box);
+  for (const Pill& pill : pills)
+    if (pill.is_stored) taken.push_back(pill.box);
+  const auto give_way = [&](Box& box, const std::string& key) {
+    if (!fresh.contains(key)) return;
+    for (std::size_t tries = 0; tries <= taken.size(); ++tries) {
+      const auto blocker =
+          std::find_if(taken.begin(), taken.end(), [&](const Box& other) { return other.touches(box.grown(8)); });
+      if (blocker == taken.end()) break;
+      box.at.y = std::ceil((blocker->high().y + 2 * kGrid) / kGrid) * kGrid;
+    }
+    taken.push_back(box);
+    kept_[key] = box.at;
+  };
+  for (NodeBox& box : boxes)
+    if (!box.is_stored) give_way(box.box, box.id);
+  for (Pill& pill : pills)
+    if (!pill.is_stored) give_way(pill.box, "\n" + pill.key);
+}
+
+void Model::trace_lines() {
+  std::vector<Box> bodies;
+  bodies.reserve(anchors());
+  for (std::size_t k = 0; k < anchors(); ++k) bodies.push_back(anchor(k));
+  std::vector<Route> routes;
+  routes.reserve(lines.size());
+  for (const Line& line : lines) routes.push_back({line.from, line.to, line.dots});
+  auto curves = trace(bodies, routes);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    lines[k].points = std::move(curves[k]);
+    lines[k].bounds = {lines[k].points.front(), {0, 0}};
+    for (const ImVec2& p : lines[k].points) lines[k].bounds = lines[k].bounds.with({p, {0, 0}});
+  }
+}
+
+void Model::find_indices(const Editor& editor) {
+  const Plan& plan = *editor.state().plan;
+  plan_ = editor.state().plan;
+  for (NodeBox& box : boxes) {
+    const std::uint32_t at = plan.node_index(box.id);
+    box.in_state = at < plan.nodes.size() ? at : kNoIndex;
+    for (Section& section : box.sections) {
+      section.in_state = kNoIndex;
+      if (box.in_state == kNoIndex) continue;
+      const auto& types = plan.nodes[at].types;
+      for (std::size_t t = 0; t < types.size(); ++t)
+        if (types[t].definition->id == section.type_id) section.in_state = t;
+    }
+  }
+  for (Line& line : lines) {
+    const auto found = std::lower_bound(plan.links.begin(), plan.links.end(), line.id,
+                                        [](const LinkPlan& l, const std::string& key) { return l.id < key; });
+    line.in_state =
+        found != plan.links.end() && found->id == line.id ? static_cast<std::uint32_t>(found - plan.links.begin()) : kNoIndex;
+  }
+}
+
+Selection Model::selection_of(std::size_t anchor) const {
+  if (anchor >= boxes.size()) return pills[anchor - boxes.size()].selection;
+  Selection one;
+  one.ids = {boxes[anchor].id};
+  return one;
+}
+
+bool Model::frame_box(const std::string& id, Box& out, int depth) const {
+  const auto found = view.frames.find(id);
+  if (found == view.frames.end() || depth > kDeepestFrame) return false;
+  bool has_content = false;
+  const auto take = [&](const Box& box) {
+    out = has_content ? out.with(box) : box;
+    has_content = true;
+  };
+  for (const std::string& node : found->second.nodes)
+    if (const std::size_t k = find_box(node); k < boxes.size()) take(boxes[k].box);
+  for (const std::string& comment : found->second.comments)
+    if (const auto c = view.comments.find(comment); c != view.comments.end()) take(c->second.box);
+  for (const auto& [other, frame] : view.frames) {
+    Box inner;
+    if (frame.in == id && other != id && frame_box(other, inner, depth + 1)) take(inner);
+  }
+  if (!has_content) return false;
+  out = out.grown(kFramePadding);
+  out = out.with({{out.at.x, out.at.y - kFrameHead + 6}, {0, 0}});
+  return true;
+}
+
+Box Model::bounds() const {
+  bool has_any = false;
+  Box all{{-200, -150}, {400, 300}};
+  const auto take = [&](const Box& box) {
+    all = has_any ? all.with(box) : box;
+    has_any = true;
+  };
+  for (std::size_t k = 0; k < anchors(); ++k) take(anchor(k));
+  for (const auto& [id, comment] : view.comments) take(comment.box);
+  for (const auto& [id, frame] : view.frames)
+    if (Box box; frame_box(id, box)) take(box);
+  return all;
+}
+
+}  // namespace bl::desktop::canvas

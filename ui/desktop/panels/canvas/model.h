@@ -1,0 +1,126 @@
+// What is on the canvas: boxes of nodes, pills of whole sets, and lines of links, made from scene and view after changes only.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/graph/state.h"
+#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/canvas/view_data.h"
+
+namespace bl::desktop::canvas {
+
+// Measures of boxes, in points at full size.
+inline constexpr float kBoxWidth = 188, kHeadHeight = 28, kSectionHeight = 19, kRowHeight = 17, kBarHeight = 19,
+                       kSparkHeight = 26, kBoxFoot = 6, kGrid = 10, kPillHeight = 26;
+inline constexpr std::uint32_t kNoIndex = 0xffffffffu;
+
+/// One port as a line in a section.
+struct Row {
+  std::size_t port = 0;
+  std::string label;
+};
+
+/// One typification of a node.
+struct Section {
+  std::string type_id, label;
+  const TypificationDefinition* type = nullptr;  ///< none: unknown here, kept as a ghost
+  std::size_t category = 0;
+  std::vector<Row> rows;
+  bool has_bar = false;             ///< demand against volume
+  std::size_t spark = kNoIndex;     ///< the port that is followed over time
+  std::size_t in_state = kNoIndex;  ///< index among the node's types in the state
+  std::vector<std::string> texts;   ///< of the rows, as of `texts_of`
+  std::size_t texts_of = 0;         ///< the model's `state_revision` then
+};
+
+struct NodeBox {
+  std::string id, name;
+  Box box;  ///< as drawn: of its head alone where collapsed
+  std::vector<Section> sections;
+  bool is_collapsed = false, is_stored = false;  ///< stored: the view says where it lies
+  std::uint32_t in_state = kNoIndex;             ///< none before the first tick that knows it
+  std::size_t use = kNoIndex;                    ///< of a SmartVolume: the number of its use, as in the report
+
+  bool is_ghost() const;
+};
+
+/// A whole set that links end at.
+struct Pill {
+  std::string key, label;
+  Selection selection;
+  std::vector<std::size_t> members;  ///< boxes
+  Box box;
+  bool is_stored = false;
+};
+
+/// What lines end at: boxes first, pills after them.
+struct Line {
+  std::string id, kind, label;
+  const LinkDefinition* definition = nullptr;  ///< none: unknown here, kept as a ghost
+  std::size_t from = 0, to = 0;                ///< anchors
+  bool is_muted = false, is_enabled = true, changes_from = false, changes_to = true;
+  float strength = 1;
+  Family family;
+  std::vector<ImVec2> dots, points;  ///< points: the curve, close enough to be drawn as stretches
+  Box bounds;
+  std::uint32_t in_state = kNoIndex;
+
+  ImVec2 middle() const;
+  ImVec2 at_share(float share) const;
+};
+
+class Model {
+ public:
+  /// Makes everything anew where the scene has changed, and finds indices again where the state has another plan.
+  void update(const Editor& editor);
+
+  ViewData view;
+  std::vector<NodeBox> boxes;  ///< ascending id
+  std::vector<Pill> pills;
+  std::vector<Line> lines;         ///< ascending id
+  std::size_t undrawn = 0;         ///< links of unknown kinds whose ends cannot be read
+  std::size_t revision = 0;        ///< grows with each change of the scene
+  std::size_t state_revision = 0;  ///< grows with each state that is seen, and with each change of the scene
+
+  std::size_t anchors() const { return boxes.size() + pills.size(); }
+  const Box& anchor(std::size_t k) const { return k < boxes.size() ? boxes[k].box : pills[k - boxes.size()].box; }
+  /// What a link's end says that is laid to this anchor.
+  Selection selection_of(std::size_t anchor) const;
+  std::size_t find_box(const std::string& id) const;   ///< boxes.size() where there is none
+  std::size_t find_line(const std::string& id) const;  ///< lines.size() where there is none
+  /// Around all boxes, pills, frames and comments; a small box in an empty scene.
+  Box bounds() const;
+  /// Around what is in the frame, with its head; nothing in an empty frame.
+  bool frame_box(const std::string& id, Box& out, int depth = 0) const;
+  /// Boxes without an entry in the view are laid out anew, with the next update.
+  void forget_places();
+  /// Draws the curves anew, after boxes have moved.
+  void trace_lines();
+
+ private:
+  void make_boxes(const Editor& editor);
+  void number_uses(const Editor& editor);
+  void make_lines(const Editor& editor);
+  void place(const Editor& editor);
+  void make_room(const std::set<std::string>& fresh);
+  void find_indices(const Editor& editor);
+  std::size_t anchor_of(const Editor& editor, const Selection& selection);
+
+  const Document* document_ = nullptr;
+  std::size_t log_size_ = 0;
+  std::string view_text_;
+  // Held, so that another state or plan never lies at the same address.
+  std::shared_ptr<const State> state_;
+  std::shared_ptr<const Plan> plan_;
+  std::map<std::string, ImVec2> kept_;  ///< where boxes without an entry were put; they stay there as long as the scene is open
+};
+
+/// The key of a set in the view: its typification and tag, or its ids.
+std::string key_of(const Selection& selection);
+/// "all SmartVolumes", "#living", "3 nodes".
+std::string text_of(const Editor& editor, const Selection& selection);
+
+}  // namespace bl::desktop::canvas

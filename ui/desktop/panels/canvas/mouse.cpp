@@ -1,0 +1,216 @@
+// What lies under the cursor, and which drag a press begins.
+#include "ui/desktop/panels/canvas/mouse.h"
+
+#include <GLFW/glfw3.h>
+
+#include "ui/desktop/panels/canvas/additions.h"
+#include "ui/desktop/panels/canvas/arrangement.h"
+#include "ui/desktop/panels/canvas/edits.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr float kEdgeInside = 5, kEdgeOutside = 8, kLineReach = 6, kDotReach = 8, kFrameHead = 26;
+constexpr double kWheelStep = 1.15;
+// Space held for longer is no key press any more, but a hand on the canvas.
+constexpr double kSpaceSeconds = 0.35;
+
+bool is_body(Thing thing) {
+  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge;
+}
+
+// Boxes and pills, the upper ones first. Edges count on both sides of the outline, the inner part less on small boxes.
+Hit hit_body(const Board& board, ImVec2 at, bool edges_only) {
+  const float scale = board.theme().scale();
+  for (std::size_t k = board.model.anchors(); k-- > 0;) {
+    const Box screen = board.camera.to_screen(board.model.anchor(k));
+    const float least = std::min(screen.size.x, screen.size.y);
+    const float inside = std::min(kEdgeInside * scale, 0.05f * least), outside = std::min(kEdgeOutside * scale, 0.25f * least);
+    if (!screen.grown(outside).holds(at)) continue;
+    const bool is_pill = k >= board.model.boxes.size();
+    const bool is_edge = !screen.grown(-inside).holds(at);
+    if (edges_only != is_edge) continue;
+    const std::string id = is_pill ? board.model.pills[k - board.model.boxes.size()].key : board.model.boxes[k].id;
+    return {is_pill ? (is_edge ? Thing::pill_edge : Thing::pill) : (is_edge ? Thing::node_edge : Thing::node), id, k};
+  }
+  return {};
+}
+
+Hit hit_line(const Board& board, ImVec2 at) {
+  const float scale = board.theme().scale();
+  const ImVec2 p = board.camera.to_plane(at);
+  const float reach = kLineReach * scale / board.camera.factor();
+  Hit best;
+  float nearest = reach;
+  for (std::size_t k = 0; k < board.model.lines.size(); ++k) {
+    const Line& line = board.model.lines[k];
+    if (board.is_hidden(line) || !line.bounds.grown(reach).holds(p)) continue;
+    for (std::size_t d = 0; d < line.dots.size(); ++d)
+      if (length(line.dots[d] - p) < kDotReach * scale / board.camera.factor()) return {Thing::dot, line.id, d};
+    for (std::size_t s = 1; s < line.points.size(); ++s)
+      if (const float away = distance(p, line.points[s - 1], line.points[s]); away < nearest) {
+        nearest = away;
+        best = {Thing::link, line.id, k};
+      }
+  }
+  return best;
+}
+
+Hit hit_frame(const Board& board, ImVec2 at) {
+  Hit best;
+  float least = 1e30f;
+  for (const auto& [id, frame] : board.model.view.frames) {
+    Box box;
+    if (!board.model.frame_box(id, box) || box.size.x * box.size.y > least) continue;
+    Box head = board.camera.to_screen(box);
+    head.size.y = std::max(kFrameHead * board.camera.factor(), 8.0f);
+    if (head.holds(at)) best = {Thing::frame, id, 0}, least = box.size.x * box.size.y;
+  }
+  return best;
+}
+
+// Adding, dots, and texts that are edited in their place.
+void handle_double_click(Board& board, const Hit& hit) {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  switch (hit.thing) {
+    case Thing::nothing: open_addition(board, at); break;
+    case Thing::link: add_dot(board, hit.index, board.camera.to_plane(at)); break;
+    case Thing::dot: remove_dot(board, board.model.find_line(hit.id), hit.index); break;
+    case Thing::node:
+    case Thing::comment:
+    case Thing::frame: begin_edit(board, hit.thing, hit.id); break;
+    default: break;
+  }
+}
+
+void handle_keys_held(Board& board, bool is_hovered) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && board.drag.deed != Deed::none) cancel_drag(board);
+  const bool is_typing = io.WantTextInput || board.picker.is_open;
+  if (is_hovered && !is_typing && ImGui::IsKeyPressed(GLFW_KEY_SPACE, false) && !io.KeyCtrl && !io.KeyAlt && !io.KeyShift) {
+    board.space_since = board.editor.now;
+    board.has_space_panned = false;
+  }
+  // Space alone adds; Space with a drag pans. Which one it was is known when it is let go.
+  if (board.space_since >= 0 && !ImGui::IsKeyDown(GLFW_KEY_SPACE)) {
+    const bool is_tap = !board.has_space_panned && board.editor.now - board.space_since < kSpaceSeconds;
+    board.space_since = -1;
+    if (is_tap && is_hovered && !is_typing) open_addition(board, io.MousePos);
+  }
+}
+
+void point_at(Board& board, bool is_hovered) {
+  Hit hit;
+  if (is_hovered) hit = hit_at(board, ImGui::GetIO().MousePos);
+  if (!(hit == board.hovered)) {
+    board.hovered = hit;
+    board.hovered_since = board.editor.now;
+  }
+  Picks& picks = board.editor.picks;
+  if (hit.thing == Thing::node || hit.thing == Thing::node_edge) picks.hovered_node = hit.id;
+  if (hit.thing == Thing::link || hit.thing == Thing::dot) { picks.hovered_link = hit.id; }
+}
+
+void set_cursor(const Board& board) {
+  const Thing thing = board.hovered.thing;
+  if (board.drag.deed == Deed::pan || (board.space_since >= 0 && board.drag.deed == Deed::none))
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+  else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip)
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  else if (thing == Thing::comment_corner) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNWSE);
+}
+
+}  // namespace
+
+ImVec2 Board::cursor() const {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return camera.to_plane(camera.pane().holds(at) || drag.deed != Deed::none ? at : camera.pane().centre());
+}
+
+Hit hit_at(const Board& board, ImVec2 at) {
+  for (std::size_t k = 0; k < board.chips.size(); ++k)
+    if (board.chips[k].second.holds(at)) return {Thing::chip, board.chips[k].first, k};
+  if (board.minimap.size.x > 0 && board.minimap.holds(at)) return {Thing::minimap, "", 0};
+  if (Hit hit = hit_body(board, at, false); hit.thing != Thing::nothing) return hit;
+  if (Hit hit = hit_line(board, at); hit.thing == Thing::dot) return hit;
+  if (Hit hit = hit_body(board, at, true); hit.thing != Thing::nothing) return hit;
+  for (const auto& [id, comment] : board.model.view.comments) {
+    const Box screen = board.camera.to_screen(comment.box);
+    if (Box{screen.high() - ImVec2(12, 12), {14, 14}}.holds(at)) return {Thing::comment_corner, id, 0};
+    if (screen.holds(at)) return {Thing::comment, id, 0};
+  }
+  if (Hit hit = hit_line(board, at); hit.thing != Thing::nothing) return hit;
+  return hit_frame(board, at);
+}
+
+void handle_mouse(Board& board, bool is_hovered) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (board.drag.deed != Deed::none && board.drag.revision != board.model.revision) board.drag = {};
+  point_at(board, is_hovered || board.drag.deed != Deed::none);
+  handle_keys_held(board, is_hovered);
+  if (is_hovered && io.MouseWheel != 0)
+    board.camera.zoom_at(io.MousePos, std::pow(kWheelStep, static_cast<double>(io.MouseWheel)));
+  if (board.drag.deed != Deed::none) {
+    if (ImGui::IsMouseDown(board.drag.button)) go_on_dragging(board);
+    else if (const Hit grabbed = board.drag.grabbed; board.drag.is_double && !board.drag.is_far)
+      board.drag = {}, handle_double_click(board, grabbed);
+    else end_drag(board);
+  } else if (is_hovered && board.edit.thing == Thing::nothing) {
+    for (const int button : {0, 1, 2})
+      if (ImGui::IsMouseClicked(button)) {
+        const Hit hit = board.hovered;
+        begin_drag(board, button);
+        // A second press may still become a drag; on a link there is none.
+        board.drag.is_double = button == 0 && ImGui::IsMouseDoubleClicked(0) && !io.KeyAlt && !io.KeyCtrl && !io.KeyShift;
+        if (board.drag.is_double && board.drag.deed == Deed::none) board.drag = {}, handle_double_click(board, hit);
+        break;
+      }
+  }
+  if (is_hovered) set_cursor(board);
+}
+
+void begin_drag(Board& board, int button) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Hit hit = board.hovered;
+  Drag& drag = board.drag;
+  drag = {};
+  drag.button = button;
+  drag.grabbed = hit;
+  drag.begin = board.camera.to_plane(io.MousePos);
+  drag.revision = board.model.revision;
+  Picks& picks = board.editor.picks;
+  const bool is_swipe = (button == 1 && io.KeyCtrl) || (button == 0 && ImGui::IsKeyDown(GLFW_KEY_Y) && !io.KeyCtrl);
+  if (is_swipe) {
+    drag.deed = Deed::cut;
+  } else if (button != 0 || board.space_since >= 0) {
+    drag.deed = Deed::pan;
+  } else if (hit.thing == Thing::chip) {
+    if (!board.hidden_families.erase(hit.id)) board.hidden_families.insert(hit.id);
+  } else if (hit.thing == Thing::minimap) {
+    drag.deed = Deed::minimap;
+  } else if (is_body(hit.thing) && io.KeyCtrl && io.KeyShift) {
+    drag.deed = Deed::relink;
+  } else if (hit.thing == Thing::node_edge || hit.thing == Thing::pill_edge) {
+    drag.deed = Deed::link;
+  } else if (hit.thing == Thing::dot) {
+    drag.deed = Deed::dot;
+    drag.dots = {{hit.id, hit.index}};
+  } else if (hit.thing == Thing::link) {
+    if (io.KeyAlt) return add_dot(board, hit.index, drag.begin);
+    if (!io.KeyShift && !io.KeyCtrl) picks.only_link(hit.id);
+    else if (io.KeyCtrl && picks.links.erase(hit.id) > 0) return;
+    else picks.links.insert(hit.id);
+  } else if (hit.thing == Thing::comment_corner) {
+    drag.deed = Deed::comment_corner;
+  } else {
+    drag.deed = hit.thing == Thing::nothing ? Deed::box : Deed::move;
+    drag.adds = io.KeyShift;
+    drag.toggles = io.KeyCtrl;
+    drag.copies = io.KeyAlt;
+    drag.leaves = io.KeyShift;
+  }
+  go_on_dragging(board);
+}
+
+}  // namespace bl::desktop::canvas

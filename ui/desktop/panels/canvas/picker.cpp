@@ -1,0 +1,179 @@
+// Filters by the typed letters, walks by arrows, takes by Enter or click.
+#include "ui/desktop/panels/canvas/picker.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include <GLFW/glfw3.h>
+#include <imgui_stdlib.h>
+
+#include "ui/desktop/panels/canvas/board.h"
+#include "ui/desktop/app/fuzzy.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr const char* kName = "canvas picker";
+constexpr float kWidth = 380, kRow = 38, kMostHeight = 400;
+
+void filter(Picker& picker) {
+  picker.shown.clear();
+  std::vector<std::pair<int, std::size_t>> scored;
+  for (std::size_t k = 0; k < picker.choices.size(); ++k) {
+    const Choice& choice = picker.choices[k];
+    int score = 0;
+    if (!picker.text.empty()) {
+      score = std::max(fuzzy_score(picker.text, choice.label) * 2,
+                       fuzzy_score(picker.text, choice.label + " " + choice.id + " " + choice.more));
+      if (score < 0) continue;
+    }
+    scored.emplace_back(score, k);
+  }
+  std::stable_sort(scored.begin(), scored.end(), [&](const auto& a, const auto& b) {
+    const Choice &x = picker.choices[a.second], &y = picker.choices[b.second];
+    if (x.why_not.empty() != y.why_not.empty()) return x.why_not.empty();
+    if (a.first != b.first) return a.first > b.first;
+    return x.recency < y.recency;
+  });
+  for (const auto& [score, k] : scored) picker.shown.push_back(k);
+  picker.marked = 0;
+  picker.filtered_for = picker.text;
+}
+
+// One choice: its name, and below it what it is, or why it cannot be had. Whether it was clicked.
+bool draw_choice(Board& board, const Choice& choice, bool is_marked, bool& is_pointed_at) {
+  const Theme& theme = board.theme();
+  const Colours& c = theme.colours();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, theme.px(kRow)};
+  const bool is_clicked = ImGui::InvisibleButton("choice", size);
+  is_pointed_at = ImGui::IsItemHovered() && (ImGui::GetIO().MouseDelta.x != 0 || ImGui::GetIO().MouseDelta.y != 0);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const bool can = choice.why_not.empty();
+  if (is_marked) list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, can ? c.accent_soft : c.sunken, theme.px(4));
+  if (choice.colour != 0)
+    list.AddCircleFilled({at.x + theme.px(12), at.y + theme.px(13)}, theme.px(4), can ? choice.colour : c.text_faint, 12);
+  const float left = at.x + theme.px(24);
+  const ImVec4 clip(left, at.y, at.x + size.x - theme.px(6), at.y + size.y);
+  list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {left, at.y + theme.px(3)}, can ? c.text : c.text_faint,
+               choice.label.c_str(), nullptr, 0, &clip);
+  const std::string& below = can ? choice.detail : choice.why_not;
+  list.AddText(theme.fonts().small, theme.fonts().small->FontSize, {left, at.y + theme.px(20)}, can ? c.text_soft : c.text_faint,
+               below.c_str(), nullptr, 0, &clip);
+  if (ImGui::IsItemHovered() && ImGui::CalcTextSize(below.c_str()).x > size.x - theme.px(30)) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(theme.px(kWidth));
+    ImGui::TextUnformatted(below.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+  return is_clicked;
+}
+
+void mark(Board& board, std::size_t place) {
+  Picker& picker = board.picker;
+  if (picker.shown.empty() || picker.marked == place) return;
+  picker.marked = place;
+  if (picker.looked_at) picker.looked_at(board, picker.choices[picker.shown[place]]);
+}
+
+// Up and Down walk the list while the text keeps the keyboard.
+int walk(ImGuiInputTextCallbackData* data) {
+  *static_cast<int*>(data->UserData) = data->EventKey == ImGuiKey_UpArrow ? -1 : 1;
+  return 0;
+}
+
+bool draw_search(Board& board, int& step) {
+  Picker& picker = board.picker;
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool is_entered =
+      ImGui::InputTextWithHint("##search", picker.hint.c_str(), &picker.text,
+                               ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, walk, &step);
+  if (picker.text != picker.filtered_for || ImGui::IsWindowAppearing()) {
+    filter(picker);
+    if (!picker.shown.empty() && picker.looked_at && !picker.text.empty())
+      picker.looked_at(board, picker.choices[picker.shown.front()]);
+  }
+  return is_entered;
+}
+
+// The list; the place of the choice that was clicked, or the number of shown ones.
+std::size_t draw_list(Board& board, bool has_walked) {
+  Picker& picker = board.picker;
+  const Theme& theme = board.theme();
+  std::size_t clicked = picker.shown.size();
+  const float height = std::min(theme.px(kMostHeight),
+                                theme.px(kRow) * static_cast<float>(std::max<std::size_t>(1, picker.shown.size())) + theme.px(4));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+  ImGui::BeginChild("list", {0, height}, false, ImGuiWindowFlags_NoNav);
+  if (picker.shown.empty()) ImGui::TextDisabled("%s", picker.empty_text.c_str());
+  for (std::size_t place = 0; place < picker.shown.size(); ++place) {
+    ImGui::PushID(static_cast<int>(place));
+    bool is_pointed_at = false;
+    if (draw_choice(board, picker.choices[picker.shown[place]], place == picker.marked, is_pointed_at)) clicked = place;
+    if (is_pointed_at) mark(board, place);
+    if (place == picker.marked && has_walked) ImGui::SetScrollHereY(0.5f);
+    ImGui::PopID();
+  }
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  return clicked;
+}
+
+void place_window(Board& board) {
+  const Theme& theme = board.theme();
+  const ImVec2 screen = ImGui::GetIO().DisplaySize, size{theme.px(kWidth), theme.px(kMostHeight + 90)};
+  const ImVec2 at{std::clamp(board.picker.at.x, 0.0f, std::max(0.0f, screen.x - size.x)),
+                  std::clamp(board.picker.at.y, 0.0f, std::max(0.0f, screen.y - size.y))};
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize({size.x, 0});
+}
+
+}  // namespace
+
+void open_picker(Board& board, Picker picker) {
+  board.picker = std::move(picker);
+  board.picker.is_opening = true;
+  filter(board.picker);
+}
+
+void draw_picker(Board& board) {
+  Picker& picker = board.picker;
+  if (picker.is_opening) ImGui::OpenPopup(kName);
+  picker.is_opening = false;
+  place_window(board);
+  picker.is_open =
+      ImGui::BeginPopup(kName, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  if (!picker.is_open) return;
+  if (!picker.title.empty()) {
+    ImGui::PushFont(board.theme().fonts().small);
+    ImGui::TextDisabled("%s", picker.title.c_str());
+    ImGui::PopFont();
+  }
+  int step = 0;
+  const bool is_entered = draw_search(board, step);
+  const std::size_t count = picker.shown.size();
+  if (step != 0 && count > 0) mark(board, (picker.marked + (step > 0 ? 1 : count - 1)) % count);
+  std::size_t taken = draw_list(board, step != 0);
+  if (is_entered && picker.marked < count) taken = picker.marked;
+  const bool is_left = ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false);
+  bool is_done = is_left;
+  if (taken < count) {
+    const Choice choice = picker.choices[picker.shown[taken]];
+    if (choice.why_not.empty()) {
+      is_done = true;
+      // It may change the scene, or open the next list: after all of this has been drawn.
+      board.after_frame = [choice, action = picker.taken](Board& b) { action(b, choice); };
+    } else {
+      board.editor.tell(NoticeKind::told, choice.why_not);
+      ImGui::SetKeyboardFocusHere(-1);
+    }
+  }
+  if (is_done) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+}  // namespace bl::desktop::canvas

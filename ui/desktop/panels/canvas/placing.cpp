@@ -1,0 +1,113 @@
+// Tries a grid of places in the plan of the boundary and takes the freest.
+#include "ui/desktop/panels/canvas/placing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr int kTries = 24;
+
+struct Site {
+  std::vector<Point3> plan;  // corners in order; of other forms than a plan, the corners of the box around the points
+  double bottom = 0, top = 20;
+};
+
+Site box_site(const std::vector<Point3>& points) {
+  Site site;
+  if (points.empty()) return site;
+  Point3 low = points.front(), high = low;
+  for (const Point3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  site.plan = {{low.x, low.y, 0}, {high.x, low.y, 0}, {high.x, high.y, 0}, {low.x, high.y, 0}};
+  site.bottom = low.z;
+  site.top = high.z;
+  return site;
+}
+
+std::optional<Site> site_of(const Registry& registry, const Scene& scene) {
+  const TypificationDefinition* type = registry.typification("boundary");
+  if (type == nullptr) return std::nullopt;
+  for (const auto& [id, node] : scene.nodes) {
+    if (!node.types.contains("boundary")) continue;
+    const auto value = [&](const char* port) { return set_value(node, *type, type->ports[type->port_index(port)]); };
+    const auto form = value("form");
+    const auto* name = std::get_if<std::string>(&form);
+    const auto points_of = [&](const char* port) {
+      const Value list = value(port);
+      const auto* points = std::get_if<Shared<std::vector<Point3>>>(&list);
+      return points != nullptr ? **points : std::vector<Point3>();
+    };
+    if (name != nullptr && *name == "plan") {
+      const double bottom = as_number(value("bottom"));
+      return Site{points_of("plan"), bottom, bottom + as_number(value("height"))};
+    }
+    return box_site(points_of(name != nullptr && *name == "mesh" ? "vertices" : "points"));
+  }
+  return std::nullopt;
+}
+
+bool is_inside(const std::vector<Point3>& plan, double x, double y) {
+  bool inside = false;
+  for (std::size_t k = 0, last = plan.size() - 1; k < plan.size(); last = k++)
+    if ((plan[k].y > y) != (plan[last].y > y) &&
+        x < (plan[last].x - plan[k].x) * (y - plan[k].y) / (plan[last].y - plan[k].y) + plan[k].x)
+      inside = !inside;
+  return inside;
+}
+
+double distance_to_outline(const std::vector<Point3>& plan, double x, double y) {
+  double least = 1e30;
+  for (std::size_t k = 0, last = plan.size() - 1; k < plan.size(); last = k++) {
+    const double dx = plan[k].x - plan[last].x, dy = plan[k].y - plan[last].y, square = dx * dx + dy * dy;
+    const double t = square > 0 ? std::clamp(((x - plan[last].x) * dx + (y - plan[last].y) * dy) / square, 0.0, 1.0) : 0;
+    least = std::min(least, std::hypot(x - plan[last].x - t * dx, y - plan[last].y - t * dy));
+  }
+  return least;
+}
+
+}  // namespace
+
+NewVolume place_volume(const Registry& registry, const Scene& scene, const std::vector<Point3>& taken) {
+  NewVolume volume;
+  std::vector<Point3> others = taken;
+  double demands = 0;
+  int count = 0;
+  const TypificationDefinition* type = registry.typification("smart_volume");
+  const TypificationDefinition* base = registry.typification(kBaseNode);
+  for (const auto& [id, node] : scene.nodes) {
+    if (type == nullptr || base == nullptr || !node.types.contains("smart_volume") ||
+        !node.types.contains(std::string(kBaseNode)))
+      continue;
+    if (const auto* at = std::get_if<Vector3>(&set_value(node, *base, base->ports[base->port_index("position")])))
+      others.push_back(*at);
+    demands += as_number(set_value(node, *type, type->ports[type->port_index("demand")])), ++count;
+  }
+  if (count > 0) volume.demand = std::max(1.0, std::round(demands / count));
+  const auto site = site_of(registry, scene);
+  if (!site || site->plan.size() < 3) {
+    // Without a boundary: beside the last one.
+    if (!others.empty()) volume.position = {others.back().x + 20, others.back().y, others.back().z};
+    return volume;
+  }
+  const Site box = box_site(site->plan);
+  const double middle = (site->bottom + site->top) / 2;
+  double best = -1;
+  for (int i = 0; i < kTries; ++i)
+    for (int j = 0; j < kTries; ++j) {
+      const double x = box.plan[0].x + (box.plan[2].x - box.plan[0].x) * (i + 0.5) / kTries;
+      const double y = box.plan[0].y + (box.plan[2].y - box.plan[0].y) * (j + 0.5) / kTries;
+      if (!is_inside(site->plan, x, y)) continue;
+      double free = 2 * distance_to_outline(site->plan, x, y);
+      for (const Point3& other : others) free = std::min(free, std::hypot(x - other.x, y - other.y));
+      if (free > best) best = free, volume.position = {std::round(10 * x) / 10, std::round(10 * y) / 10, middle};
+    }
+  return volume;
+}
+
+}  // namespace bl::desktop::canvas

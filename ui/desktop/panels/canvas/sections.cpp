@@ -1,0 +1,168 @@
+// Chooses the few values that tell most about a node: what people have set, what is still missing, and the main results.
+#include "ui/desktop/panels/canvas/sections.h"
+
+#include <array>
+
+#include "ui/cli/report/figures.h"
+
+namespace bl::desktop::canvas {
+
+namespace {
+
+constexpr std::size_t kMostRows = 5, kMostSettings = 3;
+constexpr double kLeastShare = 1e-4;  // smaller ones are written as such
+
+// Results that people ask for first; types that are not listed show their first results.
+struct Favourites {
+  const char* type;
+  std::array<const char*, 3> ports;
+  const char* spark;
+};
+constexpr Favourites kFavourites[] = {
+    {"smart_volume", {"floor_area", "height", ""}, "volume"},
+    {"statistics", {"sum", "mean", "count"}, "sum"},
+    {"smart_volumes_solver", {"fill", "largest_error", "worst"}, "largest_error"},
+    {"boundary", {"volume", "ground_area", ""}, ""},
+    {"programme", {"total_floor_area", "items", "uses"}, ""},
+    {"control", {"output", "", ""}, ""},
+};
+
+const Favourites* favourites_of(const std::string& type) {
+  for (const Favourites& known : kFavourites)
+    if (type == known.type) return &known;
+  return nullptr;
+}
+
+bool is_shown_in_a_row(const PortDefinition& port) { return port.kind != ValueKind::mesh && port.kind != ValueKind::json; }
+
+bool is_number(const PortDefinition& port) { return port.kind == ValueKind::number || port.kind == ValueKind::integer; }
+
+std::string label_of(const PortDefinition& port) {
+  std::string label = port.id;
+  std::replace(label.begin(), label.end(), '_', ' ');
+  return label;
+}
+
+void add_row(Section& section, std::size_t port) {
+  const auto& ports = section.type->ports;
+  if (port >= ports.size() || section.rows.size() >= kMostRows || !is_shown_in_a_row(ports[port])) return;
+  for (const Row& row : section.rows)
+    if (row.port == port) return;
+  section.rows.push_back({port, label_of(ports[port])});
+}
+
+void choose_rows(Section& section, const PortValues& values) {
+  const TypificationDefinition& type = *section.type;
+  for (std::size_t p = 0; p < type.ports.size() && section.rows.size() < kMostSettings; ++p) {
+    const PortDefinition& port = type.ports[p];
+    const auto found = values.find(port.id);
+    if (!port.is_computed && found != values.end() && found->second != port.default_value) add_row(section, p);
+  }
+  for (std::size_t p = 0; p < type.ports.size(); ++p)
+    if (type.ports[p].is_residual) add_row(section, p);
+  if (const Favourites* known = favourites_of(type.id)) {
+    for (const char* port : known->ports) add_row(section, type.port_index(port));
+    if (const std::size_t p = type.port_index(known->spark); p < type.ports.size()) section.spark = p;
+    return;
+  }
+  for (std::size_t p = 0; p < type.ports.size(); ++p) {
+    if (!type.ports[p].is_computed || !is_number(type.ports[p])) continue;
+    add_row(section, p);
+    if (section.spark == kNoIndex) section.spark = p;
+  }
+  // A role without results and with everything at its defaults still shows what it could be told.
+  for (std::size_t p = 0; p < type.ports.size() && section.rows.empty(); ++p) add_row(section, p);
+}
+
+std::string text_of(const Vector3& v) {
+  return report::readable(v.x) + ", " + report::readable(v.y) + ", " + report::readable(v.z);
+}
+
+std::string counted(std::size_t count, const char* noun) { return report::counted(count, noun); }
+
+}  // namespace
+
+std::vector<Section> sections_of(const Registry& registry, const NodeRecord& node) {
+  std::vector<Section> sections;
+  for (const auto& [type_id, values] : node.types) {
+    if (type_id == kBaseNode) continue;  // place and tags are those of the box itself
+    const auto found = registry.typifications().find(type_id);
+    if (found == registry.typifications().end()) continue;
+    Section& section = sections.emplace_back();
+    section.type_id = type_id;
+    section.type = &found->second;
+    section.label = found->second.label;
+    section.category = static_cast<std::size_t>(std::distance(registry.typifications().begin(), found));
+    section.has_bar = section.type->port_index("volume") < section.type->ports.size() &&
+                      section.type->port_index("wanted") < section.type->ports.size();
+    choose_rows(section, values);
+  }
+  for (const auto& [type_id, text] : node.ghosts) {
+    Section& section = sections.emplace_back();
+    section.type_id = type_id;
+    section.label = type_id + " (unknown here)";
+  }
+  return sections;
+}
+
+float height_of(const std::vector<Section>& sections) {
+  float height = kHeadHeight + (sections.empty() ? 0 : kBoxFoot);
+  for (const Section& section : sections) {
+    height += kSectionHeight + kRowHeight * static_cast<float>(section.rows.size());
+    if (section.has_bar) height += kBarHeight;
+    if (section.spark != kNoIndex) height += kSparkHeight;
+    if (section.type == nullptr) height += kRowHeight;
+  }
+  return std::ceil(height / kGrid) * kGrid;
+}
+
+const Value* value_of(const Editor& editor, const NodeBox& box, const Section& section, std::size_t port) {
+  if (section.type == nullptr || port >= section.type->ports.size()) return nullptr;
+  if (box.in_state != kNoIndex && section.in_state != kNoIndex) {
+    const auto& values = editor.state().nodes[box.in_state].types[section.in_state].values;
+    if (port < values.size()) return &values[port];
+  }
+  const auto node = editor.scene().nodes.find(box.id);
+  if (node == editor.scene().nodes.end() || !node->second.types.contains(section.type_id)) return nullptr;
+  return &set_value(node->second, *section.type, section.type->ports[port]);
+}
+
+std::string text_of(const Editor& editor, const NodeBox& box, const Section& section, std::size_t port) {
+  const Value* value = value_of(editor, box, section, port);
+  if (value == nullptr) return "–";
+  const PortDefinition& definition = section.type->ports[port];
+  if (const auto* is_on = std::get_if<bool>(value)) return *is_on ? "on" : "off";
+  if (const auto* text = std::get_if<std::string>(value)) return text->empty() ? "–" : *text;
+  if (const auto* place = std::get_if<Vector3>(value)) return text_of(*place);
+  if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(value)) return counted((*points)->size(), "point");
+  if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(value)) return counted((*texts)->size(), "text");
+  if (const auto* table = std::get_if<Shared<Table>>(value)) return counted((*table)->rows.size(), "row");
+  if (const auto* selection = std::get_if<Shared<Selection>>(value)) return text_of(editor, **selection);
+  if (std::holds_alternative<MeshPointer>(*value)) return "a mesh";
+  if (definition.unit == Unit::ratio) {
+    const double share = as_number(*value);
+    return share != 0 && std::abs(share) < kLeastShare ? "< 0.01 %" : report::percent(share);
+  }
+  Unit unit = definition.unit;
+  if (!definition.unit_from.empty())
+    if (const auto node = editor.scene().nodes.find(box.id); node != editor.scene().nodes.end())
+      unit = unit_of(editor.registry, node->second, *section.type, definition);
+  const bool is_whole = definition.kind == ValueKind::integer || unit == Unit::count;
+  if (is_whole && as_number(*value) == std::round(as_number(*value))) return report::grouped(as_number(*value));
+  return report::quantity(as_number(*value), unit);
+}
+
+void refresh_texts(const Editor& editor, const NodeBox& box, Section& section, std::size_t revision) {
+  if (section.texts_of == revision && section.texts.size() == section.rows.size()) return;
+  section.texts.clear();
+  for (const Row& row : section.rows) section.texts.push_back(text_of(editor, box, section, row.port));
+  section.texts_of = revision;
+}
+
+double number_of(const Editor& editor, const NodeBox& box, const Section& section, const char* port, double fallback) {
+  if (section.type == nullptr) return fallback;
+  const Value* value = value_of(editor, box, section, section.type->port_index(port));
+  return value == nullptr ? fallback : as_number(*value);
+}
+
+}  // namespace bl::desktop::canvas

@@ -1,0 +1,48 @@
+// What a scene's view says about the canvas: where boxes lie, frames, comments and the dots of links.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/define/json_text.h"
+#include "ui/desktop/panels/canvas/plane.h"
+
+namespace bl::desktop::canvas {
+
+/// Nodes that belong together. Its outline follows from what is in it.
+struct Frame {
+  std::string name;
+  std::size_t colour = 0;
+  std::set<std::string> nodes, comments;
+  std::string in;  ///< the frame that it lies in, or empty
+};
+
+struct Comment {
+  std::string text;
+  Box box;
+};
+
+struct ViewData {
+  std::map<std::string, ImVec2> boxes;  ///< upper left corners, by node
+  std::map<std::string, ImVec2> sets;   ///< the same of whole sets, by their key
+  std::set<std::string> collapsed;
+  std::map<std::string, Frame> frames;
+  std::map<std::string, Comment> comments;
+  std::map<std::string, std::vector<ImVec2>> dots;  ///< by link, from its first end on
+
+  /// Is `inner` that frame, or in it at whatever depth?
+  bool is_within(const std::string& inner, const std::string& outer) const;
+  /// The frame that names the node, or nothing.
+  std::string frame_of_node(const std::string& node) const;
+  std::string frame_of_comment(const std::string& comment) const;
+};
+
+/// Takes what it understands; whatever else stands in the text is left alone, and never harms.
+ViewData read_view(const std::string& text);
+
+/// A place as the view keeps it.
+Json place_json(ImVec2 p);
+
+}  // namespace bl::desktop::canvas

@@ -1,0 +1,56 @@
+// Drives a number by a formula: an expression node and the link that carries its result are added in one step.
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/define/codec.h"
+#include "ui/desktop/panels/inspector.h"
+#include "ui/desktop/panels/inspector_quantity.h"
+
+namespace bl::desktop {
+
+namespace {
+
+// The two types that it takes, by the names of their files.
+constexpr const char *kNode = "expression", *kLink = "map_value";
+
+}  // namespace
+
+bool can_be_driven(const Editor& editor, const PortDefinition& port) {
+  const bool is_choosing = port.rule == CombineRule::blend || port.rule == CombineRule::min || port.rule == CombineRule::max;
+  return port.kind == ValueKind::number && is_choosing && editor.registry.typification(kNode) != nullptr &&
+         editor.registry.link(kLink) != nullptr;
+}
+
+// The formula begins as `a`, with the number that stands there now: nothing jumps, and the formula is then changed in its own
+// node.
+void drive_by_expression(Editor& editor, const std::string& node, const std::string& path, double now, Unit unit) {
+  const Scene& scene = editor.scene();
+  const std::string subject = editor.name_of(node), port = path.substr(path.find('.') + 1);
+  const std::string expression = editor.fresh_id(node + "_" + port), link = editor.fresh_id(expression + "_drive");
+  const std::string symbol = info(unit).pretty.empty() ? "" : std::string(info(unit).symbol);
+  Json position = {0, 0, 0};
+  const auto record = scene.nodes.find(node);
+  if (record == scene.nodes.end()) return;
+  if (const auto base = record->second.types.find(std::string(kBaseNode)); base != record->second.types.end())
+    for (const auto& [id, value] : base->second)
+      if (const auto* at = std::get_if<Vector3>(&value)) position = {at->x, at->y, at->z + 10};
+  const Json made = {{"name", label_of(port) + " of " + subject},
+                     {"position", position},
+                     {"types", {{kNode, {{"formula", "a"}, {"a", now}, {"a_unit", symbol}, {"unit", symbol}}}}}};
+  const Json laid = {{"kind", kLink},
+                     {"from", expression},
+                     {"to", node},
+                     {"parameters", {{"source", std::string(kNode) + ".result"}, {"target", path}}}};
+  std::vector<Command> commands{command<AddNode>({expression, {write_json_line(made)}}),
+                                command<AddLink>({link, {write_json_line(laid)}})};
+  // A value that is set would be blended with the formula's: the formula shall have its way.
+  const auto parsed = parse_port_path(path);
+  if (parsed && record->second.types.contains(parsed->typification) &&
+      record->second.types.at(parsed->typification).contains(parsed->port))
+    commands.push_back(command<SetPort>({node, {path}, {"null"}}));
+  if (!editor.submit(commands)) return;
+  editor.picks.only_node(expression);
+  editor.tell(NoticeKind::told, "An expression now drives " + label_of(port) + " of " + subject + ": change its formula here.");
+}
+
+}  // namespace bl::desktop

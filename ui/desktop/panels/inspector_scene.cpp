@@ -1,0 +1,41 @@
+// Nothing is chosen: what holds for the whole scene.
+#include <nlohmann/json.hpp>
+
+#include "core/define/codec.h"
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/inspector.h"
+#include "ui/desktop/panels/inspector_quantity.h"
+
+namespace bl::desktop {
+
+void inspect_scene(Editor& editor) {
+  const Scene& scene = editor.scene();
+  const TypeDefinition& type = settings_type();
+  const auto title = scene.settings.find("title");
+  const auto* text = title == scene.settings.end() ? nullptr : std::get_if<std::string>(&title->second);
+  heading(editor, text != nullptr && !text->empty() ? *text : editor.document->name(),
+          report::counted(scene.nodes.size(), "node") + ", " + report::counted(scene.links.size(), "link"));
+  for (const PortDefinition& port : type.ports) {
+    const std::string key = "settings." + port.id;
+    const auto found = scene.settings.find(port.id);
+    const Value value = found == scene.settings.end() ? port.default_value : found->second;
+    const bool is_default = value == port.default_value;
+    float width = 0;
+    const RowEvent event =
+        begin_row(editor, key, label_of(port.id), port.doc, facts_of(port, port.unit), {!is_default, false, false, false}, width);
+    auto change = value_field(editor, {key, &port, port.unit, value, false, false, is_default}, width);
+    draw_complaint(editor, key, width);
+    end_row();
+    if (event.wants_reset) change = constant(port.default_value);
+    if (!change) continue;
+    PanelMemory& memory = memory_of(editor);
+    if (memory.complaint_key == key) memory.complaint_key.clear();
+    const Value fresh = change->make(value);
+    if (auto checked = check_value(port, fresh, ""); !checked) complain(editor, key, checked.error().message);
+    else if (!(fresh == value))
+      editor.submit(command<SetSetting>({port.id, {write_json_line(value_to_json(fresh, port))}}),
+                    change->is_live ? memory.scrub.gesture : 0);
+  }
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,96 @@
+// A new scene from a plan and a programme, without a console; what the files lack is said in place.
+#include "ui/desktop/panels/dialogs.h"
+
+#include <imgui_stdlib.h>
+
+namespace bl::desktop {
+
+namespace {
+
+void number_field(const char* label, double& value, const char* unit) {
+  ImGui::SetNextItemWidth(160);
+  ImGui::InputDouble(label, &value, 0, 0, (std::string("%.4g ") + unit).c_str());
+}
+
+}  // namespace
+
+void Dialogs::show_new_scene() {
+  if (!(fresh_.height > 0)) fresh_.height = 25;
+  told_.clear();
+  guard([this] { show(Kind::fresh); });
+}
+
+void Dialogs::draw_file_field(const char* label, std::string& path, std::vector<std::string> endings) {
+  const Theme& theme = editor_->theme;
+  ImGui::PushID(label);
+  ImGui::SetNextItemWidth(-theme.px(250));
+  ImGui::InputText("##path", &path);
+  ImGui::SameLine();
+  if (ImGui::Button("Choose ...")) {
+    chooser_.open(FileChooser::Purpose::open_file, label, std::move(endings), path);
+    chosen_ = [&path](const std::string& chosen) { path = chosen; };
+  }
+  ImGui::SameLine();
+  ImGui::TextUnformatted(label);
+  ImGui::PopID();
+}
+
+void Dialogs::draw_new_scene() {
+  if (!begin("New scene from boundary and programme", 760, 470)) return;
+  const Theme& theme = editor_->theme;
+  if (is_fresh_) ImGui::SetKeyboardFocusHere();
+  draw_file_field("Boundary (GeoJSON)", fresh_.boundary, {".geojson", ".json"});
+  draw_file_field("Programme (CSV)", fresh_.programme, {".csv", ".txt"});
+  ImGui::Dummy({0, theme.px(4)});
+  number_field("Height of the boundary", fresh_.height, "m");
+  number_field("Storey height where none is given", fresh_.storey_height, "m");
+  number_field("Distance of positions from the boundary", fresh_.margin, "m");
+  ImGui::SetNextItemWidth(-theme.px(250));
+  ImGui::InputTextWithHint("Title", "name of the programme's file", &fresh_.title);
+  ImGui::SetNextItemWidth(theme.px(160));
+  ImGui::InputTextWithHint("Which polygon", "the only or largest", &fresh_.feature);
+  ImGui::SameLine(0, theme.px(24));
+  ImGui::SetNextItemWidth(theme.px(120));
+  ImGui::InputTextWithHint("CRS", "as the file says", &fresh_.crs);
+  ImGui::Checkbox("Take the convex hull of a plan that is not convex", &fresh_.use_hull);
+  ImGui::Dummy({0, theme.px(4)});
+  const bool is_ready = !fresh_.boundary.empty() && !fresh_.programme.empty();
+  ImGui::BeginDisabled(!is_ready);
+  const bool is_entered = !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  if (ImGui::Button("Make the scene", {theme.px(150), 0}) || (is_ready && is_entered)) make_scene();
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {theme.px(110), 0})) close();
+  ImGui::PushStyleColor(ImGuiCol_Text, is_told_error_ ? theme.colours().bad : theme.colours().text_soft);
+  ImGui::PushTextWrapPos(0);
+  for (const std::string& line : told_) ImGui::TextUnformatted(line.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (const auto path = chooser_.draw(*editor_)) chosen_(*path);
+  if (!told_.empty() && !is_told_error_) close();
+  ImGui::EndPopup();
+}
+
+void Dialogs::make_scene() {
+  const cli::MadeScene made = cli::make_scene(fresh_, editor_->registry);
+  told_ = made.notes;
+  is_told_error_ = !made.scene;
+  for (const auto& [file, error] : made.errors) told_.push_back((file.empty() ? "" : file + ": ") + error.text());
+  if (!made.scene) return;
+  editor_->problems.clear();
+  editor_->problem_file.clear();
+  auto document = Document::from_text(editor_->registry, write_scene(*made.scene, editor_->registry), "", 1, editor_->problems);
+  if (!document) {
+    is_told_error_ = true;
+    for (const Problem& problem : editor_->problems) told_.push_back(problem.error.text());
+    return;
+  }
+  for (const std::string& note : made.notes) editor_->problems.push_back({false, {ErrorCode::missing, "import", note}});
+  editor_->take(std::move(document));
+  editor_->document->session().play(true);
+  told_.push_back("done");
+  if (made.fill() > 1)
+    editor_->tell(NoticeKind::warning, "The demands do not fit into the boundary; the problems list says who goes short.");
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,107 @@
+// The command palette and the list of keys: every action by its name, with its key.
+#include "ui/desktop/panels/dialogs.h"
+
+#include <algorithm>
+
+#include <imgui_stdlib.h>
+
+#include "ui/desktop/app/actions.h"
+#include "ui/desktop/app/fuzzy.h"
+
+namespace bl::desktop {
+
+namespace {
+
+struct Hit {
+  const Action* action;
+  int score;
+};
+
+// Actions that fit what was typed, the best first; those that cannot be done now stand at the end.
+std::vector<Hit> hits_of(const std::string& query, const Editor& editor) {
+  std::vector<Hit> hits;
+  for (const Action& action : actions()) {
+    const int score = fuzzy_score(query, std::string(action.label) + " " + action.menu);
+    if (score >= 0) hits.push_back({&action, score - (action.can != nullptr && !action.can(editor) ? 100000 : 0)});
+  }
+  std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.score > b.score; });
+  return hits;
+}
+
+std::string keys_of(const Action& action) {
+  const std::string other = text_of(action.other);
+  return text_of(action.chord) + (other.empty() ? "" : "  " + other);
+}
+
+bool was_pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
+
+}  // namespace
+
+void Dialogs::show_palette() { show(Kind::palette); }
+void Dialogs::show_keys() { show(Kind::keys); }
+
+void Dialogs::draw_palette() {
+  if (!begin("Commands", 560, 420)) return;
+  const Theme& theme = editor_->theme;
+  if (is_fresh_) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool is_entered =
+      ImGui::InputTextWithHint("##query", "what do you want to do?", &query_, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemEdited()) marked_ = 0;
+  const std::vector<Hit> hits = hits_of(query_, *editor_);
+  const int count = static_cast<int>(hits.size());
+  if (was_pressed(ImGuiKey_DownArrow)) ++marked_;
+  if (was_pressed(ImGuiKey_UpArrow)) --marked_;
+  marked_ = std::clamp(marked_, 0, std::max(0, count - 1));
+  const Action* chosen = is_entered && count > 0 ? hits[static_cast<std::size_t>(marked_)].action : nullptr;
+  ImGui::BeginChild("hits");
+  for (int k = 0; k < count; ++k) {
+    const Action& action = *hits[static_cast<std::size_t>(k)].action;
+    const bool is_possible = action.can == nullptr || action.can(*editor_);
+    ImGui::PushID(k);
+    ImGui::BeginDisabled(!is_possible);
+    if (ImGui::Selectable(action.label, k == marked_, ImGuiSelectableFlags_DontClosePopups)) chosen = &action;
+    ImGui::EndDisabled();
+    if (k == marked_ && (was_pressed(ImGuiKey_DownArrow) || was_pressed(ImGuiKey_UpArrow))) ImGui::SetScrollHereY();
+    const std::string note = std::string(action.menu) + "   " + keys_of(action);
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(note.c_str()).x - theme.px(8));
+    ImGui::TextDisabled("%s", note.c_str());
+    ImGui::PopID();
+  }
+  if (count == 0) ImGui::TextDisabled("There is no command like that.");
+  ImGui::EndChild();
+  if (chosen != nullptr && (chosen->can == nullptr || chosen->can(*editor_))) {
+    close();
+    ImGui::EndPopup();
+    chosen->run(*editor_);
+    return;
+  }
+  ImGui::EndPopup();
+}
+
+void Dialogs::draw_keys() {
+  if (!begin("Keys and gestures", 760, 560)) return;
+  const Theme& theme = editor_->theme;
+  ImGui::SetNextItemWidth(theme.px(260));
+  ImGui::InputTextWithHint("##query", "filter", &query_);
+  ImGui::BeginChild("keys");
+  constexpr auto kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+  if (ImGui::BeginTable("table", 3, kFlags)) {
+    for (const Action& action : actions()) {
+      const std::string keys = keys_of(action);
+      if (fuzzy_score(query_, std::string(action.label) + " " + action.menu + " " + keys) < 0) continue;
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", action.menu);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(action.label);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(keys.c_str());
+    }
+    ImGui::EndTable();
+  }
+  ImGui::EndChild();
+  ImGui::EndPopup();
+}
+
+}  // namespace bl::desktop

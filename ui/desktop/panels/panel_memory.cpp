@@ -1,0 +1,18 @@
+// Kept apart, because only here the things that panels remember are all known.
+#include "ui/desktop/panels/panel_memory.h"
+
+#include "ui/desktop/panels/inspector.h"
+#include "ui/desktop/panels/problems_list.h"
+#include "ui/desktop/panels/statistics_record.h"
+
+namespace bl::desktop {
+
+PanelMemory::PanelMemory() = default;
+PanelMemory::~PanelMemory() = default;
+
+PanelMemory& memory_of(Editor& editor) {
+  if (!editor.panels) editor.panels = std::make_shared<PanelMemory>();
+  return *editor.panels;
+}
+
+}  // namespace bl::desktop

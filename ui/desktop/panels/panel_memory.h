@@ -1,0 +1,57 @@
+// What the panels around canvas and 3D view remember between frames: what is being typed or scrubbed, and what was worked out per
+// tick.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <imgui.h>
+
+#include "ui/desktop/app/editor.h"
+
+namespace bl::desktop {
+
+class InspectorView;
+class ProblemList;
+class RunRecord;
+
+/// A field that a person types into. Its key is that of the field.
+struct Typing {
+  std::string key, text, start;
+  bool wants_focus = false, was_active = false;
+  int frames = 0;
+};
+
+/// A number that is being dragged.
+struct Scrub {
+  std::string key;
+  bool has_moved = false;
+  std::int64_t gesture = 0;
+  double exact = 0;  ///< where the drag has come to, before rounding
+};
+
+struct PanelMemory {
+  PanelMemory();
+  ~PanelMemory();
+
+  Typing typing;
+  Scrub scrub;
+  bool wants_next = false;               ///< Tab was pressed: the next field takes over
+  std::string complaint_key, complaint;  ///< why the last value that was typed was refused, and where
+  std::string wanted_tab;                ///< of the lists below, to be brought to the front
+  Picks shown;                           ///< what the inspector shows; stands still while somebody types
+  std::string filter;                    ///< of the search field that is open
+  int places_frame = -1;
+  std::size_t seen_steps = 0;             ///< of the history, when it was drawn last
+  std::map<std::string, ImVec4> places;   ///< fields of the last frame by key: where they stand, for tests and tours
+  std::unique_ptr<InspectorView> view;    ///< of what is chosen, per tick
+  std::unique_ptr<ProblemList> problems;  ///< of the last tick
+  std::unique_ptr<RunRecord> record;      ///< of the last ticks
+};
+
+/// The memory of this editor's panels; a fresh one after another document was opened.
+PanelMemory& memory_of(Editor& editor);
+
+}  // namespace bl::desktop

@@ -1,0 +1,64 @@
+// Everything that is in the way of a scene, in an order that stays calm while it ticks.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ui/cli/report/report_model.h"
+#include "ui/desktop/app/editor.h"
+
+namespace bl::desktop {
+
+/// In the order of the list.
+enum class ProblemKind { conflict, shortage, failing, no_room, idle, file };
+inline constexpr std::size_t kProblemKinds = 6;
+
+struct ProblemItem {
+  ProblemKind kind = ProblemKind::file;
+  std::string key;  ///< the same from tick to tick
+  int band = 0;     ///< how bad, in steps: the worse come first within their kind
+  bool is_error = false;
+  std::string subject, text;              ///< what it is about, and the sentence; of conflicts made when they are seen
+  report::TensePort tense;                ///< of conflicts
+  std::vector<std::string> nodes, links;  ///< where a press goes
+};
+
+class ProblemList {
+ public:
+  /// Reads the state again where it is another one; works without a document too.
+  void refresh(Editor& editor, const report::ReportModel* figures);
+  const std::vector<ProblemItem>& items() const { return items_; }
+  std::size_t count(ProblemKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
+  /// How many want to be looked at: all but what people have switched off themselves.
+  std::size_t pressing() const;
+  /// Subject and sentence of an item.
+  void write(const State& state, ProblemItem& item) const;
+
+  int filter = -1;  ///< kind that is shown; -1: all
+
+ private:
+  void add_conflicts(const State& state);
+  void add_shortages(const State& state, const report::ReportModel& figures);
+  void add_losers(const State& state, const report::ReportModel& figures);
+  void add_failures(const State& state, const report::ReportModel& problems);
+  void add_volumes(const State& state, const report::ReportModel& figures);
+  void add_idle(const State& state);
+  void add_file(const Editor& editor);
+
+  std::vector<ProblemItem> items_;
+  std::array<std::size_t, kProblemKinds> counts_{};
+  std::shared_ptr<const State> state_;
+  const Plan* plan_ = nullptr;
+  std::size_t file_problems_ = static_cast<std::size_t>(-1);
+  std::string file_;
+  std::map<PortRef, int> bands_;
+  std::map<std::string, bool> short_uses_;
+};
+
+/// "Conflicts", "Shortages", ...
+const char* label_of(ProblemKind kind);
+
+}  // namespace bl::desktop

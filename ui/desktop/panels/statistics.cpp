@@ -1,0 +1,293 @@
+// Statistics: the run over time, every volume's demand against its volume, the programme, and what a tick costs.
+#include <algorithm>
+#include <cmath>
+
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/canvas/canvas.h"
+#include "ui/desktop/panels/charts.h"
+#include "ui/desktop/panels/inspector_cell.h"
+#include "ui/desktop/panels/panels.h"
+#include "ui/desktop/panels/scene_view.h"
+#include "ui/desktop/panels/statistics_record.h"
+
+namespace bl::desktop {
+
+namespace {
+
+void column_title(Editor& editor, const std::string& text) { small_text(editor, text, editor.theme.colours().text_soft, -1); }
+
+ImU32 colour_of_use(const Editor& editor, const report::ReportModel& model, const std::string& use) {
+  const auto row = std::find_if(model.uses.begin(), model.uses.end(), [&](const report::UseRow& r) { return r.use == use; });
+  return editor.theme.category(static_cast<std::size_t>(row - model.uses.begin()));
+}
+
+// A number over time without axes: its name, its last value, and the shape of it.
+void draw_spark(Editor& editor, const Chart& chart, ImVec2 at, ImVec2 size) {
+  const Theme& theme = editor.theme;
+  const Colours& c = theme.colours();
+  const Series& series = chart.series.front();
+  ImGui::SetCursorScreenPos(at);
+  ImGui::Dummy(size);
+  const bool is_hovered = ImGui::IsItemHovered();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  ImFont* small = theme.fonts().small;
+  const float line = small->FontSize + theme.px(2);
+  list.AddText(small, small->FontSize, at, c.text_soft, chart.title.c_str());
+  if (series.values.empty()) return;
+  list.AddText({at.x, at.y + line}, c.text, chart_number(chart, series.values.back()).c_str());
+  const float top = at.y + line + ImGui::GetFontSize() + theme.px(5), bottom = at.y + size.y - theme.px(3);
+  if (bottom > top + 4) spark_line(theme, {at.x, top}, {at.x + size.x, bottom}, series.values, series.colour);
+  if (!is_hovered || series.values.size() < 2) return;
+  const float share = std::clamp((ImGui::GetIO().MousePos.x - at.x) / size.x, 0.0f, 1.0f);
+  const auto k = static_cast<std::size_t>(std::lround(share * static_cast<float>(series.values.size() - 1)));
+  ImGui::SetTooltip("tick %s\n%s", report::grouped(chart.ticks[k]).c_str(), chart_number(chart, series.values[k]).c_str());
+}
+
+void draw_run(Editor& editor, const RunRecord& record, ImVec2 size) {
+  const Colours& c = editor.theme.colours();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float gap = editor.theme.px(16);
+  const double tolerance = editor.state().plan->settings.tolerance;
+  Chart error{"Error", Unit::ratio, true, true, record.tick, {}, tolerance, "tolerance"};
+  error.series = {{"mean", c.text_faint, record.mean}, {"worst", c.accent, record.worst}};
+  const Chart volume{"Total volume", Unit::cubic_metre, false, false, record.tick, {{"", c.good, record.volume}}, 0, ""};
+  const Chart move{"Largest move in a tick", Unit::metre, false, false, record.tick, {{"", c.warning, record.move}}, 0, ""};
+  const float half = (size.y - gap) / 2;
+  if (size.y > editor.theme.px(250)) {
+    const float each = (size.x - gap) / 2;
+    line_chart(editor.theme, "error", {size.x, half}, error);
+    ImGui::SetCursorScreenPos({at.x, at.y + half + gap});
+    line_chart(editor.theme, "volume", {each, half}, volume);
+    ImGui::SetCursorScreenPos({at.x + each + gap, at.y + half + gap});
+    line_chart(editor.theme, "move", {each, half}, move);
+    return;
+  }
+  const float wide = std::floor(0.68f * size.x), narrow = size.x - wide - gap;
+  line_chart(editor.theme, "error", {wide, size.y}, error);
+  draw_spark(editor, volume, {at.x + wide + gap, at.y}, {narrow, half});
+  draw_spark(editor, move, {at.x + wide + gap, at.y + half + gap}, {narrow, half});
+}
+
+void draw_orders(Editor& editor, RunRecord& record) {
+  const Theme& theme = editor.theme;
+  column_title(editor, "Demand and volume, by");
+  constexpr std::pair<VolumeOrder, const char*> kOrders[] = {
+      {VolumeOrder::error, "error"}, {VolumeOrder::name, "name"}, {VolumeOrder::use, "use"}, {VolumeOrder::size, "size"}};
+  for (const auto& [order, word] : kOrders) {
+    ImGui::SameLine(0, theme.px(8));
+    ImGui::PushFont(theme.fonts().small);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), extent = ImGui::CalcTextSize(word);
+    if (ImGui::InvisibleButton(word, extent)) {
+      record.order = order;
+      record.is_order_stale = true;
+    }
+    note_place(editor, std::string("order/") + word);
+    const bool is_on = record.order == order;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddText(at,
+                 is_on                    ? theme.colours().accent
+                 : ImGui::IsItemHovered() ? theme.colours().text
+                                          : theme.colours().text_faint,
+                 word);
+    ImGui::PopFont();
+  }
+}
+
+void draw_volume(Editor& editor, const report::ReportModel& model, const report::VolumeRow& row, int index, float height,
+                 double largest) {
+  const Theme& theme = editor.theme;
+  const Colours& c = theme.colours();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, name_width = std::min(theme.px(160), 0.4f * width), number = theme.px(64);
+  ImGui::PushID(index);
+  // On the press, not the release: rows may change places in between.
+  const bool is_activated = ImGui::InvisibleButton("##volume", {width, height});
+  const bool is_pressed = ImGui::IsItemClicked() || (is_activated && !ImGui::IsMouseReleased(0));
+  ImGui::PopID();
+  note_place(editor, "volume/" + row.id);
+  const bool is_hovered = ImGui::IsItemHovered();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (is_hovered || editor.picks.nodes.contains(row.id))
+    list.AddRectFilled(at, {at.x + width, at.y + height}, faded(c.accent, is_hovered ? 0.12f : 0.07f), theme.px(3));
+  ImFont* small = theme.fonts().small;
+  const float y = at.y + (height - small->FontSize) / 2, middle = at.y + height / 2;
+  list.AddCircleFilled({at.x + theme.px(7), middle}, theme.px(3.5f), colour_of_use(editor, model, row.use));
+  ImGui::PushFont(small);
+  list.AddText(small, small->FontSize, {at.x + theme.px(16), y}, c.text, fitted(row.name, name_width - theme.px(20)).c_str());
+  const double error = row.error(), size = std::abs(error);
+  const bool is_met = size <= model.tolerance || row.wanted <= 0;
+  const std::string off = row.wanted > 0 ? report::signed_percent(error) : std::string("wants none");
+  list.AddText({at.x + width - ImGui::CalcTextSize(off.c_str()).x - theme.px(4), y},
+               is_met       ? c.text_faint
+               : size > 0.1 ? c.bad
+                            : c.warning,
+               off.c_str());
+  ImGui::PopFont();
+  const double most = std::max(largest, 1e-9);
+  const ImU32 colour = is_met ? mixed(c.good, c.panel, 0.25f) : size > 0.1 ? c.bad : c.warning;
+  bar(theme, {at.x + name_width, middle - theme.px(4)}, {at.x + width - number, middle + theme.px(4)}, row.volume / most,
+      row.wanted / most, colour);
+  if (is_hovered) {
+    editor.picks.hovered_node = row.id;
+    std::string text =
+        "has " + report::quantity(row.volume, Unit::cubic_metre) + " of " + report::quantity(row.wanted, Unit::cubic_metre);
+    if (row.demand != row.wanted) text += "\nasked for " + report::quantity(row.demand, Unit::cubic_metre) + " before its limits";
+    text += "\nfloor area " + report::quantity(row.floor_area, Unit::square_metre);
+    card(editor, row.name, text,
+         row.use + (row.use.empty() ? "" : ", ") + row.state + (row.reason.empty() ? "" : ": " + row.reason));
+  }
+  if (!is_pressed) return;
+  if (ImGui::GetIO().KeyShift) editor.picks.nodes.insert(row.id);
+  else editor.picks.only_node(row.id);
+  if (!ImGui::IsMouseDoubleClicked(0)) return;
+  if (editor.canvas != nullptr) editor.canvas->fit(false);
+  if (editor.view != nullptr) editor.view->fit(false);
+}
+
+void draw_volumes(Editor& editor, RunRecord& record) {
+  draw_orders(editor, record);
+  const report::ReportModel& model = record.figures(editor);
+  const std::vector<std::size_t>& order = record.ordered(editor);
+  if (order.empty()) return small_text(editor, "There are no volumes in this scene.", editor.theme.colours().text_faint);
+  double largest = 0;
+  for (const report::VolumeRow& row : model.volumes) largest = std::max({largest, row.wanted, row.volume});
+  ImGui::BeginChild("volumes", {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+  const float height = std::round(ImGui::GetFontSize() + editor.theme.px(5));
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(order.size()), height);
+  while (clipper.Step())
+    for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
+      draw_volume(editor, model, model.volumes[order[static_cast<std::size_t>(row)]], row, height, largest);
+  ImGui::PopStyleVar();
+  ImGui::EndChild();
+}
+
+// One line of the programme: what is wanted as the mark, what there is as the bar.
+void draw_use(Editor& editor, const report::UseRow& use, ImU32 colour, double largest) {
+  const Theme& theme = editor.theme;
+  const Colours& c = theme.colours();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = std::round(theme.fonts().small->FontSize + theme.px(14));
+  ImGui::Dummy({width, height});
+  ImFont* small = theme.fonts().small;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  ImGui::PushFont(small);
+  const double share = use.wanted_floor_area > 0 ? use.floor_area / use.wanted_floor_area - 1 : 0;
+  const std::string amount = report::quantity(use.floor_area, Unit::square_metre) +
+                             (use.wanted_floor_area > 0 ? "  " + report::signed_percent(share) : "");
+  const float amount_width = ImGui::CalcTextSize(amount.c_str()).x;
+  const std::string name = use.use.empty() ? "without a use" : use.use;
+  list.AddText({at.x, at.y}, c.text, fitted(name, width - amount_width - theme.px(12)).c_str());
+  list.AddText({at.x + width - amount_width, at.y}, share < -0.02 ? c.warning : c.text_soft, amount.c_str());
+  ImGui::PopFont();
+  const float y = at.y + small->FontSize + theme.px(4);
+  bar(theme, {at.x, y}, {at.x + width, y + theme.px(5)}, use.floor_area / std::max(largest, 1e-9),
+      use.wanted_floor_area / std::max(largest, 1e-9), colour);
+  if (!ImGui::IsItemHovered()) return;
+  card(editor, name,
+       report::quantity(use.floor_area, Unit::square_metre) + " of " +
+           report::quantity(use.wanted_floor_area, Unit::square_metre) + " floor area",
+       report::counted(use.count, "volume") + ", " + report::quantity(use.volume, Unit::cubic_metre) +
+           (use.is_in_programme ? "" : "\nnot in any programme: what its volumes want counts"));
+}
+
+void draw_programme(Editor& editor, const report::ReportModel& model) {
+  column_title(editor, "Floor area by use");
+  ImGui::BeginChild("uses", {0, 0});
+  double largest = 0;
+  for (const report::UseRow& use : model.uses) largest = std::max({largest, use.floor_area, use.wanted_floor_area});
+  for (std::size_t k = 0; k < model.uses.size(); ++k) draw_use(editor, model.uses[k], editor.theme.category(k), largest);
+  if (!model.uses.empty()) {
+    const report::UseRow total{"all uses",       model.volumes.size(), true,         model.wanted_floor_area,
+                               model.floor_area, model.demand,         model.wanted, model.volume};
+    ImGui::Separator();
+    draw_use(editor, total, editor.theme.colours().text_faint, std::max(model.floor_area, model.wanted_floor_area));
+  }
+  ImGui::EndChild();
+}
+
+void fact(Editor& editor, const std::string& name, const std::string& value) {
+  const Theme& theme = editor.theme;
+  ImFont* small = theme.fonts().small;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x,
+              value_width = small->CalcTextSizeA(small->FontSize, FLT_MAX, 0, value.c_str()).x;
+  ImGui::Dummy({width, small->FontSize + theme.px(3)});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText(small, small->FontSize, at, theme.colours().text_soft, name.c_str());
+  list.AddText(small, small->FontSize, {at.x + width - value_width, at.y}, theme.colours().text, value.c_str());
+}
+
+std::string milliseconds(double seconds) { return report::readable(1000 * seconds) + "\xC2\xA0ms"; }
+
+std::string bytes_text(double bytes) {
+  if (bytes < 1024)
+    return report::grouped(bytes) +
+           "\xC2\xA0"
+           "B";
+  if (bytes < 1024 * 1024) return report::grouped(bytes / 1024, 1) + "\xC2\xA0kB";
+  return report::grouped(bytes / 1024 / 1024, 1) + "\xC2\xA0MB";
+}
+
+void draw_engine(Editor& editor, const RunRecord& record) {
+  const State& state = editor.state();
+  const Moment& moment = *editor.moment;
+  column_title(editor, "Boundary and engine");
+  ImGui::BeginChild("engine", {0, 0});
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
+    if (!report::has_type(state, n, "smart_volumes_solver")) continue;
+    const double fill = report::number_at(state, n, "smart_volumes_solver", "fill");
+    fact(editor, "fill, " + report::name_at(state, n), report::percent(fill));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, thick = editor.theme.px(5);
+    ImGui::Dummy({width, thick + editor.theme.px(2)});
+    bar(editor.theme, at, {at.x + width, at.y + thick}, fill, -1,
+        fill > 0.98 ? editor.theme.colours().warning : editor.theme.colours().accent);
+  }
+  fact(editor, "a tick", milliseconds(moment.tick_seconds));
+  fact(editor, "  links", milliseconds(record.phase.links));
+  fact(editor, "  resolve", milliseconds(record.phase.resolve));
+  fact(editor, "  nodes", milliseconds(record.phase.nodes));
+  fact(editor, "  solve", milliseconds(record.phase.solve));
+  fact(editor, "  commit", milliseconds(record.phase.commit));
+  fact(editor, "ticks/s", report::readable(moment.rate) + " of " + report::readable(moment.wanted_rate));
+  fact(editor, "pictures/s", report::readable(record.frame_rate));
+  fact(editor, "to the GPU, a tick", bytes_text(record.bytes.empty() ? 0 : record.bytes.back()));
+  ImGui::EndChild();
+}
+
+}  // namespace
+
+void draw_statistics(Editor& editor) {
+  if (!editor.document) return;
+  PanelMemory& memory = memory_of(editor);
+  if (!memory.record) memory.record = std::make_unique<RunRecord>();
+  RunRecord& record = *memory.record;
+  record.sample(editor);
+  // Narrower than this the columns cannot be read: then the whole scrolls sideways.
+  const float least = editor.theme.px(900);
+  const bool is_narrow = ImGui::GetContentRegionAvail().x < least;
+  if (is_narrow) ImGui::SetNextWindowContentSize({least, 0});
+  ImGui::BeginChild("statistics", {0, 0}, false, is_narrow ? ImGuiWindowFlags_HorizontalScrollbar : ImGuiWindowFlags_None);
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float gap = editor.theme.px(22), width = std::max(room.x, least) - 3 * gap;
+  const float shares[] = {0.38f, 0.27f, 0.20f, 0.15f};
+  const auto column = [&](const char* id, float share, auto draw) {
+    ImGui::BeginChild(id, {std::floor(share * width), room.y}, false, ImGuiWindowFlags_NoScrollbar);
+    draw();
+    ImGui::EndChild();
+  };
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {editor.theme.px(8), editor.theme.px(4)});
+  column("run", shares[0], [&] { draw_run(editor, record, ImGui::GetContentRegionAvail()); });
+  ImGui::SameLine(0, gap);
+  column("demands", shares[1], [&] { draw_volumes(editor, record); });
+  ImGui::SameLine(0, gap);
+  column("programme", shares[2], [&] { draw_programme(editor, record.figures(editor)); });
+  ImGui::SameLine(0, gap);
+  column("facts", shares[3], [&] { draw_engine(editor, record); });
+  ImGui::PopStyleVar();
+  ImGui::EndChild();
+}
+
+}  // namespace bl::desktop

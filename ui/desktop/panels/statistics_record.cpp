@@ -1,0 +1,91 @@
+// Samples of the run: walks over the volumes once per tick, and keeps six hundred of the results.
+#include "ui/desktop/panels/statistics_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr std::size_t kMostSamples = 600;
+constexpr double kSmoothing = 0.1;
+// Rows that change places more often than this cannot be read [s].
+constexpr double kSortPause = 1;
+
+double smooth(double old, double fresh) { return old == 0 ? fresh : old + kSmoothing * (fresh - old); }
+
+}  // namespace
+
+void RunRecord::forget_from(double number) {
+  while (!tick.empty() && tick.back() >= number)
+    for (auto* column : {&tick, &worst, &mean, &volume, &move, &tick_ms, &bytes}) column->pop_back();
+}
+
+void RunRecord::drop_oldest() {
+  if (tick.size() <= kMostSamples) return;
+  for (auto* column : {&tick, &worst, &mean, &volume, &move, &tick_ms, &bytes}) column->erase(column->begin());
+}
+
+void RunRecord::sample(const Editor& editor) {
+  if (last_frame_ > 0 && editor.now > last_frame_) frame_rate = smooth(frame_rate, 1 / (editor.now - last_frame_));
+  last_frame_ = editor.now;
+  const std::shared_ptr<const State>& state = editor.moment->state;
+  if (state == sampled_) return;
+  const bool is_next = sampled_ && state->tick > sampled_->tick;
+  const double ticks = is_next ? static_cast<double>(state->tick - sampled_->tick) : 1;
+  if (!is_next) forget_from(static_cast<double>(state->tick));
+  const PhaseTimes& now = editor.moment->times;
+  if (is_next) {
+    for (double PhaseTimes::*part :
+         {&PhaseTimes::links, &PhaseTimes::resolve, &PhaseTimes::nodes, &PhaseTimes::solve, &PhaseTimes::commit})
+      phase.*part = smooth(phase.*part, (now.*part - times_.*part) / ticks);
+  }
+  times_ = now;
+  sampled_ = state;
+  const report::ReportModel& model = figures(editor);
+  double sum = 0;
+  for (const report::VolumeRow& row : model.volumes) sum += std::abs(row.error());
+  tick.push_back(static_cast<double>(state->tick));
+  worst.push_back(state->largest_residual);
+  mean.push_back(model.volumes.empty() ? 0 : sum / static_cast<double>(model.volumes.size()));
+  volume.push_back(model.volume);
+  move.push_back(state->largest_move);
+  tick_ms.push_back(1000 * editor.moment->tick_seconds);
+  bytes.push_back(static_cast<double>(editor.bytes_sent - bytes_sent_) / ticks);
+  bytes_sent_ = editor.bytes_sent;
+  drop_oldest();
+}
+
+const report::ReportModel& RunRecord::figures(const Editor& editor) {
+  if (figured_ == editor.moment->state && figures_) return *figures_;
+  figured_ = editor.moment->state;
+  figures_ = std::make_unique<report::ReportModel>();
+  report::read_figures(*figured_, *figures_);
+  return *figures_;
+}
+
+const std::vector<std::size_t>& RunRecord::ordered(const Editor& editor) {
+  const auto& volumes = figures(editor).volumes;
+  const bool is_due = sorted_ != editor.moment->state && editor.now - sorted_at_ > kSortPause;
+  if (!is_order_stale && ordered_.size() == volumes.size() && !is_due) return ordered_;
+  is_order_stale = false;
+  sorted_ = editor.moment->state;
+  sorted_at_ = editor.now;
+  ordered_.resize(volumes.size());
+  std::iota(ordered_.begin(), ordered_.end(), std::size_t{0});
+  std::stable_sort(ordered_.begin(), ordered_.end(), [&](std::size_t a, std::size_t b) {
+    const report::VolumeRow &x = volumes[a], &y = volumes[b];
+    switch (order) {
+      case VolumeOrder::error: return std::abs(x.error()) > std::abs(y.error());
+      case VolumeOrder::name: return x.name < y.name;
+      case VolumeOrder::use: return x.use < y.use;
+      case VolumeOrder::size: return x.wanted > y.wanted;
+    }
+    return a < b;
+  });
+  return ordered_;
+}
+
+}  // namespace bl::desktop

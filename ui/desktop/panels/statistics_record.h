@@ -1,0 +1,44 @@
+// What the last ticks were like, and the figures of the current one: sampled once per tick, whoever looks at them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ui/cli/report/report_model.h"
+#include "ui/desktop/app/editor.h"
+
+namespace bl::desktop {
+
+enum class VolumeOrder { error, name, use, size };
+
+class RunRecord {
+ public:
+  /// Takes a sample where a tick has passed since the last call; after a rewind the ticks that were undone are forgotten.
+  void sample(const Editor& editor);
+  /// Volumes, uses and totals of the current state; made when they are asked for.
+  const report::ReportModel& figures(const Editor& editor);
+  /// Indices of the volumes in the order that is wanted; it settles down between changes.
+  const std::vector<std::size_t>& ordered(const Editor& editor);
+
+  // Columns of samples, the oldest first; all of one length.
+  std::vector<double> tick, worst, mean, volume, move, tick_ms, bytes;
+  PhaseTimes phase;       ///< of one tick, smoothed [s]
+  double frame_rate = 0;  ///< smoothed [1/s]
+  VolumeOrder order = VolumeOrder::error;
+  bool is_order_stale = true;
+
+ private:
+  void forget_from(double tick_number);
+  void drop_oldest();
+
+  std::shared_ptr<const State> sampled_, figured_, sorted_;
+  std::unique_ptr<report::ReportModel> figures_;
+  std::vector<std::size_t> ordered_;
+  PhaseTimes times_;
+  std::uint64_t bytes_sent_ = 0;
+  double sorted_at_ = -1, last_frame_ = 0;
+};
+
+}  // namespace bl::desktop
