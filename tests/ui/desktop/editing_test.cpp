@@ -90,7 +90,7 @@ TEST(Editing, ADragIsOneStep) {
   for (int k = 0; k < 30; ++k)
     ASSERT_TRUE(editor.submit(command<SetPort>({"library", {"node.position"}, {"[" + std::to_string(60 + k) + ", 44, 9]"}}), gesture));
   ASSERT_EQ(editor.document->history().size(), 1u);
-  EXPECT_EQ(editor.document->history().front().label, "Set value · Library");
+  EXPECT_EQ(editor.document->history().front().label, "Set value · Library, position");
   const std::string after = desktop.scene_text();
   editor.undo();
   EXPECT_EQ(desktop.scene_text(), before);

@@ -55,9 +55,9 @@ command_by_name 'Beamer'
 pause 1
 picture 11-beamer
 key Escape; pause 1
-command_by_name 'Dark or light'
+command_by_name 'Dark colours'
 picture 12-light
-command_by_name 'Dark or light'
+command_by_name 'Dark colours'
 leave_window
 
 start_window "$checkout/scenes/studies/sixty_volumes.json"

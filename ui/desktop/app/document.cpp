@@ -131,7 +131,10 @@ std::string label_of(const Registry& registry, const Command& command, const Sce
   }
   const CommandDefinition* definition = registry.command(command.id);
   const std::string subject = subject_of(command, scene);
-  return (definition != nullptr ? definition->label : command.id) + (subject.empty() ? "" : " · " + subject);
+  const auto port = command.arguments.find("port");
+  const auto* path = port == command.arguments.end() ? nullptr : std::get_if<std::string>(&port->second);
+  const std::string what = path == nullptr ? "" : ", " + path->substr(path->find('.') + 1);
+  return (definition != nullptr ? definition->label : command.id) + (subject.empty() ? "" : " · " + subject) + what;
 }
 
 }  // namespace

@@ -184,7 +184,7 @@ void add_window_actions(std::vector<Action>& list) {
                   false,
                   [](const Editor& e) { return e.person.shows_bottom; }});
   list.push_back({"View",
-                  "Dark",
+                  "Dark colours",
                   {},
                   {},
                   Area::none,
