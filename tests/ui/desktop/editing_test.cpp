@@ -37,7 +37,7 @@ TEST(Editing, TenThousandRandomCommandsUndoneGiveTheSameBytes) {
 }
 
 // The clock runs on its thread while commands come in: what the log says has to lead to the same hash.
-TEST(Editing, LogOfARunningClockReplaysToTheSameHash) {
+TEST(Editing, LogOfATickingThreadReplaysToTheSameHash) {
   NullDesktop desktop("scenes/start/quarter.json");
   LiveSession& session = desktop.editor().document->session();
   session.set_rate(1000);
