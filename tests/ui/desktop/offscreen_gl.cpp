@@ -4,9 +4,29 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#include <sanitizer/lsan_interface.h>
+#define BL_LEAKS_ARE_WATCHED
+#endif
+#endif
+
 namespace bl::desktop {
 
+namespace {
+
+// The driver keeps some blocks for ever and is unloaded before they are looked for: while it is in use, nothing is watched.
+void watch_leaks([[maybe_unused]] bool is_on) {
+#ifdef BL_LEAKS_ARE_WATCHED
+  if (is_on) __lsan_enable();
+  else __lsan_disable();
+#endif
+}
+
+}  // namespace
+
 OffscreenGl::OffscreenGl() {
+  watch_leaks(false);
   const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
     failure_ = "EGL has no display without a surface";
@@ -30,10 +50,12 @@ OffscreenGl::OffscreenGl() {
 }
 
 OffscreenGl::~OffscreenGl() {
-  if (display_ == nullptr) return;
-  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  if (context_ != nullptr) eglDestroyContext(display_, context_);
-  eglTerminate(display_);
+  if (display_ != nullptr) {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context_ != nullptr) eglDestroyContext(display_, context_);
+    eglTerminate(display_);
+  }
+  watch_leaks(true);
 }
 
 }  // namespace bl::desktop
