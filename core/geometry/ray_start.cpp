@@ -49,6 +49,8 @@ constexpr double kWidening = 1.2;
 constexpr double kCrowded = 1.6;
 // Rounds of making room: who gets it may take it from others.
 constexpr int kMostMends = 10;
+// Two sites nearer than this share of a ball have only a sliver between being swallowed and swallowing, which rays miss.
+constexpr double kNearPair = 1e-3;
 
 // A plane that cuts a ball, relative to its site.
 struct Cut {
@@ -72,6 +74,7 @@ struct RowChunk {
   std::vector<std::uint32_t> column;
   std::vector<double> value;
   std::vector<std::uint32_t> near;
+  bool has_near_pair = false;
 };
 
 class RayFit {
@@ -128,10 +131,14 @@ class RayFit {
     for (std::size_t p = 0; p < sites_.size(); p += kChunk) body(p, std::min(sites_.size(), p + kChunk));
   }
 
-  // Do many more balls meet than would if the sites were spread evenly? On a line or in a plane they do, and in clusters.
+  // Do many more balls meet than would if the sites were spread evenly? On a line or in a plane they do, and in clusters. Or do two
+  // sites nearly stand in one place?
   bool is_crowded(std::span<const PowerSite> wide) const {
     std::size_t meet = 0;
-    for (const RowChunk& rows : chunk_) meet += rows.near.size();
+    for (const RowChunk& rows : chunk_) {
+      if (rows.has_near_pair) return true;
+      meet += rows.near.size();
+    }
     double mean = 0, sum = 0;
     for (const PowerSite& site : wide) mean += std::sqrt(site.weight) / static_cast<double>(wide.size());
     for (const PowerSite& site : wide) {
@@ -155,7 +162,9 @@ class RayFit {
     grid_.search(
         at, weight, grid_.order()[p], {}, [&] { return radius; },
         [&](const SiteGrid::Entry& entry) {
-          if (distance(at, entry.position) > same) near.push_back(grid_.place_of(entry.site));
+          const double gap = distance(at, entry.position);
+          if (gap > same) near.push_back(grid_.place_of(entry.site));
+          if (gap < kNearPair * radius && entry.site != grid_.order()[p]) chunk_[p / kChunk].has_near_pair = true;
         });
     row_[p].end_near = static_cast<std::uint32_t>(near.size());
   }

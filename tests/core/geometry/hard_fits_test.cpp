@@ -28,6 +28,19 @@ VolumeFit report(const char* name, const FitScene& scene, double tolerance = 1e-
 
 void expect_met(const char* name, const FitScene& scene) { EXPECT_EQ(report(name, scene).status, FitStatus::met) << name; }
 
+// Found among 63 sites: a start that looks along rays misses the sliver between being swallowed and swallowing.
+TEST(HardFits, NearPairsAmongFewSitesAreMet) {
+  for (const std::size_t count : {20, 63, 200}) {
+    for (const double gap : {1e-3, 1e-4, 1e-5, 3e-6}) {
+      FitScene scene = fit_scene(count, 0.7, 32);
+      scene.problem.sites[7].position = scene.problem.sites[3].position + Vector3{gap, 0, 0};
+      char name[64];
+      std::snprintf(name, sizeof name, "%zu sites, pair at %.0e", count, gap);
+      expect_met(name, scene);
+    }
+  }
+}
+
 TEST(HardFits, AllOfThemAreMet) {
   const auto placed = [](double fill, auto&& place) {
     FitScene scene = fit_scene(many(), fill, 31);
