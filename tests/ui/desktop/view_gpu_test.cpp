@@ -17,7 +17,7 @@ namespace {
 class ViewGpu : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!gl_.is_there()) GTEST_SKIP() << "no OpenGL at all: " << gl_.failure();
+    ASSERT_TRUE(gl_.is_there()) << gl_.failure() << "; `./bl setup` installs Mesa's software driver";
     std::string failure;
     renderer_ = GlRenderer::make(failure);
     ASSERT_NE(renderer_, nullptr) << failure;
