@@ -7,6 +7,7 @@
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/edits.h"
+#include "ui/desktop/panels/canvas/entered.h"
 #include "ui/desktop/panels/canvas/fits.h"
 #include "ui/desktop/panels/canvas/placing.h"
 
@@ -48,6 +49,7 @@ Command new_node(Board& board, const TypificationDefinition& role, const std::st
   node["types"][role.id] = values;
   patch["boxes"][id] =
       place_json({std::round((at.x - kBoxWidth / 2) / kGrid) * kGrid, std::round((at.y - kHeadHeight / 2) / kGrid) * kGrid});
+  join_entered(board, patch, "nodes", id);
   return command<AddNode>({id, {write_json_line(node)}});
 }
 
@@ -211,19 +213,24 @@ void open_find(Board& board) {
   picker.title = "Find";
   picker.hint = "Name, id or role; arrows go from one to the next";
   picker.empty_text = "No node of that name";
-  for (const NodeBox& box : board.model.boxes) {
-    std::string roles;
-    for (const Section& section : box.sections) roles += (roles.empty() ? "" : ", ") + section.label;
-    picker.choices.push_back({box.id, box.name, box.id + "  ·  " + roles, "",
-                              box.sections.empty() ? 0 : colour_of(board, box.sections.front()), 1000, roles, ""});
-  }
-  for (const Line& line : board.model.lines)
-    picker.choices.push_back(
-        {line.id, line.label + " (" + line.id + ")", "link", "", line.family.colour, 2000, line.kind, "link"});
+  // What the entered frame holds comes first.
+  for (const auto* boxes : {&board.model.boxes, &board.model.outside_boxes})
+    for (const NodeBox& box : *boxes) {
+      std::string roles;
+      for (const Section& section : box.sections) roles += (roles.empty() ? "" : ", ") + section.label;
+      const int recency = boxes == &board.model.boxes ? 1000 : 1500;
+      picker.choices.push_back({box.id, box.name, box.id + "  ·  " + roles, "",
+                                box.sections.empty() ? 0 : colour_of(board, box.sections.front()), recency, roles, ""});
+    }
+  for (const auto* lines : {&board.model.lines, &board.model.outside_lines})
+    for (const Line& line : *lines)
+      picker.choices.push_back(
+          {line.id, line.label + " (" + line.id + ")", "link", "", line.family.colour, 2000, line.kind, "link"});
   picker.text = board.find_text;
   const auto go = [](Board& b, const Choice& choice) {
     if (choice.extra == "link") {
       b.editor.picks.only_link(choice.id);
+      bring_up_to_date(b);
       if (const std::size_t k = b.model.find_line(choice.id); k < b.model.lines.size())
         b.camera.fit(b.model.lines[k].bounds.grown(120), true);
     } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,11 +17,26 @@
 namespace bl::desktop::canvas {
 
 /// What lies under the cursor.
-enum class Thing { nothing, node, node_edge, pill, pill_edge, link, dot, comment, comment_corner, frame, minimap, chip };
+enum class Thing {
+  nothing,
+  node,
+  node_edge,
+  pill,
+  pill_edge,
+  door,
+  link,
+  dot,
+  comment,
+  comment_corner,
+  frame,
+  minimap,
+  chip,
+  crumb
+};
 struct Hit {
   Thing thing = Thing::nothing;
   std::string id;         ///< of the node, link, comment or frame; the family of a chip
-  std::size_t index = 0;  ///< of the anchor, dot or chip
+  std::size_t index = 0;  ///< of the anchor, dot, chip or crumb
   bool operator==(const Hit&) const = default;
 };
 
@@ -57,6 +73,12 @@ struct InlineEdit {
   bool is_fresh = true;
 };
 
+/// A part of the breadcrumb: a frame that one is in, and where its name is on the screen.
+struct Crumb {
+  std::string frame, label;  ///< no frame: the whole canvas
+  Box box;
+};
+
 struct Board {
   explicit Board(Editor& the_editor) : editor(the_editor) {}
 
@@ -74,6 +96,9 @@ struct Board {
   std::vector<std::string> pinned;                 ///< nodes whose cards stay
   std::set<std::string> soloed;                    ///< links that solo has muted
   std::vector<std::pair<std::string, Box>> chips;  ///< families and where their switches are on the screen
+  std::vector<Crumb> crumbs;                       ///< outermost first; none outside of frames
+  std::vector<std::string> way_in;                 ///< the entered frame and those around it, outermost first
+  std::map<std::string, Camera::Pose> poses;       ///< where the canvas was looked at when it was left for another frame
   Box minimap;                                     ///< on the screen; no size where it is not shown
   bool shows_minimap = true, snaps = true, is_reset = true;
   double space_since = -1;  ///< Space is held, perhaps to pan

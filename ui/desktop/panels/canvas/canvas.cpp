@@ -1,9 +1,12 @@
 // One frame of the canvas: brings the model up to the scene, answers to the mouse, and draws layer upon layer.
 #include "ui/desktop/panels/canvas/canvas.h"
 
+#include <nlohmann/json.hpp>
+
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/draw.h"
+#include "ui/desktop/panels/canvas/entered.h"
 #include "ui/desktop/panels/canvas/mouse.h"
 
 namespace bl::desktop {
@@ -28,6 +31,9 @@ void follow_document(Board& board) {
   board.soloed.clear();
   board.picked_comments.clear();
   board.picked_frames.clear();
+  board.model.entered.clear();
+  board.way_in.clear();
+  board.poses.clear();
 }
 
 // What has gone from the scene is no longer chosen.
@@ -46,6 +52,7 @@ void draw_layers(Board& board) {
   draw_frames_and_comments(board);
   draw_lines(board);
   draw_pills(board);
+  draw_doors(board);
   draw_nodes(board);
   draw_line_labels(board);
   draw_deed(board);
@@ -63,7 +70,7 @@ void Canvas::draw(ImVec2 size) {
   follow_document(board);
   board.camera.set_pane({ImGui::GetWindowPos(), size}, editor.theme.scale(), editor.now);
   const std::size_t revision = board.model.revision;
-  board.model.update(editor);
+  bring_up_to_date(board);
   place_chips(board);
   if (board.is_reset) board.camera.fit(board.model.bounds(), false);
   board.is_reset = false;
@@ -86,12 +93,19 @@ void Canvas::draw(ImVec2 size) {
 
 void Canvas::fit(bool all) {
   if (!board_->editor.document) return;
-  board_->model.update(board_->editor);
+  canvas::bring_up_to_date(*board_);
   const auto chosen = all ? std::nullopt : canvas::box_of_choice(*board_);
   board_->camera.fit(chosen.value_or(board_->model.bounds()), true);
 }
 
 void Canvas::show(const std::string& node) { canvas::show_node(*board_, node); }
+
+std::optional<Command> Canvas::joining(const std::string& node) const {
+  Json patch = Json::object();
+  canvas::join_entered(*board_, patch, "nodes", node);
+  if (patch.empty()) return std::nullopt;
+  return command<SetView>({{write_json_line(patch)}, false});
+}
 
 std::optional<ImVec2> Canvas::screen_of(const std::string& node) const {
   const std::size_t k = board_->model.find_box(node);

@@ -7,6 +7,7 @@
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/canvas/clipboard.h"
 #include "ui/desktop/panels/canvas/edits.h"
+#include "ui/desktop/panels/canvas/entered.h"
 
 namespace bl::desktop {
 
@@ -32,9 +33,12 @@ ImVec2 search_place(const Board& board) {
 }
 
 void select_all(Editor& e) {
+  bring_up_to_date(board_of(e));
   e.picks.clear();
-  for (const auto& [id, node] : e.scene().nodes) e.picks.nodes.insert(id);
-  for (const auto& [id, comment] : board_of(e).model.view.comments) board_of(e).picked_comments.insert(id);
+  const Model& model = board_of(e).model;
+  for (const NodeBox& box : model.boxes) e.picks.nodes.insert(box.id);
+  for (const auto& [id, comment] : model.view.comments)
+    if (model.shows_comment(id)) board_of(e).picked_comments.insert(id);
 }
 
 void select_none(Editor& e) {
@@ -160,6 +164,20 @@ void add_arrangement_commands(std::vector<Action>& list) {
 
 void add_sight_commands(std::vector<Action>& list) {
   const Area area = Area::canvas;
+  list.push_back({"Canvas",
+                  "Enter the frame",
+                  {GLFW_KEY_I},
+                  {},
+                  area,
+                  [](const Editor& e) { return has_document(e) && !frame_to_enter(e.canvas->board()).empty(); },
+                  [](Editor& e) { enter_frame(board_of(e), frame_to_enter(board_of(e))); }});
+  list.push_back({"Canvas",
+                  "Leave the frame",
+                  {GLFW_KEY_U},
+                  {},
+                  area,
+                  [](const Editor& e) { return has_document(e) && !e.canvas->board().model.entered.empty(); },
+                  [](Editor& e) { leave_frame(board_of(e)); }});
   list.push_back(
       {"Canvas", "Fit selection, or all", {GLFW_KEY_F}, {}, area, has_document, [](Editor& e) { e.canvas->fit(false); }});
   list.push_back(

@@ -224,6 +224,9 @@ void arrange_dots(Board& board, const std::string& link, const std::vector<ImVec
 void add_dot(Board& board, std::size_t line, ImVec2 at) {
   if (line >= board.model.lines.size()) return;
   const Line& known = board.model.lines[line];
+  if (known.is_crossing)
+    return board.editor.tell(NoticeKind::told,
+                             "This link leads out of the frame: its dots lie outside, where all of it is seen.");
   // Between the two neighbours that the curve passes there: counted by how many dots come before the nearest stretch.
   std::size_t nearest = 1;
   for (std::size_t s = 1; s < known.points.size(); ++s)

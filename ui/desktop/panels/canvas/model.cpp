@@ -72,16 +72,19 @@ void Model::update(const Editor& editor) {
   const Document* document = editor.document.get();
   const std::size_t log_size = editor.document->session().log().size();
   const Scene& scene = editor.scene();
-  const bool is_other = document != document_ || boxes.size() != scene.nodes.size() || log_size < log_size_;
-  if (is_other || log_size != log_size_) {
+  const bool is_other = document != document_ || node_count_ != scene.nodes.size() || log_size < log_size_;
+  if (is_other || log_size != log_size_ || entered != narrowed_to_) {
     if (document != document_ || log_size < log_size_) kept_.clear();
     document_ = document;
     log_size_ = log_size;
+    node_count_ = scene.nodes.size();
+    narrowed_to_ = entered;
     if (scene.view != view_text_ || revision == 0) view = read_view(view_text_ = scene.view);
     ++revision;
     make_boxes(editor);
     make_lines(editor);
     place(editor);
+    narrow();
     trace_lines();
     plan_ = nullptr;
     state_ = nullptr;
@@ -323,6 +326,7 @@ void Model::find_indices(const Editor& editor) {
 }
 
 Selection Model::selection_of(std::size_t anchor) const {
+  if (is_door(anchor)) return doors[anchor - boxes.size() - pills.size()].selection;
   if (anchor >= boxes.size()) return pills[anchor - boxes.size()].selection;
   Selection one;
   one.ids = {boxes[anchor].id};
@@ -331,7 +335,7 @@ Selection Model::selection_of(std::size_t anchor) const {
 
 bool Model::frame_box(const std::string& id, Box& out, int depth) const {
   const auto found = view.frames.find(id);
-  if (found == view.frames.end() || depth > kDeepestFrame) return false;
+  if (found == view.frames.end() || depth > kDeepestFrame || !shows_frame(id)) return false;
   bool has_content = false;
   const auto take = [&](const Box& box) {
     out = has_content ? out.with(box) : box;
@@ -359,7 +363,8 @@ Box Model::bounds() const {
     has_any = true;
   };
   for (std::size_t k = 0; k < anchors(); ++k) take(anchor(k));
-  for (const auto& [id, comment] : view.comments) take(comment.box);
+  for (const auto& [id, comment] : view.comments)
+    if (shows_comment(id)) take(comment.box);
   for (const auto& [id, frame] : view.frames)
     if (Box box; frame_box(id, box)) take(box);
   return all;

@@ -37,6 +37,11 @@ struct ViewData {
   /// The frame that names the node, or nothing.
   std::string frame_of_node(const std::string& node) const;
   std::string frame_of_comment(const std::string& comment) const;
+  /// Does the node, or the comment, lie in the frame, at whatever depth?
+  bool holds_node(const std::string& frame, const std::string& node) const;
+  bool holds_comment(const std::string& frame, const std::string& comment) const;
+  /// From the outermost frame to this one.
+  std::vector<std::string> way_to(const std::string& frame) const;
 };
 
 /// Takes what it understands; whatever else stands in the text is left alone, and never harms.
