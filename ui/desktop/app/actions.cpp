@@ -14,11 +14,14 @@ std::string name_of_key(int key) {
     int key;
     const char* name;
   };
-  constexpr Named kNames[] = {{GLFW_KEY_SPACE, "Space"},       {GLFW_KEY_TAB, "Tab"},       {GLFW_KEY_ENTER, "Enter"},
-                              {GLFW_KEY_ESCAPE, "Esc"},        {GLFW_KEY_DELETE, "Del"},    {GLFW_KEY_BACKSPACE, "Backspace"},
-                              {GLFW_KEY_HOME, "Home"},         {GLFW_KEY_LEFT, "Left"},     {GLFW_KEY_RIGHT, "Right"},
-                              {GLFW_KEY_UP, "Up"},             {GLFW_KEY_DOWN, "Down"},     {GLFW_KEY_KP_ADD, "Num +"},
-                              {GLFW_KEY_KP_SUBTRACT, "Num -"}, {GLFW_KEY_KP_DECIMAL, "Num ."}};
+  constexpr Named kNames[] = {{GLFW_KEY_SPACE, "Space"},       {GLFW_KEY_TAB, "Tab"},
+                              {GLFW_KEY_ENTER, "Enter"},       {GLFW_KEY_ESCAPE, "Esc"},
+                              {GLFW_KEY_DELETE, "Del"},        {GLFW_KEY_BACKSPACE, "Backspace"},
+                              {GLFW_KEY_HOME, "Home"},         {GLFW_KEY_LEFT, "Left"},
+                              {GLFW_KEY_RIGHT, "Right"},       {GLFW_KEY_UP, "Up"},
+                              {GLFW_KEY_DOWN, "Down"},         {GLFW_KEY_KP_ADD, "Num +"},
+                              {GLFW_KEY_KP_SUBTRACT, "Num -"}, {GLFW_KEY_KP_DECIMAL, "Num ."},
+                              {GLFW_KEY_MENU, "Menu"}};
   for (const Named& named : kNames)
     if (named.key == key) return named.name;
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
@@ -64,8 +67,8 @@ std::span<const Action> actions() {
 }
 
 void run_pressed_actions(Editor& editor) {
-  const bool is_elsewhere = ImGui::GetIO().WantTextInput ||
-                            ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  const bool is_elsewhere =
+      ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   for (const Action& action : actions()) {
     if (is_elsewhere && !action.is_always) continue;
     if (action.area != Area::none && action.area != editor.area) continue;
@@ -77,12 +80,14 @@ void draw_menus(Editor& editor) {
   const char* menu = nullptr;
   bool is_open = false;
   for (const Action& action : actions()) {
+    const bool is_same_menu = menu != nullptr && std::strcmp(menu, action.menu) == 0;
     if (menu == nullptr || std::strcmp(menu, action.menu) != 0) {
       if (is_open) ImGui::EndMenu();
       menu = action.menu;
       is_open = ImGui::BeginMenu(menu);
     }
     if (!is_open) continue;
+    if (is_same_menu && action.begins_group) ImGui::Separator();
     const bool is_possible = action.can == nullptr || action.can(editor);
     const bool is_on = action.is_on != nullptr && action.is_on(editor);
     if (ImGui::MenuItem(action.label, text_of(action.chord).c_str(), is_on, is_possible)) action.run(editor);

@@ -73,6 +73,16 @@ struct InlineEdit {
   bool is_fresh = true;
 };
 
+/// The context menu of what lies under it.
+struct ContextMenu {
+  Hit over;
+  ImVec2 at;  ///< on the screen
+  bool is_opening = false, is_open = false;
+  bool is_acting = false;         ///< one of its actions runs: what it adds goes where the menu was opened
+  bool is_asked_again = false;    ///< the right button went down beside the open menu
+  std::size_t marked = kNoIndex;  ///< among what is offered
+};
+
 /// A part of the breadcrumb: a frame that one is in, and where its name is on the screen.
 struct Crumb {
   std::string frame, label;  ///< no frame: the whole canvas
@@ -87,6 +97,7 @@ struct Board {
   Model model;
   Live live;
   Picker picker;
+  ContextMenu menu;
   Drag drag;
   InlineEdit edit;
   Hit hovered;
@@ -109,7 +120,7 @@ struct Board {
 
   const Theme& theme() const { return editor.theme; }
   bool is_hidden(const Line& line) const { return hidden_families.contains(std::string(line.family.label)); }
-  /// Where the cursor is, in the plane; the middle of the pane where it is elsewhere.
+  /// Where the cursor is, in the plane, or where the menu was opened that acts; the middle of the pane where it is elsewhere.
   ImVec2 cursor() const;
 };
 

@@ -5,6 +5,7 @@
 
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/board.h"
+#include "ui/desktop/panels/canvas/context_menu.h"
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/entered.h"
 #include "ui/desktop/panels/canvas/mouse.h"
@@ -85,6 +86,7 @@ void Canvas::draw(ImVec2 size) {
   draw_layers(board);
   draw_inline_edit(board);
   draw_picker(board);
+  draw_menu(board);
   if (auto later = std::move(board.after_frame); later) {
     board.after_frame = nullptr;
     later(board);

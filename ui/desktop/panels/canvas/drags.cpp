@@ -4,6 +4,7 @@
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/canvas/additions.h"
 #include "ui/desktop/panels/canvas/clipboard.h"
+#include "ui/desktop/panels/canvas/context_menu.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/mouse.h"
 
@@ -322,6 +323,7 @@ void end_drag(Board& board) {
   switch (board.drag.deed) {
     case Deed::pan:
       if (!board.drag.is_far && board.drag.button == 2) pin_or_unpin(board);
+      if (!board.drag.is_far && board.drag.button == 1) open_menu(board, board.drag.grabbed, ImGui::GetIO().MousePos);
       break;
     case Deed::box:
       if (!board.drag.is_far && !board.drag.adds && !board.drag.toggles) {

@@ -128,6 +128,7 @@ void set_cursor(const Board& board) {
 }  // namespace
 
 ImVec2 Board::cursor() const {
+  if (menu.is_acting) return camera.to_plane(menu.at);
   const ImVec2 at = ImGui::GetIO().MousePos;
   return camera.to_plane(camera.pane().holds(at) || drag.deed != Deed::none ? at : camera.pane().centre());
 }
