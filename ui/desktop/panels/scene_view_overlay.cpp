@@ -102,12 +102,10 @@ void SceneView::draw_labels() {
     const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
     if (!at.is_in_front || !is_inside) return;
     if (!is_chosen && !is_hovered && size < kLeastVolumeOnScreen * theme.scale()) return;
-    wishes.push_back(
-        {&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
+    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
   };
   for (const VolumeFacts& volume : facts_->volumes)
-    wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()),
-         false);
+    wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()), false);
   if (shows("marks"))
     for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
   std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.importance > b.importance; });
@@ -249,6 +247,16 @@ void SceneView::draw_tools() {
   for (const ColourChoice& choice : known)
     if (choice.id == choices_.colour_by) label = choice.label;
   if (ImGui::Button(("Colour: " + label + "##colours").c_str())) ImGui::OpenPopup("colours");
+  hidden_note_ = {};
+  if (const std::string hidden = hidden_.text(*editor_); !hidden.empty()) {
+    ImGui::SameLine(0, theme.px(6));
+    ImGui::PushStyleColor(ImGuiCol_Text, c.warning);
+    if (ImGui::Button((std::string(icon::kHidden) + "  " + hidden + "##hidden").c_str())) show_all(*editor_);
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Click to show all in 3D");
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    hidden_note_ = {low.x, low.y, high.x, high.y};
+  }
   ImGui::PopStyleColor();
   if (is_walking_) {
     ImGui::SameLine(0, theme.px(12));

@@ -117,6 +117,7 @@ std::vector<CardRow> rows_of(const Board& board, const NodeBox& box) {
   const Editor& editor = board.editor;
   const Colours& c = board.theme().colours();
   std::vector<CardRow> rows;
+  if (box.is_hidden) rows.push_back({"Hidden from the 3D view; Shift+H shows it", "", c.warning});
   for (const Section& section : box.sections) {
     rows.push_back({section.label, section.type == nullptr ? "unknown here" : "", colour_of(board, section)});
     if (section.type == nullptr) continue;

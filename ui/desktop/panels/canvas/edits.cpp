@@ -20,6 +20,7 @@ Json forgetting(const ViewData& view, const std::set<std::string>& nodes, const 
   for (const std::string& id : nodes) {
     if (view.boxes.contains(id)) patch["boxes"][id] = nullptr;
     if (view.collapsed.contains(id)) patch["collapsed"][id] = nullptr;
+    if (view.hidden.contains(id)) patch["hidden"][id] = nullptr;
     if (const std::string frame = view.frame_of_node(id); !frame.empty()) patch["frames"][frame]["nodes"][id] = nullptr;
   }
   for (const std::string& id : links)

@@ -110,6 +110,7 @@ void Model::make_boxes(const Editor& editor) {
     box.name = node.name.empty() ? id : node.name;
     box.sections = sections_of(editor.registry, node);
     box.is_collapsed = view.collapsed.contains(id);
+    box.is_hidden = view.hidden.contains(id);
     box.box.size = {kBoxWidth, box.is_collapsed ? kHeadHeight : height_of(box.sections)};
   }
   number_uses(editor);

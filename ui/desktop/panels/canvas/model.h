@@ -41,6 +41,7 @@ struct NodeBox {
   Box box;  ///< as drawn: of its head alone where collapsed
   std::vector<Section> sections;
   bool is_collapsed = false, is_stored = false;  ///< stored: the view says where it lies
+  bool is_hidden = false;                        ///< left out of the 3D view
   std::uint32_t in_state = kNoIndex;             ///< none before the first tick that knows it
   std::size_t use = kNoIndex;                    ///< of a SmartVolume: the number of its use, as in the report
 

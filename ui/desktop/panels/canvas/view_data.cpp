@@ -88,6 +88,7 @@ ViewData read_view(const std::string& text) {
     if (const auto p = point_in(place)) view.sets[key] = *p;
   });
   view.collapsed = names_in(json, "collapsed");
+  view.hidden = names_in(json, "hidden");
   each(json, "frames", [&](const std::string& id, const Json& frame) {
     if (frame.is_object()) view.frames[id] = frame_in(frame);
   });

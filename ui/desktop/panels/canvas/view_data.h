@@ -28,6 +28,7 @@ struct ViewData {
   std::map<std::string, ImVec2> boxes;  ///< upper left corners, by node
   std::map<std::string, ImVec2> sets;   ///< the same of whole sets, by their key
   std::set<std::string> collapsed;
+  std::set<std::string> hidden;  ///< nodes that the 3D view leaves out
   std::map<std::string, Frame> frames;
   std::map<std::string, Comment> comments;
   std::map<std::string, std::vector<ImVec2>> dots;  ///< by link, from its first end on
