@@ -262,16 +262,16 @@ void Model::place(const Editor& editor) {
     pill.is_stored = stored != view.sets.end();
     pill.box.at = pill.is_stored ? stored->second : kept_.at("\n" + pill.key);
   }
-  if (!view.boxes.empty() || !view.sets.empty()) make_room(fresh);
+  if (!fresh.empty() && fresh.size() < boxes.size() + pills.size()) make_room(fresh);
 }
 
-// What is placed for the first time gives way, downwards, to what people have placed.
+// What is placed for the first time gives way, downwards, to what people have placed and to what has been seen already.
 void Model::make_room(const std::set<std::string>& fresh) {
   std::vector<Box> taken;
   for (const NodeBox& box : boxes)
-    if (box.is_stored) taken.push_back(box.box);
+    if (box.is_stored || !fresh.contains(box.id)) taken.push_back(box.box);
   for (const Pill& pill : pills)
-    if (pill.is_stored) taken.push_back(pill.box);
+    if (pill.is_stored || !fresh.contains("\n" + pill.key)) taken.push_back(pill.box);
   const auto give_way = [&](Box& box, const std::string& key) {
     if (!fresh.contains(key)) return;
     for (std::size_t tries = 0; tries <= taken.size(); ++tries) {
