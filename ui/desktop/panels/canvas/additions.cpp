@@ -15,6 +15,9 @@ namespace bl::desktop::canvas {
 
 namespace {
 
+// Links between more nodes than these are laid to a set.
+constexpr std::size_t kMostBundled = 40;
+
 int recency_of(const Editor& editor, const std::string& id) {
   const auto& recent = editor.person.recent_additions;
   const auto found = std::find(recent.begin(), recent.end(), id);
@@ -131,6 +134,70 @@ void add_linked_node(Board& board, const std::string& kind, const std::string& t
   editor.picks.only_node(node);
 }
 
+// Links between the chosen nodes: from the first that was chosen to each of the others, or the other way round where only that
+// fits. One choice is one step.
+struct Bundle {
+  std::vector<Selection> from, to;
+  std::string text;
+};
+
+Bundle bundle_of(const Board& board, bool is_back) {
+  const auto& order = board.choice_order;
+  Bundle bundle;
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    Selection first, other;
+    first.ids = {order.front()};
+    other.ids = {order[k]};
+    bundle.from.push_back(is_back ? other : first);
+    bundle.to.push_back(is_back ? first : other);
+  }
+  const std::string one = board.editor.name_of(order.front());
+  const std::string rest =
+      order.size() == 2 ? board.editor.name_of(order.back()) : "each of " + std::to_string(order.size() - 1) + " others";
+  bundle.text = is_back ? rest + "  \xe2\x86\x92  " + one : one + "  \xe2\x86\x92  " + rest;
+  return bundle;
+}
+
+bool does_fit(const Board& board, const LinkDefinition& kind, const Bundle& bundle) {
+  for (std::size_t k = 0; k < bundle.from.size(); ++k)
+    if (misfit(board.editor.registry, board.editor.scene(), kind, bundle.from[k], bundle.to[k])) return false;
+  return true;
+}
+
+void lay_bundle(Board& board, const std::string& kind, const Bundle& bundle) {
+  Editor& editor = board.editor;
+  const LinkDefinition& definition = *editor.registry.link(kind);
+  FreshIds ids(editor);
+  std::vector<Command> commands;
+  std::set<std::string> laid;
+  for (std::size_t k = 0; k < bundle.from.size(); ++k) {
+    const std::string id =
+        ids.of(short_name(board, bundle.from[k]).substr(0, 24) + "_" + short_name(board, bundle.to[k]).substr(0, 24));
+    commands.push_back(new_link(board, definition, id, bundle.from[k], bundle.to[k],
+                                chosen_ports(editor.registry, editor.scene(), definition, bundle.from[k], bundle.to[k])));
+    laid.insert(id);
+  }
+  if (!editor.submit(commands, editor.new_gesture())) return;
+  remember(editor, kind);
+  editor.picks.clear();
+  editor.picks.links = laid;
+}
+
+void offer_links(const Board& board, Picker& picker) {
+  const std::size_t count = board.choice_order.size();
+  if (count < 2 || count > kMostBundled) return;
+  const Editor& editor = board.editor;
+  const Bundle forth = bundle_of(board, false), back = bundle_of(board, true);
+  for (const auto& [id, kind] : editor.registry.links()) {
+    const bool fits_forth = does_fit(board, kind, forth);
+    if (!fits_forth && !does_fit(board, kind, back)) continue;
+    // Whoever has chosen several nodes is likelier to link them than to add another one.
+    picker.choices.push_back({id, kind.label + ": " + (fits_forth ? forth : back).text, first_sentence(kind.doc), "",
+                              editor.theme.family_of(id).colour, 2 * recency_of(editor, id) - 1,
+                              "link " + std::string(editor.theme.family_of(id).label), fits_forth ? "link" : "link back"});
+  }
+}
+
 }  // namespace
 
 void open_addition(Board& board, ImVec2 screen) {
@@ -157,11 +224,14 @@ void open_addition(Board& board, ImVec2 screen) {
                                 2 * recency_of(editor, id) + 1, "typification", "role"});
     }
   }
+  follow_choice(board);
+  offer_links(board, picker);
   picker.choices.push_back(
       {"comment", "Comment", "A note on the canvas.", "", board.theme().colours().warning, 3000, "text note", "comment"});
   picker.taken = [at](Board& b, const Choice& choice) {
     if (choice.extra == "comment") add_comment(b);
     else if (choice.extra == "role") add_role(b, choice.id);
+    else if (choice.extra.starts_with("link")) lay_bundle(b, choice.id, bundle_of(b, choice.extra == "link back"));
     else add_node(b, choice.id, at);
   };
   open_picker(board, std::move(picker));

@@ -104,6 +104,7 @@ struct Board {
   double hovered_since = 0;
   std::set<std::string> hidden_families;  ///< the person's own, not the scene's
   std::set<std::string> picked_comments, picked_frames;
+  std::vector<std::string> choice_order;           ///< chosen nodes, the first that was chosen first
   std::vector<std::string> pinned;                 ///< nodes whose cards stay
   std::set<std::string> soloed;                    ///< links that solo has muted
   std::vector<std::pair<std::string, Box>> chips;  ///< families and where their switches are on the screen
@@ -123,6 +124,9 @@ struct Board {
   /// Where the cursor is, in the plane, or where the menu was opened that acts; the middle of the pane where it is elsewhere.
   ImVec2 cursor() const;
 };
+
+/// Brings the order of choosing up to what is chosen now; what was chosen at once stands in the order of ids.
+void follow_choice(Board& board);
 
 /// What lies at a place on the screen.
 Hit hit_at(const Board& board, ImVec2 at);

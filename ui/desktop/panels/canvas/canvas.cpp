@@ -48,6 +48,20 @@ void forget_gone(Board& board) {
   std::erase_if(board.pinned, [&](const std::string& id) { return !scene.nodes.contains(id); });
 }
 
+}  // namespace
+
+void canvas::follow_choice(Board& board) {
+  const auto& nodes = board.editor.picks.nodes;
+  auto& order = board.choice_order;
+  std::erase_if(order, [&](const std::string& id) { return !nodes.contains(id); });
+  if (order.size() == nodes.size()) return;
+  const std::set<std::string> known(order.begin(), order.end());
+  for (const std::string& id : nodes)
+    if (!known.contains(id)) order.push_back(id);
+}
+
+namespace {
+
 void draw_layers(Board& board) {
   draw_ground(board);
   draw_frames_and_comments(board);
@@ -76,6 +90,7 @@ void Canvas::draw(ImVec2 size) {
   if (board.is_reset) board.camera.fit(board.model.bounds(), false);
   board.is_reset = false;
   if (revision != board.model.revision) forget_gone(board);
+  follow_choice(board);
   board.live.update(editor, board.model);
   // Takes the mouse from the moment of a press, so that a drag goes on outside the pane.
   ImGui::SetCursorScreenPos(ImGui::GetWindowPos());

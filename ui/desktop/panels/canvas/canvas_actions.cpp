@@ -9,6 +9,7 @@
 #include "ui/desktop/panels/canvas/context_menu.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/entered.h"
+#include "ui/desktop/panels/panel_memory.h"
 
 namespace bl::desktop {
 
@@ -44,7 +45,7 @@ void select_all(Editor& e) {
 }
 
 void select_none(Editor& e) {
-  if (board_of(e).drag.deed != Deed::none) return;  // Esc ends the drag, and no more
+  if (board_of(e).drag.deed != Deed::none || !memory_of(e).scrub.key.empty()) return;  // Esc ends the drag, and no more
   e.picks.clear();
   board_of(e).picked_comments.clear();
   board_of(e).picked_frames.clear();
@@ -72,8 +73,9 @@ void edit_name(Editor& e) {
 // A link between two chosen nodes without the mouse; with one chosen, to a new node.
 void link_chosen(Editor& e) {
   Board& board = board_of(e);
+  follow_choice(board);
   std::vector<std::size_t> ends;
-  for (const std::string& id : e.picks.nodes)
+  for (const std::string& id : board.choice_order)
     if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size()) ends.push_back(k);
   const ImVec2 at =
       board.camera.to_screen(ends.empty() ? board.camera.sight().centre() : board.model.anchor(ends.back()).centre());
