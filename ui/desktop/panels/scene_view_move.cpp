@@ -211,12 +211,12 @@ void SceneView::apply_move() {
 
 void SceneView::end_move(bool is_kept) {
   if (!move_) return;
-  const bool takes_back = !is_kept && move_->has_submitted;
+  const std::int64_t abandoned = !is_kept && move_->has_submitted ? move_->gesture : 0;
   if (is_kept && !move_->typed.empty() && !parse_quantity(move_->typed, Unit::metre))
     editor_->tell(NoticeKind::warning, "`" + move_->typed + "` is no length: type a number, and a unit such as m or cm.");
   move_.reset();
   drag_ = Drag::none;
-  if (takes_back) editor_->undo();
+  if (abandoned != 0) editor_->document->abandon(abandoned);
 }
 
 void SceneView::draw_gizmo() {
