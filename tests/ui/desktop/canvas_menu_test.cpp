@@ -73,6 +73,19 @@ TEST_F(MenuTest, ARightClickOpensItAndChoosesWhatLiesUnderIt) {
   EXPECT_EQ(steps(), 1u);
 }
 
+TEST_F(MenuTest, EscapeClosesItAndNoMoreWithKeyboardNavigationToo) {
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;  // as the real window has
+  right_click(at("library"));
+  ASSERT_TRUE(board().menu.is_open);
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.frames(2);
+  EXPECT_FALSE(board().menu.is_open);
+  EXPECT_EQ(editor().picks.nodes, std::set<std::string>{"library"});
+  right_click(at("library"));
+  take("Collapse");
+  EXPECT_TRUE(board().model.view.collapsed.contains("library"));
+}
+
 TEST_F(MenuTest, WhatIsChosenStaysChosen) {
   editor().picks.nodes = {"library", "cafe"};
   right_click(at("cafe"));

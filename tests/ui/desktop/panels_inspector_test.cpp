@@ -79,8 +79,11 @@ TEST(Inspector, AScrubIsOneStep) {
   EXPECT_EQ(desktop.scene_text(), before);
 }
 
-TEST(Inspector, EscapeEndsAScrubWithoutATrace) {
+class InspectorNavigation : public ::testing::TestWithParam<bool> {};
+
+TEST_P(InspectorNavigation, EscapeEndsAScrubWithoutATrace) {
   PanelDesktop desktop(kQuarter);
+  if (GetParam()) ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;  // as the real window has
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   for (const char* field : {"smart_volume.demand", "node.position/x"}) {
@@ -120,6 +123,8 @@ TEST(Inspector, EscapeEndsAScrubWithoutATrace) {
   desktop.editor().redo();
   EXPECT_EQ(desktop.scene_text(), after);
 }
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutKeyboard, InspectorNavigation, ::testing::Bool());
 
 TEST(Inspector, SeveralNodesAreEditedInOneStep) {
   PanelDesktop desktop(kQuarter);

@@ -45,7 +45,8 @@ void select_all(Editor& e) {
 }
 
 void select_none(Editor& e) {
-  if (board_of(e).drag.deed != Deed::none || !memory_of(e).scrub.key.empty()) return;  // Esc ends the drag, and no more
+  // Esc ends a drag or closes the menu, and no more. With keyboard navigation the menu is closed already when keys are looked at.
+  if (board_of(e).drag.deed != Deed::none || board_of(e).menu.is_open || !memory_of(e).scrub.key.empty()) return;
   e.picks.clear();
   board_of(e).picked_comments.clear();
   board_of(e).picked_frames.clear();
