@@ -84,7 +84,7 @@ TEST_P(CanvasMonkey, EndsWhereItBegan) {
   EXPECT_EQ(desktop.scene_text(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, CanvasMonkey, ::testing::Values(1u, 2u, 3u, 4u));
+INSTANTIATE_TEST_SUITE_P(Seeds, CanvasMonkey, ::testing::Values(1u, 2u, 3u, 4u, 54u));
 
 }  // namespace
 }  // namespace bl::desktop

@@ -127,7 +127,8 @@ void draw_deed(Board& board) {
     const Box box = box_between(board.camera.to_screen(drag.begin), board.camera.to_screen(cursor));
     const bool encloses = cursor.x >= drag.begin.x;
     list.AddRectFilled(box.low(), box.high(), faded(c.accent, 0.1f));
-    list.AddRect(box.low(), box.high(), faded(c.accent, encloses ? 0.9f : 0.5f), 2, 0, encloses ? 1.5f : 1.0f);
+    // Without rounding: ImGui divides by zero at corners of nearly no radius, as a box of three pixels has.
+    list.AddRect(box.low(), box.high(), faded(c.accent, encloses ? 0.9f : 0.5f), 0, 0, encloses ? 1.5f : 1.0f);
     draw_text(board, {box.low().x + 4, box.high().y + 3}, 11 * board.theme().scale(), c.text_soft,
               encloses ? "inside" : "touching");
   }
