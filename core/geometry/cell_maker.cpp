@@ -86,7 +86,8 @@ void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
     std::uint32_t last = kNone;
     for (std::uint32_t k = first; k != kNone; k = links_[k].next) {
       if (links_[k].is_sure) skip = run_;
-      cut_by(ground.sites[links_[k].site].position, ground.sites[links_[k].site].weight, links_[k].site);
+      const SiteGrid::Entry other = ground.grid.at_place(links_[k].place);
+      cut_by(other.position, other.weight, other.site);
       last = k;
     }
     if (last != kNone) {
@@ -115,7 +116,7 @@ void CellMaker::remember(const CellGround& ground, std::uint32_t site, bool is_s
     const std::uint32_t other = ground.grid.place_of(j);
     if (other <= place || other - run_.begin >= known_.size()) continue;
     std::uint32_t& known = known_[other - run_.begin];
-    const Link link{site, known, is_sure};
+    const Link link{place, known, is_sure};
     if (free_link_ == kNone) {
       known = static_cast<std::uint32_t>(links_.size());
       links_.push_back(link);

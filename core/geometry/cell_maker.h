@@ -76,7 +76,7 @@ class CellMaker {
   // The run: places [begin, end) are done; per place of the run, a list of done sites that border it.
   SiteGrid::Range run_;
   struct Link {
-    std::uint32_t site, next;
+    std::uint32_t place, next;
     bool is_sure;  ///< the border has an extent beyond all rounding
   };
   std::vector<std::uint32_t> known_;

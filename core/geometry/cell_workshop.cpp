@@ -51,13 +51,13 @@ void gather_facets(const Polyhedron& part, double squared_radius, const ShapeMea
 }
 
 // What follows from facets and spherical area.
-void add_up(std::span<const PowerSite> sites, std::uint32_t site, CellMeasure& out) {
+void add_up(const CellGround& ground, const PowerSite& site, CellMeasure& out) {
   out.surface_area = out.spherical_area;
-  out.volume_by_own_weight = out.spherical_area > 0 ? out.spherical_area / (2 * std::sqrt(sites[site].weight)) : 0;
+  out.volume_by_own_weight = out.spherical_area > 0 ? out.spherical_area / (2 * std::sqrt(site.weight)) : 0;
   for (const FacetArea& facet : out.facets) {
     out.surface_area += facet.area;
     if (facet.kind != FacetArea::Kind::site) continue;
-    out.volume_by_own_weight += facet.area / (2 * distance(sites[site].position, sites[facet.index].position));
+    out.volume_by_own_weight += facet.area / (2 * distance(site.position, ground.grid.of(facet.index).position));
   }
 }
 
@@ -82,9 +82,9 @@ void measure_storeys(std::span<const Polyhedron> parts, std::span<ShapeMeasure> 
   }
 }
 
-void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const CellOptions& options, CellBench& bench,
+void measure_parts(const CellGround& ground, std::uint32_t index, const CellOptions& options, CellBench& bench,
                    CellMeasure& out) {
-  const PowerSite& site = sites[index];
+  const PowerSite& site = ground.sites[index];
   const auto parts = bench.maker.parts();
   bench.shapes.resize(parts.size());
   Vector3 moment;
@@ -107,7 +107,7 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
   if (!(out.volume > 0)) return;
   const Point3 centroid = parts.size() == 1 ? bench.shapes[0].centroid : moment / out.volume;
   if (options.with_centroid) out.centroid = site.position + centroid;
-  add_up(sites, index, out);
+  add_up(ground, site, out);
   if (options.with_shape) {
     const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[index];
     measure_storeys(parts, bench.shapes, site, storey, out);
@@ -122,10 +122,11 @@ void measure_parts(std::span<const PowerSite> sites, std::uint32_t index, const 
 // the domain that shows.
 constexpr double kFarthest = 3000;
 
-void fetch_ahead(const CellMeasure& cell) {
+template <class Record>
+void fetch_ahead(const Record& record) {
   constexpr std::size_t kLine = 64;
-  const char* const begin = reinterpret_cast<const char*>(&cell);
-  for (std::size_t at = 0; at < sizeof(CellMeasure); at += kLine) __builtin_prefetch(begin + at, 1);
+  const char* const begin = reinterpret_cast<const char*>(&record);
+  for (std::size_t at = 0; at < sizeof(Record); at += kLine) __builtin_prefetch(begin + at);
 }
 
 std::string number(std::uint32_t site) { return "site " + std::to_string(site); }
@@ -228,7 +229,7 @@ void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, Cell
   const std::uint32_t twin = twin_[site];
   if (twin == kNone) {
     bench.maker.make(ground_, site, options.with_shape);
-    measure_parts(sites_, site, options, bench, out);
+    measure_parts(ground_, site, options, bench, out);
     if (options.with_outlines && options.with_shape) {
       const auto parts = bench.maker.parts();
       out.outlines = std::make_shared<const std::vector<Polyhedron>>(parts.begin(), parts.end());
@@ -277,7 +278,10 @@ void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run,
   if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
   for (std::size_t k = begin; k < end; ++k) {
     // Records lie in the order of the sites, not in that of the work: the next one is fetched while this one is made.
-    if (k + 1 < end) fetch_ahead(cells[which[k + 1]]);
+    if (k + 1 < end) {
+      fetch_ahead(cells[which[k + 1]]);
+      fetch_ahead(sites_[which[k + 1]]);
+    }
     make_one(which[k], options, *bench, cells[which[k]]);
     if (borders == nullptr) continue;
     const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};

@@ -119,6 +119,10 @@ void SiteGrid::remove_entry(std::uint32_t place) {
   site_[place] = kNone;
 }
 
+SiteGrid::Entry SiteGrid::stray_of(std::uint32_t site) const {
+  return *std::find_if(strays_.begin(), strays_.end(), [&](const Entry& stray) { return stray.site == site; });
+}
+
 void SiteGrid::refresh_weights(std::span<const PowerSite> sites) {
   constexpr double kLightest = -std::numeric_limits<double>::infinity();
   largest_weight_ = kLightest;

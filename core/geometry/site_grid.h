@@ -49,6 +49,11 @@ class SiteGrid {
 
   /// Place of a participant in that order.
   std::uint32_t place_of(std::uint32_t site) const { return slot_of_[site]; }
+  /// The participant of a place in that order, wherever it is now. Places that follow each other lie side by side in memory, as
+  /// the sites themselves do not.
+  Entry at_place(std::uint32_t place) const { return site_[place] == order_[place] ? entry(place) : stray_of(order_[place]); }
+  /// A participant; the same thing as the site, but near in memory to those around it.
+  Entry of(std::uint32_t site) const { return slot_of_[site] == kNone ? stray_of(site) : at_place(slot_of_[site]); }
   /// A stretch of that order.
   struct Range {
     std::uint32_t begin = 0, end = 0;
@@ -178,6 +183,7 @@ class SiteGrid {
   Entry entry(std::uint32_t place) const { return {{x_[place], y_[place], z_[place]}, weight_[place], site_[place]}; }
   void set_entry(std::uint32_t place, const Entry& entry);
   void remove_entry(std::uint32_t place);
+  Entry stray_of(std::uint32_t site) const;
 
   // All blocks that the table of offsets does not hold.
   template <class Reach, class Consider>

@@ -200,6 +200,9 @@ TEST(SiteGrid, FindsWhatAListFindsAfterManyChanges) {
     }
     for (std::uint32_t i = 0; i < sites.size(); ++i) {
       if (!is_there[i]) continue;
+      EXPECT_EQ(grid.of(i).site, i);
+      EXPECT_EQ(grid.of(i).position, sites[i].position);
+      EXPECT_EQ(grid.of(i).weight, sites[i].weight);
       for (const double reach : {0.02, 0.2, kInfinity}) {
         std::set<std::uint32_t> found;
         grid.search(

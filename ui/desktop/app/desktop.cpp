@@ -84,6 +84,7 @@ void Desktop::frame(double now) {
   }
   if (editor.document) {
     start_page_->leave();
+    watch_run(editor);
     draw_workspace(top);
   } else {
     const Colours& c = editor.theme.colours();
@@ -141,7 +142,10 @@ void Desktop::draw_notices() {
   for (std::size_t k = editor.notices.size(); k-- > 0;) {
     const Notice& notice = editor.notices[k];
     const bool is_error = notice.kind == NoticeKind::error, is_warning = notice.kind == NoticeKind::warning;
-    const std::string text = (is_error ? std::string(icon::kError) + "  " : is_warning ? std::string(icon::kWarning) + "  " : "") + notice.text;
+    const std::string text = (is_error     ? std::string(icon::kError) + "  "
+                              : is_warning ? std::string(icon::kWarning) + "  "
+                                           : "") +
+                             notice.text;
     const float wrap = theme.px(440);
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     const ImVec2 pad{theme.px(14), theme.px(10)};
@@ -150,7 +154,8 @@ void Desktop::draw_notices() {
     ImDrawList& list = *ImGui::GetForegroundDrawList();
     list.AddRectFilled(at, {at.x + box.x, at.y + box.y}, c.raised, theme.px(6));
     list.AddRect(at, {at.x + box.x, at.y + box.y}, is_error ? c.bad : is_warning ? c.warning : c.line, theme.px(6));
-    list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {at.x + pad.x, at.y + pad.y}, c.text, text.c_str(), nullptr, wrap);
+    list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {at.x + pad.x, at.y + pad.y}, c.text, text.c_str(), nullptr,
+                 wrap);
     y -= box.y + theme.px(8);
   }
 }

@@ -37,7 +37,7 @@ void SceneView::draw(ImVec2 size) {
     for (const auto& [id, start] : move_->starts)
       if (const std::uint32_t node = editor_->index_of(id); node < facts_->places.size())
         choices_.held[node] = start + move_->shift;
-  colouring_ = colour_volumes(*facts_, choices_.colour_by, editor_->theme);
+  colouring_ = colour_volumes(*facts_, colour_choice(), editor_->theme);
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
   const bool has_same_cells = std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
                                          [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
@@ -88,7 +88,7 @@ void SceneView::follow_document() {
   move_.reset();
   drag_ = Drag::none;
   is_walking_ = false;
-  choices_ = ViewChoices{.camera = choices_.camera, .section = {}, .colour_by = choices_.colour_by, .held = {}};
+  choices_ = ViewChoices{.camera = choices_.camera, .section = {}, .held = {}};
   wants_fit_ = true;
   has_fitted_boundary_ = false;
 }

@@ -245,7 +245,7 @@ void SceneView::draw_tools() {
   std::string label = "Use";
   const auto known = colour_choices(*facts_);
   for (const ColourChoice& choice : known)
-    if (choice.id == choices_.colour_by) label = choice.label;
+    if (choice.id == colour_choice()) label = choice.label;
   if (ImGui::Button(("Colour: " + label + "##colours").c_str())) ImGui::OpenPopup("colours");
   hidden_note_ = {};
   if (const std::string hidden = hidden_.text(*editor_); !hidden.empty()) {
@@ -271,7 +271,7 @@ void SceneView::draw_tools() {
   if (ImGui::BeginPopup("colours")) {
     for (std::size_t k = 0; k < known.size(); ++k) {
       if (k == 4) ImGui::Separator();
-      if (ImGui::Selectable(known[k].label.c_str(), known[k].id == choices_.colour_by)) choices_.colour_by = known[k].id;
+      if (ImGui::Selectable(known[k].label.c_str(), known[k].id == colour_choice())) colour_by(known[k].id);
     }
     ImGui::EndPopup();
   }
