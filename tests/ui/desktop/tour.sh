@@ -46,6 +46,7 @@ key Escape
 key k ctrl; pause 0.6
 picture 08-commands
 key Escape
+on_canvas; key Home; pause 1
 coordinates "$(place_of start/quarter.json node:library)"
 click "$x" "$((y + 18))"
 key g ctrl; key Return; pause 0.5
