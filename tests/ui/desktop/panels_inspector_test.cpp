@@ -79,11 +79,8 @@ TEST(Inspector, AScrubIsOneStep) {
   EXPECT_EQ(desktop.scene_text(), before);
 }
 
-class InspectorNavigation : public ::testing::TestWithParam<bool> {};
-
-TEST_P(InspectorNavigation, EscapeEndsAScrubWithoutATrace) {
+TEST(Inspector, EscapeEndsAScrubWithoutATrace) {
   PanelDesktop desktop(kQuarter);
-  if (GetParam()) ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;  // as the real window has
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   for (const char* field : {"smart_volume.demand", "node.position/x"}) {
@@ -123,8 +120,6 @@ TEST_P(InspectorNavigation, EscapeEndsAScrubWithoutATrace) {
   desktop.editor().redo();
   EXPECT_EQ(desktop.scene_text(), after);
 }
-
-INSTANTIATE_TEST_SUITE_P(WithAndWithoutKeyboard, InspectorNavigation, ::testing::Bool());
 
 TEST(Inspector, SeveralNodesAreEditedInOneStep) {
   PanelDesktop desktop(kQuarter);

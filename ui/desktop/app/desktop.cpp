@@ -17,6 +17,7 @@ namespace bl::desktop {
 namespace {
 
 constexpr float kLeastPane = 160;
+constexpr const char* kSide = "side";
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
@@ -77,6 +78,13 @@ void Desktop::frame(double now) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   float top = 0;
   run_pressed_actions(editor);
+  // On the canvas and in 3D, keys are commands. Where Dear ImGui walked through fields with them as well, it would also stop to
+  // feel the mouse.
+  const bool is_at_fields = !editor.document || editor.area == Area::panels ||
+                            ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  ImGuiIO& io = ImGui::GetIO();
+  io.ConfigFlags =
+      is_at_fields ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
   if (!editor.is_beamer && ImGui::BeginMainMenuBar()) {
     draw_menus(editor);
     top = ImGui::GetWindowHeight();
@@ -121,8 +129,18 @@ void Desktop::draw_workspace(float top) {
   const ImVec2 view_size{middle_width - left - gap, middle_height};
   pane("view", {left + gap, y}, view_size, c.sky, {0, 0}, [&] { view_->draw(view_size); });
   const ImVec2 padding{theme.px(12), theme.px(10)};
-  if (bottom > 0) pane("bottom", {0, size.y - bottom}, {middle_width, bottom}, c.panel, padding, [&] { draw_bottom(editor); });
-  if (side > 0) pane("side", {size.x - side, y}, {side, size.y - y}, c.panel, padding, [&] { draw_inspector(editor); });
+  const auto fields = [&](const char* name, ImVec2 at, ImVec2 room, void (*draw)(Editor&)) {
+    pane(name, at, room, c.panel, padding, [&] {
+      if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) && ImGui::IsMouseClicked(0)) editor.area = Area::panels;
+      draw(editor);
+    });
+  };
+  if (bottom > 0) fields("bottom", {0, size.y - bottom}, {middle_width, bottom}, draw_bottom);
+  if (side > 0) fields(kSide, {size.x - side, y}, {side, size.y - y}, draw_inspector);
+  // With F6 one sees where the keys go; with the mouse one knows.
+  if (editor.area == Area::panels && was_area_ != Area::panels && !ImGui::IsMouseDown(0))
+    ImGui::SetWindowFocus(side > 0 ? kSide : "bottom");
+  was_area_ = editor.area;
   if (const float moved = splitter("split middle", {left, y}, {gap, middle_height}, true, theme); moved != 0)
     person.canvas_share = std::clamp((left + moved) / middle_width, 0.1f, 0.9f);
   if (side > 0)

@@ -25,7 +25,7 @@ void SceneView::draw(ImVec2 size) {
   size_ = size;
   if (!editor_->moment || size.x < 8 || size.y < 8) return;
   is_hovered_ = ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered();
-  if (ImGui::IsWindowHovered()) editor_->area = Area::view;
+  if (ImGui::IsWindowHovered()) editor_->point_at(Area::view);
   follow_document();
   follow_state();
   advance_camera();
