@@ -17,6 +17,8 @@ namespace bl::desktop {
 namespace {
 
 constexpr float kLeastPane = 160;
+// With large letters on a small screen, fields and lists leave room for what they are about.
+constexpr float kMostOfSide = 0.36f, kMostOfBottom = 0.4f;
 constexpr const char* kSide = "side";
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
@@ -121,8 +123,11 @@ void Desktop::draw_workspace(float top) {
   const float bar = theme.px(40), gap = theme.px(4);
   pane("toolbar", {0, top}, {size.x, bar}, c.panel, {theme.px(12), theme.px(6)}, [&] { draw_clock(editor); });
   const float y = top + bar + 1;
-  const float side = person.shows_side ? std::min(theme.px(person.side_width), size.x - 2 * kLeastPane) : 0;
-  const float bottom = person.shows_bottom ? std::min(theme.px(person.bottom_height), (size.y - y) - kLeastPane) : 0;
+  const float side =
+      person.shows_side ? std::min({theme.px(person.side_width), kMostOfSide * size.x, size.x - 2 * kLeastPane}) : 0;
+  const float bottom = person.shows_bottom
+                           ? std::min({theme.px(person.bottom_height), kMostOfBottom * (size.y - y), (size.y - y) - kLeastPane})
+                           : 0;
   const float middle_width = size.x - side - (side > 0 ? gap : 0), middle_height = size.y - y - bottom - (bottom > 0 ? gap : 0);
   const float left = std::clamp(person.canvas_share * middle_width, kLeastPane, middle_width - kLeastPane);
   pane("canvas", {0, y}, {left, middle_height}, c.canvas, {0, 0}, [&] { canvas_->draw({left, middle_height}); });

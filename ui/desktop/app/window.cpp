@@ -153,7 +153,8 @@ int run_window(const WindowOptions& options) {
         if (scale != person.scale) {
           if (const std::string note = editor.theme.load_fonts(person.scale); !note.empty())
             editor.tell(NoticeKind::warning, note);
-          ImGui_ImplOpenGL3_DestroyFontsTexture();
+          // The first letters go to the graphics processor with all else; later ones take their place.
+          if (scale != 0) ImGui_ImplOpenGL3_DestroyFontsTexture(), ImGui_ImplOpenGL3_CreateFontsTexture();
         }
         editor.theme.apply(person.is_dark, person.scale);
         scale = person.scale;
