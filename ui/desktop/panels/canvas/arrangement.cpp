@@ -129,7 +129,76 @@ void lay_out_chosen(Board& board) {
   const ImVec2 corner = around.at;
   std::vector<std::pair<std::size_t, ImVec2>> moved;
   for (std::size_t k = 0; k < chosen.size(); ++k) moved.emplace_back(chosen[k], places[k] + corner);
-  put(board, moved);
+  put(board, moved, "Lay out");
+}
+
+namespace {
+
+// Frames that are chosen, and those all of whose nodes are: the outermost of them, which take the others along.
+std::set<std::string> whole_frames(const Board& board) {
+  const ViewData& view = board.model.view;
+  std::set<std::string> whole;
+  for (const auto& [id, frame] : view.frames) {
+    std::size_t count = 0, chosen = 0;
+    for (const NodeBox& box : board.model.boxes)
+      if (view.holds_node(id, box.id)) ++count, chosen += board.editor.picks.nodes.contains(box.id) ? 1 : 0;
+    if (board.model.shows_frame(id) && (board.picked_frames.contains(id) || (count > 0 && chosen == count))) whole.insert(id);
+  }
+  std::set<std::string> outermost = whole;
+  std::erase_if(outermost, [&](const std::string& id) {
+    return std::any_of(whole.begin(), whole.end(), [&](const std::string& other) {
+      // Of frames in a ring the first one counts.
+      return other != id && view.is_within(id, other) && (!view.is_within(other, id) || other < id);
+    });
+  });
+  return outermost;
+}
+
+}  // namespace
+
+void drop_emptied_frames(const Board& board, Json& patch) {
+  const auto changed = patch.find("frames");
+  if (changed == patch.end() || !changed->is_object()) return;
+  const auto& frames = board.model.view.frames;
+  // What the patch says of a frame; null where it removes it, nothing where it is silent.
+  const auto said = [&](const std::string& id) -> const Json* {
+    const auto found = changed->find(id);
+    return found == changed->end() ? nullptr : &*found;
+  };
+  const auto keeps_any = [&](const std::string& id, const char* list, const std::set<std::string>& old, const auto& exists) {
+    const Json* change = said(id);
+    const auto members = change != nullptr && change->contains(list) ? change->at(list) : Json::object();
+    return std::any_of(old.begin(), old.end(), [&](const auto& m) { return !members.contains(m) && exists(m); }) ||
+           std::any_of(members.begin(), members.end(), [](const Json& is_in) { return !is_in.is_null(); });
+  };
+  const auto is_node = [&](const std::string& id) { return board.editor.scene().nodes.contains(id); };
+  const auto is_comment = [&](const std::string& id) { return board.model.view.comments.contains(id); };
+  const auto outer_of = [&](const std::string& id, const std::string& old) {
+    const Json* change = said(id);
+    if (change == nullptr || !change->contains("in")) return old;
+    return change->at("in").is_string() ? change->at("in").get<std::string>() : std::string();
+  };
+  const auto is_empty = [&](const std::string& id, const Frame& frame) {
+    if (keeps_any(id, "nodes", frame.nodes, is_node) || keeps_any(id, "comments", frame.comments, is_comment)) return false;
+    for (const auto& [other, inner] : frames)
+      if (other != id && (said(other) == nullptr || !said(other)->is_null()) && outer_of(other, inner.in) == id) return false;
+    // A frame that the same patch makes.
+    for (const auto& [other, change] : changed->items())
+      if (!frames.contains(other) && change.is_object() && outer_of(other, "") == id) return false;
+    return true;
+  };
+  // One that goes may have been all that was left in the one around it.
+  for (bool is_done = false; !is_done;) {
+    is_done = true;
+    for (const auto& [id, frame] : frames) {
+      const bool is_touched = said(id) != nullptr || std::any_of(frames.begin(), frames.end(), [&](const auto& inner) {
+                                return inner.second.in == id && said(inner.first) != nullptr;
+                              });
+      if (!is_touched || (said(id) != nullptr && said(id)->is_null()) || !is_empty(id, frame)) continue;
+      (*changed)[id] = nullptr;
+      is_done = false;
+    }
+  }
 }
 
 void frame_chosen(Board& board) {
@@ -143,24 +212,24 @@ void frame_chosen(Board& board) {
   frame["name"] = "Frame";
   frame["colour"] = view.frames.size() % 9;
   // A frame around things that all lie in one frame lies in it as well; whole frames move in as they are.
-  std::set<std::string> outer;
-  for (const std::string& node : nodes) {
-    const std::string own = view.frame_of_node(node);
-    if (!own.empty() && board.picked_frames.contains(own)) continue;
-    outer.insert(own);
-    if (!own.empty()) patch["frames"][own]["nodes"][node] = nullptr;
-    patch["frames"][id]["nodes"][node] = true;
-  }
-  for (const std::string& comment : board.picked_comments) {
-    const std::string own = view.frame_of_comment(comment);
-    outer.insert(own);
-    if (!own.empty()) patch["frames"][own]["comments"][comment] = nullptr;
-    patch["frames"][id]["comments"][comment] = true;
-  }
-  for (const std::string& inner : board.picked_frames)
-    if (view.frames.contains(inner)) outer.insert(view.frames.at(inner).in), patch["frames"][inner]["in"] = id;
-  const std::string in = outer.size() == 1 && !outer.begin()->empty() ? *outer.begin() : board.model.entered;
+  const std::set<std::string> whole = whole_frames(board);
+  const auto moves_along = [&](const std::string& own) {
+    return std::any_of(whole.begin(), whole.end(), [&](const std::string& outer) { return view.is_within(own, outer); });
+  };
+  std::set<std::string> around;
+  const auto take = [&](const char* list, const std::string& thing, const std::string& own) {
+    if (!own.empty() && moves_along(own)) return;
+    around.insert(own);
+    if (!own.empty()) patch["frames"][own][list][thing] = nullptr;
+    patch["frames"][id][list][thing] = true;
+  };
+  for (const std::string& node : nodes) take("nodes", node, view.frame_of_node(node));
+  for (const std::string& comment : board.picked_comments) take("comments", comment, view.frame_of_comment(comment));
+  for (const std::string& inner : whole) around.insert(view.frames.at(inner).in), patch["frames"][inner]["in"] = id;
+  if (around.empty()) return;
+  const std::string in = around.size() == 1 && view.frames.contains(*around.begin()) ? *around.begin() : board.model.entered;
   if (!in.empty()) patch["frames"][id]["in"] = in;
+  drop_emptied_frames(board, patch);
   if (!board.editor.arrange(write_json_line(patch), board.editor.new_gesture())) return;
   board.model.update(board.editor);
   board.picked_frames = {id};

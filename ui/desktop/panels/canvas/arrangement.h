@@ -11,8 +11,10 @@ void align_chosen(Board& board, Alignment alignment);
 void distribute_chosen(Board& board, bool is_across);
 /// The automatic layout for the chosen nodes, or for all.
 void lay_out_chosen(Board& board);
-/// A frame around what is chosen; chosen frames lie in it.
+/// A frame around what is chosen; chosen frames, and those all of whose nodes are chosen, lie in it as they are.
 void frame_chosen(Board& board);
+/// Makes a change of the view remove the frames as well that it leaves without content: nobody could see or reach them.
+void drop_emptied_frames(const Board& board, Json& patch);
 /// A comment at the cursor, ready to be written.
 void add_comment(Board& board);
 /// Opens the editing of a name or text in its place.

@@ -54,9 +54,10 @@ struct Drag {
   bool copies = false, leaves = false;           ///< with Alt; with Shift
   bool adds = false, toggles = false;            ///< box selection with Shift; with Ctrl
   std::set<std::string> base_nodes, base_links;  ///< what was chosen before a box selection
-  std::size_t revision = 0;                      ///< of the model; a scene that changes meanwhile ends the drag
-  std::vector<ImVec2> swipe;                     ///< of a cut
-  std::vector<std::size_t> anchors;              ///< that move
+  std::set<std::string> base_comments, base_frames;
+  std::size_t revision = 0;          ///< of the model; a scene that changes meanwhile ends the drag
+  std::vector<ImVec2> swipe;         ///< of a cut
+  std::vector<std::size_t> anchors;  ///< that move
   std::vector<std::string> comments;
   std::vector<std::pair<std::string, std::size_t>> dots;
   std::vector<Box> old_anchors, old_comments;

@@ -3,6 +3,7 @@
 
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/canvas/additions.h"
+#include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/clipboard.h"
 #include "ui/desktop/panels/canvas/context_menu.h"
 #include "ui/desktop/panels/canvas/edits.h"
@@ -149,8 +150,8 @@ void go_on_boxing(Board& board) {
   Picks& picks = board.editor.picks;
   picks.nodes = keeps ? drag.base_nodes : std::set<std::string>();
   picks.links = keeps ? drag.base_links : std::set<std::string>();
-  board.picked_comments.clear();
-  board.picked_frames.clear();
+  board.picked_comments = keeps ? drag.base_comments : std::set<std::string>();
+  board.picked_frames = keeps ? drag.base_frames : std::set<std::string>();
   const auto is_in = [&](const Box& other) { return encloses ? box.encloses(other) : box.touches(other); };
   const auto take = [&](std::set<std::string>& set, const std::string& id) {
     if (drag.toggles && set.erase(id) > 0) return;
@@ -160,7 +161,10 @@ void go_on_boxing(Board& board) {
   for (const NodeBox& node : board.model.boxes)
     if (is_in(node.box)) take(picks.nodes, node.id), has_nodes = true;
   for (const auto& [id, comment] : board.model.view.comments)
-    if (board.model.shows_comment(id) && is_in(comment.box)) board.picked_comments.insert(id), has_nodes = true;
+    if (board.model.shows_comment(id) && is_in(comment.box)) take(board.picked_comments, id), has_nodes = true;
+  // A frame is large and lies behind: it is meant where all of it is inside, whichever way the box was drawn.
+  for (const auto& [id, frame] : board.model.view.frames)
+    if (Box outline; board.model.frame_box(id, outline) && box.encloses(outline)) take(board.picked_frames, id);
   if (has_nodes) return;
   for (const Line& line : board.model.lines) {
     if (board.is_hidden(line)) continue;
@@ -199,7 +203,10 @@ void go_on_dragging(Board& board) {
       if (board.space_since >= 0) board.has_space_panned = true;
       break;
     case Deed::box:
-      if (is_new) drag.base_nodes = board.editor.picks.nodes, drag.base_links = board.editor.picks.links;
+      if (is_new) {
+        drag.base_nodes = board.editor.picks.nodes, drag.base_links = board.editor.picks.links;
+        drag.base_comments = board.picked_comments, drag.base_frames = board.picked_frames;
+      }
       if (drag.is_far) go_on_boxing(board);
       break;
     case Deed::move:
@@ -283,6 +290,7 @@ void end_move(Board& board) {
     patch["dots"][id] = std::move(list);
   }
   patch_membership(board, drag, patch);
+  drop_emptied_frames(board, patch);
   if (!patch.empty()) board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/text.h"
 #include "core/file/scene_file.h"
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/fits.h"
 
 namespace bl::desktop::canvas {
@@ -133,6 +134,7 @@ void remove_chosen(Board& board, bool reconnects) {
         patch["frames"][other]["in"] = outer.empty() ? Json() : Json(outer);
       }
   }
+  drop_emptied_frames(board, patch);
   add_view_patch(commands, patch);
   if (commands.empty()) return editor.tell(NoticeKind::told, "Nothing is chosen that could be removed.");
   editor.submit(commands, editor.new_gesture());
