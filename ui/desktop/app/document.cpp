@@ -9,6 +9,7 @@
 
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
+#include "ui/desktop/app/step_labels.h"
 
 namespace bl::desktop {
 
@@ -104,40 +105,11 @@ Result<void> Document::save_log(const std::string& path) const {
   return write_file(path, text);
 }
 
-namespace {
-
-// What a command is about: the name of its node, or the id of its link.
-std::string subject_of(const Command& command, const Scene& scene) {
-  for (const char* argument : {"node", "id", "setting"}) {
-    const auto found = command.arguments.find(argument);
-    if (found == command.arguments.end()) continue;
-    const auto* id = std::get_if<std::string>(&found->second);
-    if (id == nullptr) continue;
-    const auto node = scene.nodes.find(*id);
-    return node != scene.nodes.end() && !node->second.name.empty() ? node->second.name : *id;
-  }
-  return "";
+void Document::name_step(std::int64_t gesture, std::string label) {
+  for (HistoryStep& step : history_)
+    if (step.gesture == gesture) step.label = label;
+  named_[gesture] = std::move(label);
 }
-
-std::string label_of(const Registry& registry, const Command& command, const Scene& scene) {
-  if (command.id == "batch") {
-    const auto found = command.arguments.find("commands");
-    const auto* text = found == command.arguments.end() ? nullptr : std::get_if<std::string>(&found->second);
-    const Json list = text == nullptr ? Json() : Json::parse(*text, nullptr, false);
-    if (list.is_array() && !list.empty())
-      if (auto first = command_from_json(registry, list.front(), ""); first)
-        return label_of(registry, *first, scene) +
-               (list.size() > 1 ? " and " + std::to_string(list.size() - 1) + " more" : std::string());
-  }
-  const CommandDefinition* definition = registry.command(command.id);
-  const std::string subject = subject_of(command, scene);
-  const auto port = command.arguments.find("port");
-  const auto* path = port == command.arguments.end() ? nullptr : std::get_if<std::string>(&port->second);
-  const std::string what = path == nullptr ? "" : ", " + path->substr(path->find('.') + 1);
-  return (definition != nullptr ? definition->label : command.id) + (subject.empty() ? "" : " · " + subject) + what;
-}
-
-}  // namespace
 
 const std::vector<HistoryStep>& Document::history() {
   const auto& log = session_->log();
@@ -159,7 +131,9 @@ const std::vector<HistoryStep>& Document::history() {
     if (step == history_.end()) {
       // A new step ends what was undone before it.
       std::erase_if(history_, [](const HistoryStep& s) { return s.is_undone; });
-      history_.push_back({entry.gesture, entry.tick, label_of(*registry_, entry.command, scene()), false, 0});
+      const auto named = named_.find(entry.gesture);
+      const std::string label = named != named_.end() ? named->second : label_of_step(*registry_, entry.command, scene());
+      history_.push_back({entry.gesture, entry.tick, label, false, 0});
       step = history_.end() - 1;
     }
     ++step->entries;

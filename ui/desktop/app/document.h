@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -47,6 +48,8 @@ class Document {
   Result<void> save_log(const std::string& path) const;
   /// Steps, oldest first; made anew after changes only.
   const std::vector<HistoryStep>& history();
+  /// What the step of a gesture is called, where its commands alone do not say what was meant: "Solo · Hotel".
+  void name_step(std::int64_t gesture, std::string label);
 
   /// Takes back the gesture that people are in the middle of, as if they had never begun it: it is no step of the history, and
   /// cannot be redone. Nothing where it has changed nothing yet.
@@ -67,7 +70,8 @@ class Document {
   std::unique_ptr<LiveSession> session_;
   Journal journal_;
   std::vector<HistoryStep> history_;
-  std::set<std::int64_t> abandoned_;  ///< gestures
+  std::map<std::int64_t, std::string> named_;  ///< by gesture
+  std::set<std::int64_t> abandoned_;           ///< gestures
   std::size_t history_size_ = 0, compared_size_ = 0;
   bool is_unsaved_ = false;
 };

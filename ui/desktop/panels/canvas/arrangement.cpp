@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 #include <nlohmann/json.hpp>
 
+#include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/entered.h"
@@ -21,12 +22,14 @@ std::vector<std::size_t> chosen_boxes(const Board& board) {
 }
 
 // Submits new places of boxes as one step.
-void put(Board& board, const std::vector<std::pair<std::size_t, ImVec2>>& places) {
+void put(Board& board, const std::vector<std::pair<std::size_t, ImVec2>>& places, const std::string& verb) {
   Json patch = Json::object();
   for (const auto& [k, at] : places)
     if (length(at - board.model.boxes[k].box.at) > 0.01f || !board.model.boxes[k].is_stored)
       patch["boxes"][board.model.boxes[k].id] = place_json(at);
-  if (!patch.empty()) board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
+  std::vector<Command> commands;
+  add_view_patch(commands, patch);
+  if (!commands.empty()) submit_as(board, commands, verb + " " + report::counted(places.size(), "node"));
 }
 
 std::string fresh_key(const std::string& base, const std::function<bool(const std::string&)>& is_taken) {
@@ -68,7 +71,7 @@ void align_chosen(Board& board, Alignment alignment) {
     }
     places.emplace_back(k, at);
   }
-  put(board, places);
+  put(board, places, "Align");
 }
 
 void distribute_chosen(Board& board, bool is_across) {
@@ -88,7 +91,7 @@ void distribute_chosen(Board& board, bool is_across) {
     places.emplace_back(k, place);
     at += size(k) + gap;
   }
-  put(board, places);
+  put(board, places, "Distribute");
 }
 
 void lay_out_chosen(Board& board) {

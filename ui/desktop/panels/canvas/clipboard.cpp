@@ -238,7 +238,9 @@ bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shi
   }
   paste_comments(pasting, list_in(*clip, "comments"), comments);
   add_view_patch(pasting.commands, pasting.patch);
-  if (pasting.commands.empty() || !editor.submit(pasting.commands, editor.new_gesture())) return false;
+  const std::string what =
+      pasting.nodes.empty() ? report::counted(comments.size(), "comment") : report::counted(pasting.nodes.size(), "node");
+  if (pasting.commands.empty() || !submit_as(board, pasting.commands, (is_shift ? "Duplicate " : "Paste ") + what)) return false;
   editor.picks.links.clear();
   editor.picks.nodes = pasting.nodes;
   board.model.update(editor);

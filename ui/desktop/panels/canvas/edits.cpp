@@ -102,6 +102,38 @@ std::set<std::string> links_of_choice(const Board& board) {
   return links;
 }
 
+bool submit_as(Board& board, const std::vector<Command>& commands, const std::string& label) {
+  const std::int64_t gesture = board.editor.new_gesture();
+  board.editor.document->name_step(gesture, label);
+  return board.editor.submit(commands, gesture);
+}
+
+namespace {
+
+// All that reaches what is chosen: also links of the whole scene that end at a set with a chosen node in it.
+std::set<std::string> links_heard(const Board& board) {
+  std::set<std::string> links = links_of_choice(board);
+  const Editor& editor = board.editor;
+  const auto& nodes = editor.picks.nodes;
+  const auto reaches = [&](const Selection& end) {
+    const std::vector<std::string> members = resolve(editor.scene(), editor.registry, end);
+    return std::any_of(members.begin(), members.end(), [&](const std::string& id) { return nodes.contains(id); });
+  };
+  for (const auto& [id, link] : editor.scene().links)
+    if (!nodes.empty() && (reaches(link.from) || reaches(link.to))) links.insert(id);
+  return links;
+}
+
+// Who is heard alone, for the history.
+std::string soloists(const Board& board) {
+  const Picks& picks = board.editor.picks;
+  if (picks.nodes.size() == 1) return "\xc2\xb7 " + board.editor.name_of(*picks.nodes.begin());
+  if (!picks.nodes.empty()) return report::counted(picks.nodes.size(), "node");
+  return picks.links.size() == 1 ? "\xc2\xb7 " + *picks.links.begin() : report::counted(picks.links.size(), "link");
+}
+
+}  // namespace
+
 void remove_chosen(Board& board, bool reconnects) {
   Editor& editor = board.editor;
   const std::set<std::string> nodes = editor.picks.nodes;
@@ -167,15 +199,16 @@ void solo_chosen(Board& board) {
     for (const std::string& id : board.soloed)
       if (all.contains(id) && all.at(id).is_muted) commands.push_back(command<MuteLink>({id, false}));
     board.soloed.clear();
-    if (editor.submit(commands, editor.new_gesture())) editor.tell(NoticeKind::told, "All links speak again.");
+    if (submit_as(board, commands, "Unmute " + report::counted(commands.size(), "link")))
+      editor.tell(NoticeKind::told, "All links speak again.");
     return;
   }
-  const std::set<std::string> heard = links_of_choice(board);
+  const std::set<std::string> heard = links_heard(board);
   if (heard.empty()) return editor.tell(NoticeKind::told, "Choose links, or nodes with links, to hear them alone.");
   for (const auto& [id, link] : all)
     if (!heard.contains(id) && !link.is_muted) commands.push_back(command<MuteLink>({id, true})), board.soloed.insert(id);
   if (commands.empty()) return editor.tell(NoticeKind::told, "No other link speaks.");
-  if (editor.submit(commands, editor.new_gesture()))
+  if (submit_as(board, commands, "Solo " + soloists(board)))
     editor.tell(NoticeKind::told, report::counted(board.soloed.size(), "other link") + " muted; Q brings them back.");
 }
 

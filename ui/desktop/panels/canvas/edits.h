@@ -15,7 +15,7 @@ void remove_chosen(Board& board, bool reconnects);
 void remove_links(Board& board, const std::set<std::string>& links);
 /// Mutes the chosen links and those of the chosen nodes; if all of them are muted, lets them speak again.
 void mute_chosen(Board& board);
-/// Mutes all links but those; once more gives back what it has muted.
+/// Mutes all links but those, and those that reach a chosen node through a set; once more gives back what it has muted.
 void solo_chosen(Board& board);
 /// Gives all links that end at one body to another, as far as they fit there.
 void move_links(Board& board, std::size_t from, std::size_t to);
@@ -38,6 +38,8 @@ class FreshIds {
   std::set<std::string> given_;
 };
 
+/// One step under a name of its own, where the commands do not say what was meant.
+bool submit_as(Board& board, const std::vector<Command>& commands, const std::string& label);
 /// A change of the view as one of several commands; nothing where the patch is empty.
 void add_view_patch(std::vector<Command>& commands, const Json& patch);
 
