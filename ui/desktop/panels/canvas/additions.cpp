@@ -17,6 +17,8 @@ namespace {
 
 // Links between more nodes than these are laid to a set.
 constexpr std::size_t kMostBundled = 40;
+// More than any recency.
+constexpr int kAfterVolumes = 5000;
 
 int recency_of(const Editor& editor, const std::string& id) {
   const auto& recent = editor.person.recent_additions;
@@ -267,8 +269,11 @@ void open_drop_menu(Board& board, std::size_t from, ImVec2 screen) {
   for (const auto& [id, kind] : editor.registry.links())
     for (const auto& [role, type] : editor.registry.typifications()) {
       if (!is_role(type) || misfit_with_new(editor.registry, editor.scene(), kind, a, type)) continue;
-      // Places are everybody's; a link that only moves things is offered with volumes first.
-      const int taste = role == "smart_volume" ? 0 : 200;
+      // Every node has a place, but only a volume's is seen: moving a table of numbers about helps nobody.
+      const bool is_volume = role == "smart_volume";
+      if (!is_volume && knows_places_only(kind, End::to)) continue;
+      // What was used last decides among volumes and among the rest, never between them.
+      const int taste = is_volume ? 0 : kAfterVolumes;
       picker.choices.push_back({id, kind.label + "  \xe2\x86\x92  " + type.label, first_sentence(kind.doc), "",
                                 editor.theme.family_of(id).colour, recency_of(editor, id) + taste, "", role});
     }

@@ -120,6 +120,12 @@ std::optional<std::string> misfit_with_new(const Registry& registry, const Scene
   return std::nullopt;
 }
 
+bool knows_places_only(const LinkDefinition& kind, End end) {
+  const std::vector<PortPath> paths = fixed_paths(kind, end);
+  return !chooses_port(kind.reads, end) && !chooses_port(kind.proposes, end) &&
+         std::all_of(paths.begin(), paths.end(), [](const PortPath& path) { return path.typification == kBaseNode; });
+}
+
 PortValues chosen_ports(const Registry& registry, const Scene& scene, const LinkDefinition& kind, const Selection& from,
                         const Selection& to) {
   std::map<std::string, std::vector<Candidate>> offers;

@@ -15,6 +15,9 @@ std::optional<std::string> misfit(const Registry& registry, const Scene& scene, 
 std::optional<std::string> misfit_with_new(const Registry& registry, const Scene& scene, const LinkDefinition& kind,
                                            const Selection& from, const TypificationDefinition& role);
 
+/// Does the kind read and change nothing at this end but who and where a node is, which every node has?
+bool knows_places_only(const LinkDefinition& kind, End end);
+
 /// Ports for the parameters that choose one, where the nodes at the ends offer any.
 PortValues chosen_ports(const Registry& registry, const Scene& scene, const LinkDefinition& kind, const Selection& from,
                         const Selection& to);

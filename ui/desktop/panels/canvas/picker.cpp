@@ -8,15 +8,16 @@
 #include <GLFW/glfw3.h>
 #include <imgui_stdlib.h>
 
-#include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/app/fuzzy.h"
+#include "ui/desktop/panels/canvas/board.h"
+#include "ui/desktop/panels/inspector_cell.h"
 
 namespace bl::desktop::canvas {
 
 namespace {
 
 constexpr const char* kName = "canvas picker";
-constexpr float kWidth = 380, kRow = 38, kMostHeight = 400;
+constexpr float kWidth = 380, kRow = 38, kLine = 15, kMostHeight = 400, kLeft = 24, kRight = 8;
 
 void filter(Picker& picker) {
   picker.shown.clear();
@@ -42,12 +43,33 @@ void filter(Picker& picker) {
   picker.filtered_for = picker.text;
 }
 
+const std::string& below_of(const Choice& choice) { return choice.why_not.empty() ? choice.detail : choice.why_not; }
+
+float room_of(const Theme& theme, float width) { return width - theme.px(kLeft + kRight); }
+
+float height_of(const Theme& theme, const Choice& choice, float width) {
+  const TwoLines lines = in_two_lines(theme, below_of(choice), room_of(theme, width));
+  return theme.px(kRow + (lines.second.empty() ? 0 : kLine));
+}
+
+// Whatever had to be cut, in full.
+void draw_tip(const Theme& theme, const std::string& label, const std::string& below) {
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(theme.px(kWidth));
+  ImGui::TextUnformatted(label.c_str());
+  ImGui::TextUnformatted(below.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 // One choice: its name, and below it what it is, or why it cannot be had. Whether it was clicked.
 bool draw_choice(Board& board, const Choice& choice, bool is_marked, bool& is_pointed_at) {
   const Theme& theme = board.theme();
   const Colours& c = theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 size{ImGui::GetContentRegionAvail().x, theme.px(kRow)};
+  const float width = ImGui::GetContentRegionAvail().x, room = room_of(theme, width);
+  const TwoLines lines = in_two_lines(theme, below_of(choice), room);
+  const ImVec2 size{width, theme.px(kRow + (lines.second.empty() ? 0 : kLine))};
   const bool is_clicked = ImGui::InvisibleButton("choice", size);
   is_pointed_at = ImGui::IsItemHovered() && (ImGui::GetIO().MouseDelta.x != 0 || ImGui::GetIO().MouseDelta.y != 0);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -55,20 +77,16 @@ bool draw_choice(Board& board, const Choice& choice, bool is_marked, bool& is_po
   if (is_marked) list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, can ? c.accent_soft : c.sunken, theme.px(4));
   if (choice.colour != 0)
     list.AddCircleFilled({at.x + theme.px(12), at.y + theme.px(13)}, theme.px(4), can ? choice.colour : c.text_faint, 12);
-  const float left = at.x + theme.px(24);
-  const ImVec4 clip(left, at.y, at.x + size.x - theme.px(6), at.y + size.y);
+  const float left = at.x + theme.px(kLeft);
+  const std::string label = fitted(choice.label, room);
   list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {left, at.y + theme.px(3)}, can ? c.text : c.text_faint,
-               choice.label.c_str(), nullptr, 0, &clip);
-  const std::string& below = can ? choice.detail : choice.why_not;
-  list.AddText(theme.fonts().small, theme.fonts().small->FontSize, {left, at.y + theme.px(20)}, can ? c.text_soft : c.text_faint,
-               below.c_str(), nullptr, 0, &clip);
-  if (ImGui::IsItemHovered() && ImGui::CalcTextSize(below.c_str()).x > size.x - theme.px(30)) {
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(theme.px(kWidth));
-    ImGui::TextUnformatted(below.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-  }
+               label.c_str());
+  ImFont* small = theme.fonts().small;
+  const ImU32 soft = can ? c.text_soft : c.text_faint;
+  list.AddText(small, small->FontSize, {left, at.y + theme.px(20)}, soft, lines.first.c_str());
+  if (!lines.second.empty())
+    list.AddText(small, small->FontSize, {left, at.y + theme.px(20 + kLine)}, soft, lines.second.c_str());
+  if (ImGui::IsItemHovered() && (lines.is_cut || label != choice.label)) draw_tip(theme, choice.label, below_of(choice));
   return is_clicked;
 }
 
@@ -105,8 +123,12 @@ std::size_t draw_list(Board& board, bool has_walked) {
   Picker& picker = board.picker;
   const Theme& theme = board.theme();
   std::size_t clicked = picker.shown.size();
-  const float height = std::min(theme.px(kMostHeight),
-                                theme.px(kRow) * static_cast<float>(std::max<std::size_t>(1, picker.shown.size())) + theme.px(4));
+  // As if it had a scroll bar: with one, lines are no longer than they were measured.
+  const float width = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
+  float height = theme.px(4);
+  for (std::size_t place = 0; place < picker.shown.size() && height < theme.px(kMostHeight); ++place)
+    height += height_of(theme, picker.choices[picker.shown[place]], width);
+  height = std::clamp(height, theme.px(kRow + 4), theme.px(kMostHeight));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   ImGui::BeginChild("list", {0, height}, false, ImGuiWindowFlags_NoNav);
   if (picker.shown.empty()) ImGui::TextDisabled("%s", picker.empty_text.c_str());
@@ -133,6 +155,24 @@ void place_window(Board& board) {
 }
 
 }  // namespace
+
+TwoLines in_two_lines(const Theme& theme, const std::string& text, float width) {
+  const ImFont& font = *theme.fonts().small;
+  const char *begin = text.c_str(), *end = begin + text.size();
+  const char* turn = font.CalcWordWrapPositionA(1, begin, end, std::max(1.0f, width));
+  TwoLines lines{{begin, turn}, "", false};
+  while (turn < end && *turn == ' ') ++turn;
+  if (turn == end) return lines;
+  lines.second = turn;
+  if (font.CalcTextSizeA(font.FontSize, 1e9f, 0, turn, end).x <= width) return lines;
+  constexpr const char* kDots = "\xe2\x80\xa6";
+  const float room = width - font.CalcTextSizeA(font.FontSize, 1e9f, 0, kDots).x;
+  const char* rest = turn;
+  font.CalcTextSizeA(font.FontSize, std::max(1.0f, room), 0, turn, end, &rest);
+  lines.second = std::string(turn, rest) + kDots;
+  lines.is_cut = true;
+  return lines;
+}
 
 void open_picker(Board& board, Picker picker) {
   board.picker = std::move(picker);

@@ -7,6 +7,8 @@
 
 #include <imgui.h>
 
+#include "ui/desktop/app/theme.h"
+
 namespace bl::desktop::canvas {
 
 struct Board;
@@ -33,6 +35,13 @@ struct Picker {
   std::size_t marked = 0;
   std::string filtered_for;
 };
+
+/// A description in two lines at most; what has no room in them ends with dots.
+struct TwoLines {
+  std::string first, second;
+  bool is_cut = false;
+};
+TwoLines in_two_lines(const Theme& theme, const std::string& text, float width);
 
 /// Opens with a list at a place on the screen.
 void open_picker(Board& board, Picker picker);
