@@ -112,7 +112,7 @@ void lay_out_chosen(Board& board) {
     if (!patch.empty()) board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
     board.after_frame = [](Board& b) {
       b.model.update(b.editor);
-      b.camera.fit(b.model.bounds(), true);
+      fit_all(b, true);
     };
     return;
   }
@@ -324,6 +324,15 @@ void draw_inline_edit(Board& board) {
   edit.is_fresh = false;
   if (is_left) board.edit = {};
   else if (is_done || is_out) end_edit(board);
+}
+
+void fit_all(Board& board, bool is_soft) {
+  const Model& model = board.model;
+  std::vector<Box> bodies;
+  for (std::size_t k = 0; k < model.anchors(); ++k) bodies.push_back(model.anchor(k));
+  for (const auto& [id, comment] : model.view.comments)
+    if (model.shows_comment(id)) bodies.push_back(comment.box);
+  board.camera.fit(model.bounds(), is_soft, bodies);
 }
 
 void show_node(Board& board, const std::string& id) {

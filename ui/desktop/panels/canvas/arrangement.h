@@ -22,6 +22,8 @@ void begin_edit(Board& board, Thing thing, const std::string& id);
 void draw_inline_edit(Board& board);
 /// Chooses the nearest node in a direction from the chosen one.
 void step_choice(Board& board, ImVec2 direction);
+/// Shows all that is on the canvas, as far as possible with nothing under the minimap.
+void fit_all(Board& board, bool is_soft);
 /// Brings it into sight if it is outside.
 void show_node(Board& board, const std::string& id);
 /// The box around the chosen nodes and comments, if any.

@@ -31,7 +31,8 @@ enum class Thing {
   frame,
   minimap,
   chip,
-  crumb
+  crumb,
+  card_cross
 };
 struct Hit {
   Thing thing = Thing::nothing;
@@ -84,6 +85,13 @@ struct ContextMenu {
   std::size_t marked = kNoIndex;  ///< among what is offered
 };
 
+/// The switches of families as a list, where the pane is too small for them.
+struct FamilyList {
+  bool is_folded = false;  ///< one button stands for all switches
+  bool is_opening = false, is_open = false;
+  std::vector<std::pair<std::string, Box>> rows;  ///< where they are on the screen
+};
+
 /// A part of the breadcrumb: a frame that one is in, and where its name is on the screen.
 struct Crumb {
   std::string frame, label;  ///< no frame: the whole canvas
@@ -105,14 +113,16 @@ struct Board {
   double hovered_since = 0;
   std::set<std::string> hidden_families;  ///< the person's own, not the scene's
   std::set<std::string> picked_comments, picked_frames;
-  std::vector<std::string> choice_order;           ///< chosen nodes, the first that was chosen first
-  std::vector<std::string> pinned;                 ///< nodes whose cards stay
-  std::set<std::string> soloed;                    ///< links that solo has muted
-  std::vector<std::pair<std::string, Box>> chips;  ///< families and where their switches are on the screen
-  std::vector<Crumb> crumbs;                       ///< outermost first; none outside of frames
-  std::vector<std::string> way_in;                 ///< the entered frame and those around it, outermost first
-  std::map<std::string, Camera::Pose> poses;       ///< where the canvas was looked at when it was left for another frame
-  Box minimap;                                     ///< on the screen; no size where it is not shown
+  std::vector<std::string> choice_order;             ///< chosen nodes, the first that was chosen first
+  std::vector<std::string> pinned;                   ///< nodes whose cards stay
+  std::vector<std::pair<std::string, Box>> crosses;  ///< of pinned cards: their nodes, and where they are closed
+  std::set<std::string> soloed;                      ///< links that solo has muted
+  std::vector<std::pair<std::string, Box>> chips;    ///< families and where their switches are; one without a name for all
+  FamilyList families;
+  std::vector<Crumb> crumbs;                  ///< outermost first; none outside of frames
+  std::vector<std::string> way_in;            ///< the entered frame and those around it, outermost first
+  std::map<std::string, Camera::Pose> poses;  ///< where the canvas was looked at when it was left for another frame
+  Box minimap;                                ///< on the screen; no size where it is not shown
   bool shows_minimap = true, snaps = true, is_reset = true;
   double space_since = -1;  ///< Space is held, perhaps to pan
   bool has_space_panned = false;

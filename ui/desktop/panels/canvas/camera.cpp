@@ -7,6 +7,8 @@ namespace {
 
 constexpr double kGlideSeconds = 0.22;
 constexpr float kFitMargin = 26;
+// Of the zoom without anything over the corner: what makes room for that is not worth more.
+constexpr double kLeastShare = 0.75;
 
 }  // namespace
 
@@ -82,13 +84,37 @@ void Camera::glide(const Pose& goal) {
   glide_end_ = now_ + kGlideSeconds;
 }
 
-void Camera::fit(const Box& box, bool is_soft) {
+// The box in the middle of what is left of the pane beside the head, and a strip at the left and at the foot.
+Camera::Pose Camera::pose_beside(const Box& box, double left, double foot) const {
   const double margin = 2 * static_cast<double>(kFitMargin) * scale_;
-  const double across = (static_cast<double>(pane_.size.x) - margin) / std::max(1.0, static_cast<double>(box.size.x));
-  const double down = (static_cast<double>(pane_.size.y) - margin - head_) / std::max(1.0, static_cast<double>(box.size.y));
-  const double zoom = std::clamp(std::min(across, down) / scale_, kLeastZoom, 1.0);
-  // The switches lie over the upper edge.
-  go_to({static_cast<double>(box.centre().x), static_cast<double>(box.centre().y) - head_ / 2 / (zoom * scale_), zoom}, is_soft);
+  const double across = (static_cast<double>(pane_.size.x) - margin - left) / std::max(1.0, static_cast<double>(box.size.x));
+  const double down =
+      (static_cast<double>(pane_.size.y) - margin - head_ - foot) / std::max(1.0, static_cast<double>(box.size.y));
+  const double zoom = std::clamp(std::min(across, down) / scale_, kLeastZoom, 1.0), k = zoom * scale_;
+  return {static_cast<double>(box.centre().x) - left / 2 / k, static_cast<double>(box.centre().y) - (head_ - foot) / 2 / k, zoom};
+}
+
+bool Camera::is_clear(const Pose& pose, const std::vector<Box>& bodies) const {
+  const float k = static_cast<float>(pose.zoom * scale_);
+  const ImVec2 middle{static_cast<float>(pose.x), static_cast<float>(pose.y)};
+  const Box corner{{0, pane_.size.y - corner_.y}, corner_};
+  return std::none_of(bodies.begin(), bodies.end(), [&](const Box& body) {
+    return corner.touches({(body.at - middle) * k + pane_.size * 0.5f, body.size * k});
+  });
+}
+
+void Camera::fit(const Box& box, bool is_soft, const std::vector<Box>& bodies) {
+  const Pose whole = pose_beside(box, 0, 0);
+  Pose best = whole;
+  const std::vector<Box> all = bodies.empty() ? std::vector<Box>{box} : bodies;
+  if (corner_.x > 0 && !is_clear(whole, all)) {
+    // Beside the corner or above it, whichever leaves the box larger; as it was where both make it too small.
+    const Pose beside = pose_beside(box, static_cast<double>(corner_.x), 0);
+    const Pose above = pose_beside(box, 0, static_cast<double>(corner_.y));
+    const Pose& larger = beside.zoom >= above.zoom ? beside : above;
+    if (larger.zoom >= kLeastShare * whole.zoom) best = larger;
+  }
+  go_to(best, is_soft);
 }
 
 void Camera::go_to(const Pose& goal, bool is_soft) {

@@ -1,6 +1,8 @@
 // Where the canvas is looked at: a place and a zoom, with soft flights between them.
 #pragma once
 
+#include <vector>
+
 #include "ui/desktop/panels/canvas/plane.h"
 
 namespace bl::desktop::canvas {
@@ -13,6 +15,8 @@ class Camera {
   void set_pane(Box pane, float scale, double now);
   /// Pixels at the pane's upper edge that something lies over; what is fitted stays below.
   void set_head(float pixels) { head_ = static_cast<double>(pixels); }
+  /// The size of what lies over the pane's lower left corner, in pixels; what is fitted keeps clear of it where that is possible.
+  void set_corner(ImVec2 pixels) { corner_ = pixels; }
   const Box& pane() const { return pane_; }
   double zoom() const { return zoom_; }
   /// Pixels for one unit of the plane.
@@ -28,8 +32,8 @@ class Camera {
   /// What lies under `at` on the screen stays there.
   void zoom_at(ImVec2 at, double factor);
   void centre_on(ImVec2 p);
-  /// Shows all of `box`, no larger than at full size.
-  void fit(const Box& box, bool is_soft);
+  /// Shows all of `box`, no larger than at full size. `bodies`: what in it should not lie under the corner; none: all of it.
+  void fit(const Box& box, bool is_soft, const std::vector<Box>& bodies = {});
   /// Flies to a zoom around the middle of the pane.
   void glide_to_zoom(double zoom);
   bool is_gliding() const { return glide_end_ > now_; }
@@ -43,12 +47,15 @@ class Camera {
 
  private:
   Pose pose() const;
+  Pose pose_beside(const Box& box, double left, double foot) const;
+  bool is_clear(const Pose& pose, const std::vector<Box>& bodies) const;
   void set(const Pose& pose);
   void glide(const Pose& goal);
 
   Box pane_{{0, 0}, {1, 1}};
   double scale_ = 1, zoom_ = 1;
   double head_ = 0;
+  ImVec2 corner_;
   double x_ = 0, y_ = 0;  // of the plane, at the pane's upper left corner
   Pose begin_, goal_;
   double now_ = 0, glide_begin_ = 0, glide_end_ = -1;

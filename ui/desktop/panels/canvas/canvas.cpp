@@ -86,8 +86,8 @@ void Canvas::draw(ImVec2 size) {
   board.camera.set_pane({ImGui::GetWindowPos(), size}, editor.theme.scale(), editor.now);
   const std::size_t revision = board.model.revision;
   bring_up_to_date(board);
-  place_chips(board);
-  if (board.is_reset) board.camera.fit(board.model.bounds(), false);
+  place_overlays(board);
+  if (board.is_reset) fit_all(board, false);
   board.is_reset = false;
   if (revision != board.model.revision) forget_gone(board);
   follow_choice(board);
@@ -102,6 +102,7 @@ void Canvas::draw(ImVec2 size) {
   draw_inline_edit(board);
   draw_picker(board);
   draw_menu(board);
+  draw_family_list(board);
   if (auto later = std::move(board.after_frame); later) {
     board.after_frame = nullptr;
     later(board);
@@ -112,7 +113,8 @@ void Canvas::fit(bool all) {
   if (!board_->editor.document) return;
   canvas::bring_up_to_date(*board_);
   const auto chosen = all ? std::nullopt : canvas::box_of_choice(*board_);
-  board_->camera.fit(chosen.value_or(board_->model.bounds()), true);
+  if (chosen) board_->camera.fit(*chosen, true);
+  else canvas::fit_all(*board_, true);
 }
 
 void Canvas::show(const std::string& node) { canvas::show_node(*board_, node); }

@@ -29,6 +29,8 @@ bool has_choice(const Editor& e) {
          (has_picks(e) || !e.canvas->board().picked_comments.empty() || !e.canvas->board().picked_frames.empty());
 }
 
+bool has_choice_or_pin(const Editor& e) { return has_choice(e) || (has_document(e) && !e.canvas->board().pinned.empty()); }
+
 ImVec2 search_place(const Board& board) {
   if (board.menu.is_acting) return board.menu.at;
   const ImVec2 at = ImGui::GetIO().MousePos;
@@ -46,7 +48,11 @@ void select_all(Editor& e) {
 
 void select_none(Editor& e) {
   // Esc ends a drag or closes the menu, and no more. With keyboard navigation the menu is closed already when keys are looked at.
-  if (board_of(e).drag.deed != Deed::none || board_of(e).menu.is_open || !memory_of(e).scrub.key.empty()) return;
+  if (board_of(e).drag.deed != Deed::none || board_of(e).menu.is_open || board_of(e).families.is_open ||
+      !memory_of(e).scrub.key.empty())
+    return;
+  // First what is chosen, then what is pinned.
+  if (!has_choice(e)) board_of(e).pinned.clear();
   e.picks.clear();
   board_of(e).picked_comments.clear();
   board_of(e).picked_frames.clear();
@@ -163,7 +169,7 @@ void add_edit_commands(std::vector<Action>& list) {
          false,
          [](const Editor& e) { return has_document(e) && !e.canvas->board().soloed.empty(); }});
   begin_group(list, on_ground, {"Canvas", "Select all", {GLFW_KEY_A, true}, {}, area, has_document, select_all});
-  list.push_back({"Canvas", "Select nothing", {GLFW_KEY_ESCAPE}, {}, area, has_choice, select_none});
+  list.push_back({"Canvas", "Select nothing", {GLFW_KEY_ESCAPE}, {}, area, has_choice_or_pin, select_none});
   offer(list, on_node, {"Canvas", "Select neighbours too", {GLFW_KEY_N}, {}, area, has_nodes, select_neighbours});
   offer(list, on_set, {"Canvas", "Select the members of the set", {}, {}, area, is_at_set, select_members});
   offer(list, on_link, {"Canvas", "Add a dot to the link", {}, {}, area, has_one_link, dot_at_cursor});

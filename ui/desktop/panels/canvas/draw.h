@@ -25,8 +25,13 @@ void draw_pills(Board& board);
 void draw_nodes(Board& board);
 /// What a drag in progress shows: box, new link, swipe, guides.
 void draw_deed(Board& board);
-/// Where the switches of the families go, in rows along the upper edge; what is fitted into sight stays below them.
-void place_chips(Board& board);
+/// Where the switches of the families go, in rows along the upper edge, or one button where they would take too much of it, and
+/// where the minimap goes; what is fitted into sight stays clear of them.
+void place_overlays(Board& board);
+/// Switches the links of a family off or on; without a name, opens the list of all.
+void press_chip(Board& board, const std::string& family);
+/// The switches as a list, while it is open.
+void draw_family_list(Board& board);
 /// Switches of families, the minimap, hints where the canvas is empty.
 void draw_overlays(Board& board);
 /// Cards of hovered and pinned nodes and links.

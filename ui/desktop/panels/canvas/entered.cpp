@@ -60,7 +60,7 @@ void narrow_to(Board& board, const std::string& frame) {
 void look_again(Board& board, bool is_soft) {
   const auto known = board.poses.find(board.model.entered);
   if (known != board.poses.end()) board.camera.go_to(known->second, is_soft);
-  else board.camera.fit(board.model.bounds(), is_soft);
+  else fit_all(board, is_soft);
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void enter_frame(Board& board, const std::string& frame) {
   narrow_to(board, frame);
   forget_unseen(board);
   if (is_up) look_again(board, true);
-  else board.camera.fit(board.model.bounds(), true);
+  else fit_all(board, true);
 }
 
 void leave_frame(Board& board) {

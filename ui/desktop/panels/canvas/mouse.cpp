@@ -5,6 +5,7 @@
 
 #include "ui/desktop/panels/canvas/additions.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
+#include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/entered.h"
 
@@ -120,7 +121,7 @@ void set_cursor(const Board& board) {
   if (board.drag.deed == Deed::pan || (board.space_since >= 0 && board.drag.deed == Deed::none))
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip || thing == Thing::door ||
-           thing == Thing::crumb)
+           thing == Thing::crumb || thing == Thing::card_cross)
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   else if (thing == Thing::comment_corner) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNWSE);
 }
@@ -134,6 +135,8 @@ ImVec2 Board::cursor() const {
 }
 
 Hit hit_at(const Board& board, ImVec2 at) {
+  for (std::size_t k = board.crosses.size(); k-- > 0;)
+    if (board.crosses[k].second.holds(at)) return {Thing::card_cross, board.crosses[k].first, k};
   for (std::size_t k = 0; k < board.crumbs.size(); ++k)
     if (board.crumbs[k].box.holds(at)) return {Thing::crumb, board.crumbs[k].frame, k};
   for (std::size_t k = 0; k < board.chips.size(); ++k)
@@ -194,7 +197,9 @@ void begin_drag(Board& board, int button) {
   } else if (button != 0 || board.space_since >= 0) {
     drag.deed = Deed::pan;
   } else if (hit.thing == Thing::chip) {
-    if (!board.hidden_families.erase(hit.id)) board.hidden_families.insert(hit.id);
+    press_chip(board, hit.id);
+  } else if (hit.thing == Thing::card_cross) {
+    std::erase(board.pinned, hit.id);
   } else if (hit.thing == Thing::crumb) {
     board.after_frame = [frame = hit.id](Board& b) { enter_frame(b, frame); };
   } else if (hit.thing == Thing::door) {
