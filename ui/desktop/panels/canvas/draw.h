@@ -9,6 +9,13 @@ namespace bl::desktop::canvas {
 
 /// Text of a height in pixels, cut with "…" where it is wider than `room`; returns its width.
 float draw_text(const Board& board, ImVec2 at, float pixels, ImU32 colour, std::string_view text, float room = 1e9f);
+/// As high as it would be in the plane, or as high as can be read, as far as there is room.
+inline float readable_height(float natural, float least, float room) { return std::max(natural, std::min(least, room)); }
+/// Of the name on a box that is looked at from far away, and of the text of a comment, in pixels.
+float name_height(const Board& board, const NodeBox& box);
+float comment_height(const Board& board, const Comment& comment);
+/// Is the line longer on the screen than a text of this width? If not, the text would hide it.
+bool is_longer_than(const Board& board, const Line& line, float pixels);
 float text_width(const Board& board, float pixels, std::string_view text);
 /// The colour of a typification's section.
 ImU32 colour_of(const Board& board, const Section& section);

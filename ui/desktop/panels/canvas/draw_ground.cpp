@@ -44,7 +44,7 @@ void draw_frame(Board& board, const std::string& id, const Frame& frame) {
   list.AddRect(screen.low(), screen.high(), is_picked ? c.accent : faded(tone, is_hovered ? 0.8f : 0.4f), 8 * k, 0,
                is_picked ? 2.0f : 1.2f);
   if (board.edit.thing == Thing::frame && board.edit.id == id) return;
-  const float pixels = std::max(13 * k, std::min(11.0f * board.theme().scale(), 0.05f * screen.size.x));
+  const float pixels = readable_height(13 * k, 11 * board.theme().scale(), 0.05f * screen.size.x);
   draw_text(board, {screen.low().x + 10 * k, screen.low().y + 5 * k}, pixels, mixed(c.text, tone, 0.3f),
             frame.name.empty() ? "Frame" : frame.name, screen.size.x - 20 * k);
 }
@@ -62,10 +62,11 @@ void draw_comment(Board& board, const std::string& id, const Comment& comment) {
   list.AddTriangleFilled(screen.high(), screen.high() - ImVec2(9 * k, 0), screen.high() - ImVec2(0, 9 * k),
                          faded(c.warning, 0.5f));
   if (board.edit.thing == Thing::comment && board.edit.id == id) return;
-  const float pixels = 12.5f * k;
+  const float pixels = comment_height(board, comment);
   if (pixels < 4) return;
   const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x, screen.high().y);
-  list.AddText(board.theme().canvas_font(pixels), pixels, {screen.low().x + 8 * k, screen.low().y + 6 * k}, c.text,
+  list.AddText(board.theme().canvas_font(pixels), pixels,
+               {screen.low().x + 8 * k, screen.low().y + std::min(6 * k, 0.5f * (screen.size.y - pixels))}, c.text,
                comment.text.empty() ? "Double-click to write" : comment.text.c_str(), nullptr, screen.size.x - 16 * k, &clip);
 }
 
@@ -92,6 +93,11 @@ void draw_new_link(Board& board, ImDrawList& list, ImVec2 cursor) {
 }
 
 }  // namespace
+
+float comment_height(const Board& board, const Comment& comment) {
+  const float k = board.camera.factor();
+  return readable_height(12.5f * k, 9 * board.theme().scale(), 0.45f * comment.box.size.y * k);
+}
 
 void draw_ground(Board& board) {
   ImDrawList& list = *ImGui::GetWindowDrawList();

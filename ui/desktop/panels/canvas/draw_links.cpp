@@ -138,8 +138,12 @@ void draw_labels(Board& board, const Line& line, const Stroke& stroke, const std
               line.definition == nullptr ? c.text_faint : c.bad, 0);
     return;
   }
-  if (!text.empty())
-    draw_chip(board, middle, text, pixels, stroke.is_lit ? c.text : c.text_soft, stroke.is_lit ? stroke.colour : 0);
+  if (text.empty()) return;
+  const bool is_over = !is_longer_than(board, line, text_width(board, pixels, text) + 0.8f * pixels);
+  // Shorter than its label, the line would vanish under it; where it is pointed at, the label stands below.
+  if (is_over && !stroke.is_lit) return;
+  draw_chip(board, {middle.x, middle.y + (is_over ? 1.3f * pixels : 0)}, text, pixels, stroke.is_lit ? c.text : c.text_soft,
+            stroke.is_lit ? stroke.colour : 0);
 }
 
 void draw_line(Board& board, const Line& line, std::vector<ImVec2>& points) {
@@ -161,6 +165,12 @@ void draw_line(Board& board, const Line& line, std::vector<ImVec2>& points) {
 }
 
 }  // namespace
+
+bool is_longer_than(const Board& board, const Line& line, float pixels) {
+  float left = pixels / board.camera.factor();
+  for (std::size_t k = 1; k < line.points.size() && left >= 0; ++k) left -= length(line.points[k] - line.points[k - 1]);
+  return left < 0;
+}
 
 void draw_lines(Board& board) {
   const Box sight = board.camera.sight().grown(40);

@@ -165,12 +165,19 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
       draw_bar_of(ink, box, section, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2));
   if (screen.size.x < 34) return;
   const float badge = std::max(12 * ink.k, 9 * ink.board.theme().scale());
-  draw_hidden_badge(ink, box, {screen.high().x - 4, screen.high().y - bar - 3 - 0.5f * badge}, badge);
-  const float scale = ink.board.theme().scale(), least = std::min(8 * scale, screen.size.x / 4.6f);
-  const float pixels = std::clamp(screen.size.x / 5.4f, least, std::max(least, 12.5f * scale));
+  draw_hidden_badge(
+      ink, box, {screen.high().x - 4, box.is_collapsed ? screen.centre().y : screen.high().y - bar - 3 - 0.5f * badge}, badge);
+  const float pixels = name_height(ink.board, box);
+  const float pad = std::max(5.0f, 10 * ink.k);
+  // A collapsed box is a bar of the height of its name.
+  if (box.is_collapsed) {
+    const float taken = box.is_hidden ? 1.4f * badge : 0;
+    draw_text(ink.board, {screen.low().x + pad, screen.centre().y - 0.59f * pixels}, pixels, ink.c.text, box.name,
+              screen.size.x - pad - 3 - taken);
+    return;
+  }
   const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar - 2);
   ImFont* font = ink.board.theme().canvas_font(pixels);
-  const float pad = std::max(5.0f, 10 * ink.k);
   ink.list.AddText(font, pixels, {screen.low().x + pad, screen.low().y + 3}, ink.c.text, box.name.c_str(), nullptr,
                    screen.size.x - pad - 3, &clip);
   // Its first result at the foot, where there is room for it.
@@ -209,7 +216,7 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
           {screen.high().x - 10 * ink.k - (static_cast<float>(&section - box.sections.data())) * 10 * ink.k, y}, 3 * ink.k,
           colour_of(ink.board, section), 10);
     }
-  const float size = std::max(kHeadText * ink.k, std::min(kLeastHead * ink.board.theme().scale(), 0.8f * screen.size.y));
+  const float size = readable_height(kHeadText * ink.k, kLeastHead * ink.board.theme().scale(), 0.8f * screen.size.y);
   draw_text(ink.board, {screen.low().x + kPad * ink.k, y - 0.59f * size}, size, box.is_ghost() ? ink.c.text_faint : ink.c.text,
             box.name, room);
 }
@@ -266,6 +273,13 @@ void draw_node(const Ink& ink, NodeBox& box) {
 }
 
 }  // namespace
+
+float name_height(const Board& board, const NodeBox& box) {
+  const Box screen = board.camera.to_screen(box.box);
+  const float scale = board.theme().scale(), least = std::min(8 * scale, screen.size.x / 4.6f);
+  const float pixels = std::clamp(screen.size.x / 5.4f, least, std::max(least, 12.5f * scale));
+  return box.is_collapsed ? std::min(pixels, 0.92f * screen.size.y) : pixels;
+}
 
 float text_width(const Board& board, float pixels, std::string_view text) {
   ImFont* font = board.theme().canvas_font(pixels);
