@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "ui/desktop/panels/dialogs.h"
+#include "ui/desktop/view/colouring.h"
 
 namespace bl::desktop {
 
@@ -72,7 +73,8 @@ void StartPage::draw_beginnings(float width) {
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   ImGui::Dummy({0, theme.px(20)});
-  if (row(theme, icon::kPlus, "New from boundary and programme", "a site as GeoJSON, demands as CSV")) editor_->dialogs->show_new_scene();
+  if (row(theme, icon::kPlus, "New from boundary and programme", "a site as GeoJSON, demands as CSV"))
+    editor_->dialogs->show_new_scene();
   if (row(theme, icon::kFolder, "Open a scene", "or drop a file onto this window")) editor_->dialogs->ask_open();
   ImGui::Dummy({0, theme.px(16)});
   if (!editor_->problems.empty()) {
@@ -138,8 +140,8 @@ bool StartPage::draw_card(const ScenePicture& picture, float width) {
   const ImDrawListFlags flags = list.Flags;
   list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // soft edges would leave seams between neighbours
   for (const PictureTriangle& t : picture.triangles) {
-    const ImU32 colour = mixed(mixed(theme.category(t.colour), IM_COL32(20, 24, 34, 255), 0.55f), theme.category(t.colour),
-                               std::clamp(t.shade, 0.0f, 1.0f));
+    const ImU32 tone = colour_of_use(theme, t.colour);
+    const ImU32 colour = mixed(mixed(tone, IM_COL32(20, 24, 34, 255), 0.55f), tone, std::clamp(t.shade, 0.0f, 1.0f));
     list.AddTriangleFilled({corner.x + t.x[0] * side, corner.y + t.y[0] * side},
                            {corner.x + t.x[1] * side, corner.y + t.y[1] * side},
                            {corner.x + t.x[2] * side, corner.y + t.y[2] * side}, colour);

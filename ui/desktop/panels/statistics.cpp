@@ -9,17 +9,13 @@
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/panels/statistics_record.h"
+#include "ui/desktop/view/colouring.h"
 
 namespace bl::desktop {
 
 namespace {
 
 void column_title(Editor& editor, const std::string& text) { small_text(editor, text, editor.theme.colours().text_soft, -1); }
-
-ImU32 colour_of_use(const Editor& editor, const report::ReportModel& model, const std::string& use) {
-  const auto row = std::find_if(model.uses.begin(), model.uses.end(), [&](const report::UseRow& r) { return r.use == use; });
-  return editor.theme.category(static_cast<std::size_t>(row - model.uses.begin()));
-}
 
 // A number over time without axes: its name, its last value, and the shape of it.
 void draw_spark(Editor& editor, const Chart& chart, ImVec2 at, ImVec2 size) {
@@ -93,8 +89,8 @@ void draw_orders(Editor& editor, RunRecord& record) {
   }
 }
 
-void draw_volume(Editor& editor, const report::ReportModel& model, const report::VolumeRow& row, int index, float height,
-                 double largest) {
+void draw_volume(Editor& editor, const report::VolumeRow& row, int index, float height, double largest, double tolerance,
+                 ImU32 colour_of_its_use) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -111,11 +107,11 @@ void draw_volume(Editor& editor, const report::ReportModel& model, const report:
     list.AddRectFilled(at, {at.x + width, at.y + height}, faded(c.accent, is_hovered ? 0.12f : 0.07f), theme.px(3));
   ImFont* small = theme.fonts().small;
   const float y = at.y + (height - small->FontSize) / 2, middle = at.y + height / 2;
-  list.AddCircleFilled({at.x + theme.px(7), middle}, theme.px(3.5f), colour_of_use(editor, model, row.use));
+  list.AddCircleFilled({at.x + theme.px(7), middle}, theme.px(3.5f), colour_of_its_use);
   ImGui::PushFont(small);
   list.AddText(small, small->FontSize, {at.x + theme.px(16), y}, c.text, fitted(row.name, name_width - theme.px(20)).c_str());
   const double error = row.error(), size = std::abs(error);
-  const bool is_met = size <= model.tolerance || row.wanted <= 0;
+  const bool is_met = size <= tolerance || row.wanted <= 0;
   const std::string off = row.wanted > 0 ? report::signed_percent(error) : std::string("wants none");
   list.AddText({at.x + width - ImGui::CalcTextSize(off.c_str()).x - theme.px(4), y},
                is_met       ? c.text_faint
@@ -154,11 +150,14 @@ void draw_volumes(Editor& editor, RunRecord& record) {
   ImGui::BeginChild("volumes", {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   const float height = std::round(ImGui::GetFontSize() + editor.theme.px(5));
+  const UseNumbers numbers(editor.state().plan->scene);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(order.size()), height);
   while (clipper.Step())
-    for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
-      draw_volume(editor, model, model.volumes[order[static_cast<std::size_t>(row)]], row, height, largest);
+    for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+      const report::VolumeRow& volume = model.volumes[order[static_cast<std::size_t>(row)]];
+      draw_volume(editor, volume, row, height, largest, model.tolerance, colour_of_use(editor.theme, numbers.of(volume.use)));
+    }
   ImGui::PopStyleVar();
   ImGui::EndChild();
 }
@@ -197,7 +196,8 @@ void draw_programme(Editor& editor, const report::ReportModel& model) {
   ImGui::BeginChild("uses", {0, 0});
   double largest = 0;
   for (const report::UseRow& use : model.uses) largest = std::max({largest, use.floor_area, use.wanted_floor_area});
-  for (std::size_t k = 0; k < model.uses.size(); ++k) draw_use(editor, model.uses[k], editor.theme.category(k), largest);
+  const UseNumbers numbers(editor.state().plan->scene);
+  for (const report::UseRow& use : model.uses) draw_use(editor, use, colour_of_use(editor.theme, numbers.of(use.use)), largest);
   if (!model.uses.empty()) {
     const report::UseRow total{"all uses",       model.volumes.size(), true,         model.wanted_floor_area,
                                model.floor_area, model.demand,         model.wanted, model.volume};

@@ -47,12 +47,20 @@ std::string told(double value, Unit unit) { return unit == Unit::ratio ? report:
 Colouring by_use(const SceneFacts& facts, const Theme& theme) {
   Colouring out;
   out.legend.title = "Use";
-  for (const VolumeFacts& volume : facts.volumes) {
-    const auto at = std::lower_bound(facts.uses.begin(), facts.uses.end(), volume.use);
-    out.colours.push_back(theme.category(static_cast<std::size_t>(at - facts.uses.begin())));
-  }
-  for (std::size_t k = 0; k < facts.uses.size(); ++k) out.legend.rows.push_back({label_of_use(facts.uses[k]), theme.category(k)});
+  const UseNumbers numbers(facts.state->plan->scene);
+  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(colour_of_use(theme, numbers.of(volume.use)));
+  // As they are numbered; what has no use comes last.
+  std::vector<std::string> uses = facts.uses;
+  std::stable_sort(uses.begin(), uses.end(),
+                   [&](const std::string& a, const std::string& b) { return numbers.of(a) < numbers.of(b); });
+  for (const std::string& use : uses) out.legend.rows.push_back({label_of_use(use), colour_of_use(theme, numbers.of(use))});
   return out;
+}
+
+std::string text_in(const PortValues& values, const char* port) {
+  const auto found = values.find(port);
+  const auto* text = found == values.end() ? nullptr : std::get_if<std::string>(&found->second);
+  return text == nullptr ? std::string() : *text;
 }
 
 Colouring by_error(const SceneFacts& facts, const Theme& theme) {
@@ -69,6 +77,36 @@ Colouring by_error(const SceneFacts& facts, const Theme& theme) {
 }
 
 }  // namespace
+
+UseNumbers::UseNumbers(const Scene& scene) {
+  const auto add = [&](const std::string& use) {
+    if (!use.empty()) numbers_.emplace(use, numbers_.size());
+  };
+  std::set<std::string> others;
+  for (const auto& [id, node] : scene.nodes) {
+    if (const auto volume = node.types.find("smart_volume"); volume != node.types.end())
+      others.insert(text_in(volume->second, "use"));
+    const auto programme = node.types.find("programme");
+    if (programme == node.types.end()) continue;
+    const auto rows = programme->second.find("rows");
+    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
+    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row) add((*table)->text(row, "use"));
+  }
+  // What links credit their volumes to.
+  for (const auto& [id, link] : scene.links)
+    if (link.kind == "demand") others.insert(text_in(link.parameters, "use"));
+  for (const std::string& use : others) add(use);
+}
+
+std::size_t UseNumbers::of(const std::string& use) const {
+  if (use.empty()) return kNoUse;
+  const auto found = numbers_.find(use);
+  return found == numbers_.end() ? numbers_.size() : found->second;
+}
+
+Colour colour_of_use(const Theme& theme, std::size_t number) {
+  return number == kNoUse ? theme.colours().text_faint : theme.category(number);
+}
 
 std::string label_of_use(const std::string& use) {
   if (use.empty()) return "No use";

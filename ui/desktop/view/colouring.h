@@ -1,10 +1,12 @@
 // What the volumes' colours say, and the legend that explains them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "core/define/registry.h"
+#include "core/graph/scene.h"
 #include "ui/desktop/app/theme.h"
 #include "ui/desktop/view/scene_facts.h"
 
@@ -27,6 +29,21 @@ struct Legend {
   std::vector<Colour> ramp;       ///< of numbers, from low to high; empty for categories
   std::string low, middle, high;  ///< what its ends and its middle stand for, with units
 };
+
+/// A volume without a use stands outside of the series.
+inline constexpr std::size_t kNoUse = static_cast<std::size_t>(-1);
+
+/// The numbers of a scene's uses, and with them their colours, for all panels: in the order of the programme, so that they keep
+/// them while volumes come and go, then by name.
+class UseNumbers {
+ public:
+  explicit UseNumbers(const Scene& scene);
+  std::size_t of(const std::string& use) const;
+
+ private:
+  std::map<std::string, std::size_t> numbers_;
+};
+Colour colour_of_use(const Theme& theme, std::size_t number);
 
 struct Colouring {
   std::vector<Colour> colours;  ///< as facts.volumes

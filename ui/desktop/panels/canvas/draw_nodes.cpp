@@ -3,6 +3,7 @@
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/sections.h"
 #include "ui/desktop/panels/canvas/tension.h"
+#include "ui/desktop/view/colouring.h"
 
 namespace bl::desktop::canvas {
 
@@ -315,7 +316,7 @@ ImU32 colour_of(const Board& board, const Section& section) {
 ImU32 tone_of(const Board& board, const NodeBox& box) {
   if (box.use == kNoIndex)
     return box.sections.empty() ? board.theme().colours().text_faint : colour_of(board, box.sections.front());
-  const ImU32 tone = board.theme().category(box.use);
+  const ImU32 tone = colour_of_use(board.theme(), box.use);
   return board.theme().is_dark() ? tone : mixed(tone, IM_COL32(40, 44, 60, 255), 0.15f);
 }
 

@@ -8,6 +8,7 @@
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/link_paths.h"
 #include "ui/desktop/panels/canvas/sections.h"
+#include "ui/desktop/view/colouring.h"
 
 namespace bl::desktop::canvas {
 
@@ -116,31 +117,15 @@ void Model::make_boxes(const Editor& editor) {
   number_uses(editor);
 }
 
-// Uses in the order of the programme, then by name: the order that the report and its colours have.
 void Model::number_uses(const Editor& editor) {
-  std::vector<std::string> uses;
-  std::set<std::string> others;
-  const auto text_in = [](const PortValues& values) {
-    const auto use = values.find("use");
-    const auto* text = use == values.end() ? nullptr : std::get_if<std::string>(&use->second);
-    return text == nullptr ? std::string() : *text;
-  };
-  for (const auto& [id, node] : editor.scene().nodes) {
-    if (const auto volume = node.types.find("smart_volume"); volume != node.types.end()) others.insert(text_in(volume->second));
-    const auto programme = node.types.find("programme");
-    if (programme == node.types.end()) continue;
-    const auto rows = programme->second.find("rows");
-    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
-    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row)
-      if (std::find(uses.begin(), uses.end(), (*table)->text(row, "use")) == uses.end())
-        uses.push_back((*table)->text(row, "use"));
-  }
-  for (const std::string& use : others)
-    if (std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
+  const UseNumbers numbers(editor.scene());
   for (NodeBox& box : boxes) {
     const auto& types = editor.scene().nodes.at(box.id).types;
-    if (const auto volume = types.find("smart_volume"); volume != types.end())
-      box.use = static_cast<std::size_t>(std::find(uses.begin(), uses.end(), text_in(volume->second)) - uses.begin());
+    const auto volume = types.find("smart_volume");
+    if (volume == types.end()) continue;
+    const auto use = volume->second.find("use");
+    const auto* text = use == volume->second.end() ? nullptr : std::get_if<std::string>(&use->second);
+    box.use = numbers.of(text == nullptr ? std::string() : *text);
   }
 }
 
