@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <mutex>
+#include <numbers>
 #include <thread>
 
 #include "core/file/file_io.h"
 #include "core/session/session.h"
 #include "ui/cli/report/report_model.h"
+#include "ui/desktop/view/colouring.h"
 
 namespace bl::desktop {
 
@@ -37,25 +38,49 @@ struct Piece {
   std::size_t colour;
 };
 
-std::vector<Piece> pieces_of(const report::ReportModel& model) {
+// A ball of so many triangles as a small picture shows, for a volume whose shape nobody has.
+Mesh ball(const Point3& centre, double radius) {
+  constexpr int kRings = 6, kSides = 10;
+  Mesh mesh;
+  for (int ring = 0; ring <= kRings; ++ring)
+    for (int side = 0; side < kSides; ++side) {
+      const double down = std::numbers::pi * ring / kRings, around = 2 * std::numbers::pi * side / kSides;
+      mesh.vertices.push_back(
+          centre + radius * Vector3{std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down)});
+    }
+  const auto corner = [](int ring, int side) { return static_cast<std::uint32_t>(ring * kSides + side % kSides); };
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int side = 0; side < kSides; ++side) {
+      if (ring > 0) mesh.triangles.push_back({corner(ring, side), corner(ring + 1, side), corner(ring, side + 1)});
+      if (ring + 1 < kRings)
+        mesh.triangles.push_back({corner(ring, side + 1), corner(ring + 1, side), corner(ring + 1, side + 1)});
+    }
+  return mesh;
+}
+
+void add_pieces(const Mesh& mesh, std::size_t colour, std::vector<Piece>& pieces) {
   const Vector3 light = Vector3{-0.45, -0.3, 0.84};
-  std::map<std::string, std::size_t> uses;
+  for (const auto& triangle : mesh.triangles) {
+    const Point3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+    const Vector3 normal = cross(b - a, c - a);
+    const double length = norm(normal);
+    Piece piece{{project(a), project(b), project(c)}, 0, 0, colour};
+    const auto& k = piece.corners;
+    const bool is_seen = (k[1].x - k[0].x) * (k[2].y - k[0].y) - (k[1].y - k[0].y) * (k[2].x - k[0].x) < 0;
+    if (!is_seen || !(length > 0)) continue;
+    piece.depth = k[0].depth + k[1].depth + k[2].depth;
+    piece.shade = 0.55 + 0.45 * dot(normal, light) / length;
+    pieces.push_back(piece);
+  }
+}
+
+std::vector<Piece> pieces_of(const State& state, const report::ReportModel& model) {
+  const UseNumbers numbers(state.plan->scene);
   std::vector<Piece> pieces;
   for (const report::VolumeRow& row : model.volumes) {
-    const std::size_t colour = uses.emplace(row.use, uses.size()).first->second;
-    if (!row.mesh) continue;
-    for (const auto& triangle : row.mesh->triangles) {
-      const Point3 &a = row.mesh->vertices[triangle[0]], &b = row.mesh->vertices[triangle[1]], &c = row.mesh->vertices[triangle[2]];
-      const Vector3 normal = cross(b - a, c - a);
-      const double length = norm(normal);
-      Piece piece{{project(a), project(b), project(c)}, 0, 0, colour};
-      const auto& k = piece.corners;
-      const bool is_seen = (k[1].x - k[0].x) * (k[2].y - k[0].y) - (k[1].y - k[0].y) * (k[2].x - k[0].x) < 0;
-      if (!is_seen || !(length > 0)) continue;
-      piece.depth = k[0].depth + k[1].depth + k[2].depth;
-      piece.shade = 0.55 + 0.45 * dot(normal, light) / length;
-      pieces.push_back(piece);
-    }
+    const double radius = report::number_at(state, row.node, "smart_volume", "radius");
+    if (row.mesh) add_pieces(*row.mesh, numbers.of(row.use), pieces);
+    else if (row.volume > 0 && radius > 0) add_pieces(ball(row.position, radius), numbers.of(row.use), pieces);
   }
   std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.depth > b.depth; });
   return pieces;
@@ -70,7 +95,7 @@ ScenePicture picture_of(const State& state) {
   picture.title = model.title;
   picture.about = model.about;
   picture.volumes = model.volumes.size();
-  const std::vector<Piece> pieces = pieces_of(model);
+  const std::vector<Piece> pieces = pieces_of(state, model);
   std::vector<std::vector<Projected>> grounds;
   for (const report::SiteRow& site : model.sites)
     for (const report::Polyline& line : site.ground) {
