@@ -72,7 +72,8 @@ void StartPage::draw_beginnings(float width) {
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   ImGui::Dummy({0, theme.px(20)});
-  if (row(theme, icon::kPlus, "New from boundary and programme", "a site as GeoJSON, demands as CSV")) editor_->dialogs->show_new_scene();
+  if (row(theme, icon::kPlus, "New from boundary and programme", "a site as GeoJSON, demands as CSV"))
+    editor_->dialogs->show_new_scene();
   if (row(theme, icon::kFolder, "Open a scene", "or drop a file onto this window")) editor_->dialogs->ask_open();
   ImGui::Dummy({0, theme.px(16)});
   if (!editor_->problems.empty()) {
@@ -92,7 +93,7 @@ void StartPage::draw_beginnings(float width) {
   ImGui::PopFont();
   for (const std::string& path : recent)
     if (row(theme, icon::kFile, files::path(path).filename().string(), files::path(path).parent_path().string()))
-      editor_->open(path);
+      editor_->open(path, true);
 }
 
 void StartPage::draw_shipped() {
@@ -112,7 +113,7 @@ void StartPage::draw_shipped() {
     if (draw_card(*picture, width)) chosen = picture->path;
     ++k;
   }
-  if (!chosen.empty() && editor_->open(chosen)) editor_->document->session().play(true);
+  if (!chosen.empty()) editor_->open(chosen, true);
 }
 
 bool StartPage::draw_card(const ScenePicture& picture, float width) {
