@@ -64,6 +64,10 @@ Result<FitReport> WeightFit::run() {
     report_.evaluated.clear();
     for (const PowerSite& site : sites_) report_.evaluated.push_back(site.weight);
     if (report_.is_met) break;
+    if (step == 0 && has_lost_cells(*measured)) {
+      begin_evenly();
+      continue;
+    }
     move(*measured);
     keep_in_bounds();
   }
@@ -105,13 +109,33 @@ void WeightFit::start_fresh_sites() {
     if (targets_.owner(i) != FitTargets::kNone) parts[i] = targets_.part(i);
   }
   if (all_fresh) start = initial_weights(domain_, sites_, parts);
-  if (all_fresh && options_.method == FitMethod::newton && targets_.is_plain()) {
+  if (all_fresh && options_.method == FitMethod::newton && options_.with_rays && targets_.is_plain()) {
+    even_ = start;
     start = weights_by_rays(domain_, sites_, std::move(start), parts, options_.pool);
+    report_.began_with_rays = start != even_;
   }
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     if (targets_.owner(i) == FitTargets::kNone || sites_[i].weight > 0) continue;
     sites_[i].weight = all_fresh ? start[i] : weight_of_volume(parts[i]);
   }
+}
+
+// Rays know a cell by a few decimals only, and now and then what they took for one is none. Newton's damping counts on a cell
+// for every site, which even weights give.
+bool WeightFit::has_lost_cells(std::span<const CellMeasure> cells) const {
+  if (!report_.began_with_rays) return false;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (is_fitted(i) && !(cells[i].volume > 0)) return true;
+  }
+  return false;
+}
+
+void WeightFit::begin_evenly() {
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    if (is_fitted(i)) sites_[i].weight = even_[i];
+  }
+  keep_in_bounds();
+  report_.began_with_rays = false;
 }
 
 // Balls that take the whole domain never cut: all weights are raised alike, which changes no bisector, until none does.

@@ -33,6 +33,8 @@ class WeightFit {
   // Start and judgement.
   void recognise(std::span<const PowerSite> sites);
   void start_fresh_sites();
+  bool has_lost_cells(Cells cells) const;
+  void begin_evenly();
   bool start_full();
   void keep_in_bounds();
   void judge(Cells cells);
@@ -60,6 +62,7 @@ class WeightFit {
   std::vector<PowerSite> sites_;
   FitTargets targets_;
   FitReport report_;
+  std::vector<double> even_;  // weights that rays have left for better ones
 };
 
 }  // namespace bl
