@@ -19,8 +19,11 @@ namespace {
 
 // Floor areas are met by correcting the volumes asked for; they jump where a storey comes or goes, so this ends.
 constexpr int kMostCorrections = 25;
-// No smaller error for so many evaluations, and the fit is going nowhere; or for so many, where there is another way to start.
+// No nearer for so many evaluations, and the fit is going nowhere; or for so many, where there is another way to start.
 constexpr int kStalled = 40, kStalledEarly = 15;
+// Nearer to the demands by less than this is nowhere.
+constexpr double kNearer = 0.9;
+constexpr double kNoNumber = std::numeric_limits<double>::infinity();
 // Beyond so many, a start with rays has brought nothing that one without would not.
 constexpr int kMostWithRays = 40;
 
@@ -57,19 +60,28 @@ class Attempt {
   // How far a fit has come since its last start.
   struct Search {
     Start start = Start::given;
-    double reached = std::numeric_limits<double>::infinity(), best = reached;
-    int evaluations = 0, since = 0;  // since the start, and since the error last became much smaller
+    double best = kNoNumber, error = kNoNumber, residual = kNoNumber;  // of all starts; of this one
+    int evaluations = 0, since = 0;                                    // since the start, and since it last came much nearer
     std::vector<double> best_weights;
 
     void begin(Start with) {
       start = with;
-      reached = std::numeric_limits<double>::infinity();
+      error = residual = kNoNumber;
       evaluations = since = 0;
     }
     void take(const FitReport& last) {
       ++evaluations;
-      since = last.error < 0.9 * reached ? 0 : since + 1;
-      reached = std::min(reached, last.error);
+      // Where one cell can only grow slowly its error stays the largest for long, while all others come nearer.
+      const double left = last.state.residual < 0 ? kNoNumber : last.state.residual;
+      ++since;
+      if (last.error < kNearer * error) {
+        error = last.error;
+        since = 0;
+      }
+      if (left < kNearer * residual) {
+        residual = left;
+        since = 0;
+      }
       if (best_weights.empty() || last.error < best) {
         best = last.error;
         best_weights = last.evaluated;
