@@ -33,6 +33,13 @@ bool is_closed(const Mesh& mesh) {
   return edges == twins && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
+// What rounding may do to a volume [m³]. Within 1e-12 of the size planes may count as touching, whatever the volume: a hull of a
+// micrometre's thickness shows it.
+double room_of(const ConvexDomain& domain) {
+  const double extent = domain.size();
+  return 1e-6 * domain.volume + 1e-12 * extent * extent * extent;
+}
+
 void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
   for (const double number :
        {cell.volume, cell.cell_volume, cell.surface_area, cell.spherical_area, cell.floor_area, cell.footprint, cell.height,
@@ -50,7 +57,8 @@ void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
   require(is_closed(*cell.mesh), "meshes are closed");
   const double volume = bl::enclosed_volume(*cell.mesh);
   require(std::isfinite(volume), "mesh vertices are finite");
-  require(volume >= -1e-9 * domain.volume && volume <= cell.volume + 1e-6 * domain.volume, "the mesh lies in the shape");
+  const double room = room_of(domain);
+  require(volume >= -room && volume <= cell.volume + room, "the mesh lies in the shape");
 }
 
 }  // namespace
@@ -68,9 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const CellMeasure& cell : *cells) check_cell(cell, domain);
   const bl::CellTotals totals = bl::totals_of(*cells);
   require(totals.alive + totals.hidden + totals.outside + totals.coincident + totals.starved == sites.size(), "states add up");
-  // Within 1e-12 of the size planes may count as touching, whatever the volume: a hull of a micrometre's thickness shows it.
-  const double extent = domain.size(), room = 1e-6 * domain.volume + 1e-12 * extent * extent * extent;
-  require(sites.empty() || std::abs(totals.cell_volume - domain.volume) <= room, "cells tile the domain");
+  require(sites.empty() || std::abs(totals.cell_volume - domain.volume) <= room_of(domain), "cells tile the domain");
   if ((mode & 128u) != 0 && sites.size() <= 40) {
     const std::vector<double> demands(sites.size(), 0.5 * domain.volume / static_cast<double>(sites.size() + 1));
     bl::FitOptions fit;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/ui/desktop/null_desktop.h"
+#include "ui/desktop/panels/canvas/canvas.h"
 
 namespace bl::desktop {
 namespace {
@@ -37,6 +38,42 @@ TEST(Desktop, RewindsAndGoesTheSameWayAgain) {
   EXPECT_EQ(desktop.editor().state().tick, 5);
   desktop.ticks(7);
   EXPECT_EQ(desktop.editor().state().hash, hash);
+}
+
+TEST(Desktop, KeysOnTheCanvasLeaveTheMouseAlone) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  desktop.click({1350, 400});  // into the inspector, where Home walks to the first field
+  desktop.move_to({200, 500});
+  desktop.key(GLFW_KEY_HOME);
+  EXPECT_FALSE(ImGui::GetIO().NavVisible);
+  desktop.frames(60);
+  const double before = desktop.editor().canvas->zoom();
+  desktop.wheel(2);
+  desktop.frames(60);
+  EXPECT_GT(desktop.editor().canvas->zoom(), 1.2 * before);
+}
+
+TEST(Desktop, PanesTakeTurnsWithTheKeys) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  desktop.move_to({200, 500});
+  Editor& editor = desktop.editor();
+  EXPECT_EQ(editor.area, Area::canvas);
+  desktop.key(GLFW_KEY_F6);
+  EXPECT_EQ(editor.area, Area::view);
+  desktop.key(GLFW_KEY_F6);
+  EXPECT_EQ(editor.area, Area::panels) << "the mouse rests over the canvas and has no say";
+  desktop.key(GLFW_KEY_DOWN);
+  EXPECT_TRUE(ImGui::GetIO().NavVisible);
+  const std::string before = desktop.scene_text();
+  desktop.key(GLFW_KEY_A, true);
+  desktop.key(GLFW_KEY_DELETE);
+  EXPECT_EQ(desktop.scene_text(), before) << "what deletes nodes on the canvas does not do so from a field";
+  desktop.key(GLFW_KEY_F6);
+  EXPECT_EQ(editor.area, Area::canvas);
+  desktop.key(GLFW_KEY_F6);
+  desktop.key(GLFW_KEY_F6);
+  desktop.move_to({220, 480});
+  EXPECT_EQ(editor.area, Area::canvas);
 }
 
 }  // namespace

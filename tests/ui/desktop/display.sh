@@ -19,7 +19,7 @@ trap 'exit 1' INT TERM
 fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
 
 start_display() {
-  Xvfb -displayfd 3 -screen 0 "${width}x${height}x24" +extension GLX -noreset -nolisten tcp 3>"$place/display" >"$place/xvfb.log" 2>&1 &
+  Xvfb -displayfd 3 -screen 0 "${width}x${height}x24" +extension GLX -r -noreset -nolisten tcp 3>"$place/display" >"$place/xvfb.log" 2>&1 &
   display_pid=$!
   tries=0
   while [ ! -s "$place/display" ]; do

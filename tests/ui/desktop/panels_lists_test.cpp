@@ -113,20 +113,6 @@ TEST(Problems, OfAFileThatCannotBeOpenedAreListedBesideTheOldScene) {
   EXPECT_EQ(listed.front().subject, "panels_garbage.json");
 }
 
-TEST(Problems, OfAFileThatCannotBeOpenedAreListedWithoutAnyScene) {
-  NullDesktop desktop;
-  EXPECT_FALSE(desktop.editor().open(std::string(BL_SOURCE_DIR) + "/scenes/README.md"));
-  for (int k = 0; k < 2; ++k) {
-    ImGui::NewFrame();
-    ImGui::Begin("alone");
-    draw_problems(desktop.editor());
-    ImGui::End();
-    ImGui::Render();
-  }
-  EXPECT_EQ(memory_of(desktop.editor()).problems->count(ProblemKind::file), desktop.editor().problems.size());
-  EXPECT_TRUE(memory_of(desktop.editor()).places.contains("problem/0"));
-}
-
 TEST(Problems, RowsKeepTheirPlacesWhileASettledSceneTicks) {
   ListDesktop desktop(kQuarter);
   desktop.ticks(300);
@@ -169,6 +155,20 @@ TEST(Statistics, SamplesEveryTickAndForgetsWhatWasRewound) {
   desktop.frames(2);
   EXPECT_EQ(desktop.record().tick.back(), 7);
   EXPECT_EQ(desktop.record().tick.size(), 8u);
+}
+
+TEST(Statistics, AreGatheredWhileNobodyLooks) {
+  ListDesktop desktop(kQuarter);
+  desktop.editor().person.shows_bottom = false;
+  desktop.frames(2);
+  for (int k = 0; k < 6; ++k) desktop.ticks(1);
+  desktop.editor().is_beamer = true;
+  for (int k = 0; k < 6; ++k) desktop.ticks(1);
+  EXPECT_EQ(desktop.record().tick.size(), 13u);
+  const std::vector<ErrorSample> errors = desktop.record().errors();
+  ASSERT_EQ(errors.size(), 13u);
+  EXPECT_EQ(errors.back().tick, 12);
+  EXPECT_EQ(errors.back().worst_error, desktop.editor().state().largest_residual);
 }
 
 TEST(Statistics, APressOnABarChoosesItsVolume) {

@@ -60,6 +60,30 @@ picture 12-light
 command_by_name 'Dark colours'
 leave_window
 
+# A scene like the largest one, of so many nodes.
+scene_of() {
+  python3 - "$checkout/scenes/studies/thousand_volumes.json" "$1" <<'CUT' >"$place/nodes_$1.json"
+import json, sys
+scene = json.load(open(sys.argv[1]))
+scene["nodes"] = scene["nodes"][:int(sys.argv[2])]
+json.dump(scene, sys.stdout)
+CUT
+}
+# The canvas at three zooms, dark and light.
+for nodes in 10 60 500; do
+  scene_of "$nodes"
+  start_window "$place/nodes_$nodes.json"
+  pause 6
+  for colours in dark light; do
+    key Home; pause 1
+    for zoom in far middle near; do
+      picture "canvas-$nodes-$zoom-$colours"
+      on_canvas; wheel up 6; pause 1
+    done
+    command_by_name 'Dark colours'
+  done
+  leave_window
+done
 start_window "$checkout/scenes/studies/sixty_volumes.json"
 pause 6
 picture 13-sixty
@@ -67,7 +91,5 @@ leave_window
 start_window "$checkout/scenes/studies/thousand_volumes.json"
 pause 12
 picture 14-thousand
-on_canvas; wheel up 8; pause 2
-picture 15-thousand-near
 leave_window
 echo "pictures are in $pictures"

@@ -51,6 +51,17 @@ has '"kind": "attract", "from": "theatre", "to": "library"' || fail 'the link fr
 has '"library": \[' || fail 'the box of the library was not saved'
 cp "$scene" "$place/after.json"
 
+# Letters of another size: were they not drawn, the menu bar would be of one colour.
+letters() { import -window root -crop "$((width / 2))x20+0+4" "$place/bar.png" && convert "$place/bar.png" -colorspace Gray -format '%[fx:maxima-minima > 0.3]' info:; }
+for scale in 125 100; do
+  key k ctrl
+  pause 0.5
+  text "Scale $scale"
+  key Return
+  pause 1
+  [ "$(letters)" = 1 ] || fail "at $scale % nothing can be read"
+done
+
 # Three steps back are the scene as it was; three steps on are what was saved.
 key z ctrl; key z ctrl; key z ctrl
 pause 0.5

@@ -14,10 +14,12 @@ std::string name_of_key(int key) {
     int key;
     const char* name;
   };
-  constexpr Named kNames[] = {{GLFW_KEY_SPACE, "Space"},       {GLFW_KEY_TAB, "Tab"},       {GLFW_KEY_ENTER, "Enter"},
-                              {GLFW_KEY_ESCAPE, "Esc"},        {GLFW_KEY_DELETE, "Del"},    {GLFW_KEY_BACKSPACE, "Backspace"},
-                              {GLFW_KEY_HOME, "Home"},         {GLFW_KEY_LEFT, "Left"},     {GLFW_KEY_RIGHT, "Right"},
-                              {GLFW_KEY_UP, "Up"},             {GLFW_KEY_DOWN, "Down"},     {GLFW_KEY_KP_ADD, "Num +"},
+  constexpr Named kNames[] = {{GLFW_KEY_SPACE, "Space"},       {GLFW_KEY_TAB, "Tab"},
+                              {GLFW_KEY_ENTER, "Enter"},       {GLFW_KEY_ESCAPE, "Esc"},
+                              {GLFW_KEY_DELETE, "Del"},        {GLFW_KEY_BACKSPACE, "Backspace"},
+                              {GLFW_KEY_HOME, "Home"},         {GLFW_KEY_LEFT, "Left"},
+                              {GLFW_KEY_RIGHT, "Right"},       {GLFW_KEY_UP, "Up"},
+                              {GLFW_KEY_DOWN, "Down"},         {GLFW_KEY_KP_ADD, "Num +"},
                               {GLFW_KEY_KP_SUBTRACT, "Num -"}, {GLFW_KEY_KP_DECIMAL, "Num ."}};
   for (const Named& named : kNames)
     if (named.key == key) return named.name;
@@ -64,8 +66,8 @@ std::span<const Action> actions() {
 }
 
 void run_pressed_actions(Editor& editor) {
-  const bool is_elsewhere = ImGui::GetIO().WantTextInput ||
-                            ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  const bool is_elsewhere =
+      ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   for (const Action& action : actions()) {
     if (is_elsewhere && !action.is_always) continue;
     if (action.area != Area::none && action.area != editor.area) continue;

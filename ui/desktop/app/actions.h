@@ -20,15 +20,15 @@ std::string text_of(const Chord& chord);
 bool is_pressed(const Chord& chord, bool repeats = false);
 
 struct Action {
-  const char* menu;           ///< the menu that it stands in: "File", "Edit", "Add", "Canvas", "View", "Clock", "Help"
-  const char* label;          ///< as the menu and the palette say it
-  Chord chord, other = {};    ///< its keys; the second is a habit from elsewhere
-  Area area = Area::none;     ///< keys count only while this area is the active one; none: everywhere
+  const char* menu;                      ///< the menu that it stands in: "File", "Edit", "Add", "Canvas", "View", "Clock", "Help"
+  const char* label;                     ///< as the menu and the palette say it
+  Chord chord, other = {};               ///< its keys; the second is a habit from elsewhere
+  Area area = Area::none;                ///< keys count only while this area is the active one; none: everywhere
   bool (*can)(const Editor&) = nullptr;  ///< nothing: always
   void (*run)(Editor&) = nullptr;
-  bool repeats = false;                        ///< a key that is held goes on
-  bool (*is_on)(const Editor&) = nullptr;      ///< for switches: shown with a mark
-  bool is_always = false;                      ///< its keys count over open dialogs as well
+  bool repeats = false;                    ///< a key that is held goes on
+  bool (*is_on)(const Editor&) = nullptr;  ///< for switches: shown with a mark
+  bool is_always = false;                  ///< its keys count over open dialogs as well
 };
 
 /// All actions, menu by menu, in the order of the menus.

@@ -17,6 +17,9 @@ namespace bl::desktop {
 namespace {
 
 constexpr float kLeastPane = 160;
+// With large letters on a small screen, fields and lists leave room for what they are about.
+constexpr float kMostOfSide = 0.36f, kMostOfBottom = 0.4f;
+constexpr const char* kSide = "side";
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
@@ -77,6 +80,13 @@ void Desktop::frame(double now) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   float top = 0;
   run_pressed_actions(editor);
+  // On the canvas and in 3D, keys are commands. Where Dear ImGui walked through fields with them as well, it would also stop to
+  // feel the mouse.
+  const bool is_at_fields = !editor.document || editor.area == Area::panels ||
+                            ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  ImGuiIO& io = ImGui::GetIO();
+  io.ConfigFlags =
+      is_at_fields ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
   if (!editor.is_beamer && ImGui::BeginMainMenuBar()) {
     draw_menus(editor);
     top = ImGui::GetWindowHeight();
@@ -84,6 +94,7 @@ void Desktop::frame(double now) {
   }
   if (editor.document) {
     start_page_->leave();
+    watch_run(editor);
     draw_workspace(top);
   } else {
     const Colours& c = editor.theme.colours();
@@ -112,16 +123,29 @@ void Desktop::draw_workspace(float top) {
   const float bar = theme.px(40), gap = theme.px(4);
   pane("toolbar", {0, top}, {size.x, bar}, c.panel, {theme.px(12), theme.px(6)}, [&] { draw_clock(editor); });
   const float y = top + bar + 1;
-  const float side = person.shows_side ? std::min(theme.px(person.side_width), size.x - 2 * kLeastPane) : 0;
-  const float bottom = person.shows_bottom ? std::min(theme.px(person.bottom_height), (size.y - y) - kLeastPane) : 0;
+  const float side =
+      person.shows_side ? std::min({theme.px(person.side_width), kMostOfSide * size.x, size.x - 2 * kLeastPane}) : 0;
+  const float bottom = person.shows_bottom
+                           ? std::min({theme.px(person.bottom_height), kMostOfBottom * (size.y - y), (size.y - y) - kLeastPane})
+                           : 0;
   const float middle_width = size.x - side - (side > 0 ? gap : 0), middle_height = size.y - y - bottom - (bottom > 0 ? gap : 0);
   const float left = std::clamp(person.canvas_share * middle_width, kLeastPane, middle_width - kLeastPane);
   pane("canvas", {0, y}, {left, middle_height}, c.canvas, {0, 0}, [&] { canvas_->draw({left, middle_height}); });
   const ImVec2 view_size{middle_width - left - gap, middle_height};
   pane("view", {left + gap, y}, view_size, c.sky, {0, 0}, [&] { view_->draw(view_size); });
   const ImVec2 padding{theme.px(12), theme.px(10)};
-  if (bottom > 0) pane("bottom", {0, size.y - bottom}, {middle_width, bottom}, c.panel, padding, [&] { draw_bottom(editor); });
-  if (side > 0) pane("side", {size.x - side, y}, {side, size.y - y}, c.panel, padding, [&] { draw_inspector(editor); });
+  const auto fields = [&](const char* name, ImVec2 at, ImVec2 room, void (*draw)(Editor&)) {
+    pane(name, at, room, c.panel, padding, [&] {
+      if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) && ImGui::IsMouseClicked(0)) editor.area = Area::panels;
+      draw(editor);
+    });
+  };
+  if (bottom > 0) fields("bottom", {0, size.y - bottom}, {middle_width, bottom}, draw_bottom);
+  if (side > 0) fields(kSide, {size.x - side, y}, {side, size.y - y}, draw_inspector);
+  // With F6 one sees where the keys go; with the mouse one knows.
+  if (editor.area == Area::panels && was_area_ != Area::panels && !ImGui::IsMouseDown(0))
+    ImGui::SetWindowFocus(side > 0 ? kSide : "bottom");
+  was_area_ = editor.area;
   if (const float moved = splitter("split middle", {left, y}, {gap, middle_height}, true, theme); moved != 0)
     person.canvas_share = std::clamp((left + moved) / middle_width, 0.1f, 0.9f);
   if (side > 0)
@@ -141,7 +165,10 @@ void Desktop::draw_notices() {
   for (std::size_t k = editor.notices.size(); k-- > 0;) {
     const Notice& notice = editor.notices[k];
     const bool is_error = notice.kind == NoticeKind::error, is_warning = notice.kind == NoticeKind::warning;
-    const std::string text = (is_error ? std::string(icon::kError) + "  " : is_warning ? std::string(icon::kWarning) + "  " : "") + notice.text;
+    const std::string text = (is_error     ? std::string(icon::kError) + "  "
+                              : is_warning ? std::string(icon::kWarning) + "  "
+                                           : "") +
+                             notice.text;
     const float wrap = theme.px(440);
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     const ImVec2 pad{theme.px(14), theme.px(10)};
@@ -150,7 +177,8 @@ void Desktop::draw_notices() {
     ImDrawList& list = *ImGui::GetForegroundDrawList();
     list.AddRectFilled(at, {at.x + box.x, at.y + box.y}, c.raised, theme.px(6));
     list.AddRect(at, {at.x + box.x, at.y + box.y}, is_error ? c.bad : is_warning ? c.warning : c.line, theme.px(6));
-    list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {at.x + pad.x, at.y + pad.y}, c.text, text.c_str(), nullptr, wrap);
+    list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {at.x + pad.x, at.y + pad.y}, c.text, text.c_str(), nullptr,
+                 wrap);
     y -= box.y + theme.px(8);
   }
 }

@@ -39,6 +39,7 @@ class Desktop {
   std::unique_ptr<Dialogs> dialogs_;
   std::unique_ptr<StartPage> start_page_;
   Renderer* renderer_;
+  Area was_area_ = Area::canvas;
 };
 
 }  // namespace bl::desktop

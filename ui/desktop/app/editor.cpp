@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+
+#include <imgui.h>
 
 #include "core/base/text.h"
 
@@ -49,6 +52,13 @@ std::string Editor::fresh_id(const std::string& wish) const {
   if (!is_taken(base)) return base;
   for (int k = 2;; ++k)
     if (const std::string id = base + "-" + std::to_string(k); !is_taken(id)) return id;
+}
+
+void Editor::point_at(Area where) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool is_used = io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 ||
+                       std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked), [](bool clicked) { return clicked; });
+  if (is_used) area = where;
 }
 
 void Editor::tell(NoticeKind kind, std::string text) {

@@ -30,8 +30,9 @@ struct Picks {
   void only_link(const std::string& id) { nodes.clear(), links = {id}; }
 };
 
-/// The panel that keys go to: the one under the mouse, or the last one that was.
-enum class Area { none, canvas, view };
+/// What keys go to: canvas or 3D view once the mouse has moved over them, lists and inspector after a click into them; F6 takes
+/// turns.
+enum class Area { none, canvas, view, panels };
 
 enum class NoticeKind { told, warning, error };
 struct Notice {
@@ -48,19 +49,19 @@ class Editor {
   PersonSettings& person;
   Theme theme;
   Picks picks;
-  std::unique_ptr<Document> document;         ///< none: the start page
-  std::vector<Problem> problems;              ///< of the last file that was opened, or tried
-  std::string problem_file;                   ///< that file
-  std::shared_ptr<const Moment> moment;       ///< taken once for each frame; none without a document
-  Canvas* canvas = nullptr;                   ///< for actions that concern it
-  SceneView* view = nullptr;                  ///< the same
-  Dialogs* dialogs = nullptr;                 ///< the same
-  double now = 0;                             ///< the window's clock [s]
-  Area area = Area::none;
+  std::unique_ptr<Document> document;    ///< none: the start page
+  std::vector<Problem> problems;         ///< of the last file that was opened, or tried
+  std::string problem_file;              ///< that file
+  std::shared_ptr<const Moment> moment;  ///< taken once for each frame; none without a document
+  Canvas* canvas = nullptr;              ///< for actions that concern it
+  SceneView* view = nullptr;             ///< the same
+  Dialogs* dialogs = nullptr;            ///< the same
+  double now = 0;                        ///< the window's clock [s]
+  Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
-  std::shared_ptr<PanelMemory> panels;        ///< what inspector, lists and charts remember of this document
-  std::uint64_t bytes_sent = 0;               ///< to the graphics processor, since the window opened
+  std::shared_ptr<PanelMemory> panels;  ///< what inspector, lists and charts remember of this document
+  std::uint64_t bytes_sent = 0;         ///< to the graphics processor, since the window opened
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
   const Scene& scene() const { return document->scene(); }
@@ -81,6 +82,8 @@ class Editor {
   /// An id of a new node or link, from a wish such as "tower", not taken by either.
   std::string fresh_id(const std::string& wish) const;
 
+  /// The mouse is over this area. One that rests there does not take the keys away from another.
+  void point_at(Area where);
   void tell(NoticeKind kind, std::string text);
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
   bool open(const std::string& path);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/session/log.h"
 #include "core/file/log_writer.h"
+#include "core/session/log.h"
 
 namespace bl::desktop {
 

@@ -124,7 +124,8 @@ void LiveSession::Shared::run() {
     const bool is_due = steps_due > 0 || (is_playing && Clock::now() >= due);
     if (is_due) {
       // A late tick is not made up for: the clock goes on from now, so that ticks never queue behind themselves.
-      due = std::max(Clock::now(), due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / wanted_rate)));
+      due = std::max(Clock::now(),
+                     due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / wanted_rate)));
       if (steps_due > 0) --steps_due;
       tick(lock);
       done.notify_all();
@@ -228,9 +229,7 @@ void LiveSession::rewind(std::int64_t ticks) {
 void LiveSession::settle() {
   std::unique_lock lock(shared_->mutex);
   shared_->wake.notify_all();
-  shared_->done.wait(lock, [this] {
-    return !shared_->is_ticking && shared_->rewind_by == 0 && shared_->steps_due == 0;
-  });
+  shared_->done.wait(lock, [this] { return !shared_->is_ticking && shared_->rewind_by == 0 && shared_->steps_due == 0; });
 }
 
 }  // namespace bl::desktop

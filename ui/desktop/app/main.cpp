@@ -19,9 +19,7 @@ int main(int count, char** arguments) {
   app.add_option("--seconds", options.seconds, "Closes the window after so many seconds.")->type_name("S");
   try {
     app.parse(count, arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : 2; }
   options.is_playing = !is_paused;
   return bl::desktop::run_window(options);
 }

@@ -22,6 +22,7 @@ void each_member(Settings& s, Visit visit) {
   visit("bottom_height", s.bottom_height);
   visit("shows_side", s.shows_side);
   visit("shows_bottom", s.shows_bottom);
+  visit("colour_by", s.colour_by);
   visit("navigation", s.navigation);
   visit("width", s.width);
   visit("height", s.height);

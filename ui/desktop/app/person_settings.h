@@ -14,6 +14,7 @@ struct PersonSettings {
   float scale = 1;  ///< 1 to 2
   float canvas_share = 0.5f, side_width = 320, bottom_height = 210;
   bool shows_side = true, shows_bottom = true;
+  std::string colour_by = "use";              ///< what the 3D view colours volumes by
   std::string navigation = "rhino";           ///< rhino, blender, sketchup, polyscope
   int width = 1440, height = 900;             ///< of the window
   std::vector<std::string> recent;            ///< scene files, the last first

@@ -74,8 +74,8 @@ inline constexpr const char *kPlay = "\xef\x81\x8b", *kPause = "\xef\x81\x8c", *
                             *kLock = "\xef\x80\xa3", *kUnlock = "\xef\x82\x9c", *kEye = "\xef\x81\xae", *kUndo = "\xef\x83\xa2",
                             *kRedo = "\xef\x80\x9e", *kFolder = "\xef\x81\xbb", *kFile = "\xef\x80\x96", *kSave = "\xef\x83\x87",
                             *kClose = "\xef\x80\x8d", *kCheck = "\xef\x80\x8c", *kMuted = "\xef\x80\xa6", *kLink = "\xef\x83\x81",
-                            *kCube = "\xef\x86\xb2", *kClock = "\xef\x80\x97", *kBalance = "\xef\x89\x8e", *kPlus = "\xef\x81\xa7",
-                            *kReset = "\xef\x80\xa1", *kUp = "\xef\x81\xa2", *kHome = "\xef\x80\x95";
+                            *kCube = "\xef\x86\xb2", *kClock = "\xef\x80\x97", *kBalance = "\xef\x89\x8e",
+                            *kPlus = "\xef\x81\xa7", *kReset = "\xef\x80\xa1", *kUp = "\xef\x81\xa2", *kHome = "\xef\x80\x95";
 }  // namespace icon
 
 }  // namespace bl::desktop

@@ -94,7 +94,6 @@ class Window {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 330 core");
     has_backends_ = true;
@@ -152,8 +151,10 @@ int run_window(const WindowOptions& options) {
       if (options.seconds > 0 && begin > options.seconds) break;
       if (scale != person.scale || is_dark != person.is_dark) {
         if (scale != person.scale) {
-          if (const std::string note = editor.theme.load_fonts(person.scale); !note.empty()) editor.tell(NoticeKind::warning, note);
-          ImGui_ImplOpenGL3_DestroyFontsTexture();
+          if (const std::string note = editor.theme.load_fonts(person.scale); !note.empty())
+            editor.tell(NoticeKind::warning, note);
+          // The first letters go to the graphics processor with all else; later ones take their place.
+          if (scale != 0) ImGui_ImplOpenGL3_DestroyFontsTexture(), ImGui_ImplOpenGL3_CreateFontsTexture();
         }
         editor.theme.apply(person.is_dark, person.scale);
         scale = person.scale;

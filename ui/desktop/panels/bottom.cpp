@@ -7,13 +7,14 @@
 
 namespace bl::desktop {
 
+void watch_run(Editor& editor) {
+  PanelMemory& memory = memory_of(editor);
+  memory.record->sample(editor);
+  memory.problems->refresh(editor, memory.record->figures(editor));
+}
+
 void draw_bottom(Editor& editor) {
   PanelMemory& memory = memory_of(editor);
-  if (!memory.problems) memory.problems = std::make_unique<ProblemList>();
-  if (!memory.record) memory.record = std::make_unique<RunRecord>();
-  // Every tick is recorded, and problems are counted, also while another tab is in front.
-  memory.record->sample(editor);
-  memory.problems->refresh(editor, &memory.record->figures(editor));
   if (!ImGui::BeginTabBar("bottom")) return;
   const auto flags = [&](const char* name) {
     return memory.wanted_tab == name ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "ui/cli/report/report.h"
+#include "ui/desktop/panels/panel_memory.h"
+#include "ui/desktop/panels/statistics_record.h"
 
 namespace bl::desktop {
 
@@ -96,11 +98,11 @@ void Dialogs::ask_report() {
   chosen_ = [this, stem](const std::string& folder) {
     ReportData data;
     data.state = &editor_->state();
+    data.history = memory_of(*editor_).record->errors();
     data.scene_path = editor_->document->path().empty() ? stem : editor_->document->path();
     data.outcome = editor_->state().is_settled() ? "settled" : "still negotiating";
     data.outcome += " at tick " + std::to_string(editor_->state().tick);
-    if (auto written = write_report(folder, data); !written)
-      return editor_->tell(NoticeKind::error, written.error().text());
+    if (auto written = write_report(folder, data); !written) return editor_->tell(NoticeKind::error, written.error().text());
     editor_->tell(NoticeKind::told, "Wrote report.html, volumes.csv and volumes.obj into " + folder + ".");
   };
 }

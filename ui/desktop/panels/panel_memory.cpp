@@ -7,7 +7,7 @@
 
 namespace bl::desktop {
 
-PanelMemory::PanelMemory() = default;
+PanelMemory::PanelMemory() : problems(std::make_unique<ProblemList>()), record(std::make_unique<RunRecord>()) {}
 PanelMemory::~PanelMemory() = default;
 
 PanelMemory& memory_of(Editor& editor) {

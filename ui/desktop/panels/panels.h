@@ -5,6 +5,8 @@
 
 namespace bl::desktop {
 
+/// Takes note of each tick and of what is wrong in it, whether or not a pane shows it: once in every frame.
+void watch_run(Editor& editor);
 /// Toolbar: play, pause, one tick, rewind, speed; what the simulation does and whether it keeps up.
 void draw_clock(Editor& editor);
 /// What is chosen, with all of its ports; several nodes are edited together.

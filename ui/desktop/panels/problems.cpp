@@ -121,10 +121,7 @@ void draw_nothing(Editor& editor) {
 
 void draw_problems(Editor& editor) {
   PanelMemory& memory = memory_of(editor);
-  if (!memory.problems) memory.problems = std::make_unique<ProblemList>();
   ProblemList& problems = *memory.problems;
-  // Without a document (nothing could be opened) the file's problems are all there is.
-  if (!editor.document) problems.refresh(editor, nullptr);
   if (problems.items().empty()) return draw_nothing(editor);
   draw_filters(editor, problems);
   ImGui::BeginChild("problem list", {0, 0});

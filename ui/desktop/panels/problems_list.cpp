@@ -208,7 +208,7 @@ void ProblemList::add_file(const Editor& editor) {
   }
 }
 
-void ProblemList::refresh(Editor& editor, const report::ReportModel* figures) {
+void ProblemList::refresh(const Editor& editor, const report::ReportModel& figures) {
   const std::shared_ptr<const State> state = editor.moment ? editor.moment->state : nullptr;
   const bool is_same = state == state_ && file_problems_ == editor.problems.size() && file_ == editor.problem_file;
   if (is_same) return;
@@ -223,9 +223,9 @@ void ProblemList::refresh(Editor& editor, const report::ReportModel* figures) {
     report::ReportModel problems;
     report::read_problems(*state, problems);
     add_failures(*state, problems);
-    if (figures != nullptr) add_shortages(*state, *figures);
-    if (figures != nullptr) add_losers(*state, *figures);
-    if (figures != nullptr) add_volumes(*state, *figures);
+    add_shortages(*state, figures);
+    add_losers(*state, figures);
+    add_volumes(*state, figures);
     add_idle(*state);
   }
   add_file(editor);

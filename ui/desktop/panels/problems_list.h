@@ -28,8 +28,8 @@ struct ProblemItem {
 
 class ProblemList {
  public:
-  /// Reads the state again where it is another one; works without a document too.
-  void refresh(Editor& editor, const report::ReportModel* figures);
+  /// Reads the state again where it is another one.
+  void refresh(const Editor& editor, const report::ReportModel& figures);
   const std::vector<ProblemItem>& items() const { return items_; }
   std::size_t count(ProblemKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
   /// How many want to be looked at: all but what people have switched off themselves.

@@ -25,7 +25,7 @@ void SceneView::draw(ImVec2 size) {
   size_ = size;
   if (!editor_->moment || size.x < 8 || size.y < 8) return;
   is_hovered_ = ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered();
-  if (ImGui::IsWindowHovered()) editor_->area = Area::view;
+  if (ImGui::IsWindowHovered()) editor_->point_at(Area::view);
   follow_document();
   follow_state();
   advance_camera();
@@ -37,11 +37,10 @@ void SceneView::draw(ImVec2 size) {
     for (const auto& [id, start] : move_->starts)
       if (const std::uint32_t node = editor_->index_of(id); node < facts_->places.size())
         choices_.held[node] = start + move_->shift;
-  colouring_ = colour_volumes(*facts_, choices_.colour_by, editor_->theme);
+  colouring_ = colour_volumes(*facts_, colour_choice(), editor_->theme);
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
-  const bool has_same_cells =
-      std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
-                 [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
+  const bool has_same_cells = std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
+                                         [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
   if (scene.camera != still_camera_ || !has_same_cells) still_since_ = editor_->now;
   still_camera_ = scene.camera;
   still_volumes_ = scene.volumes;
@@ -89,7 +88,7 @@ void SceneView::follow_document() {
   move_.reset();
   drag_ = Drag::none;
   is_walking_ = false;
-  choices_ = ViewChoices{.camera = choices_.camera, .section = {}, .colour_by = choices_.colour_by, .held = {}};
+  choices_ = ViewChoices{.camera = choices_.camera, .section = {}, .held = {}};
   wants_fit_ = true;
   has_fitted_boundary_ = false;
 }

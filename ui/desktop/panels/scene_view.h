@@ -36,12 +36,12 @@ class SceneView {
   void store_camera(int number);
   void recall_camera(int number);
   void begin_move_by_key();
-  void colour_by(const std::string& choice) { choices_.colour_by = choice; }
+  void colour_by(const std::string& choice) { editor_->person.colour_by = choice; }
 
   const Camera& camera() const { return choices_.camera; }
   void set_camera(const Camera& camera);
   const ViewSection& section() const { return choices_.section; }
-  const std::string& colour_choice() const { return choices_.colour_by; }
+  const std::string& colour_choice() const { return editor_->person.colour_by; }
   bool is_walking() const { return is_walking_; }
   bool is_moving() const { return move_.has_value(); }
   /// The node under the mouse in the last frame, so that other panels can light it in the next one.

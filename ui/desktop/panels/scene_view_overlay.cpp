@@ -102,12 +102,10 @@ void SceneView::draw_labels() {
     const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
     if (!at.is_in_front || !is_inside) return;
     if (!is_chosen && !is_hovered && size < kLeastVolumeOnScreen * theme.scale()) return;
-    wishes.push_back(
-        {&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
+    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
   };
   for (const VolumeFacts& volume : facts_->volumes)
-    wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()),
-         false);
+    wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()), false);
   if (shows("marks"))
     for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
   std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.importance > b.importance; });
@@ -247,7 +245,7 @@ void SceneView::draw_tools() {
   std::string label = "Use";
   const auto known = colour_choices(*facts_);
   for (const ColourChoice& choice : known)
-    if (choice.id == choices_.colour_by) label = choice.label;
+    if (choice.id == colour_choice()) label = choice.label;
   if (ImGui::Button(("Colour: " + label + "##colours").c_str())) ImGui::OpenPopup("colours");
   ImGui::PopStyleColor();
   if (is_walking_) {
@@ -263,7 +261,7 @@ void SceneView::draw_tools() {
   if (ImGui::BeginPopup("colours")) {
     for (std::size_t k = 0; k < known.size(); ++k) {
       if (k == 4) ImGui::Separator();
-      if (ImGui::Selectable(known[k].label.c_str(), known[k].id == choices_.colour_by)) choices_.colour_by = known[k].id;
+      if (ImGui::Selectable(known[k].label.c_str(), known[k].id == colour_choice())) colour_by(known[k].id);
     }
     ImGui::EndPopup();
   }

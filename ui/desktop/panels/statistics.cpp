@@ -261,10 +261,7 @@ void draw_engine(Editor& editor, const RunRecord& record) {
 
 void draw_statistics(Editor& editor) {
   if (!editor.document) return;
-  PanelMemory& memory = memory_of(editor);
-  if (!memory.record) memory.record = std::make_unique<RunRecord>();
-  RunRecord& record = *memory.record;
-  record.sample(editor);
+  RunRecord& record = *memory_of(editor).record;
   // Narrower than this the columns cannot be read: then the whole scrolls sideways.
   const float least = editor.theme.px(900);
   const bool is_narrow = ImGui::GetContentRegionAvail().x < least;

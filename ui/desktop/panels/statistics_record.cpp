@@ -58,6 +58,12 @@ void RunRecord::sample(const Editor& editor) {
   drop_oldest();
 }
 
+std::vector<ErrorSample> RunRecord::errors() const {
+  std::vector<ErrorSample> out(tick.size());
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = {static_cast<std::int64_t>(tick[k]), worst[k], mean[k], move[k]};
+  return out;
+}
+
 const report::ReportModel& RunRecord::figures(const Editor& editor) {
   if (figured_ == editor.moment->state && figures_) return *figures_;
   figured_ = editor.moment->state;

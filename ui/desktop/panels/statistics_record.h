@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/cli/report/report.h"
 #include "ui/cli/report/report_model.h"
 #include "ui/desktop/app/editor.h"
 
@@ -17,6 +18,8 @@ class RunRecord {
  public:
   /// Takes a sample where a tick has passed since the last call; after a rewind the ticks that were undone are forgotten.
   void sample(const Editor& editor);
+  /// The ticks that are remembered, as the report wants them.
+  std::vector<ErrorSample> errors() const;
   /// Volumes, uses and totals of the current state; made when they are asked for.
   const report::ReportModel& figures(const Editor& editor);
   /// Indices of the volumes in the order that is wanted; it settles down between changes.

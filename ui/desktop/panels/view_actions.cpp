@@ -54,10 +54,9 @@ void add_camera_actions(std::vector<Action>& list) {
                   [](Editor& e) { e.view->toggle_section(); },
                   false,
                   [](const Editor& e) { return e.view != nullptr && e.view->section().is_on; }});
-  list.push_back(
-      {"View", "Turn the section plane", {GLFW_KEY_B, false, true, true}, {}, Area::view, has_document, [](Editor& e) {
-         e.view->next_section();
-       }});
+  list.push_back({"View", "Turn the section plane", {GLFW_KEY_B, false, true, true}, {}, Area::view, has_document, [](Editor& e) {
+                    e.view->next_section();
+                  }});
   list.push_back({"View",
                   "Move the selection",
                   {GLFW_KEY_G},
@@ -153,6 +152,19 @@ void add_navigation(std::vector<Action>& list) {
                   [](const Editor& e) { return e.person.navigation == "polyscope"; }});
 }
 
+// Canvas, 3D view, fields, and round again: for those who work without a mouse.
+void next_pane(Editor& e) {
+  const bool has_fields = e.person.shows_side || e.person.shows_bottom;
+  const char* name = "canvas";
+  switch (e.area) {
+    case Area::canvas: e.area = Area::view, name = "3D view"; break;
+    case Area::view: e.area = has_fields ? Area::panels : Area::canvas; break;
+    default: e.area = Area::canvas; break;
+  }
+  if (e.area == Area::panels) name = "fields: arrows walk, Enter types";
+  e.tell(NoticeKind::told, std::string("Keys go to the ") + name + ".");
+}
+
 void add_window_actions(std::vector<Action>& list) {
   list.push_back({"View",
                   "Beamer mode",
@@ -165,6 +177,7 @@ void add_window_actions(std::vector<Action>& list) {
                   is_in_beamer});
   list.push_back(
       {"View", "Leave beamer mode", {GLFW_KEY_ESCAPE}, {}, Area::none, is_in_beamer, [](Editor& e) { e.is_beamer = false; }});
+  list.push_back({"View", "Keys to the next pane", {GLFW_KEY_F6}, {}, Area::none, is_editing, next_pane});
   list.push_back({"View",
                   "Show inspector",
                   {GLFW_KEY_N},

@@ -42,9 +42,7 @@ std::vector<double> values_of(const SceneFacts& facts, const std::string& choice
   return values;
 }
 
-std::string told(double value, Unit unit) {
-  return unit == Unit::ratio ? report::percent(value) : report::quantity(value, unit);
-}
+std::string told(double value, Unit unit) { return unit == Unit::ratio ? report::percent(value) : report::quantity(value, unit); }
 
 Colouring by_use(const SceneFacts& facts, const Theme& theme) {
   Colouring out;
@@ -53,8 +51,7 @@ Colouring by_use(const SceneFacts& facts, const Theme& theme) {
     const auto at = std::lower_bound(facts.uses.begin(), facts.uses.end(), volume.use);
     out.colours.push_back(theme.category(static_cast<std::size_t>(at - facts.uses.begin())));
   }
-  for (std::size_t k = 0; k < facts.uses.size(); ++k)
-    out.legend.rows.push_back({label_of_use(facts.uses[k]), theme.category(k)});
+  for (std::size_t k = 0; k < facts.uses.size(); ++k) out.legend.rows.push_back({label_of_use(facts.uses[k]), theme.category(k)});
   return out;
 }
 
@@ -69,12 +66,6 @@ Colouring by_error(const SceneFacts& facts, const Theme& theme) {
   for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(theme.diverging(volume.error() / kLargestShownError));
   for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(theme.diverging(2.0 * k / kRampSteps - 1));
   return out;
-}
-
-std::string title_of(const SceneFacts& facts, const std::string& choice) {
-  for (const ColourChoice& known : colour_choices(facts))
-    if (known.id == choice) return known.label;
-  return choice;
 }
 
 }  // namespace
@@ -107,7 +98,10 @@ std::vector<ColourChoice> colour_choices(const SceneFacts& facts) {
 
 Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme) {
   if (choice == "error") return by_error(facts, theme);
-  if (choice == "use" || choice.empty()) return by_use(facts, theme);
+  // What another scene was coloured by may not be known to this one.
+  const std::vector<ColourChoice> choices = colour_choices(facts);
+  const auto known = std::find_if(choices.begin(), choices.end(), [&](const ColourChoice& c) { return c.id == choice; });
+  if (choice == "use" || known == choices.end()) return by_use(facts, theme);
   Unit unit = Unit::none;
   const std::vector<double> values = values_of(facts, choice, unit);
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -117,7 +111,7 @@ Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, con
   if (!(low <= high)) low = 0, high = 1;
   const double span = high > low ? high - low : 1;
   Colouring out;
-  out.legend.title = title_of(facts, choice);
+  out.legend.title = known->label;
   for (const double value : values)
     out.colours.push_back(std::isfinite(value) ? Theme::ramp(0.2 + 0.8 * (value - low) / span) : theme.colours().text_faint);
   for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(Theme::ramp(0.2 + 0.8 * k / kRampSteps));

@@ -27,7 +27,6 @@ void set_layer(PersonSettings& person, const std::string& layer, bool is_on);
 struct ViewChoices {
   Camera camera;
   ViewSection section;
-  std::string colour_by = "use";
   std::map<std::uint32_t, Point3> held;  ///< nodes in somebody's hand: where the hand has them
 };
 

@@ -59,7 +59,7 @@ void Canvas::draw(ImVec2 size) {
   Board& board = *board_;
   Editor& editor = board.editor;
   if (!editor.document || !editor.moment || size.x < 8 || size.y < 8) return;
-  if (ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) editor.area = Area::canvas;
+  if (ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) editor.point_at(Area::canvas);
   follow_document(board);
   board.camera.set_pane({ImGui::GetWindowPos(), size}, editor.theme.scale(), editor.now);
   const std::size_t revision = board.model.revision;
