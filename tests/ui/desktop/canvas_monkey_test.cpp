@@ -18,20 +18,24 @@ class Monkey {
  public:
   explicit Monkey(unsigned seed) : random_(seed), desktop_("scenes/start/quarter.json") {
     for (const Action& action : actions())
-      if (action.area == Area::canvas) keys_.push_back(action.chord);
+      if (action.area == Area::canvas || action.targets != 0) keys_.push_back(action.chord);
     desktop_.ticks(1);
   }
   NullDesktop& desktop() { return desktop_; }
 
   void act() {
     switch (draw(9)) {
-      case 0: desktop_.click(place()); break;
+      case 0: desktop_.click(draw(2) == 0 ? place() : at_node(), draw(2)); break;
       case 1: desktop_.double_click(place()); break;
       case 2: desktop_.drag(place(), place(), draw(3), 4); break;
       case 3: desktop_.wheel(static_cast<float>(draw(7)) - 3); break;
       case 4: drag_with_keys(); break;
       case 5: desktop_.type(std::string(1, static_cast<char>('a' + draw(26)))); break;
-      case 6: desktop_.key(draw(2) == 0 ? GLFW_KEY_ENTER : GLFW_KEY_ESCAPE); break;
+      case 6: {
+        constexpr int kKeys[] = {GLFW_KEY_ENTER, GLFW_KEY_ESCAPE, GLFW_KEY_DOWN};
+        desktop_.key(kKeys[draw(3)]);
+        break;
+      }
       case 7: desktop_.drag(at_node(), at_node(), 0, 3); break;
       default: {
         const Chord chord = keys_[static_cast<std::size_t>(draw(static_cast<int>(keys_.size())))];
@@ -80,7 +84,7 @@ TEST_P(CanvasMonkey, EndsWhereItBegan) {
   EXPECT_EQ(desktop.scene_text(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, CanvasMonkey, ::testing::Values(1u, 2u, 3u, 4u));
+INSTANTIATE_TEST_SUITE_P(Seeds, CanvasMonkey, ::testing::Values(1u, 2u, 3u, 4u, 54u));
 
 }  // namespace
 }  // namespace bl::desktop

@@ -7,10 +7,10 @@
 
 #include "core/define/json_text.h"
 #include "tests/ui/desktop/null_desktop.h"
+#include "ui/desktop/app/fuzzy.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/canvas/fits.h"
-#include "ui/desktop/app/fuzzy.h"
 
 namespace bl::desktop {
 namespace {
@@ -261,6 +261,66 @@ TEST_F(CanvasTest, DropOnNothingAddsALinkedNodeInOneStep) {
   desktop.frames(2);
   ASSERT_TRUE(editor().scene().nodes.contains("smartvolume"));
   ASSERT_TRUE(editor().scene().links.contains("theatre_smartvolume"));
+  EXPECT_EQ(steps(), 1u);
+  desktop.key(GLFW_KEY_Z, true);
+  EXPECT_EQ(desktop.scene_text(), before);
+}
+
+TEST_F(CanvasTest, TabOffersLinksBetweenTheChosenInTheOrderOfChoosing) {
+  const std::string before = desktop.scene_text();
+  for (const bool is_turned : {false, true}) {
+    desktop.click(at(is_turned ? "theatre" : "garage"));
+    desktop.hold(false, true);
+    desktop.click(at(is_turned ? "garage" : "theatre"));
+    desktop.hold(false, false);
+    desktop.key(GLFW_KEY_TAB);
+    desktop.frames(3);
+    ASSERT_TRUE(board().picker.is_open);
+    desktop.type("repel");
+    const canvas::Choice marked = board().picker.choices[board().picker.shown[board().picker.marked]];
+    EXPECT_NE(marked.label.find(is_turned ? "Theatre  \xe2\x86\x92  Garage" : "Garage  \xe2\x86\x92  Theatre"), std::string::npos)
+        << marked.label;
+    desktop.key(GLFW_KEY_ENTER);
+    desktop.frames(2);
+    const std::string id = is_turned ? "theatre_garage" : "garage_theatre";
+    ASSERT_TRUE(editor().scene().links.contains(id));
+    EXPECT_EQ(editor().picks.links, std::set<std::string>{id});
+    EXPECT_EQ(steps(), 1u);
+    desktop.key(GLFW_KEY_Z, true);
+    EXPECT_EQ(desktop.scene_text(), before);
+    desktop.frames(2);
+  }
+}
+
+TEST_F(CanvasTest, TabOffersLinksTheWayThatTheyFitAndToSeveral) {
+  const std::string before = desktop.scene_text();
+  desktop.move_to(empty());
+  editor().picks.only_node("theatre");
+  desktop.frames(1);
+  editor().picks.nodes = {"theatre", "programme"};
+  desktop.frames(1);
+  desktop.key(GLFW_KEY_TAB);
+  desktop.frames(3);
+  std::size_t links = 0;
+  for (const canvas::Choice& choice : board().picker.choices) {
+    if (!choice.extra.starts_with("link")) continue;
+    ++links;
+    if (choice.id == "demand") { EXPECT_EQ(choice.extra, "link back") << "a programme asks of a volume, never the other way round"; }
+  }
+  EXPECT_GT(links, 0u);
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.frames(2);
+  editor().picks.only_node("theatre");
+  desktop.frames(1);
+  editor().picks.nodes = {"theatre", "cafe", "garage"};
+  desktop.frames(1);
+  desktop.key(GLFW_KEY_TAB);
+  desktop.frames(3);
+  desktop.type("repel");
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(2);
+  EXPECT_TRUE(editor().scene().links.contains("theatre_cafe"));
+  EXPECT_TRUE(editor().scene().links.contains("theatre_garage"));
   EXPECT_EQ(steps(), 1u);
   desktop.key(GLFW_KEY_Z, true);
   EXPECT_EQ(desktop.scene_text(), before);

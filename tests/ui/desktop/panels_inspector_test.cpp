@@ -79,6 +79,48 @@ TEST(Inspector, AScrubIsOneStep) {
   EXPECT_EQ(desktop.scene_text(), before);
 }
 
+TEST(Inspector, EscapeEndsAScrubWithoutATrace) {
+  PanelDesktop desktop(kQuarter);
+  desktop.choose("library");
+  const std::string before = desktop.scene_text();
+  for (const char* field : {"smart_volume.demand", "node.position/x"}) {
+    const ImVec2 at = desktop.middle(field);
+    desktop.move_to(at);
+    desktop.press();
+    for (const float by : {10.0f, 20.0f, 40.0f}) desktop.move_to({at.x + by, at.y});
+    EXPECT_NE(desktop.scene_text(), before) << field;
+    desktop.key(GLFW_KEY_ESCAPE);
+    EXPECT_EQ(desktop.scene_text(), before) << field;
+    desktop.move_to({at.x + 60, at.y});
+    EXPECT_EQ(desktop.scene_text(), before) << "it is over, though the button is still held";
+    desktop.release();
+    desktop.frames(3);
+    EXPECT_EQ(desktop.scene_text(), before);
+    EXPECT_TRUE(memory_of(desktop.editor()).typing.key.empty()) << "letting go is no click";
+    EXPECT_EQ(desktop.editor().picks.nodes, std::set<std::string>{"library"}) << "Esc ends the drag, and no more";
+    EXPECT_EQ(desktop.editor().document->history().size(), 0u);
+    desktop.key(GLFW_KEY_Y, true);
+    EXPECT_EQ(desktop.scene_text(), before) << "there is nothing to redo";
+  }
+  // The next drag is a step as ever, and steps before an abandoned one are undone and redone as ever.
+  const ImVec2 at = desktop.middle("smart_volume.demand");
+  desktop.drag(at, {at.x + 40, at.y}, 0, 10);
+  EXPECT_EQ(desktop.steps(), 1u);
+  const std::string after = desktop.scene_text();
+  desktop.move_to(at);
+  desktop.press();
+  desktop.move_to({at.x - 30, at.y});
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.release();
+  EXPECT_EQ(desktop.scene_text(), after);
+  desktop.editor().undo();
+  EXPECT_EQ(desktop.scene_text(), before);
+  desktop.editor().redo();
+  EXPECT_EQ(desktop.scene_text(), after);
+  desktop.editor().redo();
+  EXPECT_EQ(desktop.scene_text(), after);
+}
+
 TEST(Inspector, SeveralNodesAreEditedInOneStep) {
   PanelDesktop desktop(kQuarter);
   desktop.editor().picks.nodes = {"library", "cafe", "hotel"};

@@ -46,6 +46,19 @@ key Escape
 key k ctrl; pause 0.6
 picture 08-commands
 key Escape
+on_canvas; key Home; pause 1
+coordinates "$(place_of start/quarter.json node:library)"
+click "$x" "$((y + 18))"
+key g ctrl; key Return; pause 0.5
+key i; pause 1
+picture 16-entered
+key u; pause 1
+click "$x" "$((y + 18))" 3; pause 0.8
+picture 17-menu
+key Escape
+key h shift; pause 0.8
+picture 18-hidden
+key z ctrl; key z ctrl; pause 0.5
 on_view; drag $((width * 55 / 100)) $((height / 3)) $((width * 62 / 100)) $((height * 2 / 5)) 3; pause 1
 picture 09-view-turned
 key 1; pause 1.5

@@ -118,6 +118,7 @@ TEST_F(ViewPanel, EscapeTakesAMoveBack) {
   EXPECT_NE(desktop.scene_text(), before);
   desktop.key(GLFW_KEY_ESCAPE);
   EXPECT_EQ(desktop.scene_text(), before);
+  EXPECT_TRUE(editor().document->history().empty());
 }
 
 TEST_F(ViewPanel, DraggingWhatIsChosenMovesItLevelAndSnapsWithControl) {

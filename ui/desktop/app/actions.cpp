@@ -20,7 +20,8 @@ std::string name_of_key(int key) {
                               {GLFW_KEY_HOME, "Home"},         {GLFW_KEY_LEFT, "Left"},
                               {GLFW_KEY_RIGHT, "Right"},       {GLFW_KEY_UP, "Up"},
                               {GLFW_KEY_DOWN, "Down"},         {GLFW_KEY_KP_ADD, "Num +"},
-                              {GLFW_KEY_KP_SUBTRACT, "Num -"}, {GLFW_KEY_KP_DECIMAL, "Num ."}};
+                              {GLFW_KEY_KP_SUBTRACT, "Num -"}, {GLFW_KEY_KP_DECIMAL, "Num ."},
+                              {GLFW_KEY_MENU, "Menu"}};
   for (const Named& named : kNames)
     if (named.key == key) return named.name;
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
@@ -79,12 +80,14 @@ void draw_menus(Editor& editor) {
   const char* menu = nullptr;
   bool is_open = false;
   for (const Action& action : actions()) {
+    const bool is_same_menu = menu != nullptr && std::strcmp(menu, action.menu) == 0;
     if (menu == nullptr || std::strcmp(menu, action.menu) != 0) {
       if (is_open) ImGui::EndMenu();
       menu = action.menu;
       is_open = ImGui::BeginMenu(menu);
     }
     if (!is_open) continue;
+    if (is_same_menu && action.begins_group) ImGui::Separator();
     const bool is_possible = action.can == nullptr || action.can(editor);
     const bool is_on = action.is_on != nullptr && action.is_on(editor);
     if (ImGui::MenuItem(action.label, text_of(action.chord).c_str(), is_on, is_possible)) action.run(editor);

@@ -19,6 +19,9 @@ std::string text_of(const Chord& chord);
 /// Was it pressed in this frame, with these modifiers and no others?
 bool is_pressed(const Chord& chord, bool repeats = false);
 
+/// What a context menu of the canvas stands over.
+enum Target : unsigned { on_ground = 1, on_node = 2, on_link = 4, on_frame = 8, on_comment = 16, on_set = 32 };
+
 struct Action {
   const char* menu;                      ///< the menu that it stands in: "File", "Edit", "Add", "Canvas", "View", "Clock", "Help"
   const char* label;                     ///< as the menu and the palette say it
@@ -29,6 +32,8 @@ struct Action {
   bool repeats = false;                    ///< a key that is held goes on
   bool (*is_on)(const Editor&) = nullptr;  ///< for switches: shown with a mark
   bool is_always = false;                  ///< its keys count over open dialogs as well
+  unsigned targets = 0;                    ///< the context menus that it stands in, where it can be done
+  bool begins_group = false;               ///< a line goes before it in menus
 };
 
 /// All actions, menu by menu, in the order of the menus.

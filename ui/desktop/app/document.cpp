@@ -147,6 +147,10 @@ const std::vector<HistoryStep>& Document::history() {
     auto step = std::find_if(history_.begin(), history_.end(), [&](const HistoryStep& s) { return s.gesture == shown; });
     if (entry.undoes != 0 || entry.redoes != 0) {
       if (step == history_.end()) continue;
+      if (abandoned_.contains(shown)) {
+        history_.erase(step);
+        continue;
+      }
       // The gesture that took it back is the one that a redo, or a further undo, will name.
       step->is_undone = entry.undoes != 0;
       step->gesture = entry.gesture;
@@ -161,6 +165,19 @@ const std::vector<HistoryStep>& Document::history() {
     ++step->entries;
   }
   return history_;
+}
+
+void Document::abandon(std::int64_t gesture) {
+  const auto& log = session_->log();
+  if (gesture == 0 || log.empty() || log.back().gesture != gesture || log.back().undoes != 0) return;
+  abandoned_.insert(gesture);
+  // The ticks have seen it, so that the log keeps it and what takes it back; the history does not.
+  (void)session_->undo();
+}
+
+bool Document::has_redo() {
+  const auto& steps = history();
+  return std::any_of(steps.begin(), steps.end(), [](const HistoryStep& step) { return step.is_undone; });
 }
 
 Result<void> Document::submit(const std::vector<Command>& commands, std::int64_t gesture) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,12 @@ class Document {
   /// Steps, oldest first; made anew after changes only.
   const std::vector<HistoryStep>& history();
 
+  /// Takes back the gesture that people are in the middle of, as if they had never begun it: it is no step of the history, and
+  /// cannot be redone. Nothing where it has changed nothing yet.
+  void abandon(std::int64_t gesture);
+  /// Is there a step that was undone and can come back?
+  bool has_redo();
+
   /// Commands as one step. Several become one batch.
   Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
 
@@ -60,6 +67,7 @@ class Document {
   std::unique_ptr<LiveSession> session_;
   Journal journal_;
   std::vector<HistoryStep> history_;
+  std::set<std::int64_t> abandoned_;  ///< gestures
   std::size_t history_size_ = 0, compared_size_ = 0;
   bool is_unsaved_ = false;
 };

@@ -43,6 +43,8 @@ void Editor::undo() {
 
 void Editor::redo() {
   if (!document) return;
+  // What was abandoned lies below all that was undone since: where the history has nothing undone, there is only that.
+  if (!document->has_redo()) return tell(NoticeKind::told, "Nothing to redo.");
   if (auto done = document->session().redo(); !done) tell(NoticeKind::told, "Nothing to redo.");
 }
 

@@ -78,8 +78,14 @@ void draw_frame(Editor& editor, const std::string& shown, const CellLook& look, 
 void scrub(Editor& editor, const std::string& key, CellEvent& event) {
   PanelMemory& memory = memory_of(editor);
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsItemActivated()) memory.scrub = {key, false, 0, 0};
-  if (memory.scrub.key != key || !ImGui::IsItemActive()) return;
+  if (ImGui::IsItemActivated()) memory.scrub = {key, false, 0, 0, false};
+  // Before anything else: with keyboard navigation Esc lets go of the item in the same frame.
+  if (memory.scrub.key == key && memory.scrub.has_moved && !memory.scrub.is_abandoned &&
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
+    editor.document->abandon(memory.scrub.gesture);
+    memory.scrub.is_abandoned = true;
+  }
+  if (memory.scrub.key != key || memory.scrub.is_abandoned || !ImGui::IsItemActive()) return;
   if (!memory.scrub.has_moved && ImGui::IsMouseDragging(0, kScrubThreshold)) {
     memory.scrub.has_moved = event.has_scrub_begun = true;
     memory.scrub.gesture = editor.new_gesture();

@@ -3,6 +3,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
@@ -48,6 +49,8 @@ void drive_by_expression(Editor& editor, const std::string& node, const std::str
   if (parsed && record->second.types.contains(parsed->typification) &&
       record->second.types.at(parsed->typification).contains(parsed->port))
     commands.push_back(command<SetPort>({node, {path}, {"null"}}));
+  if (editor.canvas != nullptr)
+    if (auto joining = editor.canvas->joining(expression)) commands.push_back(std::move(*joining));
   if (!editor.submit(commands)) return;
   editor.picks.only_node(expression);
   editor.tell(NoticeKind::told, "An expression now drives " + label_of(port) + " of " + subject + ": change its formula here.");

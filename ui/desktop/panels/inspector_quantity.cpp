@@ -254,7 +254,7 @@ std::string facts_of(const PortDefinition& port, Unit unit) {
       line("range", shown_number(port.hard_minimum, unit) + " to " + shown_number(port.hard_maximum, unit));
     else if (has_low) line("range", "at least " + shown_number(port.hard_minimum, unit));
     else if (has_high) line("range", "at most " + shown_number(port.hard_maximum, unit));
-    text += "\n\ndrag to change (Shift fine, Ctrl coarse), click to type: 12 m, 0.4 ha, 1200*1.5, +10%";
+    text += "\n\ndrag to change (Shift fine, Ctrl coarse, Esc back), click to type: 12 m, 0.4 ha, 1200*1.5, +10%";
   }
   return text;
 }

@@ -29,7 +29,8 @@ struct Scrub {
   std::string key;
   bool has_moved = false;
   std::int64_t gesture = 0;
-  double exact = 0;  ///< where the drag has come to, before rounding
+  double exact = 0;           ///< where the drag has come to, before rounding
+  bool is_abandoned = false;  ///< by Esc; the button is still held
 };
 
 struct PanelMemory {

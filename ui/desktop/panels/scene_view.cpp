@@ -83,7 +83,7 @@ void SceneView::draw_overlay() {
 void SceneView::follow_document() {
   if (document_ == editor_->document.get()) return;
   document_ = editor_->document.get();
-  facts_ = nullptr;
+  all_facts_ = facts_ = nullptr;
   hit_.reset();
   move_.reset();
   drag_ = Drag::none;
@@ -94,11 +94,16 @@ void SceneView::follow_document() {
 }
 
 void SceneView::follow_state() {
-  if (!facts_ || facts_->state != editor_->moment->state) facts_ = read_facts(editor_->moment->state, facts_.get());
+  const bool is_another = !all_facts_ || all_facts_->state != editor_->moment->state;
+  if (is_another) all_facts_ = read_facts(editor_->moment->state, all_facts_.get());
+  if (const auto& hidden = hidden_.of(*editor_); is_another || hidden != left_out_) {
+    left_out_ = hidden;
+    facts_ = hidden.empty() ? all_facts_ : facts_without(*all_facts_, hidden);
+  }
   // A boundary has no shape before the first tick: the first view is made again with it.
-  const bool has_boundary_now = !facts_->boundaries.empty() && !has_fitted_boundary_;
+  const bool has_boundary_now = !all_facts_->boundaries.empty() && !has_fitted_boundary_;
   if (!wants_fit_ && !has_boundary_now) return;
-  has_fitted_boundary_ = !facts_->boundaries.empty();
+  has_fitted_boundary_ = !all_facts_->boundaries.empty();
   if (!wants_fit_ && drag_ != Drag::none) return;
   wants_fit_ = false;
   Camera camera;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/hidden.h"
 #include "ui/desktop/view/colouring.h"
 #include "ui/desktop/view/picking.h"
 #include "ui/desktop/view/renderer.h"
@@ -46,6 +47,10 @@ class SceneView {
   bool is_moving() const { return move_.has_value(); }
   /// The node under the mouse in the last frame, so that other panels can light it in the next one.
   const std::string& pointed_at() const { return pointed_at_; }
+  /// What is drawn and can be picked: without the nodes that are hidden.
+  const SceneFacts* facts() const { return facts_.get(); }
+  /// Where the note on hidden nodes was drawn in the last frame [pixels]; no size where there is none.
+  ImVec4 hidden_note() const { return hidden_note_; }
   /// Where a point is in the window [pixels].
   Seen place_in_window(const Point3& point) const;
 
@@ -125,7 +130,9 @@ class SceneView {
   Editor* editor_;
   Renderer* renderer_;
   ViewChoices choices_;
-  std::shared_ptr<const SceneFacts> facts_;
+  std::shared_ptr<const SceneFacts> all_facts_, facts_;  ///< of the state; of those nodes that are not hidden
+  HiddenNodes hidden_;
+  std::set<std::string> left_out_;  ///< of `facts_`
   Colouring colouring_;
   const Document* document_ = nullptr;
   bool wants_fit_ = true, has_fitted_boundary_ = false;
@@ -137,6 +144,7 @@ class SceneView {
   bool is_walking_ = false;
   double walk_began_ = -1;
   ImVec2 at_{}, size_{};
+  ImVec4 hidden_note_{};
   bool is_hovered_ = false;
 
   Drag drag_ = Drag::none;

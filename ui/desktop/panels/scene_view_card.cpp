@@ -115,8 +115,7 @@ void SceneView::draw_card() {
     card.row(c.text_soft, standing, "Difference", volume.wanted > 0 ? report::signed_percent(error) : "wants nothing");
     card.row(c.text_soft, c.text, "Floor area", report::quantity(volume.floor_area, Unit::square_metre));
     if (!volume.reason.empty() && volume.state != "alive") card.text(theme.fonts().small, c.bad, volume.reason, 3);
-    if (volume.is_ball)
-      card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
+    if (volume.is_ball) card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
     if (pulls.empty()) return;
     card.y += theme.px(3);
     card.text(theme.fonts().small, c.text_faint, "Who pulls", 1);
@@ -154,6 +153,9 @@ void SceneView::draw_title() {
                                           : "negotiating, worst error " + report::percent(state.largest_residual);
   list.AddText(theme.fonts().title, theme.fonts().title->FontSize, {x, y}, is_settled ? c.good : c.text_soft,
                ("tick " + report::grouped(static_cast<double>(state.tick)) + "   " + standing).c_str());
+  y += theme.fonts().title->FontSize * 1.3f;
+  if (const std::string hidden = hidden_.text(*editor_); !hidden.empty())
+    list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {x, y}, c.text_soft, hidden.c_str());
   ImFont* font = theme.fonts().small;
   const std::string hint = "Esc or F1 leaves   ·   1 to 9 kept views   ·   P plays";
   const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, hint.c_str());

@@ -49,6 +49,10 @@ std::vector<std::string> SceneView::movable(bool tells) {
   for (const std::string& id : editor_->picks.nodes) {
     const auto found = editor_->scene().nodes.find(id);
     if (found == editor_->scene().nodes.end() || editor_->index_of(id) >= facts_->places.size()) continue;
+    if (left_out_.contains(id)) {
+      if (tells) editor_->tell(NoticeKind::told, editor_->name_of(id) + " is hidden from 3D: Shift+H shows it again.");
+      continue;
+    }
     // A boundary stands where its corners are, whatever its node's place.
     if (found->second.types.contains("boundary")) continue;
     if (!found->second.locked.contains("node.position")) {
@@ -69,7 +73,8 @@ std::optional<Point3> SceneView::gizmo_centre() {
   for (const std::string& id : editor_->picks.nodes) {
     const std::uint32_t node = editor_->index_of(id);
     const auto found = editor_->scene().nodes.find(id);
-    if (node >= facts_->places.size() || found == editor_->scene().nodes.end() || found->second.types.contains("boundary"))
+    if (node >= facts_->places.size() || found == editor_->scene().nodes.end() || found->second.types.contains("boundary") ||
+        left_out_.contains(id))
       continue;
     sum += facts_->places[node];
     count += 1;
@@ -158,9 +163,7 @@ void SceneView::go_on_moving() {
   if (!shift) return;
   if (io.KeyShift) *shift = kFine * *shift;
   if (io.KeyCtrl) {
-    const auto snapped = [](double start, double by) {
-      return by == 0 ? 0.0 : kSnap * std::round((start + by) / kSnap) - start;
-    };
+    const auto snapped = [](double start, double by) { return by == 0 ? 0.0 : kSnap * std::round((start + by) / kSnap) - start; };
     *shift = {snapped(move_->anchor.x, shift->x), snapped(move_->anchor.y, shift->y), snapped(move_->anchor.z, shift->z)};
   }
   if (distance(*shift, move_->shift) < 5e-4) return;
@@ -208,12 +211,12 @@ void SceneView::apply_move() {
 
 void SceneView::end_move(bool is_kept) {
   if (!move_) return;
-  const bool takes_back = !is_kept && move_->has_submitted;
+  const std::int64_t abandoned = !is_kept && move_->has_submitted ? move_->gesture : 0;
   if (is_kept && !move_->typed.empty() && !parse_quantity(move_->typed, Unit::metre))
     editor_->tell(NoticeKind::warning, "`" + move_->typed + "` is no length: type a number, and a unit such as m or cm.");
   move_.reset();
   drag_ = Drag::none;
-  if (takes_back) editor_->undo();
+  if (abandoned != 0) editor_->document->abandon(abandoned);
 }
 
 void SceneView::draw_gizmo() {

@@ -247,6 +247,16 @@ void SceneView::draw_tools() {
   for (const ColourChoice& choice : known)
     if (choice.id == colour_choice()) label = choice.label;
   if (ImGui::Button(("Colour: " + label + "##colours").c_str())) ImGui::OpenPopup("colours");
+  hidden_note_ = {};
+  if (const std::string hidden = hidden_.text(*editor_); !hidden.empty()) {
+    ImGui::SameLine(0, theme.px(6));
+    ImGui::PushStyleColor(ImGuiCol_Text, c.warning);
+    if (ImGui::Button((std::string(icon::kHidden) + "  " + hidden + "##hidden").c_str())) show_all(*editor_);
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Click to show all in 3D");
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    hidden_note_ = {low.x, low.y, high.x, high.y};
+  }
   ImGui::PopStyleColor();
   if (is_walking_) {
     ImGui::SameLine(0, theme.px(12));

@@ -2,6 +2,7 @@
 #include <GLFW/glfw3.h>
 
 #include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/hidden.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
@@ -64,6 +65,22 @@ void add_camera_actions(std::vector<Action>& list) {
                   Area::view,
                   [](const Editor& e) { return is_editing(e) && !e.picks.nodes.empty(); },
                   [](Editor& e) { e.view->begin_move_by_key(); }});
+}
+
+void add_hiding(std::vector<Action>& list) {
+  list.push_back({"View",
+                  "Hide from 3D, or show again",
+                  {GLFW_KEY_H, false, true},
+                  {},
+                  Area::none,
+                  [](const Editor& e) { return is_editing(e) && !e.picks.nodes.empty(); },
+                  hide_chosen,
+                  false,
+                  are_chosen_hidden});
+  list.back().targets = on_node;
+  list.back().begins_group = true;
+  list.push_back({"View", "Show all in 3D", {GLFW_KEY_H, false, false, true}, {}, Area::none, has_hidden, show_all});
+  list.back().targets = on_node | on_ground;
 }
 
 constexpr const char* kKeepLabels[] = {"Keep this view as 1", "Keep this view as 2", "Keep this view as 3",
@@ -217,6 +234,7 @@ void add_window_actions(std::vector<Action>& list) {
 void add_view_actions(std::vector<Action>& list) {
   add_window_actions(list);
   add_camera_actions(list);
+  add_hiding(list);
   add_layer_actions<0>(list);
   add_kept_view<1>(list);
 }

@@ -40,8 +40,8 @@ VolumeFacts read_volume(const State& state, std::uint32_t node) {
   if (const auto ref = state.plan->find(node, PortPath{"node", "position", ""}))
     facts.tension = state.nodes[node].types[ref->type].tension[ref->port];
   if (const MeshPointer mesh = report::mesh_at(state, node, kVolume, "mesh")) facts.cell = mesh->coarse;
-  const bool is_usable = facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() &&
-                         facts.cell->vertices.size() < 60000 && facts.volume > 0;
+  const bool is_usable =
+      facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() && facts.cell->vertices.size() < 60000 && facts.volume > 0;
   if (is_usable) return facts;
   facts.cell = nullptr;
   if (!(facts.volume > 0) || !(facts.radius > 0)) return facts;
@@ -173,6 +173,19 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   return facts;
 }
 
+std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const std::set<std::string>& hidden) {
+  auto rest = std::make_shared<SceneFacts>(facts);
+  const auto is_hidden = [&](std::uint32_t node) { return hidden.contains(facts.state->plan->nodes[node].id); };
+  const auto is_gone = [&](const auto& item) { return is_hidden(item.node); };
+  std::erase_if(rest->volumes, is_gone);
+  std::erase_if(rest->marks, is_gone);
+  std::erase_if(rest->boundaries, is_gone);
+  std::erase_if(rest->pulls, is_gone);
+  std::erase_if(rest->links, [&](const LinkFacts& link) { return is_hidden(link.from) || is_hidden(link.to); });
+  std::erase_if(rest->neighbours, [&](const auto& pair) { return is_hidden(pair.first) || is_hidden(pair.second); });
+  return rest;
+}
+
 MeshPointer ball_cell(const Point3& centre, double radius) {
   Mesh mesh;
   for (int k = 0; k < 8; ++k) {
@@ -183,8 +196,8 @@ MeshPointer ball_cell(const Point3& centre, double radius) {
       {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
   for (const auto& face : kFaces) {
     const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(
-        0.25 * (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]] + mesh.vertices[face[3]]));
+    mesh.vertices.push_back(0.25 *
+                            (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]] + mesh.vertices[face[3]]));
     for (std::size_t i = 0; i < 4; ++i) mesh.triangles.push_back({middle, face[i], face[(i + 1) % 4]});
   }
   MeshWrap wrap{centre, radius, {{24, centre, {}}}, std::vector<std::uint32_t>(mesh.vertices.size(), 0)};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,6 +74,9 @@ struct SceneFacts {
 
 /// `last`: facts of an earlier state, of which what has not changed is taken over; may be null.
 std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> state, const SceneFacts* last);
+
+/// The same without some nodes: their volumes, marks, boundaries, and whatever is drawn of their links.
+std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const std::set<std::string>& hidden);
 
 /// A coarse mesh around a ball, to be wrapped onto it: for volumes whose shape nobody has.
 MeshPointer ball_cell(const Point3& centre, double radius);

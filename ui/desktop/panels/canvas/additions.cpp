@@ -7,12 +7,16 @@
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/edits.h"
+#include "ui/desktop/panels/canvas/entered.h"
 #include "ui/desktop/panels/canvas/fits.h"
 #include "ui/desktop/panels/canvas/placing.h"
 
 namespace bl::desktop::canvas {
 
 namespace {
+
+// Links between more nodes than these are laid to a set.
+constexpr std::size_t kMostBundled = 40;
 
 int recency_of(const Editor& editor, const std::string& id) {
   const auto& recent = editor.person.recent_additions;
@@ -48,6 +52,7 @@ Command new_node(Board& board, const TypificationDefinition& role, const std::st
   node["types"][role.id] = values;
   patch["boxes"][id] =
       place_json({std::round((at.x - kBoxWidth / 2) / kGrid) * kGrid, std::round((at.y - kHeadHeight / 2) / kGrid) * kGrid});
+  join_entered(board, patch, "nodes", id);
   return command<AddNode>({id, {write_json_line(node)}});
 }
 
@@ -129,6 +134,70 @@ void add_linked_node(Board& board, const std::string& kind, const std::string& t
   editor.picks.only_node(node);
 }
 
+// Links between the chosen nodes: from the first that was chosen to each of the others, or the other way round where only that
+// fits. One choice is one step.
+struct Bundle {
+  std::vector<Selection> from, to;
+  std::string text;
+};
+
+Bundle bundle_of(const Board& board, bool is_back) {
+  const auto& order = board.choice_order;
+  Bundle bundle;
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    Selection first, other;
+    first.ids = {order.front()};
+    other.ids = {order[k]};
+    bundle.from.push_back(is_back ? other : first);
+    bundle.to.push_back(is_back ? first : other);
+  }
+  const std::string one = board.editor.name_of(order.front());
+  const std::string rest =
+      order.size() == 2 ? board.editor.name_of(order.back()) : "each of " + std::to_string(order.size() - 1) + " others";
+  bundle.text = is_back ? rest + "  \xe2\x86\x92  " + one : one + "  \xe2\x86\x92  " + rest;
+  return bundle;
+}
+
+bool does_fit(const Board& board, const LinkDefinition& kind, const Bundle& bundle) {
+  for (std::size_t k = 0; k < bundle.from.size(); ++k)
+    if (misfit(board.editor.registry, board.editor.scene(), kind, bundle.from[k], bundle.to[k])) return false;
+  return true;
+}
+
+void lay_bundle(Board& board, const std::string& kind, const Bundle& bundle) {
+  Editor& editor = board.editor;
+  const LinkDefinition& definition = *editor.registry.link(kind);
+  FreshIds ids(editor);
+  std::vector<Command> commands;
+  std::set<std::string> laid;
+  for (std::size_t k = 0; k < bundle.from.size(); ++k) {
+    const std::string id =
+        ids.of(short_name(board, bundle.from[k]).substr(0, 24) + "_" + short_name(board, bundle.to[k]).substr(0, 24));
+    commands.push_back(new_link(board, definition, id, bundle.from[k], bundle.to[k],
+                                chosen_ports(editor.registry, editor.scene(), definition, bundle.from[k], bundle.to[k])));
+    laid.insert(id);
+  }
+  if (!editor.submit(commands, editor.new_gesture())) return;
+  remember(editor, kind);
+  editor.picks.clear();
+  editor.picks.links = laid;
+}
+
+void offer_links(const Board& board, Picker& picker) {
+  const std::size_t count = board.choice_order.size();
+  if (count < 2 || count > kMostBundled) return;
+  const Editor& editor = board.editor;
+  const Bundle forth = bundle_of(board, false), back = bundle_of(board, true);
+  for (const auto& [id, kind] : editor.registry.links()) {
+    const bool fits_forth = does_fit(board, kind, forth);
+    if (!fits_forth && !does_fit(board, kind, back)) continue;
+    // Whoever has chosen several nodes is likelier to link them than to add another one.
+    picker.choices.push_back({id, kind.label + ": " + (fits_forth ? forth : back).text, first_sentence(kind.doc), "",
+                              editor.theme.family_of(id).colour, 2 * recency_of(editor, id) - 1,
+                              "link " + std::string(editor.theme.family_of(id).label), fits_forth ? "link" : "link back"});
+  }
+}
+
 }  // namespace
 
 void open_addition(Board& board, ImVec2 screen) {
@@ -155,11 +224,14 @@ void open_addition(Board& board, ImVec2 screen) {
                                 2 * recency_of(editor, id) + 1, "typification", "role"});
     }
   }
+  follow_choice(board);
+  offer_links(board, picker);
   picker.choices.push_back(
       {"comment", "Comment", "A note on the canvas.", "", board.theme().colours().warning, 3000, "text note", "comment"});
   picker.taken = [at](Board& b, const Choice& choice) {
     if (choice.extra == "comment") add_comment(b);
     else if (choice.extra == "role") add_role(b, choice.id);
+    else if (choice.extra.starts_with("link")) lay_bundle(b, choice.id, bundle_of(b, choice.extra == "link back"));
     else add_node(b, choice.id, at);
   };
   open_picker(board, std::move(picker));
@@ -211,19 +283,24 @@ void open_find(Board& board) {
   picker.title = "Find";
   picker.hint = "Name, id or role; arrows go from one to the next";
   picker.empty_text = "No node of that name";
-  for (const NodeBox& box : board.model.boxes) {
-    std::string roles;
-    for (const Section& section : box.sections) roles += (roles.empty() ? "" : ", ") + section.label;
-    picker.choices.push_back({box.id, box.name, box.id + "  ·  " + roles, "",
-                              box.sections.empty() ? 0 : colour_of(board, box.sections.front()), 1000, roles, ""});
-  }
-  for (const Line& line : board.model.lines)
-    picker.choices.push_back(
-        {line.id, line.label + " (" + line.id + ")", "link", "", line.family.colour, 2000, line.kind, "link"});
+  // What the entered frame holds comes first.
+  for (const auto* boxes : {&board.model.boxes, &board.model.outside_boxes})
+    for (const NodeBox& box : *boxes) {
+      std::string roles;
+      for (const Section& section : box.sections) roles += (roles.empty() ? "" : ", ") + section.label;
+      const int recency = boxes == &board.model.boxes ? 1000 : 1500;
+      picker.choices.push_back({box.id, box.name, box.id + "  ·  " + roles, "",
+                                box.sections.empty() ? 0 : colour_of(board, box.sections.front()), recency, roles, ""});
+    }
+  for (const auto* lines : {&board.model.lines, &board.model.outside_lines})
+    for (const Line& line : *lines)
+      picker.choices.push_back(
+          {line.id, line.label + " (" + line.id + ")", "link", "", line.family.colour, 2000, line.kind, "link"});
   picker.text = board.find_text;
   const auto go = [](Board& b, const Choice& choice) {
     if (choice.extra == "link") {
       b.editor.picks.only_link(choice.id);
+      bring_up_to_date(b);
       if (const std::size_t k = b.model.find_line(choice.id); k < b.model.lines.size())
         b.camera.fit(b.model.lines[k].bounds.grown(120), true);
     } else {

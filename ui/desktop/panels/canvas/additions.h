@@ -5,7 +5,7 @@
 
 namespace bl::desktop::canvas {
 
-/// Typifications as new nodes at a place, and as roles for the chosen node.
+/// Typifications as new nodes at a place, and as roles for the chosen node; link kinds that fit between several chosen ones.
 void open_addition(Board& board, ImVec2 screen);
 /// Link kinds between two bodies; those that do not fit say why.
 void open_link_menu(Board& board, std::size_t from, std::size_t to, ImVec2 screen);

@@ -7,6 +7,7 @@
 
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/edits.h"
+#include "ui/desktop/panels/canvas/entered.h"
 
 namespace bl::desktop::canvas {
 
@@ -93,7 +94,12 @@ void distribute_chosen(Board& board, bool is_across) {
 void lay_out_chosen(Board& board) {
   auto chosen = chosen_boxes(board);
   const bool is_all = chosen.size() < 2;
-  if (is_all) {
+  if (is_all && !board.model.entered.empty()) {
+    // Of the whole canvas, only what is shown is laid out.
+    chosen.clear();
+    for (std::size_t k = 0; k < board.model.boxes.size(); ++k) chosen.push_back(k);
+    if (chosen.empty()) return;
+  } else if (is_all) {
     // Everything goes back to the automatic layout: what the view says of boxes, sets and dots goes.
     Json patch = Json::object();
     for (const auto& [id, at] : board.model.view.boxes) patch["boxes"][id] = nullptr;
@@ -118,7 +124,9 @@ void lay_out_chosen(Board& board) {
     if (place_of.contains(line.from) && place_of.contains(line.to)) links.emplace_back(place_of[line.from], place_of[line.to]);
   const auto places = lay_out(items, links);
   // The upper left corner stays where it was.
-  const ImVec2 corner = box_of_choice(board)->at;
+  Box around = board.model.boxes[chosen.front()].box;
+  for (const std::size_t k : chosen) around = around.with(board.model.boxes[k].box);
+  const ImVec2 corner = around.at;
   std::vector<std::pair<std::size_t, ImVec2>> moved;
   for (std::size_t k = 0; k < chosen.size(); ++k) moved.emplace_back(chosen[k], places[k] + corner);
   put(board, moved);
@@ -151,7 +159,8 @@ void frame_chosen(Board& board) {
   }
   for (const std::string& inner : board.picked_frames)
     if (view.frames.contains(inner)) outer.insert(view.frames.at(inner).in), patch["frames"][inner]["in"] = id;
-  if (outer.size() == 1 && !outer.begin()->empty()) patch["frames"][id]["in"] = *outer.begin();
+  const std::string in = outer.size() == 1 && !outer.begin()->empty() ? *outer.begin() : board.model.entered;
+  if (!in.empty()) patch["frames"][id]["in"] = in;
   if (!board.editor.arrange(write_json_line(patch), board.editor.new_gesture())) return;
   board.model.update(board.editor);
   board.picked_frames = {id};
@@ -166,6 +175,7 @@ void add_comment(Board& board) {
   comment["at"] = place_json(board.cursor());
   comment["size"] = place_json({220, 70});
   comment["text"] = "";
+  join_entered(board, patch, "comments", id);
   if (!board.editor.arrange(write_json_line(patch), board.editor.new_gesture())) return;
   board.model.update(board.editor);
   board.picked_comments = {id};
@@ -245,6 +255,7 @@ void draw_inline_edit(Board& board) {
 }
 
 void show_node(Board& board, const std::string& id) {
+  leave_to_node(board, id);
   const std::size_t k = board.model.find_box(id);
   if (k >= board.model.boxes.size()) return;
   const Box& box = board.model.boxes[k].box;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,11 +17,26 @@
 namespace bl::desktop::canvas {
 
 /// What lies under the cursor.
-enum class Thing { nothing, node, node_edge, pill, pill_edge, link, dot, comment, comment_corner, frame, minimap, chip };
+enum class Thing {
+  nothing,
+  node,
+  node_edge,
+  pill,
+  pill_edge,
+  door,
+  link,
+  dot,
+  comment,
+  comment_corner,
+  frame,
+  minimap,
+  chip,
+  crumb
+};
 struct Hit {
   Thing thing = Thing::nothing;
   std::string id;         ///< of the node, link, comment or frame; the family of a chip
-  std::size_t index = 0;  ///< of the anchor, dot or chip
+  std::size_t index = 0;  ///< of the anchor, dot, chip or crumb
   bool operator==(const Hit&) const = default;
 };
 
@@ -57,6 +73,22 @@ struct InlineEdit {
   bool is_fresh = true;
 };
 
+/// The context menu of what lies under it.
+struct ContextMenu {
+  Hit over;
+  ImVec2 at;  ///< on the screen
+  bool is_opening = false, is_open = false;
+  bool is_acting = false;         ///< one of its actions runs: what it adds goes where the menu was opened
+  bool is_asked_again = false;    ///< the right button went down beside the open menu
+  std::size_t marked = kNoIndex;  ///< among what is offered
+};
+
+/// A part of the breadcrumb: a frame that one is in, and where its name is on the screen.
+struct Crumb {
+  std::string frame, label;  ///< no frame: the whole canvas
+  Box box;
+};
+
 struct Board {
   explicit Board(Editor& the_editor) : editor(the_editor) {}
 
@@ -65,15 +97,20 @@ struct Board {
   Model model;
   Live live;
   Picker picker;
+  ContextMenu menu;
   Drag drag;
   InlineEdit edit;
   Hit hovered;
   double hovered_since = 0;
   std::set<std::string> hidden_families;  ///< the person's own, not the scene's
   std::set<std::string> picked_comments, picked_frames;
+  std::vector<std::string> choice_order;           ///< chosen nodes, the first that was chosen first
   std::vector<std::string> pinned;                 ///< nodes whose cards stay
   std::set<std::string> soloed;                    ///< links that solo has muted
   std::vector<std::pair<std::string, Box>> chips;  ///< families and where their switches are on the screen
+  std::vector<Crumb> crumbs;                       ///< outermost first; none outside of frames
+  std::vector<std::string> way_in;                 ///< the entered frame and those around it, outermost first
+  std::map<std::string, Camera::Pose> poses;       ///< where the canvas was looked at when it was left for another frame
   Box minimap;                                     ///< on the screen; no size where it is not shown
   bool shows_minimap = true, snaps = true, is_reset = true;
   double space_since = -1;  ///< Space is held, perhaps to pan
@@ -84,9 +121,12 @@ struct Board {
 
   const Theme& theme() const { return editor.theme; }
   bool is_hidden(const Line& line) const { return hidden_families.contains(std::string(line.family.label)); }
-  /// Where the cursor is, in the plane; the middle of the pane where it is elsewhere.
+  /// Where the cursor is, in the plane, or where the menu was opened that acts; the middle of the pane where it is elsewhere.
   ImVec2 cursor() const;
 };
+
+/// Brings the order of choosing up to what is chosen now; what was chosen at once stands in the order of ids.
+void follow_choice(Board& board);
 
 /// What lies at a place on the screen.
 Hit hit_at(const Board& board, ImVec2 at);

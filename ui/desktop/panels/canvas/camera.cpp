@@ -88,14 +88,17 @@ void Camera::fit(const Box& box, bool is_soft) {
   const double down = (static_cast<double>(pane_.size.y) - margin - head_) / std::max(1.0, static_cast<double>(box.size.y));
   const double zoom = std::clamp(std::min(across, down) / scale_, kLeastZoom, 1.0);
   // The switches lie over the upper edge.
-  const Pose goal{static_cast<double>(box.centre().x), static_cast<double>(box.centre().y) - head_ / 2 / (zoom * scale_), zoom};
+  go_to({static_cast<double>(box.centre().x), static_cast<double>(box.centre().y) - head_ / 2 / (zoom * scale_), zoom}, is_soft);
+}
+
+void Camera::go_to(const Pose& goal, bool is_soft) {
   if (is_soft) return glide(goal);
   glide_end_ = -1;
   set(goal);
 }
 
 void Camera::glide_to_zoom(double zoom) {
-  const Pose from = is_gliding() ? goal_ : pose();
+  const Pose from = aim();
   glide({from.x, from.y, zoom});
 }
 

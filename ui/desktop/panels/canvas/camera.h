@@ -34,10 +34,14 @@ class Camera {
   void glide_to_zoom(double zoom);
   bool is_gliding() const { return glide_end_ > now_; }
 
- private:
   struct Pose {
-    double x = 0, y = 0, zoom = 1;  // the middle of the pane, in the plane
+    double x = 0, y = 0, zoom = 1;  ///< the middle of the pane, in the plane
   };
+  /// Where it is, or where it is flying to.
+  Pose aim() const { return is_gliding() ? goal_ : pose(); }
+  void go_to(const Pose& pose, bool is_soft);
+
+ private:
   Pose pose() const;
   void set(const Pose& pose);
   void glide(const Pose& goal);

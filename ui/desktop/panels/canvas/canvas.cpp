@@ -1,9 +1,13 @@
 // One frame of the canvas: brings the model up to the scene, answers to the mouse, and draws layer upon layer.
 #include "ui/desktop/panels/canvas/canvas.h"
 
+#include <nlohmann/json.hpp>
+
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/board.h"
+#include "ui/desktop/panels/canvas/context_menu.h"
 #include "ui/desktop/panels/canvas/draw.h"
+#include "ui/desktop/panels/canvas/entered.h"
 #include "ui/desktop/panels/canvas/mouse.h"
 
 namespace bl::desktop {
@@ -28,6 +32,9 @@ void follow_document(Board& board) {
   board.soloed.clear();
   board.picked_comments.clear();
   board.picked_frames.clear();
+  board.model.entered.clear();
+  board.way_in.clear();
+  board.poses.clear();
 }
 
 // What has gone from the scene is no longer chosen.
@@ -41,11 +48,26 @@ void forget_gone(Board& board) {
   std::erase_if(board.pinned, [&](const std::string& id) { return !scene.nodes.contains(id); });
 }
 
+}  // namespace
+
+void canvas::follow_choice(Board& board) {
+  const auto& nodes = board.editor.picks.nodes;
+  auto& order = board.choice_order;
+  std::erase_if(order, [&](const std::string& id) { return !nodes.contains(id); });
+  if (order.size() == nodes.size()) return;
+  const std::set<std::string> known(order.begin(), order.end());
+  for (const std::string& id : nodes)
+    if (!known.contains(id)) order.push_back(id);
+}
+
+namespace {
+
 void draw_layers(Board& board) {
   draw_ground(board);
   draw_frames_and_comments(board);
   draw_lines(board);
   draw_pills(board);
+  draw_doors(board);
   draw_nodes(board);
   draw_line_labels(board);
   draw_deed(board);
@@ -63,11 +85,12 @@ void Canvas::draw(ImVec2 size) {
   follow_document(board);
   board.camera.set_pane({ImGui::GetWindowPos(), size}, editor.theme.scale(), editor.now);
   const std::size_t revision = board.model.revision;
-  board.model.update(editor);
+  bring_up_to_date(board);
   place_chips(board);
   if (board.is_reset) board.camera.fit(board.model.bounds(), false);
   board.is_reset = false;
   if (revision != board.model.revision) forget_gone(board);
+  follow_choice(board);
   board.live.update(editor, board.model);
   // Takes the mouse from the moment of a press, so that a drag goes on outside the pane.
   ImGui::SetCursorScreenPos(ImGui::GetWindowPos());
@@ -78,6 +101,7 @@ void Canvas::draw(ImVec2 size) {
   draw_layers(board);
   draw_inline_edit(board);
   draw_picker(board);
+  draw_menu(board);
   if (auto later = std::move(board.after_frame); later) {
     board.after_frame = nullptr;
     later(board);
@@ -86,12 +110,19 @@ void Canvas::draw(ImVec2 size) {
 
 void Canvas::fit(bool all) {
   if (!board_->editor.document) return;
-  board_->model.update(board_->editor);
+  canvas::bring_up_to_date(*board_);
   const auto chosen = all ? std::nullopt : canvas::box_of_choice(*board_);
   board_->camera.fit(chosen.value_or(board_->model.bounds()), true);
 }
 
 void Canvas::show(const std::string& node) { canvas::show_node(*board_, node); }
+
+std::optional<Command> Canvas::joining(const std::string& node) const {
+  Json patch = Json::object();
+  canvas::join_entered(*board_, patch, "nodes", node);
+  if (patch.empty()) return std::nullopt;
+  return command<SetView>({{write_json_line(patch)}, false});
+}
 
 std::optional<ImVec2> Canvas::screen_of(const std::string& node) const {
   const std::size_t k = board_->model.find_box(node);

@@ -23,6 +23,8 @@ class Canvas {
   void fit(bool all);
   /// Brings a node into sight, if it is outside.
   void show(const std::string& node);
+  /// Part of the step that adds a node somewhere else: it lies in the frame that is entered. Nothing where none is.
+  std::optional<Command> joining(const std::string& node) const;
 
   // For actions, tests and tours.
   canvas::Board& board() { return *board_; }

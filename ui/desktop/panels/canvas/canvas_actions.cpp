@@ -6,7 +6,10 @@
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/canvas/clipboard.h"
+#include "ui/desktop/panels/canvas/context_menu.h"
 #include "ui/desktop/panels/canvas/edits.h"
+#include "ui/desktop/panels/canvas/entered.h"
+#include "ui/desktop/panels/panel_memory.h"
 
 namespace bl::desktop {
 
@@ -27,18 +30,23 @@ bool has_choice(const Editor& e) {
 }
 
 ImVec2 search_place(const Board& board) {
+  if (board.menu.is_acting) return board.menu.at;
   const ImVec2 at = ImGui::GetIO().MousePos;
   return board.camera.pane().holds(at) ? at : board.camera.pane().centre();
 }
 
 void select_all(Editor& e) {
+  bring_up_to_date(board_of(e));
   e.picks.clear();
-  for (const auto& [id, node] : e.scene().nodes) e.picks.nodes.insert(id);
-  for (const auto& [id, comment] : board_of(e).model.view.comments) board_of(e).picked_comments.insert(id);
+  const Model& model = board_of(e).model;
+  for (const NodeBox& box : model.boxes) e.picks.nodes.insert(box.id);
+  for (const auto& [id, comment] : model.view.comments)
+    if (model.shows_comment(id)) board_of(e).picked_comments.insert(id);
 }
 
 void select_none(Editor& e) {
-  if (board_of(e).drag.deed != Deed::none) return;  // Esc ends the drag, and no more
+  // Esc ends a drag or closes the menu, and no more. With keyboard navigation the menu is closed already when keys are looked at.
+  if (board_of(e).drag.deed != Deed::none || board_of(e).menu.is_open || !memory_of(e).scrub.key.empty()) return;
   e.picks.clear();
   board_of(e).picked_comments.clear();
   board_of(e).picked_frames.clear();
@@ -66,8 +74,9 @@ void edit_name(Editor& e) {
 // A link between two chosen nodes without the mouse; with one chosen, to a new node.
 void link_chosen(Editor& e) {
   Board& board = board_of(e);
+  follow_choice(board);
   std::vector<std::size_t> ends;
-  for (const std::string& id : e.picks.nodes)
+  for (const std::string& id : board.choice_order)
     if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size()) ends.push_back(k);
   const ImVec2 at =
       board.camera.to_screen(ends.empty() ? board.camera.sight().centre() : board.model.anchor(ends.back()).centre());
@@ -82,96 +91,168 @@ void align(Editor& e) {
   align_chosen(board_of(e), kind);
 }
 
+// `targets`: the context menus that it stands in as well.
+void offer(std::vector<Action>& list, unsigned targets, Action action) {
+  action.targets = targets;
+  list.push_back(std::move(action));
+}
+
+// The same, with a line before it in menus.
+void begin_group(std::vector<Action>& list, unsigned targets, Action action) {
+  action.begins_group = true;
+  offer(list, targets, std::move(action));
+}
+
+void select_members(Editor& e) {
+  Board& board = board_of(e);
+  const Hit at = board.menu.is_acting ? board.menu.over : board.hovered;
+  e.picks.clear();
+  for (const Pill& pill : board.model.pills)
+    if (pill.key == at.id)
+      for (const std::size_t member : pill.members) e.picks.nodes.insert(board.model.boxes[member].id);
+}
+
+bool is_at_set(const Editor& e) {
+  if (!has_document(e)) return false;
+  const Board& board = e.canvas->board();
+  const Thing thing = board.menu.is_open || board.menu.is_acting ? board.menu.over.thing : board.hovered.thing;
+  return thing == Thing::pill || thing == Thing::pill_edge;
+}
+
+bool has_one_link(const Editor& e) { return has_document(e) && e.picks.links.size() == 1; }
+
+void dot_at_cursor(Editor& e) {
+  Board& board = board_of(e);
+  add_dot(board, board.model.find_line(*e.picks.links.begin()), board.cursor());
+}
+
 void add_edit_commands(std::vector<Action>& list) {
   const Area area = Area::canvas;
-  list.push_back({"Canvas", "Add...", {GLFW_KEY_TAB}, {}, area, has_document, [](Editor& e) {
-                    open_addition(board_of(e), search_place(board_of(e)));
-                  }});
-  list.push_back({"Canvas", "Link...", {GLFW_KEY_L}, {}, area, has_nodes, link_chosen});
-  list.push_back({"Canvas", "Find...", {GLFW_KEY_F, true}, {}, area, has_document, [](Editor& e) { open_find(board_of(e)); }});
-  list.push_back({"Canvas", "Rename", {GLFW_KEY_ENTER}, {GLFW_KEY_F2}, area, has_choice, edit_name});
-  list.push_back({"Canvas", "Copy", {GLFW_KEY_C, true}, {}, area, has_choice, [](Editor& e) { copy_chosen(board_of(e)); }});
-  list.push_back({"Canvas", "Cut", {GLFW_KEY_X, true}, {}, area, has_choice, [](Editor& e) { cut_chosen(board_of(e)); }});
-  list.push_back({"Canvas", "Paste", {GLFW_KEY_V, true}, {}, area, has_document, [](Editor& e) { paste(board_of(e)); }});
-  list.push_back({"Canvas", "Duplicate", {GLFW_KEY_D, true}, {}, area, has_choice, [](Editor& e) {
-                    duplicate_chosen(board_of(e), {30, 30});
-                  }});
-  list.push_back(
+  offer(list, on_ground | on_node, {"Canvas", "Add...", {GLFW_KEY_TAB}, {}, area, has_document, [](Editor& e) {
+                                      open_addition(board_of(e), search_place(board_of(e)));
+                                    }});
+  offer(list, on_node, {"Canvas", "Link...", {GLFW_KEY_L}, {}, area, has_nodes, link_chosen});
+  offer(list, on_ground,
+        {"Canvas", "Find...", {GLFW_KEY_F, true}, {}, area, has_document, [](Editor& e) { open_find(board_of(e)); }});
+  begin_group(list, on_node | on_comment | on_frame,
+              {"Canvas", "Rename", {GLFW_KEY_ENTER}, {GLFW_KEY_F2}, area, has_choice, edit_name});
+  begin_group(list, on_node | on_comment,
+              {"Canvas", "Copy", {GLFW_KEY_C, true}, {}, area, has_choice, [](Editor& e) { copy_chosen(board_of(e)); }});
+  offer(list, on_node | on_comment,
+        {"Canvas", "Cut", {GLFW_KEY_X, true}, {}, area, has_choice, [](Editor& e) { cut_chosen(board_of(e)); }});
+  offer(list, on_ground, {"Canvas", "Paste", {GLFW_KEY_V, true}, {}, area, has_document, [](Editor& e) { paste(board_of(e)); }});
+  offer(list, on_node | on_comment, {"Canvas", "Duplicate", {GLFW_KEY_D, true}, {}, area, has_choice, [](Editor& e) {
+                                       duplicate_chosen(board_of(e), {30, 30});
+                                     }});
+  begin_group(
+      list, on_node | on_link | on_comment | on_frame,
       {"Canvas", "Delete", {GLFW_KEY_DELETE}, {}, area, has_choice, [](Editor& e) { remove_chosen(board_of(e), false); }});
-  list.push_back({"Canvas", "Delete and reconnect", {GLFW_KEY_DELETE, true}, {}, area, has_nodes, [](Editor& e) {
-                    remove_chosen(board_of(e), true);
-                  }});
-  list.push_back({"Canvas", "Mute", {GLFW_KEY_M}, {}, area, has_picks, [](Editor& e) { mute_chosen(board_of(e)); }});
-  list.push_back({"Canvas",
-                  "Solo",
-                  {GLFW_KEY_Q},
-                  {},
-                  area,
-                  has_document,
-                  [](Editor& e) { solo_chosen(board_of(e)); },
-                  false,
-                  [](const Editor& e) { return has_document(e) && !e.canvas->board().soloed.empty(); }});
-  list.push_back({"Canvas", "Select all", {GLFW_KEY_A, true}, {}, area, has_document, select_all});
+  offer(list, on_node, {"Canvas", "Delete and reconnect", {GLFW_KEY_DELETE, true}, {}, area, has_nodes, [](Editor& e) {
+                          remove_chosen(board_of(e), true);
+                        }});
+  begin_group(list, on_node | on_link,
+              {"Canvas", "Mute", {GLFW_KEY_M}, {}, area, has_picks, [](Editor& e) { mute_chosen(board_of(e)); }});
+  offer(list, on_node | on_link,
+        {"Canvas",
+         "Solo",
+         {GLFW_KEY_Q},
+         {},
+         area,
+         has_document,
+         [](Editor& e) { solo_chosen(board_of(e)); },
+         false,
+         [](const Editor& e) { return has_document(e) && !e.canvas->board().soloed.empty(); }});
+  begin_group(list, on_ground, {"Canvas", "Select all", {GLFW_KEY_A, true}, {}, area, has_document, select_all});
   list.push_back({"Canvas", "Select nothing", {GLFW_KEY_ESCAPE}, {}, area, has_choice, select_none});
-  list.push_back({"Canvas", "Select neighbours too", {GLFW_KEY_N}, {}, area, has_nodes, select_neighbours});
+  offer(list, on_node, {"Canvas", "Select neighbours too", {GLFW_KEY_N}, {}, area, has_nodes, select_neighbours});
+  offer(list, on_set, {"Canvas", "Select the members of the set", {}, {}, area, is_at_set, select_members});
+  offer(list, on_link, {"Canvas", "Add a dot to the link", {}, {}, area, has_one_link, dot_at_cursor});
 }
 
 void add_arrangement_commands(std::vector<Action>& list) {
   const Area area = Area::canvas;
-  list.push_back({"Canvas", "Collapse", {GLFW_KEY_H}, {}, area, has_nodes, [](Editor& e) { collapse_chosen(board_of(e)); }});
-  list.push_back({"Canvas", "Frame", {GLFW_KEY_G, true}, {}, area, has_choice, [](Editor& e) { frame_chosen(board_of(e)); }});
-  list.push_back(
-      {"Canvas", "Comment", {GLFW_KEY_C, false, true}, {}, area, has_document, [](Editor& e) { add_comment(board_of(e)); }});
-  list.push_back({"Canvas", "Align left", {GLFW_KEY_LEFT, false, false, true}, {}, area, has_several, align<Alignment::left>});
-  list.push_back({"Canvas", "Align right", {GLFW_KEY_RIGHT, false, false, true}, {}, area, has_several, align<Alignment::right>});
-  list.push_back({"Canvas", "Align top", {GLFW_KEY_UP, false, false, true}, {}, area, has_several, align<Alignment::top>});
-  list.push_back(
-      {"Canvas", "Align bottom", {GLFW_KEY_DOWN, false, false, true}, {}, area, has_several, align<Alignment::bottom>});
-  list.push_back({"Canvas", "Align centres", {}, {}, area, has_several, align<Alignment::centre>});
-  list.push_back({"Canvas", "Align middles", {}, {}, area, has_several, align<Alignment::middle>});
-  list.push_back({"Canvas", "Distribute across", {GLFW_KEY_D, false, true}, {}, area, has_several, [](Editor& e) {
-                    distribute_chosen(board_of(e), true);
-                  }});
-  list.push_back({"Canvas", "Distribute down", {GLFW_KEY_D, false, true, true}, {}, area, has_several, [](Editor& e) {
-                    distribute_chosen(board_of(e), false);
-                  }});
-  list.push_back({"Canvas", "Lay out selection, or all", {GLFW_KEY_L, false, true}, {}, area, has_document, [](Editor& e) {
-                    lay_out_chosen(board_of(e));
-                  }});
-  list.push_back({"Canvas",
-                  "Snap to grid",
-                  {GLFW_KEY_S, false, true},
-                  {},
-                  area,
-                  has_document,
-                  [](Editor& e) { board_of(e).snaps = !board_of(e).snaps; },
-                  false,
-                  [](const Editor& e) { return has_document(e) && e.canvas->board().snaps; }});
-  list.push_back({"Canvas",
-                  "Minimap",
-                  {GLFW_KEY_M, false, true},
-                  {},
-                  area,
-                  has_document,
-                  [](Editor& e) { board_of(e).shows_minimap = !board_of(e).shows_minimap; },
-                  false,
-                  [](const Editor& e) { return has_document(e) && e.canvas->board().shows_minimap; }});
+  begin_group(list, on_node,
+              {"Canvas", "Collapse", {GLFW_KEY_H}, {}, area, has_nodes, [](Editor& e) { collapse_chosen(board_of(e)); }});
+  offer(list, on_node | on_comment | on_frame,
+        {"Canvas", "Frame", {GLFW_KEY_G, true}, {}, area, has_choice, [](Editor& e) { frame_chosen(board_of(e)); }});
+  offer(list, on_ground,
+        {"Canvas", "Comment", {GLFW_KEY_C, false, true}, {}, area, has_document, [](Editor& e) { add_comment(board_of(e)); }});
+  begin_group(list, on_node,
+              {"Canvas", "Align left", {GLFW_KEY_LEFT, false, false, true}, {}, area, has_several, align<Alignment::left>});
+  offer(list, on_node,
+        {"Canvas", "Align right", {GLFW_KEY_RIGHT, false, false, true}, {}, area, has_several, align<Alignment::right>});
+  offer(list, on_node, {"Canvas", "Align top", {GLFW_KEY_UP, false, false, true}, {}, area, has_several, align<Alignment::top>});
+  offer(list, on_node,
+        {"Canvas", "Align bottom", {GLFW_KEY_DOWN, false, false, true}, {}, area, has_several, align<Alignment::bottom>});
+  offer(list, on_node, {"Canvas", "Align centres", {}, {}, area, has_several, align<Alignment::centre>});
+  offer(list, on_node, {"Canvas", "Align middles", {}, {}, area, has_several, align<Alignment::middle>});
+  offer(list, on_node, {"Canvas", "Distribute across", {GLFW_KEY_D, false, true}, {}, area, has_several, [](Editor& e) {
+                          distribute_chosen(board_of(e), true);
+                        }});
+  offer(list, on_node, {"Canvas", "Distribute down", {GLFW_KEY_D, false, true, true}, {}, area, has_several, [](Editor& e) {
+                          distribute_chosen(board_of(e), false);
+                        }});
+  begin_group(list, on_ground | on_node,
+              {"Canvas", "Lay out selection, or all", {GLFW_KEY_L, false, true}, {}, area, has_document, [](Editor& e) {
+                 lay_out_chosen(board_of(e));
+               }});
+  begin_group(list, on_ground,
+              {"Canvas",
+               "Snap to grid",
+               {GLFW_KEY_S, false, true},
+               {},
+               area,
+               has_document,
+               [](Editor& e) { board_of(e).snaps = !board_of(e).snaps; },
+               false,
+               [](const Editor& e) { return has_document(e) && e.canvas->board().snaps; }});
+  offer(list, on_ground,
+        {"Canvas",
+         "Minimap",
+         {GLFW_KEY_M, false, true},
+         {},
+         area,
+         has_document,
+         [](Editor& e) { board_of(e).shows_minimap = !board_of(e).shows_minimap; },
+         false,
+         [](const Editor& e) { return has_document(e) && e.canvas->board().shows_minimap; }});
 }
 
 void add_sight_commands(std::vector<Action>& list) {
   const Area area = Area::canvas;
   list.push_back(
-      {"Canvas", "Fit selection, or all", {GLFW_KEY_F}, {}, area, has_document, [](Editor& e) { e.canvas->fit(false); }});
-  list.push_back(
-      {"Canvas", "Fit all", {GLFW_KEY_HOME}, {GLFW_KEY_A}, area, has_document, [](Editor& e) { e.canvas->fit(true); }});
-  list.push_back({"Canvas",
-                  "Zoom in",
-                  {GLFW_KEY_EQUAL, true},
-                  {GLFW_KEY_KP_ADD, true},
-                  area,
-                  has_document,
-                  [](Editor& e) { board_of(e).camera.glide_to_zoom(board_of(e).camera.zoom() * kZoomStep); },
-                  true});
+      {"Canvas", "Menu of what is chosen", {GLFW_KEY_MENU}, {GLFW_KEY_F10, false, true}, area, has_document, [](Editor& e) {
+         open_menu_of_choice(board_of(e));
+       }});
+  begin_group(list, on_frame | on_node,
+              {"Canvas",
+               "Enter the frame",
+               {GLFW_KEY_I},
+               {},
+               area,
+               [](const Editor& e) { return has_document(e) && !frame_to_enter(e.canvas->board()).empty(); },
+               [](Editor& e) { enter_frame(board_of(e), frame_to_enter(board_of(e))); }});
+  offer(list, on_ground,
+        {"Canvas",
+         "Leave the frame",
+         {GLFW_KEY_U},
+         {},
+         area,
+         [](const Editor& e) { return has_document(e) && !e.canvas->board().model.entered.empty(); },
+         [](Editor& e) { leave_frame(board_of(e)); }});
+  begin_group(list, on_node | on_link | on_frame | on_comment,
+              {"Canvas", "Fit selection, or all", {GLFW_KEY_F}, {}, area, has_document, [](Editor& e) { e.canvas->fit(false); }});
+  offer(list, on_ground,
+        {"Canvas", "Fit all", {GLFW_KEY_HOME}, {GLFW_KEY_A}, area, has_document, [](Editor& e) { e.canvas->fit(true); }});
+  begin_group(list, 0,
+              {"Canvas",
+               "Zoom in",
+               {GLFW_KEY_EQUAL, true},
+               {GLFW_KEY_KP_ADD, true},
+               area,
+               has_document,
+               [](Editor& e) { board_of(e).camera.glide_to_zoom(board_of(e).camera.zoom() * kZoomStep); },
+               true});
   list.push_back({"Canvas",
                   "Zoom out",
                   {GLFW_KEY_MINUS, true},
@@ -183,16 +264,17 @@ void add_sight_commands(std::vector<Action>& list) {
   list.push_back({"Canvas", "Full size", {GLFW_KEY_0, true}, {}, area, has_document, [](Editor& e) {
                     board_of(e).camera.glide_to_zoom(1);
                   }});
-  list.push_back({"Canvas",
-                  "Go left",
-                  {GLFW_KEY_LEFT},
-                  {},
-                  area,
-                  has_document,
-                  [](Editor& e) {
-                    step_choice(board_of(e), {-1, 0});
-                  },
-                  true});
+  begin_group(list, 0,
+              {"Canvas",
+               "Go left",
+               {GLFW_KEY_LEFT},
+               {},
+               area,
+               has_document,
+               [](Editor& e) {
+                 step_choice(board_of(e), {-1, 0});
+               },
+               true});
   list.push_back({"Canvas",
                   "Go right",
                   {GLFW_KEY_RIGHT},

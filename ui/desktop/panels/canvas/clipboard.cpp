@@ -8,6 +8,7 @@
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/edits.h"
+#include "ui/desktop/panels/canvas/entered.h"
 
 namespace bl::desktop::canvas {
 
@@ -109,6 +110,7 @@ Result<void> paste_nodes(Pasting& pasting, const Json& list) {
     const std::string& copy = pasting.new_ids[id];
     pasting.commands.push_back(command<AddNode>({copy, {write_json_line(node_to_json(*node, registry))}}));
     pasting.nodes.insert(copy);
+    join_entered(pasting.board, pasting.patch, "nodes", copy);
     if (const auto at = corner_of(item, "box")) pasting.patch["boxes"][copy] = corner_json(*at + pasting.shift);
   }
   return {};
@@ -151,6 +153,7 @@ void paste_comments(Pasting& pasting, const Json& list, std::set<std::string>& p
     comment["at"] = corner_json(*at + pasting.shift);
     comment["size"] = corner_json(size.value_or(ImVec2(220, 70)));
     comment["text"] = text_in(item, "text");
+    join_entered(pasting.board, pasting.patch, "comments", id);
   }
 }
 

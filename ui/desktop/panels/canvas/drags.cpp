@@ -4,6 +4,7 @@
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/canvas/additions.h"
 #include "ui/desktop/panels/canvas/clipboard.h"
+#include "ui/desktop/panels/canvas/context_menu.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/mouse.h"
 
@@ -13,8 +14,10 @@ namespace {
 
 constexpr float kTremble = 4, kGuideReach = 6;
 
+// Whatever a link can be laid to.
 bool is_body(Thing thing) {
-  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge;
+  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge ||
+         thing == Thing::door;
 }
 
 // What a press on something that can be moved chooses, as soon as it is pressed.
@@ -157,7 +160,7 @@ void go_on_boxing(Board& board) {
   for (const NodeBox& node : board.model.boxes)
     if (is_in(node.box)) take(picks.nodes, node.id), has_nodes = true;
   for (const auto& [id, comment] : board.model.view.comments)
-    if (is_in(comment.box)) board.picked_comments.insert(id), has_nodes = true;
+    if (board.model.shows_comment(id) && is_in(comment.box)) board.picked_comments.insert(id), has_nodes = true;
   if (has_nodes) return;
   for (const Line& line : board.model.lines) {
     if (board.is_hidden(line)) continue;
@@ -227,7 +230,7 @@ void go_on_dragging(Board& board) {
 
 namespace {
 
-// Nodes that were dragged out of their frames, with Shift, or into one.
+// Nodes that were dragged out of their frames, with Shift, or into one. In an entered frame nothing leaves that frame itself.
 void patch_membership(const Board& board, const Drag& drag, Json& patch) {
   const ViewData& view = board.model.view;
   if (!board.picked_frames.empty()) return;
@@ -241,10 +244,13 @@ void patch_membership(const Board& board, const Drag& drag, Json& patch) {
       if (is_new && board.model.frame_box(id, box) && box.holds(board.cursor()) && (target.empty() || view.is_within(id, target)))
         target = id;
     }
+  const std::string& ground = board.model.entered;
   const auto update = [&](const std::string& id, const std::string& own, const char* list) {
-    if (drag.leaves && !own.empty()) patch["frames"][own][list][id] = nullptr;
-    if (target.empty() || !own.empty()) return;
-    patch["frames"][target][list][id] = true;
+    const bool is_free = own == ground;
+    const std::string& goal = drag.leaves ? ground : target;
+    if (drag.leaves == is_free || (!drag.leaves && target.empty())) return;
+    if (!own.empty()) patch["frames"][own][list][id] = nullptr;
+    if (!goal.empty()) patch["frames"][goal][list][id] = true;
   };
   for (const std::size_t k : drag.anchors)
     if (k < board.model.boxes.size()) update(board.model.boxes[k].id, view.frame_of_node(board.model.boxes[k].id), "nodes");
@@ -317,6 +323,7 @@ void end_drag(Board& board) {
   switch (board.drag.deed) {
     case Deed::pan:
       if (!board.drag.is_far && board.drag.button == 2) pin_or_unpin(board);
+      if (!board.drag.is_far && board.drag.button == 1) open_menu(board, board.drag.grabbed, ImGui::GetIO().MousePos);
       break;
     case Deed::box:
       if (!board.drag.is_far && !board.drag.adds && !board.drag.toggles) {

@@ -80,8 +80,8 @@ void draw_new_link(Board& board, ImDrawList& list, ImVec2 cursor) {
                    2.2f * board.theme().scale());
   list.AddCircleFilled(screen.back(), 4 * board.theme().scale(), is_moving ? c.warning : c.accent, 12);
   const Hit& over = board.hovered;
-  const bool is_target =
-      over.thing == Thing::node || over.thing == Thing::node_edge || over.thing == Thing::pill || over.thing == Thing::pill_edge;
+  const bool is_target = over.thing == Thing::node || over.thing == Thing::node_edge || over.thing == Thing::pill ||
+                         over.thing == Thing::pill_edge || over.thing == Thing::door;
   if (is_target && over.index != drag.grabbed.index) {
     const Box box = board.camera.to_screen(board.model.anchor(over.index));
     list.AddRect(box.low() - ImVec2(3, 3), box.high() + ImVec2(3, 3), c.accent, 7, 0, 2.5f);
@@ -105,7 +105,8 @@ void draw_frames_and_comments(Board& board) {
     if (Box box; board.model.frame_box(id, box)) order.emplace_back(-box.size.x * box.size.y, id);
   std::sort(order.begin(), order.end());
   for (const auto& [area, id] : order) draw_frame(board, id, board.model.view.frames.at(id));
-  for (const auto& [id, comment] : board.model.view.comments) draw_comment(board, id, comment);
+  for (const auto& [id, comment] : board.model.view.comments)
+    if (board.model.shows_comment(id)) draw_comment(board, id, comment);
 }
 
 void draw_deed(Board& board) {
@@ -126,7 +127,8 @@ void draw_deed(Board& board) {
     const Box box = box_between(board.camera.to_screen(drag.begin), board.camera.to_screen(cursor));
     const bool encloses = cursor.x >= drag.begin.x;
     list.AddRectFilled(box.low(), box.high(), faded(c.accent, 0.1f));
-    list.AddRect(box.low(), box.high(), faded(c.accent, encloses ? 0.9f : 0.5f), 2, 0, encloses ? 1.5f : 1.0f);
+    // Without rounding: ImGui divides by zero at corners of nearly no radius, as a box of three pixels has.
+    list.AddRect(box.low(), box.high(), faded(c.accent, encloses ? 0.9f : 0.5f), 0, 0, encloses ? 1.5f : 1.0f);
     draw_text(board, {box.low().x + 4, box.high().y + 3}, 11 * board.theme().scale(), c.text_soft,
               encloses ? "inside" : "touching");
   }

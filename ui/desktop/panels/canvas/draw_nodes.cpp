@@ -145,6 +145,15 @@ float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::si
 
 bool is_result(const PortDefinition& port) { return port.is_computed && !port.is_residual; }
 
+// An eye that is crossed out: the 3D view leaves the node out. `right`: where it ends. Returns the width that it takes.
+float draw_hidden_badge(const Ink& ink, const NodeBox& box, ImVec2 right, float size) {
+  if (!box.is_hidden || size < 5) return 0;
+  ImFont* font = ink.board.theme().fonts().body;
+  const float width = font->CalcTextSizeA(size, 1e9f, 0, icon::kHidden).x;
+  ink.list.AddText(font, size, {right.x - width, right.y - 0.5f * size}, ink.c.text_soft, icon::kHidden);
+  return width + 0.4f * size;
+}
+
 // Far away: the name as large as fits, on the colour of the first role.
 void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
   const ImU32 tone = tone_of(ink.board, box);
@@ -155,6 +164,8 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
     if (section.has_bar && !box.is_collapsed)
       draw_bar_of(ink, box, section, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2));
   if (screen.size.x < 34) return;
+  const float badge = std::max(12 * ink.k, 9 * ink.board.theme().scale());
+  draw_hidden_badge(ink, box, {screen.high().x - 4, screen.high().y - bar - 3 - 0.5f * badge}, badge);
   const float scale = ink.board.theme().scale(), least = std::min(8 * scale, screen.size.x / 4.6f);
   const float pixels = std::clamp(screen.size.x / 5.4f, least, std::max(least, 12.5f * scale));
   const ImVec4 clip(screen.low().x, screen.low().y, screen.high().x - 2, screen.high().y - bar - 2);
@@ -188,7 +199,9 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
     draw_text(ink.board, {x - 1.6f * ink.k, y - 6.2f * ink.k}, 11 * ink.k, ink.c.on_accent, "!");
     x -= 16 * ink.k, room -= 16 * ink.k;
   }
-  if (tension > kMarkedTension) draw_warning(ink, {x, y}, 5.5f * ink.k, ink.c.warning), room -= 16 * ink.k;
+  if (tension > kMarkedTension) draw_warning(ink, {x, y}, 5.5f * ink.k, ink.c.warning), x -= 16 * ink.k, room -= 16 * ink.k;
+  if (box.is_collapsed) x -= 10 * ink.k * static_cast<float>(box.sections.size());
+  room -= draw_hidden_badge(ink, box, {x + 6 * ink.k, y}, 13 * ink.k);
   if (box.is_collapsed)
     for (const Section& section : box.sections) {
       room -= 10 * ink.k;

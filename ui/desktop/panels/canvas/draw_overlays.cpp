@@ -1,6 +1,7 @@
 // What lies above the plane: switches of families, minimap, hints, and cards.
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/canvas/draw.h"
+#include "ui/desktop/panels/canvas/entered.h"
 #include "ui/desktop/panels/canvas/sections.h"
 #include "ui/desktop/panels/canvas/tension.h"
 
@@ -116,6 +117,7 @@ std::vector<CardRow> rows_of(const Board& board, const NodeBox& box) {
   const Editor& editor = board.editor;
   const Colours& c = board.theme().colours();
   std::vector<CardRow> rows;
+  if (box.is_hidden) rows.push_back({"Hidden from the 3D view; Shift+H shows it", "", c.warning});
   for (const Section& section : box.sections) {
     rows.push_back({section.label, section.type == nullptr ? "unknown here" : "", colour_of(board, section)});
     if (section.type == nullptr) continue;
@@ -173,6 +175,18 @@ void draw_link_card(Board& board, const Line& line) {
   draw_card(board, {at, {8, 8}}, line.label + "  (" + line.id + ")", rows, false);
 }
 
+void draw_frame_card(Board& board, const std::string& id) {
+  const auto frame = board.model.view.frames.find(id);
+  Box box;
+  if (frame == board.model.view.frames.end() || !board.model.frame_box(id, box)) return;
+  std::size_t count = 0;
+  for (const NodeBox& node : board.model.boxes) count += board.model.view.holds_node(id, node.id) ? 1 : 0;
+  const Box head = board.camera.to_screen({box.at, {box.size.x, 26}});
+  draw_card(board, {{std::min(ImGui::GetIO().MousePos.x, head.high().x), head.low().y}, {8, head.size.y}},
+            frame->second.name.empty() ? "Frame" : frame->second.name,
+            {{report::counted(count, "node"), ""}, {"Double-click or I enters, F2 renames", ""}}, false);
+}
+
 }  // namespace
 
 void place_chips(Board& board) {
@@ -181,7 +195,8 @@ void place_chips(Board& board) {
   for (const Line& line : board.model.lines) families.insert(std::string(line.family.label));
   board.chips.clear();
   const Box& pane = board.camera.pane();
-  ImVec2 at = pane.low() + ImVec2(10, 10) * scale;
+  const float crumbs = place_crumbs(board);
+  ImVec2 at = pane.low() + ImVec2(10 * scale, crumbs + 10 * scale);
   for (const std::string& label : families) {
     const float width = text_width(board, kChipText * scale, label) + 28 * scale;
     const bool is_full = at.x + width > pane.high().x - 10 * scale && at.x > pane.low().x + 11 * scale;
@@ -189,11 +204,12 @@ void place_chips(Board& board) {
     board.chips.emplace_back(label, Box{at, {width, 22 * scale}});
     at.x += width + 6 * scale;
   }
-  board.camera.set_head(board.chips.empty() ? 0 : at.y + 24 * scale - pane.low().y);
+  board.camera.set_head(board.chips.empty() ? crumbs : at.y + 24 * scale - pane.low().y);
 }
 
 void draw_overlays(Board& board) {
   draw_chips(board);
+  draw_crumbs(board);
   draw_minimap(board);
   draw_hints(board);
 }
@@ -209,6 +225,11 @@ void draw_cards(Board& board) {
   if ((hit.thing == Thing::node || hit.thing == Thing::node_edge) && !is_pinned && hit.index < board.model.boxes.size())
     draw_card(board, board.camera.to_screen(board.model.boxes[hit.index].box),
               board.model.boxes[hit.index].name + "  (" + hit.id + ")", rows_of(board, board.model.boxes[hit.index]), false);
+  if (hit.thing == Thing::door && hit.index < board.model.anchors()) {
+    const Door& door = board.model.doors[hit.index - board.model.boxes.size() - board.model.pills.size()];
+    draw_card(board, board.camera.to_screen(door.box), door.label, {{"Outside of this frame: click to go there", ""}}, false);
+  }
+  if (hit.thing == Thing::frame) draw_frame_card(board, hit.id);
   if (hit.thing == Thing::link)
     if (const std::size_t k = board.model.find_line(hit.id); k < board.model.lines.size())
       draw_link_card(board, board.model.lines[k]);

@@ -20,6 +20,7 @@ Json forgetting(const ViewData& view, const std::set<std::string>& nodes, const 
   for (const std::string& id : nodes) {
     if (view.boxes.contains(id)) patch["boxes"][id] = nullptr;
     if (view.collapsed.contains(id)) patch["collapsed"][id] = nullptr;
+    if (view.hidden.contains(id)) patch["hidden"][id] = nullptr;
     if (const std::string frame = view.frame_of_node(id); !frame.empty()) patch["frames"][frame]["nodes"][id] = nullptr;
   }
   for (const std::string& id : links)
@@ -224,6 +225,9 @@ void arrange_dots(Board& board, const std::string& link, const std::vector<ImVec
 void add_dot(Board& board, std::size_t line, ImVec2 at) {
   if (line >= board.model.lines.size()) return;
   const Line& known = board.model.lines[line];
+  if (known.is_crossing)
+    return board.editor.tell(NoticeKind::told,
+                             "This link leads out of the frame: its dots lie outside, where all of it is seen.");
   // Between the two neighbours that the curve passes there: counted by how many dots come before the nearest stretch.
   std::size_t nearest = 1;
   for (std::size_t s = 1; s < known.points.size(); ++s)

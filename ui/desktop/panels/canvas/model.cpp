@@ -72,16 +72,19 @@ void Model::update(const Editor& editor) {
   const Document* document = editor.document.get();
   const std::size_t log_size = editor.document->session().log().size();
   const Scene& scene = editor.scene();
-  const bool is_other = document != document_ || boxes.size() != scene.nodes.size() || log_size < log_size_;
-  if (is_other || log_size != log_size_) {
+  const bool is_other = document != document_ || node_count_ != scene.nodes.size() || log_size < log_size_;
+  if (is_other || log_size != log_size_ || entered != narrowed_to_) {
     if (document != document_ || log_size < log_size_) kept_.clear();
     document_ = document;
     log_size_ = log_size;
+    node_count_ = scene.nodes.size();
+    narrowed_to_ = entered;
     if (scene.view != view_text_ || revision == 0) view = read_view(view_text_ = scene.view);
     ++revision;
     make_boxes(editor);
     make_lines(editor);
     place(editor);
+    narrow();
     trace_lines();
     plan_ = nullptr;
     state_ = nullptr;
@@ -107,6 +110,7 @@ void Model::make_boxes(const Editor& editor) {
     box.name = node.name.empty() ? id : node.name;
     box.sections = sections_of(editor.registry, node);
     box.is_collapsed = view.collapsed.contains(id);
+    box.is_hidden = view.hidden.contains(id);
     box.box.size = {kBoxWidth, box.is_collapsed ? kHeadHeight : height_of(box.sections)};
   }
   number_uses(editor);
@@ -258,16 +262,16 @@ void Model::place(const Editor& editor) {
     pill.is_stored = stored != view.sets.end();
     pill.box.at = pill.is_stored ? stored->second : kept_.at("\n" + pill.key);
   }
-  if (!view.boxes.empty() || !view.sets.empty()) make_room(fresh);
+  if (!fresh.empty() && fresh.size() < boxes.size() + pills.size()) make_room(fresh);
 }
 
-// What is placed for the first time gives way, downwards, to what people have placed.
+// What is placed for the first time gives way, downwards, to what people have placed and to what has been seen already.
 void Model::make_room(const std::set<std::string>& fresh) {
   std::vector<Box> taken;
   for (const NodeBox& box : boxes)
-    if (box.is_stored) taken.push_back(box.box);
+    if (box.is_stored || !fresh.contains(box.id)) taken.push_back(box.box);
   for (const Pill& pill : pills)
-    if (pill.is_stored) taken.push_back(pill.box);
+    if (pill.is_stored || !fresh.contains("\n" + pill.key)) taken.push_back(pill.box);
   const auto give_way = [&](Box& box, const std::string& key) {
     if (!fresh.contains(key)) return;
     for (std::size_t tries = 0; tries <= taken.size(); ++tries) {
@@ -323,6 +327,7 @@ void Model::find_indices(const Editor& editor) {
 }
 
 Selection Model::selection_of(std::size_t anchor) const {
+  if (is_door(anchor)) return doors[anchor - boxes.size() - pills.size()].selection;
   if (anchor >= boxes.size()) return pills[anchor - boxes.size()].selection;
   Selection one;
   one.ids = {boxes[anchor].id};
@@ -331,7 +336,7 @@ Selection Model::selection_of(std::size_t anchor) const {
 
 bool Model::frame_box(const std::string& id, Box& out, int depth) const {
   const auto found = view.frames.find(id);
-  if (found == view.frames.end() || depth > kDeepestFrame) return false;
+  if (found == view.frames.end() || depth > kDeepestFrame || !shows_frame(id)) return false;
   bool has_content = false;
   const auto take = [&](const Box& box) {
     out = has_content ? out.with(box) : box;
@@ -359,7 +364,8 @@ Box Model::bounds() const {
     has_any = true;
   };
   for (std::size_t k = 0; k < anchors(); ++k) take(anchor(k));
-  for (const auto& [id, comment] : view.comments) take(comment.box);
+  for (const auto& [id, comment] : view.comments)
+    if (shows_comment(id)) take(comment.box);
   for (const auto& [id, frame] : view.frames)
     if (Box box; frame_box(id, box)) take(box);
   return all;

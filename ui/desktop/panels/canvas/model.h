@@ -41,6 +41,7 @@ struct NodeBox {
   Box box;  ///< as drawn: of its head alone where collapsed
   std::vector<Section> sections;
   bool is_collapsed = false, is_stored = false;  ///< stored: the view says where it lies
+  bool is_hidden = false;                        ///< left out of the 3D view
   std::uint32_t in_state = kNoIndex;             ///< none before the first tick that knows it
   std::size_t use = kNoIndex;                    ///< of a SmartVolume: the number of its use, as in the report
 
@@ -56,12 +57,22 @@ struct Pill {
   bool is_stored = false;
 };
 
-/// What lines end at: boxes first, pills after them.
+/// A node or set outside of the entered frame that a link from inside leads to: a sign at the frame's edge.
+struct Door {
+  std::string id;  ///< of the node; the key of the set
+  std::string label;
+  Selection selection;
+  bool is_set = false, is_left = false;  ///< a set; beside the left edge, because it lies on that side
+  Box box;
+};
+
+/// What lines end at: boxes first, pills and doors after them.
 struct Line {
   std::string id, kind, label;
   const LinkDefinition* definition = nullptr;  ///< none: unknown here, kept as a ghost
   std::size_t from = 0, to = 0;                ///< anchors
   bool is_muted = false, is_enabled = true, changes_from = false, changes_to = true;
+  bool is_crossing = false;  ///< leads out of the entered frame, to a door
   float strength = 1;
   Family family;
   std::vector<ImVec2> dots, points;  ///< points: the curve, close enough to be drawn as stretches
@@ -77,21 +88,32 @@ class Model {
   /// Makes everything anew where the scene has changed, and finds indices again where the state has another plan.
   void update(const Editor& editor);
 
-  ViewData view;
+  ViewData view;               ///< of the whole scene
+  std::string entered;         ///< the frame that alone is shown; empty: all. Takes effect with the next update
   std::vector<NodeBox> boxes;  ///< ascending id
   std::vector<Pill> pills;
-  std::vector<Line> lines;         ///< ascending id
+  std::vector<Door> doors;
+  std::vector<Line> lines;             ///< ascending id
+  std::vector<NodeBox> outside_boxes;  ///< what the entered frame does not hold; ascending id
+  std::vector<Line> outside_lines;
   std::size_t undrawn = 0;         ///< links of unknown kinds whose ends cannot be read
   std::size_t revision = 0;        ///< grows with each change of the scene
   std::size_t state_revision = 0;  ///< grows with each state that is seen, and with each change of the scene
 
-  std::size_t anchors() const { return boxes.size() + pills.size(); }
-  const Box& anchor(std::size_t k) const { return k < boxes.size() ? boxes[k].box : pills[k - boxes.size()].box; }
+  std::size_t anchors() const { return boxes.size() + pills.size() + doors.size(); }
+  const Box& anchor(std::size_t k) const {
+    if (k < boxes.size()) return boxes[k].box;
+    return is_door(k) ? doors[k - boxes.size() - pills.size()].box : pills[k - boxes.size()].box;
+  }
+  bool is_door(std::size_t anchor) const { return anchor >= boxes.size() + pills.size(); }
+  /// Is it on the canvas, seen from the entered frame?
+  bool shows_frame(const std::string& id) const { return entered.empty() || (id != entered && view.is_within(id, entered)); }
+  bool shows_comment(const std::string& id) const { return entered.empty() || view.holds_comment(entered, id); }
   /// What a link's end says that is laid to this anchor.
   Selection selection_of(std::size_t anchor) const;
   std::size_t find_box(const std::string& id) const;   ///< boxes.size() where there is none
   std::size_t find_line(const std::string& id) const;  ///< lines.size() where there is none
-  /// Around all boxes, pills, frames and comments; a small box in an empty scene.
+  /// Around all that is shown; a small box where there is nothing.
   Box bounds() const;
   /// Around what is in the frame, with its head; nothing in an empty frame.
   bool frame_box(const std::string& id, Box& out, int depth = 0) const;
@@ -106,12 +128,14 @@ class Model {
   void make_lines(const Editor& editor);
   void place(const Editor& editor);
   void make_room(const std::set<std::string>& fresh);
+  void narrow();
+  void place_doors(const std::vector<ImVec2>& origins);
   void find_indices(const Editor& editor);
   std::size_t anchor_of(const Editor& editor, const Selection& selection);
 
   const Document* document_ = nullptr;
-  std::size_t log_size_ = 0;
-  std::string view_text_;
+  std::size_t log_size_ = 0, node_count_ = 0;
+  std::string view_text_, narrowed_to_;
   // Held, so that another state or plan never lies at the same address.
   std::shared_ptr<const State> state_;
   std::shared_ptr<const Plan> plan_;

@@ -6,6 +6,7 @@
 #include "ui/desktop/panels/canvas/additions.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/edits.h"
+#include "ui/desktop/panels/canvas/entered.h"
 
 namespace bl::desktop::canvas {
 
@@ -31,6 +32,8 @@ Hit hit_body(const Board& board, ImVec2 at, bool edges_only) {
     const bool is_pill = k >= board.model.boxes.size();
     const bool is_edge = !screen.grown(-inside).holds(at);
     if (edges_only != is_edge) continue;
+    if (board.model.is_door(k))
+      return {Thing::door, board.model.doors[k - board.model.boxes.size() - board.model.pills.size()].id, k};
     const std::string id = is_pill ? board.model.pills[k - board.model.boxes.size()].key : board.model.boxes[k].id;
     return {is_pill ? (is_edge ? Thing::pill_edge : Thing::pill) : (is_edge ? Thing::node_edge : Thing::node), id, k};
   }
@@ -77,9 +80,9 @@ void handle_double_click(Board& board, const Hit& hit) {
     case Thing::nothing: open_addition(board, at); break;
     case Thing::link: add_dot(board, hit.index, board.camera.to_plane(at)); break;
     case Thing::dot: remove_dot(board, board.model.find_line(hit.id), hit.index); break;
+    case Thing::frame: board.after_frame = [id = hit.id](Board& b) { enter_frame(b, id); }; break;
     case Thing::node:
-    case Thing::comment:
-    case Thing::frame: begin_edit(board, hit.thing, hit.id); break;
+    case Thing::comment: begin_edit(board, hit.thing, hit.id); break;
     default: break;
   }
 }
@@ -108,7 +111,7 @@ void point_at(Board& board, bool is_hovered) {
     board.hovered_since = board.editor.now;
   }
   Picks& picks = board.editor.picks;
-  if (hit.thing == Thing::node || hit.thing == Thing::node_edge) picks.hovered_node = hit.id;
+  if (hit.thing == Thing::node || hit.thing == Thing::node_edge || hit.thing == Thing::door) picks.hovered_node = hit.id;
   if (hit.thing == Thing::link || hit.thing == Thing::dot) { picks.hovered_link = hit.id; }
 }
 
@@ -116,7 +119,8 @@ void set_cursor(const Board& board) {
   const Thing thing = board.hovered.thing;
   if (board.drag.deed == Deed::pan || (board.space_since >= 0 && board.drag.deed == Deed::none))
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
-  else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip)
+  else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip || thing == Thing::door ||
+           thing == Thing::crumb)
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   else if (thing == Thing::comment_corner) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNWSE);
 }
@@ -124,11 +128,14 @@ void set_cursor(const Board& board) {
 }  // namespace
 
 ImVec2 Board::cursor() const {
+  if (menu.is_acting) return camera.to_plane(menu.at);
   const ImVec2 at = ImGui::GetIO().MousePos;
   return camera.to_plane(camera.pane().holds(at) || drag.deed != Deed::none ? at : camera.pane().centre());
 }
 
 Hit hit_at(const Board& board, ImVec2 at) {
+  for (std::size_t k = 0; k < board.crumbs.size(); ++k)
+    if (board.crumbs[k].box.holds(at)) return {Thing::crumb, board.crumbs[k].frame, k};
   for (std::size_t k = 0; k < board.chips.size(); ++k)
     if (board.chips[k].second.holds(at)) return {Thing::chip, board.chips[k].first, k};
   if (board.minimap.size.x > 0 && board.minimap.holds(at)) return {Thing::minimap, "", 0};
@@ -136,6 +143,7 @@ Hit hit_at(const Board& board, ImVec2 at) {
   if (Hit hit = hit_line(board, at); hit.thing == Thing::dot) return hit;
   if (Hit hit = hit_body(board, at, true); hit.thing != Thing::nothing) return hit;
   for (const auto& [id, comment] : board.model.view.comments) {
+    if (!board.model.shows_comment(id)) continue;
     const Box screen = board.camera.to_screen(comment.box);
     if (Box{screen.high() - ImVec2(12, 12), {14, 14}}.holds(at)) return {Thing::comment_corner, id, 0};
     if (screen.holds(at)) return {Thing::comment, id, 0};
@@ -187,6 +195,11 @@ void begin_drag(Board& board, int button) {
     drag.deed = Deed::pan;
   } else if (hit.thing == Thing::chip) {
     if (!board.hidden_families.erase(hit.id)) board.hidden_families.insert(hit.id);
+  } else if (hit.thing == Thing::crumb) {
+    board.after_frame = [frame = hit.id](Board& b) { enter_frame(b, frame); };
+  } else if (hit.thing == Thing::door) {
+    const std::size_t door = hit.index - board.model.boxes.size() - board.model.pills.size();
+    board.after_frame = [door](Board& b) { go_through(b, door); };
   } else if (hit.thing == Thing::minimap) {
     drag.deed = Deed::minimap;
   } else if (is_body(hit.thing) && io.KeyCtrl && io.KeyShift) {

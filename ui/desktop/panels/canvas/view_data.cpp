@@ -1,6 +1,7 @@
 // Reads the view's JSON forgivingly: people and other programs may have written anything there.
 #include "ui/desktop/panels/canvas/view_data.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <nlohmann/json.hpp>
@@ -87,6 +88,7 @@ ViewData read_view(const std::string& text) {
     if (const auto p = point_in(place)) view.sets[key] = *p;
   });
   view.collapsed = names_in(json, "collapsed");
+  view.hidden = names_in(json, "hidden");
   each(json, "frames", [&](const std::string& id, const Json& frame) {
     if (frame.is_object()) view.frames[id] = frame_in(frame);
   });
@@ -122,6 +124,25 @@ std::string ViewData::frame_of_comment(const std::string& comment) const {
   for (const auto& [id, frame] : frames)
     if (frame.comments.contains(comment)) return id;
   return "";
+}
+
+bool ViewData::holds_node(const std::string& frame, const std::string& node) const {
+  return std::any_of(frames.begin(), frames.end(),
+                     [&](const auto& entry) { return entry.second.nodes.contains(node) && is_within(entry.first, frame); });
+}
+
+bool ViewData::holds_comment(const std::string& frame, const std::string& comment) const {
+  return std::any_of(frames.begin(), frames.end(),
+                     [&](const auto& entry) { return entry.second.comments.contains(comment) && is_within(entry.first, frame); });
+}
+
+std::vector<std::string> ViewData::way_to(const std::string& frame) const {
+  std::vector<std::string> way;
+  // Frames in a ring are entered once each.
+  for (std::string at = frame; frames.contains(at) && std::find(way.begin(), way.end(), at) == way.end(); at = frames.at(at).in)
+    way.push_back(at);
+  std::reverse(way.begin(), way.end());
+  return way;
 }
 
 Json place_json(ImVec2 p) {

@@ -28,6 +28,7 @@ struct ViewData {
   std::map<std::string, ImVec2> boxes;  ///< upper left corners, by node
   std::map<std::string, ImVec2> sets;   ///< the same of whole sets, by their key
   std::set<std::string> collapsed;
+  std::set<std::string> hidden;  ///< nodes that the 3D view leaves out
   std::map<std::string, Frame> frames;
   std::map<std::string, Comment> comments;
   std::map<std::string, std::vector<ImVec2>> dots;  ///< by link, from its first end on
@@ -37,6 +38,11 @@ struct ViewData {
   /// The frame that names the node, or nothing.
   std::string frame_of_node(const std::string& node) const;
   std::string frame_of_comment(const std::string& comment) const;
+  /// Does the node, or the comment, lie in the frame, at whatever depth?
+  bool holds_node(const std::string& frame, const std::string& node) const;
+  bool holds_comment(const std::string& frame, const std::string& comment) const;
+  /// From the outermost frame to this one.
+  std::vector<std::string> way_to(const std::string& frame) const;
 };
 
 /// Takes what it understands; whatever else stands in the text is left alone, and never harms.
