@@ -54,6 +54,7 @@ NullDesktop::~NullDesktop() {
 }
 
 void NullDesktop::frames(int count) {
+  ImGui::SetCurrentContext(context_);  // a test may have two desktops
   for (int k = 0; k < count; ++k) {
     now_ += kFrame;
     ImGui::NewFrame();
