@@ -21,6 +21,7 @@ NullDesktop::NullDesktop(const std::string& scene, ImVec2 size) {
   const std::string state = ::testing::TempDir() + "behaviourlinks_desktop_tests_" + std::to_string(getpid());
   setenv("XDG_STATE_HOME", state.c_str(), 1);
   context_ = ImGui::CreateContext();
+  ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // as the real window has: large canvases need it
