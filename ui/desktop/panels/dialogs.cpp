@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "ui/cli/report/report.h"
+#include "ui/desktop/panels/buttons.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"
 
@@ -144,7 +145,8 @@ void Dialogs::draw_unsaved() {
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, theme.px(10)});
   const ImVec2 size{theme.px(130), 0};
-  if (ImGui::Button("Save", size)) {
+  const bool is_entered = !ImGui::IsWindowAppearing() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  if (chief_button(theme, "Save", size) || is_entered) {
     close();
     if (save())
       if (auto then = std::exchange(then_, nullptr)) then();

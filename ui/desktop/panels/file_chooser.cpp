@@ -8,6 +8,8 @@
 
 #include <imgui_stdlib.h>
 
+#include "ui/desktop/panels/buttons.h"
+
 namespace bl::desktop {
 
 namespace {
@@ -173,7 +175,7 @@ std::optional<std::string> FileChooser::draw(Editor& editor) {
     is_fresh_ = !chosen;  // typing goes on
   }
   const char* verb = purpose_ == Purpose::open_file ? "Open" : purpose_ == Purpose::save_file ? "Save" : "Choose";
-  if (ImGui::Button(asked_.empty() ? verb : "Replace", {theme.px(110), 0})) chosen = accept();
+  if (chief_button(theme, asked_.empty() ? verb : "Replace", {theme.px(110), 0})) chosen = accept();
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {theme.px(110), 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) stays = false;
   ImGui::SameLine();

@@ -109,6 +109,7 @@ class SceneView {
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   void draw_legend(bool is_large);
+  void draw_hint(const std::string& text);
   void draw_tools();
   void draw_layers_popup();
 
