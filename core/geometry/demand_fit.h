@@ -26,6 +26,7 @@ struct FitOptions {
   int steps = 1;            ///< at most so many evaluations of the diagram
   double tolerance = 0.01;  ///< stop when no site is farther from its (fitting) demand than this share of it
   double damping = 1;       ///< share of the step that is taken with gain 0, in (0, 1]
+  bool with_rays = true;    ///< `newton`: sites without weights begin with what `weights_by_rays` finds, where it finds any
   ThreadPool* pool = nullptr;
   PowerDiagram* diagram = nullptr;  ///< kept between calls it saves cells that cannot have changed; it changes no bit
 };
@@ -59,6 +60,7 @@ struct FitReport {
   std::uint32_t worst_site = 0;    ///< which demand has it
   int steps = 0;                   ///< evaluations made
   int iterations = 0;              ///< steps begun: evaluations less those that judged a repair or a step taken back
+  bool began_with_rays = false;    ///< and goes on from there: where that leads nowhere, a start without rays may not
   bool is_met = false;             ///< error <= tolerance: `weights` are those that were evaluated
   std::string infeasible;          ///< a sentence where the demands exceed the domain; empty otherwise
   std::vector<DemandLoss> losses;  ///< per site that gets less than it asked for

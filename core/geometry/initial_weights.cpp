@@ -10,6 +10,9 @@ namespace bl {
 
 namespace {
 
+// A site that is outside by less than this share of the domain's size is on its surface: rounding has put it there.
+constexpr double kOnSurface = 1e-9;
+
 // -ln(1 - f) for f in (0, 0.98]: 2 artanh(f / (2 - f)) as a series of correctly rounded operations.
 double minus_log_of_rest(double f) {
   const double z = f / (2 - f), square = z * z;
@@ -40,7 +43,7 @@ struct SiteBox {
       const Point3& p = site.position;
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-      all_inside = all_inside && domain.contains(p);
+      all_inside = all_inside && domain.contains(p, kOnSurface * domain.size());
     }
   }
   double extent() const { return distance(low, high); }
@@ -48,7 +51,7 @@ struct SiteBox {
 
 Spread spread_of(const Domain& domain, std::span<const PowerSite> sites) {
   Spread spread;
-  if (sites.size() < 2) spread.is_needed = !sites.empty() && !domain.contains(sites[0].position);
+  if (sites.size() < 2) spread.is_needed = !sites.empty() && !domain.contains(sites[0].position, kOnSurface * domain.size());
   const SiteBox box(domain, sites);
   spread.middle = 0.5 * (box.low + box.high);
   const double extent = box.extent();

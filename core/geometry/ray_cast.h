@@ -52,13 +52,17 @@ struct Rays {
 
 // How far one looks along each ray and against it, in radii of the demanded ball, which single precision holds.
 struct Hits {
-  // Per direction: 1/t, what the ray of length t ends at, and what a free end has of the ball's own response, per t³.
+  // Per direction: 1/t, what the ray of length t ends at, and what a free end has of the ball's own response, per t³. Each free
+  // end has a name of its own: as many sums into one place would wait for each other.
+  static constexpr std::size_t kFreeNames = 2 * Rays::kCount;
   alignas(16) std::array<float, Rays::kCount> ahead, back, own_ahead, own_back;
   alignas(16) std::array<std::int32_t, Rays::kCount> cut_ahead, cut_back;
 
   void begin_at_ball(const Rays& rays, const Point3& eye, double weight, std::int32_t ball) {
-    cut_ahead.fill(ball);
-    cut_back.fill(ball);
+    for (std::size_t d = 0; d < Rays::kCount; ++d) {
+      cut_ahead[d] = ball + static_cast<std::int32_t>(d);
+      cut_back[d] = cut_ahead[d] + static_cast<std::int32_t>(Rays::kCount);
+    }
     if (eye == Point3{}) {
       ahead.fill(static_cast<float>(1 / std::sqrt(weight)));
       back = ahead;
@@ -92,16 +96,30 @@ struct Hits {
     }
   }
 
-  // Share of the sphere times t³, of each ray.
+  // What each ray tells: its share of the sphere times t³, and that times what its end has of the response. No branches: which
+  // rays end at the ball is a coin's throw.
   struct Parts {
-    alignas(16) std::array<float, Rays::kCount> ahead, back;
+    alignas(16) std::array<float, Rays::kCount> response_ahead, response_back;
+    float volume, free_response;  // sums: of the shares times t³, and of the responses of free ends
   };
-  Parts parts(const Rays& rays) const {
+  Parts parts(const Rays& rays, std::int32_t ball) const {
+    const LaneNames first_free{ball, ball, ball, ball};
+    const LaneQuad one = in_all_lanes(1);
+    LaneQuad volume = in_all_lanes(0), free = volume;
     Parts made;
-    for (std::size_t d = 0; d < Rays::kCount; ++d) {
-      made.ahead[d] = rays.share[d] / (ahead[d] * ahead[d] * ahead[d]);
-      made.back[d] = rays.share[d] / (back[d] * back[d] * back[d]);
+    for (std::size_t d = 0; d < Rays::kCount; d += 4) {
+      const LaneQuad a = quad_at(&ahead[d]), b = quad_at(&back[d]), share = quad_at(&rays.share[d]);
+      const LaneNames is_free = names_at(&cut_ahead[d]) >= first_free, is_free_back = names_at(&cut_back[d]) >= first_free;
+      const LaneQuad here = share / (a * a * a), there = share / (b * b * b), zero = in_all_lanes(0),
+                     response = here * (is_free ? quad_at(&own_ahead[d]) : one),
+                     response_there = there * (is_free_back ? quad_at(&own_back[d]) : one);
+      volume += here + there;
+      free += (is_free ? response : zero) + (is_free_back ? response_there : zero);
+      put_quad(&made.response_ahead[d], response);
+      put_quad(&made.response_back[d], response_there);
     }
+    made.volume = (volume[0] + volume[1]) + (volume[2] + volume[3]);
+    made.free_response = (free[0] + free[1]) + (free[2] + free[3]);
     return made;
   }
 };

@@ -19,10 +19,16 @@ namespace {
 
 // Floor areas are met by correcting the volumes asked for; they jump where a storey comes or goes, so this ends.
 constexpr int kMostCorrections = 25;
-// No smaller error for so many evaluations, and the fit is going nowhere.
-constexpr int kStalled = 40;
-// The same with weights to start from: there is another way.
-constexpr int kStalledWarm = 15;
+// No nearer for so many evaluations, and the fit is going nowhere; or for so many, where there is another way to start.
+constexpr int kStalled = 40, kStalledEarly = 15;
+// Nearer to the demands by less than this is nowhere.
+constexpr double kNearer = 0.9;
+constexpr double kNoNumber = std::numeric_limits<double>::infinity();
+// Beyond so many, a start with rays has brought nothing that one without would not.
+constexpr int kMostWithRays = 40;
+
+// What a fit starts from: one after the other, until it gets somewhere.
+enum class Start : std::uint8_t { given, rays, even };
 
 class Attempt {
  public:
@@ -51,6 +57,38 @@ class Attempt {
     int iterations = 0, evaluations = 0;
   };
 
+  // How far a fit has come since its last start.
+  struct Search {
+    Start start = Start::given;
+    double best = kNoNumber, error = kNoNumber, residual = kNoNumber;  // of all starts; of this one
+    int evaluations = 0, since = 0;                                    // since the start, and since it last came much nearer
+    std::vector<double> best_weights;
+
+    void begin(Start with) {
+      start = with;
+      error = residual = kNoNumber;
+      evaluations = since = 0;
+    }
+    void take(const FitReport& last) {
+      ++evaluations;
+      // Where one cell can only grow slowly its error stays the largest for long, while all others come nearer.
+      const double left = last.state.residual < 0 ? kNoNumber : last.state.residual;
+      ++since;
+      if (last.error < kNearer * error) {
+        error = last.error;
+        since = 0;
+      }
+      if (left < kNearer * residual) {
+        residual = left;
+        since = 0;
+      }
+      if (best_weights.empty() || last.error < best) {
+        best = last.error;
+        best_weights = last.evaluated;
+      }
+    }
+  };
+
   Result<void> fit(double tolerance) {
     FitOptions step{.method = options_.method,
                     .gain = options_.gain,
@@ -61,11 +99,10 @@ class Attempt {
     // A corrected demand goes on from the weights that were found.
     if (!result_.last.evaluated.empty()) problem_.sites = evaluated();
     FitState state;
-    double best = std::numeric_limits<double>::infinity();
-    std::vector<double> best_weights(problem_.sites.size(), 0);
-    bool is_warm = has_weights();
-    int since = 0;
+    Search search;
+    search.begin(has_weights() ? Start::given : Start::rays);
     while (true) {
+      step.with_rays = search.start != Start::even;
       auto report = adapt_weights(domain_, problem_, state, step);
       if (!report) return report.error();
       ++result_.evaluations;
@@ -73,28 +110,31 @@ class Attempt {
       result_.last = std::move(*report);
       const FitReport& last = result_.last;
       const bool goes_on = !options_.progress || options_.progress(result_.evaluations, last.error);
-      since = last.error < 0.9 * best ? 0 : since + 1;
-      if (last.error < best) {
-        best = last.error;
-        best_weights = last.evaluated;
-      }
-      // Weights to start from may be a place that no step leads out of: then it starts by itself.
-      if (is_warm && since > kStalledWarm && !last.is_met && goes_on && result_.evaluations < options_.most_steps) {
-        is_warm = false;
-        since = 0;
-        state = {};
-        start_afresh();
-        continue;
-      }
-      if (last.is_met || !goes_on || result_.evaluations >= options_.most_steps || since > kStalled) {
+      search.take(last);
+      // No rays, or none that led anywhere: what was measured is no start to be compared with.
+      if (search.start == Start::rays && search.evaluations == 1 && !last.began_with_rays) search.begin(Start::even);
+      if (last.is_met || !goes_on || result_.evaluations >= options_.most_steps || search.since > kStalled) {
         result_.is_stopped = !goes_on;
         // A step that went too far is no result: the best one is.
-        if (!last.is_met) result_.last.evaluated = best_weights;
+        if (!last.is_met) result_.last.evaluated = search.best_weights;
         return {};
       }
-      state = last.state;
-      use(last.weights);
+      if (is_time_for_another(search)) {
+        search.begin(search.start == Start::given ? Start::rays : Start::even);
+        state = {};
+        forget_weights();
+      } else {
+        state = last.state;
+        use(last.weights);
+      }
     }
+  }
+
+  // Weights to start from may be a place that no step leads out of, and so may those that rays have found.
+  bool is_time_for_another(const Search& search) const {
+    if (search.start == Start::even) return false;
+    const bool is_late = search.start == Start::rays && search.evaluations >= kMostWithRays;
+    return search.since > kStalledEarly || is_late;
   }
 
   bool has_weights() const {
@@ -102,7 +142,7 @@ class Attempt {
       return std::any_of(demand.sites.begin(), demand.sites.end(), [&](std::uint32_t i) { return problem_.sites[i].weight > 0; });
     });
   }
-  void start_afresh() {
+  void forget_weights() {
     for (const VolumeDemand& demand : problem_.demands) {
       for (const std::uint32_t i : demand.sites) problem_.sites[i].weight = 0;
     }

@@ -97,16 +97,65 @@ TEST(RayStart, WhatItIsNoGoodForComesBackAsItWas) {
   EXPECT_TRUE(comes_back(idle));
 }
 
-TEST(RayStart, OddPlacesGiveWeightsThatAreNumbers) {
+bool are_weights(const std::vector<double>& weights) {
+  return std::all_of(weights.begin(), weights.end(), [](double weight) { return std::isfinite(weight) && weight > 0; });
+}
+
+TEST(RayStart, OddPlacesAndDemandsGiveWeightsThatAreNumbers) {
   Ground ground = make_ground(60, 0.7, 8);
   ground.sites[1].position = ground.sites[0].position;
   ground.sites[2].position = ground.sites[0].position + Vector3{1e-9, 0, 0};
   ground.sites[3].position = ground.sites[0].position + Vector3{1e-4, 0, 0};
   ground.sites[4].position = {0, 0, 0};
   ground.sites[5].position = {30, 20, 25};
-  ground.demands[6] *= 1e-6;
-  for (const double weight : weights_by_rays(ground.domain, ground.sites, ground.weights, ground.demands)) {
-    EXPECT_TRUE(std::isfinite(weight) && weight > 0) << weight;
+  for (const double share : {1e-3, 1e-6, 1e-11}) {
+    SCOPED_TRACE(share);
+    ground.demands[6] *= share;
+    const auto weights = weights_by_rays(ground.domain, ground.sites, ground.weights, ground.demands);
+    EXPECT_NE(weights, ground.weights);
+    EXPECT_TRUE(are_weights(weights));
+    ground.demands[6] /= share;
+  }
+  // Beyond what single precision holds.
+  for (const double share : {1e-13, 1e-40, 1e-300}) {
+    ground.demands[6] *= share;
+    EXPECT_EQ(weights_by_rays(ground.domain, ground.sites, ground.weights, ground.demands), ground.weights) << share;
+    ground.demands[6] /= share;
+  }
+}
+
+// Demands scaled back to a fill after one of them was made so many times the mean.
+Ground make_ground_with_one_large(std::size_t count, double fill, std::uint32_t seed, double large) {
+  Ground ground = make_ground(count, fill, seed);
+  const double volume = fill * ground.domain.volume;
+  ground.demands[6] = large * volume / static_cast<double>(count);
+  double sum = 0;
+  for (const double demand : ground.demands) sum += demand;
+  for (double& demand : ground.demands) demand *= volume / sum;
+  ground.weights = initial_weights(ground.domain, ground.sites, ground.demands);
+  return ground;
+}
+
+// One that nothing cuts: the place to look from is pushed nowhere.
+TEST(RayStart, ALargeBallWithNobodyNear) {
+  for (const double large : {30.0, 1000.0, 1e5}) {
+    const Ground ground = make_ground_with_one_large(60, 1e-3, 9, large);
+    const auto weights = weights_by_rays(ground.domain, ground.sites, ground.weights, ground.demands);
+    EXPECT_TRUE(are_weights(weights)) << large;
+    EXPECT_GT(weights[6], 4 * ground.weights[6]) << large;
+    EXPECT_LT(error_of(ground, weights), error_of(ground, ground.weights)) << large;
+  }
+}
+
+// Small balls wholly inside a large one cut it as others do.
+TEST(RayStart, SmallCellsInsideALargeBallAreSeen) {
+  for (const double large : {20.0, 30.0, 60.0}) {
+    for (const std::uint32_t seed : {10u, 11u, 12u}) {
+      const Ground ground = make_ground_with_one_large(200, 0.3, seed, large);
+      const auto weights = weights_by_rays(ground.domain, ground.sites, ground.weights, ground.demands);
+      EXPECT_TRUE(are_weights(weights));
+      EXPECT_LT(error_of(ground, weights), 0.5 * error_of(ground, ground.weights)) << large << " " << seed;
+    }
   }
 }
 

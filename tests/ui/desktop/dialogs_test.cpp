@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "core/file/file_io.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/app/fuzzy.h"
@@ -36,7 +37,50 @@ TEST(Dialogs, NewSceneFromFilesByKeyboard) {
   desktop.frames(3);
   ASSERT_TRUE(desktop.editor().document);
   EXPECT_GT(desktop.editor().scene().nodes.size(), 5u);
-  EXPECT_EQ(desktop.desktop().title(), "Untitled scene - BehaviourLinks");
+  EXPECT_EQ(desktop.desktop().title(), "* Untitled scene - BehaviourLinks") << "no file holds it";
+  desktop.key(GLFW_KEY_W, true);
+  desktop.frames(2);
+  EXPECT_TRUE(desktop.editor().document) << "closing it asks first";
+}
+
+TEST(Dialogs, EachFileThatWouldBeReplacedIsAskedAbout) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  const std::string folder = ::testing::TempDir();
+  for (const char* name : {"asked_one.json", "asked_two.json"}) ASSERT_TRUE(write_file(folder + "/" + name, "old\n"));
+  desktop.key(GLFW_KEY_S, true, true);
+  desktop.frames(3);
+  const auto enter = [&](const std::string& name) {
+    desktop.key(GLFW_KEY_A, true);
+    desktop.type(folder + "/" + name);
+    desktop.frames(1);
+    desktop.key(GLFW_KEY_ENTER);
+    desktop.frames(3);
+  };
+  const auto content = [&](const std::string& name) { return read_file(folder + "/" + name).value(); };
+  enter("asked_one.json");
+  enter("asked_two.json");
+  EXPECT_EQ(content("asked_one.json"), "old\n");
+  EXPECT_EQ(content("asked_two.json"), "old\n") << "the question was about the other one";
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(3);
+  EXPECT_EQ(content("asked_one.json"), "old\n");
+  EXPECT_NE(content("asked_two.json"), "old\n");
+  EXPECT_EQ(desktop.editor().document->name(), "asked_two.json");
+}
+
+TEST(Dialogs, AFileThatCannotBeWrittenLeavesTheDialogWithItsName) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  desktop.key(GLFW_KEY_S, true, true);
+  desktop.frames(3);
+  desktop.key(GLFW_KEY_A, true);
+  desktop.type("/proc/nowhere/scene.json");
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(4);
+  EXPECT_TRUE(ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
+  EXPECT_EQ(desktop.editor().document->name(), "quarter.json");
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.frames(3);
+  EXPECT_FALSE(ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
 }
 
 TEST(Dialogs, QuittingWithUnsavedChangesAsks) {

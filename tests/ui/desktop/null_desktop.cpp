@@ -21,6 +21,7 @@ NullDesktop::NullDesktop(const std::string& scene, ImVec2 size) {
   const std::string state = ::testing::TempDir() + "behaviourlinks_desktop_tests_" + std::to_string(getpid());
   setenv("XDG_STATE_HOME", state.c_str(), 1);
   context_ = ImGui::CreateContext();
+  ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // as the real window has: large canvases need it
@@ -54,6 +55,7 @@ NullDesktop::~NullDesktop() {
 }
 
 void NullDesktop::frames(int count) {
+  ImGui::SetCurrentContext(context_);  // a test may have two desktops
   for (int k = 0; k < count; ++k) {
     now_ += kFrame;
     ImGui::NewFrame();

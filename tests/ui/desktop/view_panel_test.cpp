@@ -84,10 +84,12 @@ TEST_F(ViewPanel, PointingLightsTheNode) {
 TEST_F(ViewPanel, BoxesToTheRightEncloseAndToTheLeftTouch) {
   const ImVec2 p = spot_of("theatre");
   const ImVec2 low{p.x - 8, p.y - 8}, high{p.x + 8, p.y + 8};
-  // Begin where nothing can be dragged: nothing is chosen yet.
+  // Over a volume, Shift makes it a box: pulling alone moves the volume.
+  desktop.hold(false, true);
   desktop.drag(low, high);
   EXPECT_FALSE(editor().picks.nodes.contains("theatre")) << "too small to hold it";
   desktop.drag(high, low);
+  desktop.hold(false, false);
   EXPECT_TRUE(editor().picks.nodes.contains("theatre"));
 }
 
@@ -132,6 +134,17 @@ TEST_F(ViewPanel, DraggingWhatIsChosenMovesItLevelAndSnapsWithControl) {
   EXPECT_NE(desktop.scene_text(), before);
   desktop.key(GLFW_KEY_Z, true);
   EXPECT_EQ(desktop.scene_text(), before) << "one drag is one step";
+}
+
+TEST_F(ViewPanel, PullingAtAVolumeMovesItWithoutChoosingItFirst) {
+  const std::string before = desktop.scene_text();
+  ASSERT_TRUE(editor().picks.nodes.empty());
+  const ImVec2 grip = spot_of("theatre");
+  desktop.drag(grip, {grip.x + 40, grip.y});
+  EXPECT_EQ(editor().picks.nodes, std::set<std::string>{"theatre"});
+  EXPECT_GT(set_place("theatre").x, place("theatre").x + 2);
+  desktop.key(GLFW_KEY_Z, true);
+  EXPECT_EQ(desktop.scene_text(), before);
 }
 
 TEST_F(ViewPanel, TheGizmosArmMovesAlongItsAxisAlone) {
@@ -205,6 +218,22 @@ TEST_F(ViewPanel, WalkingHoldsTheKeysUntilEscape) {
   EXPECT_NEAR(editor().view->camera().eye().z, before.z, 1e-6);
   desktop.key(GLFW_KEY_ESCAPE);
   EXPECT_FALSE(editor().view->is_walking());
+}
+
+TEST_F(ViewPanel, AfterWalkingEverythingIsInSightAgain) {
+  desktop.move_to(empty_place());
+  const Camera before = editor().view->camera();
+  desktop.key(GLFW_KEY_6);
+  desktop.frames(60);
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.frames(60);
+  EXPECT_NEAR(editor().view->camera().distance, before.distance, 1e-6 * before.distance);
+  desktop.key(GLFW_KEY_6);
+  desktop.frames(60);
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.key(GLFW_KEY_4);
+  desktop.frames(60);
+  EXPECT_NEAR(editor().view->camera().distance, before.distance, 1e-6 * before.distance);
 }
 
 TEST_F(ViewPanel, LayersAddTheirLines) {

@@ -63,7 +63,7 @@ std::string Desktop::title() {
 }
 
 void Desktop::drop(const std::string& path) {
-  dialogs_->guard([this, path] { editor_->open(path); });
+  dialogs_->guard([this, path] { editor_->open(path, true); });
 }
 
 void Desktop::ask_to_quit() {

@@ -37,8 +37,8 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   }
   std::unique_ptr<Document> document(new Document(registry, path));
   document->session_ = std::move(*session);
-  document->saved_text_ = write_scene(reading.scene, registry, reading.state ? &*reading.state : nullptr);
-  document->log_start_ = document->saved_text_;
+  document->log_start_ = write_scene(reading.scene, registry, reading.state ? &*reading.state : nullptr);
+  if (!path.empty()) document->saved_text_ = document->log_start_;  // without a file there is nothing that holds it
   document->begin_journal();
   return document;
 }

@@ -69,7 +69,7 @@ void Editor::tell(NoticeKind kind, std::string text) {
   if (notices.size() > kMostNotices) notices.erase(notices.begin());
 }
 
-bool Editor::open(const std::string& wanted) {
+bool Editor::open(const std::string& wanted, bool plays) {
   std::error_code error;
   const auto absolute = std::filesystem::absolute(wanted, error);
   const std::string path = error ? wanted : absolute.lexically_normal().string();
@@ -83,6 +83,7 @@ bool Editor::open(const std::string& wanted) {
   }
   person.remember(person.recent, path);
   take(std::move(fresh));
+  document->session().play(plays);
   if (!problems.empty()) tell(NoticeKind::warning, "The scene was opened; the problems list says what is idle in it.");
   return true;
 }

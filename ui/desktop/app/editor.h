@@ -86,7 +86,7 @@ class Editor {
   void point_at(Area where);
   void tell(NoticeKind kind, std::string text);
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
-  bool open(const std::string& path);
+  bool open(const std::string& path, bool plays = false);
   void take(std::unique_ptr<Document> fresh);
 };
 

@@ -165,6 +165,7 @@ void Theme::apply(bool is_dark, float scale) {
   style.WindowBorderSize = 0;
   style.ChildBorderSize = 0;
   style.PopupBorderSize = 1;
+  style.FrameBorderSize = 1;
   style.ScaleAllSizes(scale_);
   auto set = [&](ImGuiCol index, ImU32 colour) { style.Colors[index] = vec(colour); };
   set(ImGuiCol_Text, c.text);
@@ -186,9 +187,10 @@ void Theme::apply(bool is_dark, float scale) {
   set(ImGuiCol_CheckMark, c.accent);
   set(ImGuiCol_SliderGrab, c.accent);
   set(ImGuiCol_SliderGrabActive, c.accent);
-  set(ImGuiCol_Button, c.raised);
-  set(ImGuiCol_ButtonHovered, mixed(c.raised, c.accent, 0.22f));
-  set(ImGuiCol_ButtonActive, mixed(c.raised, c.accent, 0.4f));
+  // Buttons have a face on panels and on what is raised above them.
+  set(ImGuiCol_Button, mixed(c.raised, c.text, 0.1f));
+  set(ImGuiCol_ButtonHovered, mixed(c.raised, c.accent, 0.3f));
+  set(ImGuiCol_ButtonActive, mixed(c.raised, c.accent, 0.45f));
   set(ImGuiCol_Header, c.accent_soft);
   set(ImGuiCol_HeaderHovered, mixed(c.panel, c.accent, 0.2f));
   set(ImGuiCol_HeaderActive, mixed(c.panel, c.accent, 0.32f));

@@ -18,6 +18,7 @@
 
 #include "core/file/file_io.h"
 #include "ui/desktop/app/desktop.h"
+#include "ui/desktop/app/input_queue.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/view/gl_renderer.h"
 
@@ -94,7 +95,7 @@ class Window {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplGlfw_InitForOpenGL(window_, false);
     ImGui_ImplOpenGL3_Init("#version 330 core");
     has_backends_ = true;
     return true;
@@ -107,6 +108,35 @@ class Window {
   GLFWwindow* window_ = nullptr;
   bool has_backends_ = false;
 };
+
+// What the window's callbacks reach.
+struct Hands {
+  Desktop& desktop;
+  InputQueue input;
+};
+Hands& hands_of(GLFWwindow* window) { return *static_cast<Hands*>(glfwGetWindowUserPointer(window)); }
+
+void listen(GLFWwindow* window, Hands& hands) {
+  glfwSetWindowUserPointer(window, &hands);
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    if (count > 0) hands_of(w).desktop.drop(paths[0]);
+  });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
+    if (action != GLFW_REPEAT) hands_of(w).input.key(key, action == GLFW_PRESS);
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int letter) { hands_of(w).input.text(letter); });
+  glfwSetMouseButtonCallback(
+      window, [](GLFWwindow* w, int button, int action, int) { hands_of(w).input.button(button, action == GLFW_PRESS); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    hands_of(w).input.wheel({static_cast<float>(x), static_cast<float>(y)});
+  });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    hands_of(w).input.move({static_cast<float>(x), static_cast<float>(y)});
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int has_entered) {
+    if (has_entered == GLFW_FALSE) hands_of(w).input.leave();
+  });
+}
 
 void write_times(const std::string& path, const FrameTimes& times) {
   if (path.empty()) return;
@@ -131,13 +161,11 @@ int run_window(const WindowOptions& options) {
   {
     Desktop desktop(full_registry(), person, *renderer);
     Editor& editor = desktop.editor();
-    glfwSetWindowUserPointer(window.handle(), &desktop);
-    glfwSetDropCallback(window.handle(), [](GLFWwindow* w, int count, const char** paths) {
-      if (count > 0) static_cast<Desktop*>(glfwGetWindowUserPointer(w))->drop(paths[0]);
-    });
+    Hands hands{desktop, {}};
+    listen(window.handle(), hands);
     bool is_dark = person.is_dark;
     float scale = 0;
-    if (!options.scene.empty() && editor.open(options.scene)) editor.document->session().play(options.is_playing);
+    if (!options.scene.empty()) editor.open(options.scene, options.is_playing);
     desktop.offer_recovery();
     std::string title;
     while (!editor.wants_quit) {
@@ -162,6 +190,7 @@ int run_window(const WindowOptions& options) {
       }
       ImGui_ImplOpenGL3_NewFrame();
       ImGui_ImplGlfw_NewFrame();
+      hands.input.hand_over(ImGui::GetIO());
       ImGui::NewFrame();
       desktop.frame(begin);
       ImGui::Render();

@@ -16,7 +16,8 @@ constexpr double kRewindSeconds = 5;
 
 // Five seconds of what was seen: at the speed that was reached, not the one that was asked for.
 std::int64_t rewind_ticks(const Moment& moment) {
-  const double rate = std::max(1.0, std::min(moment.wanted_rate, moment.tick_seconds > 0 ? 1 / moment.tick_seconds : moment.wanted_rate));
+  const double rate =
+      std::max(1.0, std::min(moment.wanted_rate, moment.tick_seconds > 0 ? 1 / moment.tick_seconds : moment.wanted_rate));
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(kRewindSeconds * rate));
 }
 
@@ -27,7 +28,9 @@ void change_rate(Editor& editor, double factor) {
 void toggle_play(Editor& editor) { editor.document->session().play(!editor.moment->is_playing); }
 void one_tick(Editor& editor) { editor.document->session().step(1); }
 void rewind(Editor& editor) { editor.document->session().rewind(rewind_ticks(*editor.moment)); }
-bool can_rewind(const Editor& editor) { return has_document(editor) && editor.moment && editor.moment->oldest < editor.state().tick; }
+bool can_rewind(const Editor& editor) {
+  return has_document(editor) && editor.moment && editor.moment->oldest < editor.state().tick;
+}
 
 bool tool_button(Editor& editor, const char* sign, const char* hint, bool is_on = false, bool is_possible = true) {
   const Colours& c = editor.theme.colours();
@@ -62,8 +65,8 @@ void draw_standing(Editor& editor) {
     colour = c.good;
     std::snprintf(text, sizeof text, "%s  settled, worst error %.2f %%", icon::kCheck, 100 * state.largest_residual);
   } else if (state.tick > 0) {
-    std::snprintf(text, sizeof text, "negotiating: worst error %.2f %%, moves up to %.2f m a tick", 100 * state.largest_residual,
-                  state.largest_move);
+    std::snprintf(text, sizeof text, "negotiating: worst error %.2f %%, moves up to %.3g mm a tick", 100 * state.largest_residual,
+                  1000 * state.largest_move);
   } else {
     std::snprintf(text, sizeof text, "press P to let the links and the solver run");
   }

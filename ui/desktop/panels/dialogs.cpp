@@ -1,9 +1,11 @@
 // Which dialog is open, and the small ones: questions about unsaved changes and recovery.
 #include "ui/desktop/panels/dialogs.h"
 
+#include <cctype>
 #include <filesystem>
 
 #include "ui/cli/report/report.h"
+#include "ui/desktop/panels/buttons.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"
 
@@ -15,6 +17,19 @@ constexpr int kThreads = 1;
 
 std::string folder_of(const Editor& editor) {
   return editor.document && !editor.document->path().empty() ? editor.document->path() : ".";
+}
+
+// "New town, north" as new_town_north.json.
+std::string file_name_of(const std::string& title) {
+  std::string name;
+  for (const char c : title) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (letter >= 0x80) name += c;
+    else if (std::isalnum(letter) != 0) name += static_cast<char>(std::tolower(letter));
+    else if (!name.empty() && name.back() != '_') name += '_';
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return (name.empty() ? "scene" : name) + ".json";
 }
 
 }  // namespace
@@ -63,15 +78,16 @@ void Dialogs::draw() {
 void Dialogs::ask_open() {
   guard([this] {
     chooser_.open(FileChooser::Purpose::open_file, "Open a scene", {".json"}, folder_of(*editor_));
-    chosen_ = [this](const std::string& path) { editor_->open(path); };
+    chosen_ = [this](const std::string& path) { editor_->open(path, true); };
   });
 }
 
 void Dialogs::ask_save_as() {
   const std::string path = editor_->document->path();
-  chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"}, path.empty() ? "scene.json" : path);
+  chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"},
+                path.empty() ? file_name_of(editor_->state().plan->settings.title) : path);
   chosen_ = [this](const std::string& chosen) {
-    if (auto saved = editor_->document->save(chosen); !saved) return editor_->tell(NoticeKind::error, saved.error().text());
+    if (auto saved = editor_->document->save(chosen); !saved) return chooser_.complain(saved.error().text());
     editor_->person.remember(editor_->person.recent, chosen);
     editor_->tell(NoticeKind::told, "Saved " + chosen + ".");
     if (auto then = std::exchange(then_, nullptr)) then();
@@ -102,7 +118,7 @@ void Dialogs::ask_report() {
     data.scene_path = editor_->document->path().empty() ? stem : editor_->document->path();
     data.outcome = editor_->state().is_settled() ? "settled" : "still negotiating";
     data.outcome += " at tick " + std::to_string(editor_->state().tick);
-    if (auto written = write_report(folder, data); !written) return editor_->tell(NoticeKind::error, written.error().text());
+    if (auto written = write_report(folder, data); !written) return chooser_.complain(written.error().text());
     editor_->tell(NoticeKind::told, "Wrote report.html, volumes.csv and volumes.obj into " + folder + ".");
   };
 }
@@ -110,8 +126,7 @@ void Dialogs::ask_report() {
 void Dialogs::ask_log() {
   chooser_.open(FileChooser::Purpose::save_file, "Save the log for replay", {".log"}, folder_of(*editor_));
   chosen_ = [this](const std::string& path) {
-    if (auto written = editor_->document->save_log(path); !written)
-      return editor_->tell(NoticeKind::error, written.error().text());
+    if (auto written = editor_->document->save_log(path); !written) return chooser_.complain(written.error().text());
     editor_->tell(NoticeKind::told, "Saved the log " + path + "; `behaviourlinks replay` runs it again.");
   };
 }
@@ -130,7 +145,8 @@ void Dialogs::draw_unsaved() {
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, theme.px(10)});
   const ImVec2 size{theme.px(130), 0};
-  if (ImGui::Button("Save", size)) {
+  const bool is_entered = !ImGui::IsWindowAppearing() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  if (chief_button(theme, "Save", size) || is_entered) {
     close();
     if (save())
       if (auto then = std::exchange(then_, nullptr)) then();

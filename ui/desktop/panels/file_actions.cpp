@@ -20,7 +20,7 @@ void close_document(Editor& editor) {
 void back_to_saved(Editor& editor) {
   if (editor.document->path().empty()) return;
   const std::string path = editor.document->path();
-  editor.dialogs->guard([&editor, path] { editor.open(path); });
+  editor.dialogs->guard([&editor, path] { editor.open(path, true); });
 }
 
 bool has_file(const Editor& editor) { return has_document(editor) && !editor.document->path().empty(); }
@@ -46,14 +46,22 @@ void add_file_actions(std::vector<Action>& list) {
 
 void add_edit_actions(std::vector<Action>& list) {
   list.push_back({"Edit", "Undo", {GLFW_KEY_Z, true}, {}, Area::none, has_document, [](Editor& e) { e.undo(); }, true});
-  list.push_back({"Edit", "Redo", {GLFW_KEY_Y, true}, {GLFW_KEY_Z, true, true}, Area::none, has_document,
-                  [](Editor& e) { e.redo(); }, true});
-  list.push_back({"Edit", "Commands ...", {GLFW_KEY_K, true}, {}, Area::none, nullptr, [](Editor& e) { e.dialogs->show_palette(); }});
+  list.push_back({"Edit",
+                  "Redo",
+                  {GLFW_KEY_Y, true},
+                  {GLFW_KEY_Z, true, true},
+                  Area::none,
+                  has_document,
+                  [](Editor& e) { e.redo(); },
+                  true});
+  list.push_back(
+      {"Edit", "Commands ...", {GLFW_KEY_K, true}, {}, Area::none, nullptr, [](Editor& e) { e.dialogs->show_palette(); }});
 }
 
 void add_help_actions(std::vector<Action>& list) {
-  list.push_back({"Help", "Keys and gestures", {GLFW_KEY_SLASH, false, true}, {}, Area::none, nullptr,
-                  [](Editor& e) { e.dialogs->show_keys(); }});
+  list.push_back({"Help", "Keys and gestures", {GLFW_KEY_SLASH, false, true}, {}, Area::none, nullptr, [](Editor& e) {
+                    e.dialogs->show_keys();
+                  }});
 }
 
 }  // namespace bl::desktop

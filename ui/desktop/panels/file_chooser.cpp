@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include <imgui_stdlib.h>
+
+#include "ui/desktop/panels/buttons.h"
 
 namespace bl::desktop {
 
@@ -20,7 +23,7 @@ void FileChooser::open(Purpose purpose, std::string title, std::vector<std::stri
   title_ = std::move(title);
   endings_ = std::move(endings);
   is_open_ = is_fresh_ = true;
-  asks_replace_ = false;
+  asked_.clear();
   message_.clear();
   name_.clear();
   std::error_code error;
@@ -56,9 +59,8 @@ void FileChooser::go(const std::string& folder) {
     if (entry.is_directory(ignored)) items_.push_back({name, true});
     else if (is_listed(name)) items_.push_back({name, false});
   }
-  std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) {
-    return a.is_folder != b.is_folder ? a.is_folder : a.name < b.name;
-  });
+  std::sort(items_.begin(), items_.end(),
+            [](const Item& a, const Item& b) { return a.is_folder != b.is_folder ? a.is_folder : a.name < b.name; });
 }
 
 void FileChooser::draw_places(Editor& editor) {
@@ -96,7 +98,6 @@ std::optional<std::string> FileChooser::draw_list() {
       enter = folder_ + "/" + item.name;
     } else {
       name_ = item.name;
-      asks_replace_ = false;
       if (ImGui::IsMouseDoubleClicked(0)) chosen = accept();
     }
   }
@@ -125,12 +126,18 @@ std::optional<std::string> FileChooser::accept() {
     return std::nullopt;
   }
   if (!endings_.empty() && !is_listed(path)) path += endings_.front();
-  if (files::exists(path, error) && !asks_replace_) {
-    asks_replace_ = true;
+  if (files::exists(path, error) && asked_ != path) {
+    asked_ = path;
     message_ = files::path(path).filename().string() + " exists already. Press again to replace it.";
     return std::nullopt;
   }
   return path;
+}
+
+void FileChooser::complain(const std::string& text) {
+  is_open_ = is_fresh_ = true;
+  asked_.clear();
+  message_ = text;
 }
 
 std::optional<std::string> FileChooser::draw(Editor& editor) {
@@ -156,13 +163,19 @@ std::optional<std::string> FileChooser::draw(Editor& editor) {
   ImGui::BeginChild("list", {0, -foot}, true);
   chosen = draw_list();
   ImGui::EndChild();
-  if (is_fresh_) ImGui::SetKeyboardFocusHere();
-  is_fresh_ = false;
+  if (std::exchange(is_fresh_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const char* hint = purpose_ == Purpose::choose_folder ? "name of a new folder in here, or nothing" : "name of the file";
-  if (ImGui::InputTextWithHint("##name", hint, &name_, ImGuiInputTextFlags_EnterReturnsTrue)) chosen = accept();
+  const std::string before = name_;
+  const bool is_entered = ImGui::InputTextWithHint("##name", hint, &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+  // Another name is another question.
+  if (name_ != before) asked_.clear(), message_.clear();
+  if (is_entered) {
+    chosen = accept();
+    is_fresh_ = !chosen;  // typing goes on
+  }
   const char* verb = purpose_ == Purpose::open_file ? "Open" : purpose_ == Purpose::save_file ? "Save" : "Choose";
-  if (ImGui::Button(asks_replace_ ? "Replace" : verb, {theme.px(110), 0})) chosen = accept();
+  if (chief_button(theme, asked_.empty() ? verb : "Replace", {theme.px(110), 0})) chosen = accept();
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {theme.px(110), 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) stays = false;
   ImGui::SameLine();

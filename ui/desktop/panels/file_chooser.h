@@ -16,6 +16,8 @@ class FileChooser {
   /// `endings` such as {".json"}: other files are not listed; empty: all are. `start`: a file or folder to begin at.
   void open(Purpose purpose, std::string title, std::vector<std::string> endings, const std::string& start);
   bool is_open() const { return is_open_; }
+  /// What was chosen did not do: it is open again, with the name as it was, and says why.
+  void complain(const std::string& text);
   /// The modal window; the path once it was chosen.
   std::optional<std::string> draw(Editor& editor);
 
@@ -32,9 +34,10 @@ class FileChooser {
 
   Purpose purpose_ = Purpose::open_file;
   std::string title_, folder_, name_, typed_folder_, message_;
+  std::string asked_;  ///< the file that a person was asked about: whether to replace it
   std::vector<std::string> endings_;
   std::vector<Item> items_;
-  bool is_open_ = false, is_fresh_ = false, asks_replace_ = false;
+  bool is_open_ = false, is_fresh_ = false;
 };
 
 }  // namespace bl::desktop

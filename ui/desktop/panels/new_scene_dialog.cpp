@@ -3,6 +3,8 @@
 
 #include <imgui_stdlib.h>
 
+#include "ui/desktop/panels/buttons.h"
+
 namespace bl::desktop {
 
 namespace {
@@ -57,8 +59,10 @@ void Dialogs::draw_new_scene() {
   const bool is_ready = !fresh_.boundary.empty() && !fresh_.programme.empty();
   ImGui::BeginDisabled(!is_ready);
   const bool is_entered = !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
-  if (ImGui::Button("Make the scene", {theme.px(150), 0}) || (is_ready && is_entered)) make_scene();
+  if (chief_button(theme, "Make the scene", {theme.px(150), 0}) || (is_ready && is_entered)) make_scene();
   ImGui::EndDisabled();
+  if (!is_ready && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("A boundary and a programme are needed.");
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {theme.px(110), 0})) close();
   ImGui::PushStyleColor(ImGuiCol_Text, is_told_error_ ? theme.colours().bad : theme.colours().text_soft);

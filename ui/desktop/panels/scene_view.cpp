@@ -165,7 +165,7 @@ void SceneView::fit(bool all) {
 }
 
 void SceneView::look_from(Side side) {
-  Camera camera = change_began_ >= 0 ? to_ : choices_.camera;
+  Camera camera = is_walking_ ? before_walk_ : change_began_ >= 0 ? to_ : choices_.camera;
   is_walking_ = false;
   camera.azimuth = side == Side::east ? 0 : side == Side::axonometric ? -kPi / 4 : -kPi / 2;
   camera.elevation = side == Side::plan ? kPi / 2 : side == Side::axonometric ? 0.6155 : 0;
@@ -183,7 +183,8 @@ void SceneView::toggle_walk() {
   if (!facts_) return;
   is_walking_ = !is_walking_;
   walk_began_ = editor_->now;
-  if (!is_walking_) return;
+  if (!is_walking_) return go_to(before_walk_);
+  before_walk_ = change_began_ >= 0 ? to_ : choices_.camera;
   // Down to the height of people's eyes, before what is seen now.
   Camera camera = choices_.camera;
   const Point3 eye = camera.eye();

@@ -109,6 +109,7 @@ class SceneView {
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   void draw_legend(bool is_large);
+  void draw_hint(const std::string& text);
   void draw_tools();
   void draw_layers_popup();
 
@@ -142,6 +143,7 @@ class SceneView {
   std::vector<ViewVolume> still_volumes_;
   double still_since_ = 0;
   bool is_walking_ = false;
+  Camera before_walk_;  ///< where one stood before: a walker sees too little to look around from
   double walk_began_ = -1;
   ImVec2 at_{}, size_{};
   ImVec4 hidden_note_{};
@@ -150,7 +152,7 @@ class SceneView {
   Drag drag_ = Drag::none;
   int drag_button_ = 0;
   ImVec2 pressed_at_{}, mouse_before_{};
-  bool pressed_on_chosen_ = false;
+  std::string pressed_on_;  ///< a node: pulling moves it, with all that is chosen if it is
   std::optional<Hit> hit_;
   std::string pointed_at_;
   double pointed_since_ = 0;

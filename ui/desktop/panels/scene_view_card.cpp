@@ -114,7 +114,8 @@ void SceneView::draw_card() {
     card.row(c.text_soft, c.text, "Wanted", report::quantity(volume.wanted, Unit::cubic_metre));
     card.row(c.text_soft, standing, "Difference", volume.wanted > 0 ? report::signed_percent(error) : "wants nothing");
     card.row(c.text_soft, c.text, "Floor area", report::quantity(volume.floor_area, Unit::square_metre));
-    if (!volume.reason.empty() && volume.state != "alive") card.text(theme.fonts().small, c.bad, volume.reason, 3);
+    if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, "Nothing has run yet: P lets it.", 1);
+    else if (!volume.reason.empty() && volume.state != "alive") card.text(theme.fonts().small, c.bad, volume.reason, 3);
     if (volume.is_ball) card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
     if (pulls.empty()) return;
     card.y += theme.px(3);

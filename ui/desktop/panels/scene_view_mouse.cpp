@@ -84,10 +84,8 @@ void SceneView::walk_about() {
   hold_keys();
   const ImGuiIO& io = ImGui::GetIO();
   const bool is_first_frame = editor_->now <= walk_began_;  // the key that began it is still down
-  if (!is_first_frame && (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) || ImGui::IsKeyPressed(GLFW_KEY_6, false))) {
-    is_walking_ = false;
-    return;
-  }
+  if (!is_first_frame && (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) || ImGui::IsKeyPressed(GLFW_KEY_6, false)))
+    return toggle_walk();
   const double reach = kWalkSpeed * std::min(0.1, editor_->now - last_frame_) * (io.KeyShift ? kRunFactor : 1);
   const double ahead =
       (is_down(GLFW_KEY_W) || is_down(GLFW_KEY_UP) ? 1 : 0) - (is_down(GLFW_KEY_S) || is_down(GLFW_KEY_DOWN) ? 1 : 0);
@@ -135,7 +133,7 @@ void SceneView::take_left_button() {
     drag_ = Drag::pressed;
     pressed_at_ = io.MousePos;
     point_at();
-    pressed_on_chosen_ = !pointed_at_.empty() && editor_->picks.nodes.contains(pointed_at_) && !io.KeyShift && !io.KeyCtrl;
+    pressed_on_ = io.KeyShift || io.KeyCtrl ? "" : pointed_at_;
     return;
   }
   if (drag_ == Drag::pressed) {
@@ -152,8 +150,9 @@ void SceneView::take_left_button() {
     } else if (is_polyscope && io.KeyShift) {
       drag_ = Drag::zoom;
       drag_button_ = 0;
-    } else if (pressed_on_chosen_) {
+    } else if (!pressed_on_.empty()) {
       drag_ = Drag::none;
+      if (!editor_->picks.nodes.contains(pressed_on_)) editor_->picks.only_node(pressed_on_);
       begin_move(Move::kFree, false);
     }
     return;

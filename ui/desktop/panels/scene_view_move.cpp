@@ -282,8 +282,7 @@ void SceneView::draw_typed() {
   list.AddRectFilled(at, {at.x + extent.x + 2 * pad.x, at.y + extent.y + 2 * pad.y}, c.raised, theme.px(4));
   list.AddRect(at, {at.x + extent.x + 2 * pad.x, at.y + extent.y + 2 * pad.y}, c.line, theme.px(4));
   list.AddText(theme.fonts().strong, theme.fonts().strong->FontSize, {at.x + pad.x, at.y + pad.y}, c.text, text.c_str());
-  const ImVec2 low = ImGui::CalcTextSize(hint.c_str());
-  list.AddText({at_.x + (width() - low.x) / 2, at_.y + height() - low.y - theme.px(14)}, c.text_soft, hint.c_str());
+  draw_hint(hint);
 }
 
 }  // namespace bl::desktop

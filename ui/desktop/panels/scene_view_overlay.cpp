@@ -194,6 +194,16 @@ void SceneView::draw_legend(bool is_large) {
   const float x = at_.x + margin;
   float y = at_.y + height() - margin -
             line * (legend.ramp.empty() ? static_cast<float>(rows + (rows < legend.rows.size() ? 1 : 0)) : 2.4f);
+  float widest = legend.ramp.empty() ? 0 : theme.px(is_large ? 300 : 190);
+  const auto count_width = [&](const std::string& text, float before) {
+    widest = std::max(widest, before + font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str()).x);
+  };
+  count_width(legend.title, 0);
+  for (std::size_t k = 0; k < rows; ++k) count_width(legend.rows[k].label, swatch * 1.6f);
+  // Volumes may stand behind it.
+  const float pad = theme.px(7);
+  list.AddRectFilled({x - pad, y - line - pad}, {x + widest + pad, at_.y + height() - margin + pad}, faded(c.sky, 0.72f),
+                     theme.px(5));
   list.AddText(theme.fonts().strong, font->FontSize, {x, y - line}, c.text, legend.title.c_str());
   for (std::size_t k = 0; k < rows; ++k, y += line) {
     const float top = y + (line - swatch) / 2 - font->FontSize * 0.14f;
@@ -217,6 +227,19 @@ void SceneView::draw_legend(bool is_large) {
   put(legend.low, 0);
   put(legend.middle, 0.5f);
   put(legend.high, 1);
+}
+
+// What keys do just now, across the top where nothing else lies.
+void SceneView::draw_hint(const std::string& text) {
+  const Theme& theme = editor_->theme;
+  const Colours& c = theme.colours();
+  const float most = width() - theme.px(40);
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, most), pad{theme.px(9), theme.px(5)};
+  const ImVec2 at{at_.x + (width() - extent.x) / 2, at_.y + theme.px(50)};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x - pad.x, at.y - pad.y}, {at.x + extent.x + pad.x, at.y + extent.y + pad.y}, faded(c.raised, 0.9f),
+                     theme.px(5));
+  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, c.text_soft, text.c_str(), nullptr, most);
 }
 
 void SceneView::draw_layers_popup() {
@@ -258,11 +281,7 @@ void SceneView::draw_tools() {
     hidden_note_ = {low.x, low.y, high.x, high.y};
   }
   ImGui::PopStyleColor();
-  if (is_walking_) {
-    ImGui::SameLine(0, theme.px(12));
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Walking: W A S D, drag to look around, E and Q up and down, Esc ends it");
-  }
+  if (is_walking_) { draw_hint("Walking: W A S D, drag to look around, E and Q up and down, Esc ends it"); }
   if (ImGui::BeginPopup("layers")) {
     draw_layers_popup();
     ImGui::EndPopup();

@@ -94,7 +94,7 @@ void StartPage::draw_beginnings(float width) {
   ImGui::PopFont();
   for (const std::string& path : recent)
     if (row(theme, icon::kFile, files::path(path).filename().string(), files::path(path).parent_path().string()))
-      editor_->open(path);
+      editor_->open(path, true);
 }
 
 void StartPage::draw_shipped() {
@@ -114,7 +114,7 @@ void StartPage::draw_shipped() {
     if (draw_card(*picture, width)) chosen = picture->path;
     ++k;
   }
-  if (!chosen.empty() && editor_->open(chosen)) editor_->document->session().play(true);
+  if (!chosen.empty()) editor_->open(chosen, true);
 }
 
 bool StartPage::draw_card(const ScenePicture& picture, float width) {

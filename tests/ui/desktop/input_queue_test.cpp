@@ -1,0 +1,112 @@
+// Taps, chords and drags that are faster than the frames.
+#include <vector>
+
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include "ui/desktop/app/input_queue.h"
+
+namespace bl::desktop {
+namespace {
+
+class InputQueueTest : public ::testing::Test {
+ protected:
+  void frame() { queue.hand_over(io); }
+  std::vector<ImWchar> letters() {
+    std::vector<ImWchar> out(io.InputQueueCharacters.begin(), io.InputQueueCharacters.end());
+    io.InputQueueCharacters.resize(0);
+    return out;
+  }
+  ImGuiIO io;
+  InputQueue queue;
+};
+
+TEST_F(InputQueueTest, ATapWithinOneFrameIsDownForAFrame) {
+  queue.key(GLFW_KEY_F1, true);
+  queue.key(GLFW_KEY_F1, false);
+  frame();
+  EXPECT_TRUE(io.KeysDown[GLFW_KEY_F1]);
+  frame();
+  EXPECT_FALSE(io.KeysDown[GLFW_KEY_F1]);
+}
+
+TEST_F(InputQueueTest, AChordIsSeenAsAWhole) {
+  for (const bool is_down : {true, false}) {
+    queue.key(is_down ? GLFW_KEY_LEFT_CONTROL : GLFW_KEY_K, is_down);
+    queue.key(is_down ? GLFW_KEY_K : GLFW_KEY_LEFT_CONTROL, is_down);
+  }
+  frame();
+  EXPECT_TRUE(io.KeysDown[GLFW_KEY_K] && io.KeyCtrl);
+  frame();
+  EXPECT_FALSE(io.KeysDown[GLFW_KEY_K] || io.KeyCtrl);
+  // A plain key and a modifier after it are no chord; nor is a modifier that was let go first.
+  for (int k = 0; k < 5; ++k) frame();
+  queue.key(GLFW_KEY_Z, true);
+  queue.key(GLFW_KEY_LEFT_CONTROL, true);
+  frame();
+  EXPECT_TRUE(io.KeysDown[GLFW_KEY_Z] && !io.KeyCtrl);
+}
+
+TEST_F(InputQueueTest, APressIsWhereItWasMade) {
+  queue.move({10, 10});
+  queue.button(0, true);
+  queue.move({50, 10});
+  queue.move({90, 10});
+  queue.button(0, false);
+  queue.move({200, 10});
+  frame();
+  EXPECT_EQ(io.MousePos.x, 10);
+  EXPECT_TRUE(io.MouseDown[0]);
+  frame();
+  EXPECT_EQ(io.MousePos.x, 90);
+  EXPECT_FALSE(io.MouseDown[0]);
+  frame();
+  EXPECT_EQ(io.MousePos.x, 200);
+  EXPECT_TRUE(queue.is_empty());
+}
+
+TEST_F(InputQueueTest, LettersAfterAKeyWaitForTheFieldThatItOpens) {
+  queue.key(GLFW_KEY_TAB, true);
+  queue.key(GLFW_KEY_TAB, false);
+  queue.key(GLFW_KEY_S, true);
+  queue.text('s');
+  frame();
+  EXPECT_TRUE(io.KeysDown[GLFW_KEY_TAB]);
+  frame();
+  EXPECT_FALSE(io.KeysDown[GLFW_KEY_TAB] || io.KeysDown[GLFW_KEY_S]) << "the field is not open yet";
+  io.WantTextInput = true;
+  frame();
+  EXPECT_EQ(letters(), std::vector<ImWchar>{'s'});
+}
+
+TEST_F(InputQueueTest, NothingIsLostAndNothingStaysForEver) {
+  for (int k = 0; k < 200; ++k) {
+    queue.key(GLFW_KEY_A + k % 20, true);
+    queue.text('a' + static_cast<unsigned>(k % 20));
+    queue.key(GLFW_KEY_A + k % 20, false);
+    queue.move({static_cast<float>(k), 0});
+    queue.button(k % 3, true);
+    queue.button(k % 3, false);
+    queue.wheel({0, 1});
+  }
+  int presses = 0, clicks = 0;
+  float wheel = 0;
+  std::size_t typed = 0;
+  for (int k = 0; k < 2000 && !queue.is_empty(); ++k) {
+    const ImGuiIO before = io;
+    frame();
+    for (int key = 0; key < 512; ++key) presses += io.KeysDown[key] && !before.KeysDown[key] ? 1 : 0;
+    for (int button = 0; button < 3; ++button) clicks += io.MouseDown[button] && !before.MouseDown[button] ? 1 : 0;
+    wheel += io.MouseWheel;
+    io.MouseWheel = 0;
+    typed += letters().size();
+  }
+  EXPECT_TRUE(queue.is_empty());
+  EXPECT_EQ(presses, 200);
+  EXPECT_EQ(clicks, 200);
+  EXPECT_EQ(wheel, 200);
+  EXPECT_EQ(typed, 200u);
+}
+
+}  // namespace
+}  // namespace bl::desktop
