@@ -64,7 +64,7 @@ TEST_F(UsesTest, EveryPanelShowsTheSameColour) {
   }
   EXPECT_TRUE(seen.contains(kNoUse));
   EXPECT_EQ(colouring.legend.rows.back().label, "No use");
-  EXPECT_EQ(colouring.legend.rows.back().colour, theme.colours().text_faint);
+  EXPECT_EQ(colouring.legend.rows.back().colour, colour_of_use(theme, kNoUse));
   std::set<std::size_t> drawn;
   for (const PictureTriangle& triangle : picture_of(editor().state()).triangles) drawn.insert(triangle.colour);
   EXPECT_GT(drawn.size(), 2u);

@@ -105,7 +105,8 @@ std::size_t UseNumbers::of(const std::string& use) const {
 }
 
 Colour colour_of_use(const Theme& theme, std::size_t number) {
-  return number == kNoUse ? theme.colours().text_faint : theme.category(number);
+  const Colours& c = theme.colours();
+  return number == kNoUse ? mixed(c.text_faint, c.text_soft, 0.6f) : theme.category(number);
 }
 
 std::string label_of_use(const std::string& use) {
