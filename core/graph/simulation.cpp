@@ -7,9 +7,14 @@ Simulation::Simulation(const Registry& registry, int threads, double (*now)()) :
   set_scene({});
 }
 
-void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed) {
+std::shared_ptr<const State> Simulation::with_scene(const Scene& scene,
+                                                    const std::set<std::pair<std::string, std::string>>& placed) const {
   auto plan = compile(scene, *registry_);
-  state_ = std::make_shared<State>(state_ ? carry(*state_, std::move(plan), placed) : initial_state(std::move(plan)));
+  return std::make_shared<State>(state_ ? carry(*state_, std::move(plan), placed) : initial_state(std::move(plan)));
+}
+
+void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed) {
+  state_ = with_scene(scene, placed);
 }
 
 Result<void> Simulation::restore_state(const SavedState& saved) {

@@ -21,6 +21,9 @@ class Simulation {
   /// `now` gives seconds for PhaseTimes; without it they stay 0. It cannot influence the result.
   Simulation(const Registry& registry, int threads, double (*now)() = nullptr);
 
+  /// What set_scene() would make of the state; nothing is changed.
+  std::shared_ptr<const State> with_scene(const Scene& scene,
+                                          const std::set<std::pair<std::string, std::string>>& placed = {}) const;
   /// Compiles the scene and keeps what of the running state still fits. `placed`: ports that people have just put somewhere.
   void set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed = {});
   /// Continues from a saved state of the current scene.

@@ -40,6 +40,8 @@ class Ledger {
     std::set<std::pair<std::string, std::string>> placed;  ///< (node, path) of ports that people have put somewhere
   };
   Changes take_changes();
+  /// The same, without taking them.
+  Changes changes() const { return {is_changed_, placed_}; }
 
  private:
   Result<void> apply_entry(LogEntry entry);

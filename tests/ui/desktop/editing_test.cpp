@@ -64,6 +64,36 @@ TEST(Editing, LogOfATickingThreadReplaysToTheSameHash) {
   EXPECT_EQ(report->checks, 1u);
 }
 
+TEST(Editing, WhileTheClockStandsChangesAreSeenAndDoNotChangeTheNextTick) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  LiveSession& session = desktop.editor().document->session();
+  desktop.ticks(30);
+  Random random(3, 3);
+  // Things that come and go between two ticks leave their neighbours' states alone.
+  ASSERT_TRUE(desktop.editor().submit(command<RemoveNode>({"theatre"})));
+  session.settle();
+  desktop.frames(1);
+  EXPECT_EQ(desktop.editor().state().tick, 30);
+  EXPECT_EQ(desktop.editor().state().plan->node_index("theatre"), desktop.editor().state().nodes.size());
+  desktop.editor().undo();
+  session.settle();
+  desktop.frames(1);
+  EXPECT_LT(desktop.editor().state().plan->node_index("theatre"), desktop.editor().state().nodes.size());
+  for (int k = 0; k < 40; ++k) {
+    (void)session.submit(random_command(session.scene(), random, k));
+    if (k % 3 == 0) session.settle();
+    if (k % 10 == 0) desktop.ticks(1);
+  }
+  desktop.ticks(5);
+  const std::string path = ::testing::TempDir() + "standing_clock.log";
+  ASSERT_TRUE(desktop.editor().document->save_log(path).ok());
+  const auto log = read_log(read_file(path).value(), full_registry());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  const auto report = replay(*log, full_registry(), 2);
+  ASSERT_TRUE(report.ok()) << report.error().text();
+  EXPECT_EQ(report->hash, hex_digits(desktop.editor().state().hash));
+}
+
 TEST(Editing, LogAfterARewindStartsFromTheStateReturnedTo) {
   NullDesktop desktop("scenes/start/quarter.json");
   LiveSession& session = desktop.editor().document->session();
@@ -89,7 +119,8 @@ TEST(Editing, ADragIsOneStep) {
   const std::string before = desktop.scene_text();
   const std::int64_t gesture = editor.new_gesture();
   for (int k = 0; k < 30; ++k)
-    ASSERT_TRUE(editor.submit(command<SetPort>({"library", {"node.position"}, {"[" + std::to_string(60 + k) + ", 44, 9]"}}), gesture));
+    ASSERT_TRUE(
+        editor.submit(command<SetPort>({"library", {"node.position"}, {"[" + std::to_string(60 + k) + ", 44, 9]"}}), gesture));
   ASSERT_EQ(editor.document->history().size(), 1u);
   EXPECT_EQ(editor.document->history().front().label, "Set value · Library, position");
   const std::string after = desktop.scene_text();

@@ -29,15 +29,24 @@ NullDesktop::NullDesktop(const std::string& scene, ImVec2 size) {
   io.DeltaTime = static_cast<float>(kFrame);
   io.MousePos = {-1, -1};
   // The key map of the real window's backend.
-  const std::pair<int, int> kKeys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},           {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-                                       {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},  {ImGuiKey_UpArrow, GLFW_KEY_UP},
-                                       {ImGuiKey_DownArrow, GLFW_KEY_DOWN},    {ImGuiKey_Home, GLFW_KEY_HOME},
-                                       {ImGuiKey_End, GLFW_KEY_END},           {ImGuiKey_Delete, GLFW_KEY_DELETE},
-                                       {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE}, {ImGuiKey_Enter, GLFW_KEY_ENTER},
-                                       {ImGuiKey_Escape, GLFW_KEY_ESCAPE},     {ImGuiKey_Space, GLFW_KEY_SPACE},
-                                       {ImGuiKey_A, GLFW_KEY_A},               {ImGuiKey_C, GLFW_KEY_C},
-                                       {ImGuiKey_V, GLFW_KEY_V},               {ImGuiKey_X, GLFW_KEY_X},
-                                       {ImGuiKey_Y, GLFW_KEY_Y},               {ImGuiKey_Z, GLFW_KEY_Z}};
+  const std::pair<int, int> kKeys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                       {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                       {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                       {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                       {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                       {ImGuiKey_Home, GLFW_KEY_HOME},
+                                       {ImGuiKey_End, GLFW_KEY_END},
+                                       {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                       {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                       {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                       {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                       {ImGuiKey_Space, GLFW_KEY_SPACE},
+                                       {ImGuiKey_A, GLFW_KEY_A},
+                                       {ImGuiKey_C, GLFW_KEY_C},
+                                       {ImGuiKey_V, GLFW_KEY_V},
+                                       {ImGuiKey_X, GLFW_KEY_X},
+                                       {ImGuiKey_Y, GLFW_KEY_Y},
+                                       {ImGuiKey_Z, GLFW_KEY_Z}};
   for (const auto& [ours, native] : kKeys) io.KeyMap[ours] = native;
   desktop_ = std::make_unique<Desktop>(full_registry(), person_, renderer_);
   (void)editor().theme.load_fonts(1);
@@ -58,6 +67,8 @@ void NullDesktop::frames(int count) {
   ImGui::SetCurrentContext(context_);  // a test may have two desktops
   for (int k = 0; k < count; ++k) {
     now_ += kFrame;
+    // What the other thread shows of people's changes is there before each frame: tests are the same every time.
+    if (editor().document && !editor().document->session().moment()->is_playing) editor().document->session().settle();
     ImGui::NewFrame();
     desktop_->frame(now_);
     ImGui::Render();

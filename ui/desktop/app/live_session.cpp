@@ -41,6 +41,8 @@ struct LiveSession::Shared {
   std::int64_t rewind_by = 0;
   bool is_playing = false, is_ending = false, is_ticking = false;
   double wanted_rate = 20;
+  std::size_t shown_entries = 0;         // of the log: what they have said is in what is published
+  std::shared_ptr<const State> preview;  // the last tick's state with what people have changed since; none where they have not
   // Of the ticking thread alone.
   Simulation simulation;
   std::deque<std::shared_ptr<const State>> past;
@@ -51,18 +53,20 @@ struct LiveSession::Shared {
   void run();
   bool tick(std::unique_lock<std::mutex>& lock);
   void go_back(std::int64_t ticks);
+  bool is_news() const { return !is_playing && steps_due == 0 && shown_entries != ledger.log().size(); }
+  void show_changes(std::unique_lock<std::mutex>& lock);
   void publish(const std::string& failure);
 };
 
 // Call with the mutex held.
 void LiveSession::Shared::publish(const std::string& failure) {
   auto moment = std::make_shared<Moment>();
-  moment->state = simulation.state();
+  moment->state = preview ? preview : simulation.state();
   moment->is_playing = is_playing;
   moment->wanted_rate = wanted_rate;
   moment->tick_seconds = tick_seconds;
   moment->rate = is_playing ? rate : 0;
-  moment->oldest = past.empty() ? moment->state->tick : past.front()->tick;
+  moment->oldest = past.empty() ? simulation.state()->tick : past.front()->tick;
   moment->times = simulation.times();
   moment->failure = failure;
   published = std::move(moment);
@@ -76,11 +80,35 @@ void LiveSession::Shared::go_back(std::int64_t ticks) {
   past.pop_back();
 }
 
+// While the clock stands, what people change is to be seen all the same: as the next tick will begin with it. The simulation
+// itself waits for that tick, so that a replay of the log meets the same states.
+void LiveSession::Shared::show_changes(std::unique_lock<std::mutex>& lock) {
+  const std::size_t entries = ledger.log().size();
+  const Ledger::Changes changes = ledger.changes();
+  if (changes.is_logic_changed) {
+    const Scene scene = ledger.scene();
+    is_ticking = true;
+    lock.unlock();
+    std::shared_ptr<const State> seen;
+    try {
+      seen = simulation.with_scene(scene, changes.placed);
+    } catch (const std::exception&) {
+      // The next tick will say so.
+    }
+    lock.lock();
+    is_ticking = false;
+    preview = std::move(seen);
+    publish("");
+  }
+  shown_entries = entries;
+}
+
 // One tick; the lock is given up while it computes. Whether it went well.
 bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   const Ledger::Changes changes = ledger.take_changes();
   std::optional<Scene> scene;
   if (changes.is_logic_changed) scene = ledger.scene();
+  shown_entries = ledger.log().size();
   is_ticking = true;
   next_tick = simulation.state()->tick + 1;
   std::string failure;
@@ -103,6 +131,7 @@ bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   rate = since > 2 ? 0 : rate + kSmoothing * (1 / std::max(1e-4, since) - rate);
   lock.lock();
   is_ticking = false;
+  preview = nullptr;
   next_tick = simulation.state()->tick;
   if (!failure.empty()) {
     is_playing = false;
@@ -118,6 +147,8 @@ void LiveSession::Shared::run() {
   while (!is_ending) {
     if (rewind_by > 0) {
       go_back(std::exchange(rewind_by, 0));
+      preview = nullptr;
+      shown_entries = 0;
       next_tick = simulation.state()->tick;
       publish("");
     }
@@ -129,6 +160,10 @@ void LiveSession::Shared::run() {
       if (steps_due > 0) --steps_due;
       tick(lock);
       done.notify_all();
+      continue;
+    }
+    if (is_news()) {
+      show_changes(lock);
       continue;
     }
     done.notify_all();
@@ -166,22 +201,26 @@ LiveSession::~LiveSession() {
 
 Result<void> LiveSession::submit(const Command& command, std::int64_t gesture) {
   const std::lock_guard lock(shared_->mutex);
+  shared_->wake.notify_all();
   return ledger_.submit(command, kAuthor, shared_->next_tick, gesture);
 }
 
 Result<void> LiveSession::undo() {
   const std::lock_guard lock(shared_->mutex);
+  shared_->wake.notify_all();
   return ledger_.undo(kAuthor, shared_->next_tick);
 }
 
 Result<void> LiveSession::redo() {
   const std::lock_guard lock(shared_->mutex);
+  shared_->wake.notify_all();
   return ledger_.redo(kAuthor, shared_->next_tick);
 }
 
 Result<void> LiveSession::replay(LogEntry entry) {
   const std::lock_guard lock(shared_->mutex);
   entry.tick = shared_->next_tick;
+  shared_->wake.notify_all();
   return ledger_.replay(entry);
 }
 
@@ -229,7 +268,8 @@ void LiveSession::rewind(std::int64_t ticks) {
 void LiveSession::settle() {
   std::unique_lock lock(shared_->mutex);
   shared_->wake.notify_all();
-  shared_->done.wait(lock, [this] { return !shared_->is_ticking && shared_->rewind_by == 0 && shared_->steps_due == 0; });
+  shared_->done.wait(
+      lock, [this] { return !shared_->is_ticking && shared_->rewind_by == 0 && shared_->steps_due == 0 && !shared_->is_news(); });
 }
 
 }  // namespace bl::desktop
