@@ -207,14 +207,15 @@ TEST(Fit, InterruptWritesEveryCase) {
     demands += i > 0 ? ", 2.4" : "2.4";
   }
   const std::string one = "{" + kBox + ", \"sites\": [" + sites + "], \"demands\": [" + demands + "]}";
-  for (int i = 0; i < 200; ++i) cases += (i > 0 ? ",\n" : "") + one;
+  // Read in no time, fitted in a minute: the signal comes in between, on slow machines too.
+  for (int i = 0; i < 20; ++i) cases += (i > 0 ? ",\n" : "") + one;
   place.write("i.json", "{\"cases\": [" + cases + "]}");
   const Outcome outcome = place.shell(
       "timeout --preserve-status -s INT 1.5 \"$BEHAVIOURLINKS\" fit i.json --json o.json --tolerance 1e-15 --steps 1000 --method "
       "feedback");
   EXPECT_EQ(outcome.code, 130) << outcome.err;
   const nlohmann::json fits = place.json("o.json")["cases"];
-  ASSERT_EQ(fits.size(), 200u);
+  ASSERT_EQ(fits.size(), 20u);
   EXPECT_EQ(fits.back()["status"], "cancelled");
   EXPECT_EQ(fits.back()["weights"].size(), 400u);
 }
