@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 // Shapes below this share of their cell (or of the ball's box) are a touch, not a volume.
-constexpr double kTouchingShare = 1e-14;
+constexpr double kTouchingShare = 1e-13;
 // Nearer to a facet's plane than this share of the radius, the centre sees the facet's edges at angles of pure rounding.
 constexpr double kApartShare = 1e-3;
 

@@ -238,5 +238,20 @@ TEST(PowerCells, ABallThatOnlyTouchesItsCellHasNoShape) {
   }
 }
 
+// From a fuzzer: touched at a corner, the ball had a volume of rounding, and a mesh beside its cell.
+TEST(PowerCells, ABallThatTouchesACornerHasNoMesh) {
+  const auto cube = extrude(std::vector<Point3>{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}}, 0, 10);
+  const std::vector<PowerSite> sites{
+      {{1.66, 1.66, 1.68}, 1.69}, {{3, 3, 5}, 1.69}, {{3, 4, 5}, 1.69}, {{-2, -2, -2}, 25}, {{10, 10, 11}, 1}};
+  CellOptions options;
+  options.tessellation_depth = 2;
+  const auto cells = power_cells(*cube, sites, options);
+  ASSERT_TRUE(cells.ok());
+  const CellMeasure& cell = cells->back();
+  EXPECT_EQ(cell.volume, 0);
+  EXPECT_EQ(cell.mesh, nullptr);
+  EXPECT_FALSE(cell.reason.empty());
+}
+
 }  // namespace
 }  // namespace bl::test

@@ -76,5 +76,15 @@ TEST(Desktop, PanesTakeTurnsWithTheKeys) {
   EXPECT_EQ(editor.area, Area::canvas);
 }
 
+TEST(Desktop, PanesWithoutRoomHarmNobody) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  desktop.editor().picks.only_node("library");
+  for (float width = 4; width < 700; width += 9) {
+    ImGui::GetIO().DisplaySize = {width, 900 - width};
+    desktop.frames(1);
+  }
+  EXPECT_TRUE(desktop.editor().document);
+}
+
 }  // namespace
 }  // namespace bl::desktop

@@ -1,6 +1,7 @@
 // A pane as thin as the gap, which follows the mouse.
 #include "ui/desktop/app/splitter.h"
 
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/app/theme.h"
 
 namespace bl::desktop {
@@ -17,7 +18,7 @@ float splitter(const char* name, ImVec2 at, ImVec2 size, bool is_upright, const 
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(3);
-  ImGui::InvisibleButton(name, size);
+  press_area(name, size);
   const bool is_active = ImGui::IsItemActive(), is_hot = is_active || ImGui::IsItemHovered();
   if (is_hot) {
     ImGui::SetMouseCursor(is_upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -198,7 +199,7 @@ std::string chart_number(const Chart& chart, double value) {
 
 void line_chart(const Theme& theme, const char* id, ImVec2 size, const Chart& chart) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::InvisibleButton(id, {std::max(1.0f, size.x), std::max(1.0f, size.y)});
+  press_area(id, size);
   if (size.x < theme.px(80) || size.y < theme.px(40)) return;
   Drawing(theme, chart, at, size).draw(ImGui::GetIO().MousePos, ImGui::IsItemHovered());
 }

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "ui/cli/report/report.h"
-#include "ui/desktop/panels/buttons.h"
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"
 

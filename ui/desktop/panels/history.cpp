@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panels.h"
 
@@ -34,7 +35,7 @@ bool draw_step(Editor& editor, int index, const std::string& label, const std::s
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::PushID(index);
-  const bool is_pressed = ImGui::InvisibleButton("##step", {width, height});
+  const bool is_pressed = press_area("##step", {width, height});
   ImGui::PopID();
   note_place(editor, "step/" + std::to_string(index));
   ImDrawList& list = *ImGui::GetWindowDrawList();

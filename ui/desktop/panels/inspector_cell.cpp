@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -135,7 +136,7 @@ CellEvent cell(Editor& editor, const std::string& key, const std::string& shown,
     if (is_over) end_typing(memory);
   } else {
     const ImVec2 from = ImGui::GetCursorScreenPos();
-    const bool is_pressed = ImGui::InvisibleButton("##cell", {std::max(1.0f, width), ImGui::GetFrameHeight()});
+    const bool is_pressed = press_area("##cell", {width, ImGui::GetFrameHeight()});
     event.is_hovered = ImGui::IsItemHovered();
     if (look.is_scrubbed && !look.is_fixed) {
       if (event.is_hovered || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);

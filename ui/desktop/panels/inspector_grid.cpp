@@ -3,6 +3,7 @@
 
 #include "core/define/codec.h"
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/inspector_value.h"
 
@@ -37,7 +38,7 @@ bool is_unfolded(Editor& editor, const Grid& grid, bool is_mixed, float width) {
   const ImGuiID id = ImGui::GetID("unfolded");
   bool is_open = storage.GetBool(id, false);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  if (ImGui::InvisibleButton("##fold", {width, ImGui::GetFrameHeight()}) && !is_mixed) storage.SetBool(id, is_open = !is_open);
+  if (press_area("##fold", {width, ImGui::GetFrameHeight()}) && !is_mixed) storage.SetBool(id, is_open = !is_open);
   note_place(editor, grid.key);
   ImGui::PopID();
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -5,6 +5,7 @@
 
 #include "core/define/codec.h"
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
@@ -232,7 +233,7 @@ void list_links(Editor& editor, InspectorView& view) {
     const bool has_failed = state.links[links[k]].error || link.error, is_quiet = !link.is_enabled || link.is_muted;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(link.id.c_str());
-    const bool is_pressed = ImGui::InvisibleButton("##link", {ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()});
+    const bool is_pressed = press_area("##link", {ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight()});
     ImGui::PopID();
     note_place(editor, "link/" + link.id);
     const ImVec2 to = ImGui::GetItemRectMax();

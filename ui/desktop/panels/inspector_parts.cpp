@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
 
 namespace bl::desktop {
@@ -45,7 +46,7 @@ bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mi
   ImGui::PushID(key.c_str());
   const float height = ImGui::GetFrameHeight(), width = theme.px(30), knob = theme.px(7);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool is_pressed = ImGui::InvisibleButton("##switch", {theme.px(80), height}) && !is_fixed;
+  const bool is_pressed = press_area("##switch", {theme.px(80), height}) && !is_fixed;
   note_place(editor, key);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float top = at.y + (height - theme.px(18)) / 2, bottom = top + theme.px(18), middle = (top + bottom) / 2;
@@ -66,7 +67,7 @@ bool begin_list(Editor& editor, const std::string& key, const std::string& shown
   const Colours& c = theme.colours();
   ImGui::PushID(key.c_str());
   const ImVec2 from = ImGui::GetCursorScreenPos();
-  const bool is_pressed = ImGui::InvisibleButton("##list", {width, ImGui::GetFrameHeight()});
+  const bool is_pressed = press_area("##list", {width, ImGui::GetFrameHeight()});
   note_place(editor, key);
   const ImVec2 to = ImGui::GetItemRectMax();
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -112,7 +113,7 @@ bool sign_button(Editor& editor, const char* sign, const std::string& hint, ImU3
   const ImVec2 size{theme.px(20), ImGui::GetFrameHeight()};
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::PushID(sign);
-  const bool is_pressed = ImGui::InvisibleButton("##sign", size);
+  const bool is_pressed = press_area("##sign", size);
   ImGui::PopID();
   if (!is_shown && !ImGui::IsItemHovered()) return is_pressed;
   const ImVec2 extent = ImGui::CalcTextSize(sign);
@@ -142,7 +143,7 @@ int chips(Editor& editor, const std::string& key, const std::vector<std::string>
     }
     ImGui::PushID(static_cast<int>(k));
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const bool is_pressed = ImGui::InvisibleButton("##chip", {width, height});
+    const bool is_pressed = press_area("##chip", {width, height});
     note_place(editor, key + "/" + std::to_string(k));
     const bool is_at_cross = !is_fixed && ImGui::IsItemHovered() && ImGui::GetIO().MousePos.x > at.x + width - cross - pad / 2;
     ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -1,6 +1,7 @@
 // Rows, sections and headings: one grid of labels and fields for everything that can be inspected.
 #include <algorithm>
 
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector.h"
 
 namespace bl::desktop {
@@ -15,7 +16,7 @@ RowEvent begin_row(Editor& editor, const std::string& key, const std::string& la
   const float label_width = std::clamp(0.36f * room, theme.px(84), theme.px(150)), sign = theme.px(20);
   const float row = ImGui::GetFrameHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::InvisibleButton("##label", {label_width - theme.px(6), row});
+  press_area("##label", {label_width - theme.px(6), row});
   const bool is_hovered = ImGui::IsItemHovered();
   const std::string text = fitted(label, label_width - theme.px(10));
   ImGui::GetWindowDrawList()->AddText({at.x, at.y + ImGui::GetStyle().FramePadding.y}, is_hovered ? c.text : c.text_soft,
@@ -67,7 +68,7 @@ bool section(Editor& editor, const std::string& key, const std::string& label, c
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddLine({at.x, at.y}, {at.x + width, at.y}, c.line);
   ImGui::SetCursorPos({left, top + theme.px(4)});
-  if (ImGui::InvisibleButton("##section", {width - theme.px(24), height})) storage.SetBool(id, is_folded = !is_folded);
+  if (press_area("##section", {width - theme.px(24), height})) storage.SetBool(id, is_folded = !is_folded);
   note_place(editor, "section/" + key);
   const bool is_hovered = ImGui::IsItemHovered();
   if (is_hovered && !doc.empty()) card(editor, label, doc);

@@ -3,7 +3,7 @@
 
 #include <imgui_stdlib.h>
 
-#include "ui/desktop/panels/buttons.h"
+#include "ui/desktop/app/buttons.h"
 
 namespace bl::desktop {
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panels.h"
@@ -75,7 +76,7 @@ void draw_item(Editor& editor, ProblemItem& item, int index, float height) {
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::PushID(index);
   // On the press, not the release: rows may change places in between.
-  const bool is_activated = ImGui::InvisibleButton("##problem", {width, height});
+  const bool is_activated = press_area("##problem", {width, height});
   const bool is_pressed = ImGui::IsItemClicked() || (is_activated && !ImGui::IsMouseReleased(0));
   ImGui::PopID();
   note_place(editor, "problem/" + std::to_string(index));

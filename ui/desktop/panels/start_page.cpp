@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/view/colouring.h"
 
@@ -122,7 +123,7 @@ bool StartPage::draw_card(const ScenePicture& picture, float width) {
   const Colours& c = theme.colours();
   const float height = 0.62f * width, foot = theme.px(90);
   ImGui::PushID(picture.path.c_str());
-  const bool is_hit = ImGui::InvisibleButton("card", {width, height + foot});
+  const bool is_hit = press_area("card", {width, height + foot});
   const bool is_hot = ImGui::IsItemHovered();
   const ImVec2 at = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/charts.h"
 #include "ui/desktop/panels/inspector_cell.h"
@@ -73,7 +74,7 @@ void draw_orders(Editor& editor, RunRecord& record) {
     ImGui::SameLine(0, theme.px(8));
     ImGui::PushFont(theme.fonts().small);
     const ImVec2 at = ImGui::GetCursorScreenPos(), extent = ImGui::CalcTextSize(word);
-    if (ImGui::InvisibleButton(word, extent)) {
+    if (press_area(word, extent)) {
       record.order = order;
       record.is_order_stale = true;
     }
@@ -97,7 +98,7 @@ void draw_volume(Editor& editor, const report::VolumeRow& row, int index, float 
   const float width = ImGui::GetContentRegionAvail().x, name_width = std::min(theme.px(160), 0.4f * width), number = theme.px(64);
   ImGui::PushID(index);
   // On the press, not the release: rows may change places in between.
-  const bool is_activated = ImGui::InvisibleButton("##volume", {width, height});
+  const bool is_activated = press_area("##volume", {width, height});
   const bool is_pressed = ImGui::IsItemClicked() || (is_activated && !ImGui::IsMouseReleased(0));
   ImGui::PopID();
   note_place(editor, "volume/" + row.id);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/context_menu.h"
@@ -94,8 +95,8 @@ void Canvas::draw(ImVec2 size) {
   board.live.update(editor, board.model);
   // Takes the mouse from the moment of a press, so that a drag goes on outside the pane.
   ImGui::SetCursorScreenPos(ImGui::GetWindowPos());
-  ImGui::InvisibleButton(
-      "plane", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  press_area("plane", size,
+             ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   handle_mouse(board, ImGui::IsItemHovered());
   draw_layers(board);

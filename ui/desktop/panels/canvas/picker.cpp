@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui_stdlib.h>
 
+#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/app/fuzzy.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/inspector_cell.h"
@@ -70,7 +71,7 @@ bool draw_choice(Board& board, const Choice& choice, bool is_marked, bool& is_po
   const float width = ImGui::GetContentRegionAvail().x, room = room_of(theme, width);
   const TwoLines lines = in_two_lines(theme, below_of(choice), room);
   const ImVec2 size{width, theme.px(kRow + (lines.second.empty() ? 0 : kLine))};
-  const bool is_clicked = ImGui::InvisibleButton("choice", size);
+  const bool is_clicked = press_area("choice", size);
   is_pointed_at = ImGui::IsItemHovered() && (ImGui::GetIO().MouseDelta.x != 0 || ImGui::GetIO().MouseDelta.y != 0);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const bool can = choice.why_not.empty();

@@ -1,5 +1,7 @@
-// The look of the buttons that dialogs share.
-#include "ui/desktop/panels/buttons.h"
+// The look of the buttons that panes and dialogs share.
+#include "ui/desktop/app/buttons.h"
+
+#include <algorithm>
 
 namespace bl::desktop {
 
@@ -12,6 +14,10 @@ bool chief_button(const Theme& theme, const char* label, ImVec2 size) {
   const bool is_pressed = ImGui::Button(label, size);
   ImGui::PopStyleColor(4);
   return is_pressed;
+}
+
+bool press_area(const char* id, ImVec2 size, ImGuiButtonFlags flags) {
+  return ImGui::InvisibleButton(id, {std::max(1.0f, size.x), std::max(1.0f, size.y)}, flags);
 }
 
 }  // namespace bl::desktop
