@@ -4,31 +4,16 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
-#include "tests/ui/desktop/null_desktop.h"
+#include "tests/ui/desktop/canvas_support.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
-#include "ui/desktop/panels/canvas/board.h"
-#include "ui/desktop/panels/canvas/canvas.h"
 
 namespace bl::desktop {
 namespace {
 
-class CanvasEditTest : public ::testing::Test {
+class CanvasEditTest : public CanvasFixture {
  protected:
-  CanvasEditTest() : desktop("scenes/start/quarter.json") {
-    desktop.ticks(1);
-    desktop.move_to({300, 200});
-    before = desktop.scene_text();
-  }
-  Editor& editor() { return desktop.editor(); }
-  Canvas& canvas() { return *editor().canvas; }
-  canvas::Board& board() { return canvas().board(); }
-  const Scene& scene() { return editor().scene(); }
+  CanvasEditTest() { desktop.move_to({300, 200}); }
   Json view() { return scene().view.empty() ? Json::object() : Json::parse(scene().view); }
-  ImVec2 at(const std::string& node) { return canvas().screen_of(node).value(); }
-  void choose(const std::set<std::string>& nodes) {
-    editor().picks.clear();
-    editor().picks.nodes = nodes;
-  }
   void look_at(const std::set<std::string>& nodes) {
     choose(nodes);
     canvas().fit(false);
@@ -39,8 +24,7 @@ class CanvasEditTest : public ::testing::Test {
     EXPECT_EQ(desktop.scene_text(), before);
   }
 
-  NullDesktop desktop;
-  std::string before;
+  const std::string before = desktop.scene_text();
 };
 
 TEST_F(CanvasEditTest, PasteKeepsInnerLinksUnderNewIds) {

@@ -4,31 +4,15 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
-#include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/panels/canvas/board.h"
-#include "ui/desktop/panels/canvas/canvas.h"
+#include "tests/ui/desktop/canvas_support.h"
 
 namespace bl::desktop {
 namespace {
 
-class FramesTest : public ::testing::Test {
+class FramesTest : public CanvasFixture {
  protected:
-  FramesTest() : desktop("scenes/start/quarter.json") {
-    desktop.ticks(1);
-    desktop.move_to({300, 200});
-    before = desktop.scene_text();
-  }
-  Editor& editor() { return desktop.editor(); }
-  Canvas& canvas() { return *editor().canvas; }
-  canvas::Board& board() { return canvas().board(); }
+  FramesTest() { desktop.move_to({300, 200}); }
   const canvas::ViewData& view() { return board().model.view; }
-  // Without the frames of an earlier choice.
-  void choose(const std::set<std::string>& nodes) {
-    editor().picks.clear();
-    board().picked_frames.clear();
-    board().picked_comments.clear();
-    editor().picks.nodes = nodes;
-  }
   void frame() {
     desktop.key(GLFW_KEY_G, true);
     desktop.frames(3);
@@ -41,7 +25,7 @@ class FramesTest : public ::testing::Test {
     float x = 6000;
     for (const std::string& node : nodes) patch["boxes"][node] = {x, 6000}, x += 260;
     EXPECT_TRUE(editor().arrange(write_json_line(patch)));
-    choose({nodes.begin(), nodes.end()});
+    choose_alone({nodes.begin(), nodes.end()});
     desktop.frames(2);
     canvas().fit(false);
     desktop.frames(30);
@@ -62,16 +46,15 @@ class FramesTest : public ::testing::Test {
     EXPECT_EQ(desktop.scene_text(), before);
   }
 
-  NullDesktop desktop;
-  std::string before;
+  const std::string before = desktop.scene_text();
 };
 
 TEST_F(FramesTest, ABoxAroundAFrameChoosesItAndItNestsWhole) {
   lay_apart({"theatre", "library", "cafe"});
-  choose({"theatre", "library"});
+  choose_alone({"theatre", "library"});
   frame();
   canvas::Box all = outline("frame").with(board().model.boxes[board().model.find_box("cafe")].box);
-  choose({});
+  choose_alone({});
   box_around(all);
   EXPECT_EQ(board().picked_frames, std::set<std::string>{"frame"});
   EXPECT_EQ(editor().picks.nodes, (std::set<std::string>{"theatre", "library", "cafe"}));
@@ -86,20 +69,20 @@ TEST_F(FramesTest, ABoxAroundAFrameChoosesItAndItNestsWhole) {
 TEST_F(FramesTest, ABoxInsideAFrameLeavesItAlone) {
   lay_apart({"theatre", "library"});
   frame();
-  choose({});
+  choose_alone({});
   const canvas::Box theatre = board().model.boxes[board().model.find_box("theatre")].box;
   desktop.drag(canvas().to_screen(theatre.grown(6).low()), canvas().to_screen(theatre.grown(6).high()));
   EXPECT_TRUE(board().picked_frames.empty());
 }
 
 TEST_F(FramesTest, AFrameAllOfWhoseNodesAreChosenNestsWhole) {
-  choose({"theatre", "library"});
+  choose_alone({"theatre", "library"});
   frame();
-  choose({"theatre", "library", "cafe"});
+  choose_alone({"theatre", "library", "cafe"});
   frame();
   EXPECT_EQ(view().frames.at("frame").in, "frame-2");
   EXPECT_EQ(view().frames.at("frame").nodes.size(), 2u);
-  choose({"theatre", "library", "cafe", "garage"});
+  choose_alone({"theatre", "library", "cafe", "garage"});
   frame();
   EXPECT_EQ(view().frames.at("frame-2").in, "frame-3");
   EXPECT_EQ(view().frames.at("frame").in, "frame-2") << "it lies in a frame that moves as a whole";
@@ -108,9 +91,9 @@ TEST_F(FramesTest, AFrameAllOfWhoseNodesAreChosenNestsWhole) {
 }
 
 TEST_F(FramesTest, APartOfAFrameGetsAFrameInIt) {
-  choose({"theatre", "library"});
+  choose_alone({"theatre", "library"});
   frame();
-  choose({"theatre"});
+  choose_alone({"theatre"});
   frame();
   EXPECT_EQ(view().frames.at("frame-2").in, "frame");
   EXPECT_EQ(view().frames.at("frame").nodes, std::set<std::string>{"library"});
@@ -118,9 +101,9 @@ TEST_F(FramesTest, APartOfAFrameGetsAFrameInIt) {
 }
 
 TEST_F(FramesTest, AFrameThatIsEmptiedGoesInTheSameStep) {
-  choose({"theatre"});
+  choose_alone({"theatre"});
   frame();
-  choose({"theatre"});
+  choose_alone({"theatre"});
   desktop.key(GLFW_KEY_DELETE);
   desktop.frames(2);
   EXPECT_TRUE(view().frames.empty());
@@ -129,7 +112,7 @@ TEST_F(FramesTest, AFrameThatIsEmptiedGoesInTheSameStep) {
   desktop.frames(2);
   ASSERT_TRUE(editor().arrange(R"({"frames": {"a": {"name": "A"}, "b": {"name": "B", "in": "a", "nodes": {"cafe": true}}}})"));
   desktop.frames(2);
-  choose({"cafe"});
+  choose_alone({"cafe"});
   desktop.key(GLFW_KEY_DELETE);
   desktop.frames(2);
   EXPECT_TRUE(view().frames.empty());
@@ -138,9 +121,9 @@ TEST_F(FramesTest, AFrameThatIsEmptiedGoesInTheSameStep) {
 
 TEST_F(FramesTest, ShiftDragOfTheLastNodeTakesTheFrameAlong) {
   lay_apart({"theatre", "library"});
-  choose({"theatre"});
+  choose_alone({"theatre"});
   frame();
-  choose({});
+  choose_alone({});
   const ImVec2 from = canvas().screen_of("theatre").value();
   desktop.hold(false, true);
   desktop.drag(from, {from.x, from.y + 90});
@@ -153,9 +136,9 @@ TEST_F(FramesTest, ShiftDragOfTheLastNodeTakesTheFrameAlong) {
 TEST_F(FramesTest, FramesInARingDoNoHarm) {
   ASSERT_TRUE(editor().arrange(R"({"frames": {"a": {"in": "b", "nodes": {"cafe": true}}, "b": {"in": "a"}}})"));
   desktop.frames(2);
-  choose({"cafe", "garage"});
+  choose_alone({"cafe", "garage"});
   frame();
-  choose({"cafe"});
+  choose_alone({"cafe"});
   desktop.key(GLFW_KEY_DELETE);
   expect_undone(3);
 }

@@ -2,28 +2,15 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "tests/ui/desktop/null_desktop.h"
+#include "tests/ui/desktop/canvas_support.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
-#include "ui/desktop/panels/canvas/board.h"
-#include "ui/desktop/panels/canvas/canvas.h"
 
 namespace bl::desktop {
 namespace {
 
-class CanvasHistory : public ::testing::Test {
+class CanvasHistory : public CanvasFixture {
  protected:
-  CanvasHistory() : desktop("scenes/start/quarter.json") {
-    desktop.ticks(1);
-    desktop.move_to({300, 200});
-  }
-  Editor& editor() { return desktop.editor(); }
-  canvas::Board& board() { return editor().canvas->board(); }
-  const Scene& scene() { return editor().scene(); }
-  void choose(const std::set<std::string>& nodes) {
-    editor().picks.clear();
-    board().picked_frames.clear();
-    editor().picks.nodes = nodes;
-  }
+  CanvasHistory() { desktop.move_to({300, 200}); }
   // With plain spaces between numbers and nouns.
   std::string said() {
     desktop.frames(2);
@@ -32,15 +19,13 @@ class CanvasHistory : public ::testing::Test {
     for (std::size_t at = text.find("\xc2\xa0"); at != std::string::npos; at = text.find("\xc2\xa0")) text.replace(at, 2, " ");
     return text;
   }
-
-  NullDesktop desktop;
 };
 
 TEST_F(CanvasHistory, SoloKeepsLinksThatReachTheNodeThroughASet) {
   ASSERT_TRUE(editor().submit(
       command<AddLink>({"all_to_hotel", {R"({"kind": "attract", "from": {"typification": "smart_volume"}, "to": "hotel"})"}})));
   desktop.frames(2);
-  choose({"library"});
+  choose_alone({"library"});
   desktop.key(GLFW_KEY_Q);
   EXPECT_FALSE(scene().links.at("all_to_hotel").is_muted) << "the library is one of all volumes";
   EXPECT_FALSE(scene().links.at("library_cafe").is_muted);
@@ -58,18 +43,18 @@ TEST_F(CanvasHistory, MutingSaysWhichWay) {
   EXPECT_EQ(said(), "Mute · hotel_market");
   desktop.key(GLFW_KEY_M);
   EXPECT_EQ(said(), "Unmute · hotel_market");
-  choose({"cafe"});
+  choose_alone({"cafe"});
   desktop.key(GLFW_KEY_M);
   EXPECT_EQ(said(), "Mute 2 links");
 }
 
 TEST_F(CanvasHistory, ChangesOfTheViewAreNamedAfterWhatTheyDo) {
-  choose({"library"});
+  choose_alone({"library"});
   desktop.key(GLFW_KEY_H);
   EXPECT_EQ(said(), "Collapse Library");
   desktop.key(GLFW_KEY_H);
   EXPECT_EQ(said(), "Expand Library");
-  choose({"library", "cafe", "theatre"});
+  choose_alone({"library", "cafe", "theatre"});
   desktop.key(GLFW_KEY_H);
   EXPECT_EQ(said(), "Collapse 3 nodes");
   canvas::align_chosen(board(), canvas::Alignment::left);
@@ -111,11 +96,11 @@ TEST_F(CanvasHistory, AddingAndPastingShowNoJson) {
   EXPECT_EQ(said(), "Add Inn");
   ASSERT_TRUE(editor().submit(command<AddNode>({"inn-2", {R"({"types": {"smart_volume": {}}})"}})));
   EXPECT_EQ(said(), "Add inn-2");
-  choose({"library"});
+  choose_alone({"library"});
   desktop.key(GLFW_KEY_C, true);
   desktop.key(GLFW_KEY_V, true);
   EXPECT_EQ(said(), "Paste 1 node");
-  choose({"library", "cafe"});
+  choose_alone({"library", "cafe"});
   desktop.key(GLFW_KEY_D, true);
   EXPECT_EQ(said(), "Duplicate 2 nodes");
   desktop.key(GLFW_KEY_DELETE);

@@ -2,10 +2,8 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "tests/ui/desktop/null_desktop.h"
+#include "tests/ui/desktop/canvas_support.h"
 #include "ui/desktop/app/actions.h"
-#include "ui/desktop/panels/canvas/board.h"
-#include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/canvas/context_menu.h"
 
 namespace bl::desktop {
@@ -13,19 +11,14 @@ namespace {
 
 using canvas::Hit, canvas::Thing;
 
-class MenuTest : public ::testing::Test {
+class MenuTest : public CanvasFixture {
  protected:
-  MenuTest() : desktop("scenes/start/quarter.json") {
-    desktop.ticks(1);
+  MenuTest() {
     EXPECT_TRUE(editor().arrange(R"({"frames": {"f": {"name": "Old town", "nodes": {"theatre": true}}},
                                      "comments": {"c": {"at": [-500, -300], "size": [200, 80], "text": "why?"}}})"));
     canvas().fit(true);
     desktop.frames(30);
   }
-  Editor& editor() { return desktop.editor(); }
-  Canvas& canvas() { return *editor().canvas; }
-  canvas::Board& board() { return canvas().board(); }
-  ImVec2 at(const std::string& node) { return canvas().screen_of(node).value(); }
   ImVec2 empty() {
     const canvas::Box& pane = board().camera.pane();
     for (float y = pane.low().y + 120; y < pane.high().y - 130; y += 7)
@@ -54,8 +47,6 @@ class MenuTest : public ::testing::Test {
     desktop.frames(3);
   }
   std::size_t steps() { return editor().document->history().size(); }
-
-  NullDesktop desktop;
 };
 
 TEST_F(MenuTest, ARightClickOpensItAndChoosesWhatLiesUnderIt) {

@@ -6,10 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
-#include "tests/ui/desktop/null_desktop.h"
+#include "tests/ui/desktop/canvas_support.h"
 #include "ui/desktop/app/fuzzy.h"
-#include "ui/desktop/panels/canvas/board.h"
-#include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/canvas/fits.h"
 
 namespace bl::desktop {
@@ -17,13 +15,8 @@ namespace {
 
 constexpr const char* kQuarter = "scenes/start/quarter.json";
 
-class CanvasTest : public ::testing::Test {
+class CanvasTest : public CanvasFixture {
  protected:
-  explicit CanvasTest(const std::string& scene = kQuarter) : desktop(scene) { desktop.ticks(1); }
-  Editor& editor() { return desktop.editor(); }
-  Canvas& canvas() { return *editor().canvas; }
-  canvas::Board& board() { return canvas().board(); }
-  ImVec2 at(const std::string& node) { return canvas().screen_of(node).value(); }
   /// Where nothing lies.
   ImVec2 empty() {
     const canvas::Box& pane = board().camera.pane();
@@ -44,8 +37,6 @@ class CanvasTest : public ::testing::Test {
     editor().picks.clear();
   }
   std::size_t steps() { return editor().document->history().size(); }
-
-  NullDesktop desktop;
 };
 
 TEST_F(CanvasTest, ClickChoosesAndShiftAddsAndCtrlToggles) {
@@ -305,7 +296,9 @@ TEST_F(CanvasTest, TabOffersLinksTheWayThatTheyFitAndToSeveral) {
   for (const canvas::Choice& choice : board().picker.choices) {
     if (!choice.extra.starts_with("link")) continue;
     ++links;
-    if (choice.id == "demand") { EXPECT_EQ(choice.extra, "link back") << "a programme asks of a volume, never the other way round"; }
+    if (choice.id == "demand") {
+      EXPECT_EQ(choice.extra, "link back") << "a programme asks of a volume, never the other way round";
+    }
   }
   EXPECT_GT(links, 0u);
   desktop.key(GLFW_KEY_ESCAPE);
