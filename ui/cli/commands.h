@@ -37,6 +37,15 @@ struct ReplayOptions {
 };
 int replay_command(const ReplayOptions& options);
 
+struct CompareOptions {
+  std::string first, second;
+  long long ticks = -1;        ///< -1: until settled
+  long long max_ticks = 2000;  ///< of a run until settled
+  int threads = 1;
+  std::string report;
+};
+int compare_command(const CompareOptions& options);
+
 int new_command(const NewOptions& options);
 
 struct OpenOptions {

@@ -68,6 +68,24 @@ void declare_open(CLI::App& app) {
       "`behaviourlinks-desktop --help` lists.\n\nExample:\n  behaviourlinks open scenes/start/quarter.json");
 }
 
+void declare_compare(CLI::App& app, CompareOptions& o) {
+  CLI::App& c = *app.add_subcommand("compare", "Runs two scenes and tells every indicator that differs between them.");
+  c.add_option("first", o.first, "The scene that is compared with.")->type_name("SCENE_A")->required();
+  c.add_option("second", o.second, "The scene that is compared.")->type_name("SCENE_B")->required();
+  c.add_option("--ticks", o.ticks, "Runs both for so many ticks, settled or not; 0 compares them as they were saved.")
+      ->type_name("N")
+      ->check(CLI::Range(0ll, 1000000000ll));
+  c.add_option("--max-ticks", o.max_ticks, "Gives up settling after so many ticks. Default: 2000.")
+      ->type_name("N")
+      ->check(CLI::Range(1ll, 1000000000ll));
+  add_threads(c, o.threads);
+  c.add_option("--report", o.report, "Writes a page with both drawings, bars and every number.")->type_name("FILE");
+  c.footer(
+      "What one scene has and the other has not is told too. Amounts are added up over all nodes, shares and rates averaged.\n\n"
+      "Example:\n  behaviourlinks compare scenes/start/quarter.json other.json --report difference.html\n\n"
+      "Exit codes: 0 compared; 2 bad input; 130 stopped by Ctrl-C.");
+}
+
 void declare_new(CLI::App& app, NewOptions& o) {
   CLI::App& c = *app.add_subcommand("new", "Makes a scene from a plan boundary and a programme of demands.");
   c.add_option("--boundary", o.boundary, "Plan polygon as GeoJSON, in WGS84 or in a CRS in metres.")
@@ -237,6 +255,7 @@ int run_program(int count, char** arguments) {
   NewOptions fresh;
   CheckOptions check;
   ReplayOptions replay;
+  CompareOptions compare;
   DocsOptions docs;
   SchemaOptions schema;
   CellsOptions cells;
@@ -248,6 +267,7 @@ int run_program(int count, char** arguments) {
   declare_check(app, check);
   declare_papers(app, docs, schema);
   declare_replay(app, replay);
+  declare_compare(app, compare);
   declare_bench(app, bench);
   declare_cells(app, cells);
   declare_fit(app, fit);
@@ -277,6 +297,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("docs")) return docs_command(docs);
   if (app.got_subcommand("schema")) return schema_command(schema);
   if (app.got_subcommand("replay")) return replay_command(replay);
+  if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("bench")) return bench_command(bench);
   if (app.got_subcommand("cells")) return cells_command(cells);
   if (app.got_subcommand("fit")) return fit_command(fit);
