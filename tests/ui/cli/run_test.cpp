@@ -79,6 +79,14 @@ TEST(Run, LogIsReplayed) {
   EXPECT_NE(cut.err.find("the last line is incomplete"), std::string::npos) << cut.err;
 }
 
+TEST(Run, WhatCannotBeSetLeavesTheLogOfAnEarlierRun) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  place.write("old.log", "an earlier run\n");
+  EXPECT_EQ(place.run({"run", "s.json", "--log", "old.log", "--set", "site/boundry.height=3"}).code, 2);
+  EXPECT_EQ(place.text("old.log"), "an earlier run\n");
+}
+
 TEST(Run, SetTakesQuantitiesAndSaysWhatItCannotTake) {
   const Workplace place;
   place.write("s.json", moving_scene());
