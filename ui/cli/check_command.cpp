@@ -94,10 +94,10 @@ int check_command(const CheckOptions& options) {
     const std::string prefix = options.scenes.size() > 1 ? file + ": " : "";
     is_all_well &= errors == 0;
     if (errors > 0) {
-      print_line(
-          coloured(prefix + "not ok: " + counted(errors, "error") + (warnings > 0 ? ", " + counted(warnings, "warning") : "") +
-                       (options.is_writing ? "; not rewritten" : ""),
-                   Colour::red));
+      print_line(coloured(prefix + "not ok: " + counted(errors, "error") +
+                              (warnings > 0 ? ", " + counted(warnings, "warning") : "") +
+                              (options.is_writing ? "; not rewritten" : ""),
+                          Colour::red));
       continue;
     }
     print_line(coloured(prefix + "ok: " + counted(checked.nodes, "node") + ", " + counted(checked.links, "link") +

@@ -28,7 +28,8 @@ Result<std::string> value_text(const PortDefinition& port, Unit unit, const std:
     if (const auto quantity = parse_quantity(text, unit)) {
       // Beyond that a number has no place for halves, and soon none in an integer.
       const bool is_whole = std::abs(*quantity) < 9e15 && std::floor(*quantity) == *quantity;
-      return port.kind == ValueKind::integer && is_whole ? std::to_string(static_cast<long long>(*quantity)) : shortest(*quantity);
+      return port.kind == ValueKind::integer && is_whole ? std::to_string(static_cast<long long>(*quantity))
+                                                         : shortest(*quantity);
     }
   if (auto json = parse_json(text); json && !(holds_text(port.kind) && !json->is_string() && !json->is_null()))
     return write_json_line(*json);

@@ -115,8 +115,8 @@ TEST(BadInput, UnknownTypesAreKept) {
 TEST(BadInput, CheckRewritesSoundFilesAlone) {
   const Workplace place;
   // It can be read, but a plan that crosses itself only shows when the scene runs.
-  const std::string text = scene_text(volume_text("a", "[2, 2, 5]"), "",
-                                      R"({"form": "plan", "plan": [[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 9, 0]]})");
+  const std::string text =
+      scene_text(volume_text("a", "[2, 2, 5]"), "", R"({"form": "plan", "plan": [[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 9, 0]]})");
   place.write("s.json", text);
   const Outcome outcome = place.run({"check", "s.json", "--write"});
   EXPECT_EQ(outcome.code, 2);

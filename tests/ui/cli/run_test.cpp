@@ -102,6 +102,7 @@ TEST(Run, SetTakesQuantitiesAndSaysWhatItCannotTake) {
                                        {"easd/smart_volume.demand=5", "did you mean `east`?"},
                                        {"east.demand=5", "NODE/TYPIFICATION.PORT=VALUE"},
                                        {"east/smart_volume.demand=-5", "between 0 and"},
+                                       {"solver/smart_volumes_solver.steps=1e300", "1e+300"},
                                        {"east/smart_volume.volume=5", "computed"}}) {
     const Outcome outcome = set(argument);
     EXPECT_EQ(outcome.code, 2) << argument;

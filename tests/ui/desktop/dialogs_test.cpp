@@ -11,6 +11,7 @@
 #include "ui/desktop/app/fuzzy.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/panels/dialogs.h"
+#include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
 namespace {
@@ -30,11 +31,10 @@ void save_as(NullDesktop& desktop, const std::string& name) {
 
 // What a window has left that is gone: a scene, and one change to it.
 std::vector<Journal::Remains> remains_of(const std::string& scene, const Command& change) {
-  Journal journal;
-  EXPECT_TRUE(journal.begin("", scene).ok());
-  journal.add({1, 0, 1, "somebody", change}, full_registry());
-  const std::filesystem::path gone = std::filesystem::path(person_folder()) / "journals" / "2147483646-7.journal";
-  std::filesystem::copy_file(journal.path(), gone, std::filesystem::copy_options::overwrite_existing);
+  const std::string folder = person_folder() + "/journals";
+  std::filesystem::create_directories(folder);
+  const std::string text = log_header(scene) + log_line(LogEntry{1, 0, 1, "somebody", change}, full_registry());
+  EXPECT_TRUE(write_file(folder + "/2147483646-7.journal", text));
   return Journal::find(full_registry());
 }
 
@@ -115,6 +115,16 @@ TEST(Dialogs, AFileThatCannotBeWrittenLeavesTheDialogWithItsName) {
   desktop.key(GLFW_KEY_ESCAPE);
   desktop.frames(3);
   EXPECT_FALSE(ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
+}
+
+TEST(Dialogs, NothingOfAClosedSceneIsKept) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  desktop.ticks(2);
+  desktop.key(GLFW_KEY_W, true);
+  desktop.frames(2);
+  ASSERT_FALSE(desktop.editor().document);
+  EXPECT_EQ(desktop.editor().view->facts(), nullptr);
+  EXPECT_EQ(desktop.editor().panels, nullptr);
 }
 
 TEST(Dialogs, QuittingWithUnsavedChangesAsks) {

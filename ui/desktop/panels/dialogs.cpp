@@ -13,8 +13,6 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr int kThreads = 1;
-
 std::string folder_of(const Editor& editor) {
   return editor.document && !editor.document->path().empty() ? editor.document->path() : ".";
 }
@@ -169,9 +167,9 @@ void Dialogs::offer_recovery(std::vector<Journal::Remains> remains) {
 }
 
 Dialogs::Recovered Dialogs::recover(const Journal::Remains& remains) {
-  editor_->problems.clear();
-  editor_->problem_file = remains.path;
-  auto document = Document::recover(editor_->registry, remains, kThreads, editor_->problems);
+  std::vector<Problem> problems;
+  auto document = Document::recover(editor_->registry, remains, kTickThreads, problems);
+  editor_->list_problems(remains.path, std::move(problems));
   if (!document) {
     editor_->tell(NoticeKind::error, "The journal's scene could not be opened; the problems list says why. The journal is kept.");
     return Recovered::nothing;
