@@ -10,8 +10,8 @@
 
 namespace bl::cli {
 
-/// Exit codes: all went well; the input is bad; what was asked for cannot be had; stopped by Ctrl-C.
-inline constexpr int kDone = 0, kBadInput = 2, kNotMet = 3, kInterrupted = 130;
+/// Exit codes: all went well; the input is bad; what was asked for cannot be had. What an interrupt ends with is in interrupt.h.
+inline constexpr int kDone = 0, kBadInput = 2, kNotMet = 3;
 
 struct RunOptions {
   std::string scene;

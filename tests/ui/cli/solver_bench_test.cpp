@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/ui/cli/program.h"
+#include "ui/cli/bench_chart.h"
 
 namespace bl::test {
 
@@ -75,6 +76,16 @@ TEST(SolverBench, ChartsAreWholeDrawings) {
   EXPECT_TRUE(growth.starts_with("<svg ")) << growth.substr(0, 80);
   EXPECT_NE(growth.find("</svg>"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(place.path("charts/feedback_newton.svg")));
+}
+
+TEST(SolverBench, SmallMarksOfAChartAreWhatTheySay) {
+  cli::Chart chart{"small", "", "", {{"panel", "sites", {{"line", "#000", "", {{10, 0.001}, {20, 0.002}, {50, 0.005}}}}, 0, ""}}};
+  const std::string svg = cli::draw_chart(chart);
+  for (const char* mark : {">10⁻³<", ">2·10⁻³<", ">5·10⁻³<"}) {
+    const std::size_t first = svg.find(mark);
+    ASSERT_NE(first, std::string::npos) << mark << " in " << svg;
+    EXPECT_EQ(svg.find(mark, first + 1), std::string::npos) << mark << " stands at two places";
+  }
 }
 
 TEST(SolverBench, ItsOptionsWantTheSolver) {

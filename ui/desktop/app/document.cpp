@@ -13,6 +13,11 @@
 
 namespace bl::desktop {
 
+Document::Document(const Registry& registry, std::string path) : registry_(&registry), path_(std::move(path)) {
+  static std::uint64_t made = 0;
+  id_ = ++made;
+}
+
 std::unique_ptr<Document> Document::open(const Registry& registry, const std::string& path, int threads,
                                          std::vector<Problem>& problems) {
   auto text = read_file(path);

@@ -22,6 +22,9 @@ struct HistoryStep {
   std::size_t entries = 0;  ///< commands in it
 };
 
+/// Ticks on one thread: the other cores are the window's.
+inline constexpr int kTickThreads = 1;
+
 class Document {
  public:
   /// Reads a scene; warnings and errors both come back in `problems`. Nothing where there are errors.
@@ -34,6 +37,8 @@ class Document {
   static std::unique_ptr<Document> recover(const Registry& registry, const Journal::Remains& remains, int threads,
                                            std::vector<Problem>& problems);
 
+  /// No other document that this window has opened has it: an address can come again.
+  std::uint64_t id() const { return id_; }
   LiveSession& session() { return *session_; }
   const Scene& scene() const { return session_->scene(); }
   const std::string& path() const { return path_; }
@@ -61,9 +66,10 @@ class Document {
   Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
 
  private:
-  Document(const Registry& registry, std::string path) : registry_(&registry), path_(std::move(path)) {}
+  Document(const Registry& registry, std::string path);
   void begin_journal();
 
+  std::uint64_t id_;
   const Registry* registry_;
   std::string path_, saved_text_, log_start_;
   std::size_t log_begin_ = 0;  ///< first entry of the log that belongs to `log_start_`
