@@ -41,6 +41,9 @@ struct Notice {
   double until = 0;  ///< on the window's clock [s]
 };
 
+/// The wish, or the first of wish-2, wish-3 and so on that is not taken.
+std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken);
+
 class Editor {
  public:
   Editor(const Registry& all_types, PersonSettings& somebody) : registry(all_types), person(somebody) {}
