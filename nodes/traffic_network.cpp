@@ -37,6 +37,7 @@ struct TrafficNetworkNode {
     Point3 position;
     double trips_out = 0, trips_in = 0;
     std::vector<std::string> access;
+    bool list_reach = false;
   };
   struct Sets {
     std::vector<Street> streets;
@@ -47,6 +48,11 @@ struct TrafficNetworkNode {
     std::int64_t streets = 0;
     double flow = 0, load = 0;
   };
+  struct ZoneReply {
+    double served = 0, lost = 0, mean_time = 0, accessibility = 0;
+    std::string reason;
+    Table reach{{"junction", "driving", "walking"}, {}};
+  };
   struct Out {
     double relative_gap = 1, unrest = 1, trips = 0, trips_lost = 0, mean_travel_time = 0, total_time = 0, objective = 0;
     double largest_load = 0;
@@ -55,7 +61,7 @@ struct TrafficNetworkNode {
     Memory memory;
     std::vector<DistrictResult::Street> streets;
     std::vector<CrossingReply> junctions;
-    std::vector<DistrictResult::Zone> zones;
+    std::vector<ZoneReply> zones;
   };
   using Builder = TypificationBuilder<TrafficNetworkNode>;
 
@@ -176,8 +182,8 @@ struct TrafficNetworkNode {
     auto zones = t.set("zones", &Sets::zones, &Out::zones);
     zones.reads(&Zone::id, "node.id").reads(&Zone::position, "node.position", Unit::metre);
     zones.reads(&Zone::trips_out, "traffic_zone.trips_out").reads(&Zone::trips_in, "traffic_zone.trips_in");
-    zones.reads(&Zone::access, "traffic_zone.access");
-    using ZoneReply = DistrictResult::Zone;
+    zones.reads(&Zone::access, "traffic_zone.access").reads(&Zone::list_reach, "traffic_zone.list_reach");
+    zones.writes(&ZoneReply::reach, "traffic_zone.reach");
     zones.writes(&ZoneReply::served, "traffic_zone.trips_served").writes(&ZoneReply::lost, "traffic_zone.trips_lost");
     zones.writes(&ZoneReply::mean_time, "traffic_zone.mean_travel_time");
     zones.writes(&ZoneReply::accessibility, "traffic_zone.accessibility").writes(&ZoneReply::reason, "traffic_zone.reason");
@@ -211,7 +217,7 @@ struct TrafficNetworkNode {
     std::vector<DistrictJunction> junctions;
     for (const Crossing& c : sets.junctions) junctions.push_back({c.id, c.position, c.delay});
     std::vector<DistrictZone> zones;
-    for (const Zone& z : sets.zones) zones.push_back({z.id, z.position, z.trips_out, z.trips_in, z.access});
+    for (const Zone& z : sets.zones) zones.push_back({z.id, z.position, z.trips_out, z.trips_in, z.access, z.list_reach});
     const DistrictSettings settings{in.alpha, in.beta,         in.toll_factor, in.distance_factor, in.walking_speed,
                                     in.fade,  in.distribution, in.gap,         in.steps,           in.haste};
     return step_district(junctions, streets, zones, settings, recalled(in.last));
@@ -243,7 +249,11 @@ struct TrafficNetworkNode {
     }
     out.memory = kept(result->state);
     out.streets = std::move(result->streets);
-    out.zones = std::move(result->zones);
+    for (const DistrictResult::Zone& zone : result->zones) {
+      ZoneReply& reply = out.zones.emplace_back(ZoneReply{
+          zone.served, zone.lost, zone.mean_time, zone.accessibility, zone.reason, {{"junction", "driving", "walking"}, {}}});
+      for (const DistrictResult::Reach& row : zone.reach) reply.reach.rows.push_back({row.junction, row.driving, row.walking});
+    }
     return out;
   }
 };

@@ -38,6 +38,7 @@ class District {
     read_totals();
     for (std::size_t s = 0; s < streets_.size(); ++s) read_street(s);
     read_zones();
+    if (auto read = read_reach(); !read) return read.error();
     remember();
     return std::move(out_);
   }
@@ -239,6 +240,43 @@ class District {
     }
     for (DistrictResult::Zone& zone : out_.zones)
       if (zone.served > 0) zone.mean_time /= zone.served;
+  }
+
+  // Walking leads along all streets that are open, both ways, and through the access of the zone to the first junction.
+  Result<void> read_reach() {
+    if (std::none_of(zones_.begin(), zones_.end(), [](const DistrictZone& zone) { return zone.wants_reach; })) return {};
+    std::vector<TrafficNode> nodes;
+    for (std::uint32_t n = 0; n < network_->node_count(); ++n) nodes.push_back(network_->node(n));
+    std::vector<TrafficLink> links;
+    for (std::size_t s = 0; s < streets_.size(); ++s) {
+      const DistrictStreet& street = streets_[s];
+      if (!street.is_open || out_.streets[s].length <= 0) continue;
+      const double walk = out_.streets[s].length / settings_.walking_speed;
+      const std::string start = junction_name(street.start), end = junction_name(street.end);
+      links.push_back({street.id + ":forth", start, end, walk, 0, 0, 1, 0, 0, true});
+      links.push_back({street.id + ":back", end, start, walk, 0, 0, 1, 0, 0, true});
+    }
+    for (std::uint32_t l = 0; l < network_->link_count(); ++l)
+      if (!network_->is_through(network_->from(l)) || !network_->is_through(network_->to(l))) links.push_back(network_->link(l));
+    const auto walks = TrafficNetwork::make(std::move(nodes), std::move(links));
+    if (!walks) return walks.error();
+    std::vector<double> walking;
+    for (std::uint32_t l = 0; l < walks->link_count(); ++l) walking.push_back(walks->cost(l, 0));
+    for (std::size_t z = 0; z < zones_.size(); ++z)
+      if (zones_[z].wants_reach) read_reach_of(z, *walks, walking);
+    return {};
+  }
+
+  // Both networks have the same nodes.
+  void read_reach_of(std::size_t z, const TrafficNetwork& walks, const std::vector<double>& walking) {
+    const std::vector<double> drive = travel_costs(*network_, zone_nodes_[z], equilibrium_->costs());
+    const std::vector<double> walk = travel_costs(walks, zone_nodes_[z], walking);
+    for (const DistrictJunction& junction : junctions_) {
+      const std::uint32_t node = network_->node_index(junction_name(junction.id));
+      auto known = [&](double time) { return time == kUnreached ? -1.0 : time; };
+      if (drive[node] != kUnreached || walk[node] != kUnreached)
+        out_.zones[z].reach.push_back({junction.id, known(drive[node]), known(walk[node])});
+    }
   }
 
   void remember() {

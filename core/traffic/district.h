@@ -27,6 +27,7 @@ struct DistrictZone {
   Point3 position;
   double leaving = 0, arriving = 0;  ///< trips [1/h]
   std::vector<std::string> access;   ///< ids of junctions; empty: the junction of the zone's own id, where there is one
+  bool wants_reach = false;          ///< lists its times to all junctions
 };
 
 struct DistrictSettings {
@@ -64,11 +65,17 @@ struct DistrictResult {
     int streets = 0;
     double flow = 0, load = 0;  ///< what arrives by streets; the largest volume over capacity of its streets
   };
+  /// Times from a zone to a junction [s]; below 0 where there is no way.
+  struct Reach {
+    std::string junction;
+    double driving = -1, walking = -1;
+  };
   struct Zone {
     double served = 0, lost = 0;  ///< trips that leave, and that would [1/h]
     double mean_time = 0;         ///< of the trips that leave [s]
     double accessibility = 0;     ///< trips that end elsewhere, faded by the time to get there [1/h]
     std::string reason;           ///< why trips are lost; empty where none are
+    std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
   std::vector<Street> streets;  ///< as given, and so below
   std::vector<Junction> junctions;

@@ -25,6 +25,9 @@ std::uint32_t index_of(const std::vector<Item>& items, std::string_view id) {
   return it != items.end() && it->id == id ? static_cast<std::uint32_t>(it - items.begin()) : kNoTrafficIndex;
 }
 
+// Delays grow no further than this: beyond, sums over a network would leave the numbers.
+constexpr double kMostDelay = 1e15;
+
 bool is_amount(double number) { return std::isfinite(number) && number >= 0; }
 
 Result<void> check_link(const TrafficLink& link) {
@@ -109,7 +112,7 @@ Result<void> TrafficNetwork::set_free_time(std::uint32_t link, double free_time)
 double TrafficNetwork::raised(std::uint32_t index, double flow, double power) const {
   const TrafficLink& link = links_[index];
   const double scale = link.free_time * link.alpha;
-  return scale > 0 ? scale * power_of(flow / link.capacity, power) : 0;
+  return scale > 0 ? std::min(kMostDelay, scale * power_of(flow / link.capacity, power)) : 0;
 }
 
 double TrafficNetwork::time(std::uint32_t index, double flow) const {

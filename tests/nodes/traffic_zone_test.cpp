@@ -32,5 +32,20 @@ TEST(TrafficZone, AVolumeIsAZoneAndAJunctionAtOnce) {
               0.1);
 }
 
+TEST(TrafficZone, ListsWhatIsInReach) {
+  World world = World::from_file("scenes/nodes/traffic_zone.json");
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "school", .port = {"traffic_zone.list_reach"}, .value = {"true"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "main_2", .port = {"street.for_cars"}, .value = {"false"}})), "");
+  world.tick(3);
+  const Table& reach = world.table("school", "traffic_zone.reach");
+  ASSERT_EQ(reach.rows.size(), 3u);
+  EXPECT_NEAR(reach.number(0, "walking"), 60 / 1.34, 1e-9) << reach.text(0, "junction");
+  EXPECT_NEAR(reach.number(1, "walking"), (60 + world.number("main_1", "street.used_length")) / 1.34, 1e-9);
+  EXPECT_NEAR(reach.number(1, "driving"), 60 / 1.34 + world.number("main_1", "street.time_back"), 0.01);
+  EXPECT_EQ(reach.number(2, "driving"), -1) << "the shops are reached on foot only";
+  EXPECT_NEAR(reach.number(2, "walking"), 310 / 1.34, 1e-9);
+  EXPECT_TRUE(world.table("shops", "traffic_zone.reach").rows.empty());
+}
+
 }  // namespace
 }  // namespace bl

@@ -124,6 +124,18 @@ TEST(District, NothingAtAllIsNoError) {
   EXPECT_EQ(empty->gap, 0);
 }
 
+TEST(District, TheSteepestDelaysStayNumbers) {
+  Town town;
+  town.settings.alpha = 100;
+  town.settings.beta = 20;
+  for (auto& street : town.streets) street.capacity = 1e-9;
+  for (int i = 0; i < 3; ++i) {
+    const DistrictResult result = town.step();
+    EXPECT_TRUE(std::isfinite(result.gap) && std::isfinite(result.total_time) && std::isfinite(result.objective));
+    EXPECT_NEAR(result.trips, 2500, 1e-6);
+  }
+}
+
 TEST(District, ImpossibleNumbersHaveTheirPlace) {
   Town town;
   town.streets[0].toll = -1000;
