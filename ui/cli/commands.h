@@ -81,6 +81,16 @@ struct FitFileOptions {
 };
 int fit_command(const FitFileOptions& options);
 
+struct AssignOptions {
+  std::string net, trips, flows, json;
+  double gap = 1e-6;
+  int iterations = 1000;                                       ///< at most
+  double toll_factor = -1, distance_factor = -1;               ///< below 0: what the file says, or 0
+  std::vector<std::string> edit_capacity, close;               ///< LINK=VALUE, LINK: applied to the equilibrium found
+  int repeat = 1;                                              ///< of the measured parts; medians are told
+};
+int assign_command(const AssignOptions& options);
+
 struct BenchOptions {
   std::vector<std::string> scenes;
   std::vector<int> sites, threads;

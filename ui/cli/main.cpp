@@ -211,6 +211,44 @@ void declare_fit(CLI::App& app, FitFileOptions& o) {
       "with everything written.");
 }
 
+void declare_assign(CLI::App& app, AssignOptions& o) {
+  CLI::App& c =
+      *app.add_subcommand("assign", "Spreads trips over a road network so that nobody gains by another way (TNTP files).");
+  c.add_option("net", o.net, "The network, `..._net.tntp`.")->type_name("NET")->required();
+  c.add_option("trips", o.trips, "The trips between its zones, `..._trips.tntp`.")->type_name("TRIPS")->required();
+  c.add_option("--gap", o.gap, "Relative gap to reach. Default: 1e-6.")->type_name("G")->check(CLI::Range(0.0, 1.0));
+  c.add_option("--iterations", o.iterations, "Gives up after so many iterations. Default: 1000.")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000000));
+  c.add_option("--toll-factor", o.toll_factor,
+               "What a unit of toll counts in units of time. Default: what the network says, or 0.")
+      ->type_name("F")
+      ->check(CLI::NonNegativeNumber);
+  c.add_option("--distance-factor", o.distance_factor,
+               "What a unit of length counts in units of time. Default: what the network says, or 0.")
+      ->type_name("F")
+      ->check(CLI::NonNegativeNumber);
+  c.add_option("--flows", o.flows, "Compares the flows with those of a file, `..._flow.tntp`.")->type_name("FILE");
+  c.add_option("--edit-capacity", o.edit_capacity,
+               "Then changes the capacity of a link, as often as needed, and finds the new equilibrium from the old one.")
+      ->type_name("LINK=VALUE")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--close", o.close, "Then closes a link, as often as needed, and goes on in the same way.")
+      ->type_name("LINK")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--repeat", o.repeat, "Measures so often and tells the median time. Default: 1.")
+      ->type_name("R")
+      ->check(CLI::Range(1, 100000));
+  c.add_option("--json", o.json, "Writes figures, and flow and cost of each link.")->type_name("OUT");
+  c.footer(
+      "A link is named by its nodes, 3-12; others between the same two are 3-12#2 and so on. Times, flows and lengths have the\n"
+      "units of the files. The gap is the share of the total cost that vanished if all took today's shortest way.\n\n"
+      "Example:\n  behaviourlinks assign city_net.tntp city_trips.tntp --gap 1e-4 --edit-capacity 3-12=9000\n\n"
+      "Exit codes: 0 the gap is reached; 2 bad input; 3 it is not; 130 stopped by Ctrl-C.");
+}
+
 void declare_bench(CLI::App& app, BenchOptions& o) {
   CLI::App& c = *app.add_subcommand("bench", "Measures ticks per second and where the time goes.");
   c.add_option("scenes", o.scenes, "Scenes to measure.")->type_name("SCENE");
@@ -260,6 +298,7 @@ int run_program(int count, char** arguments) {
   SchemaOptions schema;
   CellsOptions cells;
   FitFileOptions fit;
+  AssignOptions assign;
   BenchOptions bench;
   declare_run(app, run);
   declare_open(app);
@@ -271,6 +310,7 @@ int run_program(int count, char** arguments) {
   declare_bench(app, bench);
   declare_cells(app, cells);
   declare_fit(app, fit);
+  declare_assign(app, assign);
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
   if (count > 1 && arguments[1][0] != '-' && std::find(names.begin(), names.end(), arguments[1]) == names.end()) {
@@ -301,6 +341,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("bench")) return bench_command(bench);
   if (app.got_subcommand("cells")) return cells_command(cells);
   if (app.got_subcommand("fit")) return fit_command(fit);
+  if (app.got_subcommand("assign")) return assign_command(assign);
   std::fputs(app.help().c_str(), stdout);
   return kDone;
 }
