@@ -47,6 +47,7 @@ constexpr std::array kLibraries = {
     Library{"muParser", "", true, "muParser"},
     Library{"proj.h", "core/exchange/", true, "PROJ"},
     Library{"csv.h", "core/exchange/", true, "libcsv"},
+    Library{"embree3/", "core/sun/", true, "Embree"},
     Library{"GLFW/", "ui/desktop/", false, "GLFW"},
     Library{"imgui", "ui/desktop/", false, "Dear ImGui"},
     Library{"backends/imgui", "ui/desktop/", false, "Dear ImGui"},
