@@ -42,8 +42,9 @@ struct Tick {
   Memo* memo = nullptr;        ///< only for set evaluations, and only where somebody keeps it
 };
 
-/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; the others choose a value.
-enum class CombineRule { none, sum, blend, min, max };
+/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of texts;
+/// the others choose a value.
+enum class CombineRule { none, sum, blend, min, max, collect };
 std::string_view name_of(CombineRule rule);
 
 /// One column of a table port.
