@@ -144,7 +144,7 @@ Result<std::vector<SunMoment>> sun_moments(const SunPlace& place, const SunPerio
       const double begin = track.span().begin + static_cast<double>(k) * step, end = begin + step;
       for (const SunSpan& span : spans) {
         const double from = std::max({begin, span.begin, first}), to = std::min({end, span.end, last});
-        if (!(from < to)) continue;
+        if (!((to - from) * kDay > 1e-3)) continue;  // what rounding leaves between two borders
         SunMoment& moment = moments.emplace_back();
         moment.moment = 0.5 * (from + to);
         const SunPosition sun = track.position(moment.moment);

@@ -1,0 +1,58 @@
+// A whole study: rectangles that want sun, casters in the way, and what each has and takes; works out again only what has
+// changed.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/sun/sun_hours.h"
+
+namespace bl {
+
+/// A rectangle that is measured on a grid.
+struct SunReceiver {
+  Point3 centre;
+  Vector3 half_across, half_up;    ///< to the middle of two sides; it looks along their cross product
+  double spacing = 2;              ///< [m]
+  double required = 0;             ///< direct sun that each point should have [s per day]
+  std::vector<std::uint8_t> mask;  ///< which casters count; empty: all
+  bool operator==(const SunReceiver&) const = default;
+};
+/// Half axes of a level rectangle, turned counter-clockwise by `rotation` [degree].
+void level_axes(double width, double depth, double rotation, SunReceiver& receiver);
+/// Half axes of an upright one that looks to `azimuth`, clockwise from the y axis [degree].
+void upright_axes(double width, double height, double azimuth, SunReceiver& receiver);
+
+/// What a receiver has, over its grid.
+struct SunRecord {
+  SunGrid grid;
+  SunHours hours;
+  double least = 0, mean = 0, most = 0;  ///< [s per day]
+  double share_met = 0;                  ///< of the points that have what is required
+  double deficit = 0;                    ///< mean of what the points are short of it [s per day]
+};
+
+/// The most points of one receiver; their spacing grows until there are no more.
+inline constexpr std::size_t kMostSunPoints = 4096;
+
+struct SunStudy {
+  /// What was worked out before. The same bits come out with an empty one.
+  struct Kept {
+    std::vector<MeshPointer> casters;
+    std::vector<SunMoment> moments;
+    std::shared_ptr<const ShadowScene> scene;
+    std::vector<SunReceiver> receivers;
+    std::vector<SunRecord> records;
+  };
+
+  std::span<const MeshPointer> casters;  ///< an empty one casts nothing
+  std::span<const SunMoment> moments;
+  std::span<const SunReceiver> receivers;
+  ThreadPool* pool = nullptr;
+
+  /// One record for each receiver.
+  Result<std::vector<SunRecord>> run(Kept& kept) const;
+};
+
+}  // namespace bl
