@@ -15,6 +15,7 @@ struct SunStudyNode {
   struct In {
     Selection sun{{}, "sun_and_sky", {}}, volumes{{}, "shadow_caster", {}}, receivers{{}, "shadow_receiver", {}};
     double ground = 0;
+    int latency = 3;
   };
   struct Sun {
     std::string id;
@@ -63,7 +64,7 @@ struct SunStudyNode {
     t.doc(
         "Follows rays from the points of all receivers to the sun, at the moments of the sun's period, and tells each receiver "
         "what "
-        "sun it has and who takes it, and each caster what it takes. Shapes are those of the tick before.");
+        "sun it has and who takes it, and each caster what it takes.");
     t.in(&In::sun, "sun").doc("The sun whose period is studied. Exactly one node has to result.");
     t.in(&In::volumes, "volumes")
         .doc("The SmartVolumes that cast shadow; nodes without the role of a shadow caster do not count.");
@@ -73,6 +74,8 @@ struct SunStudyNode {
         .range(-1e5, 1e5)
         .soft(-10, 50)
         .doc("Height of the plane that outlines of shadows are drawn on.");
+    t.latency(&In::latency, "latency")
+        .doc("After how many ticks a result counts; the loop goes on meanwhile. More for large studies, 0 to wait for each.");
     t.out(&Out::caster_count, "caster_count").unit(Unit::count).doc("Number of casters that have a shape and cast.");
     t.out(&Out::receiver_count, "receiver_count").unit(Unit::count).doc("Number of receivers.");
     t.out(&Out::moment_count, "moment_count").unit(Unit::count).doc("Number of moments at which the sun is looked at.");
@@ -91,7 +94,8 @@ struct SunStudyNode {
     declare_receivers(t);
   }
 
-  // Other shapes that cast join as a set of their own, with the mesh of their own typification; `all_casters` puts them together.
+  // Other shapes that cast join as a set of their own, with the mesh of their own typification: `evaluate` then puts them behind
+  // these, and hands the replies back to both.
   static void declare_casters(TypificationBuilder<SunStudyNode>& t) {
     auto set = t.set("volumes", &Sets::volumes, &Out::volumes);
     set.reads(&Caster::id, "node.id").reads(&Caster::casts, "shadow_caster.casts").reads(&Caster::mesh, "smart_volume.mesh");
@@ -174,53 +178,61 @@ struct SunStudyNode {
   }
 
   // What each caster takes, from all receivers; returns the largest single loss as a sentence.
-  static std::string deal_out(const Sets& sets, const std::vector<SunRecord>& records, Out& out) {
+  static std::string deal_out(const std::vector<SunRecord>& records, const std::vector<Receiver>& receivers,
+                              const std::vector<Caster>& casters, Out& out, std::vector<CasterReply>& replies) {
     std::string sentence;
     double worst = 0;
-    for (std::size_t k = 0; k < sets.volumes.size(); ++k) {
-      CasterReply& caster = out.volumes[k];
-      caster.taken.columns = {"receiver", "lost", "shared"};
+    for (std::size_t k = 0; k < casters.size(); ++k) {
+      CasterReply& reply = replies[k];
+      reply.taken.columns = {"receiver", "lost", "shared"};
       double most = 0;
       for (std::size_t r = 0; r < records.size(); ++r) {
         const SunLoss& loss = records[r].hours.casters[k];
+        if (!(loss.shared > 0)) continue;
         const double share = out.receivers[r].area / out.area;
-        caster.lost += loss.lost * share;
-        caster.shared += loss.shared * share;
-        if (loss.shared > 0) caster.taken.rows.push_back({sets.receivers[r].id, loss.lost, loss.shared});
-        if (loss.shared > most) {
-          most = loss.shared;
-          caster.worst = sets.receivers[r].id;
-        }
-        if (loss.shared <= worst) continue;
-        worst = loss.shared;
-        sentence =
-            "`" + sets.volumes[k].id + "` takes most: " + fixed(worst / 60, 0) + " min of sun a day from `" + caster.worst + "`";
+        reply.lost += loss.lost * share;
+        reply.shared += loss.shared * share;
+        reply.taken.rows.push_back({receivers[r].id, loss.lost, loss.shared});
+        if (loss.shared <= most) continue;
+        most = loss.shared;
+        reply.worst = receivers[r].id;
       }
+      if (most <= worst) continue;
+      worst = most;
+      sentence = "`" + casters[k].id + "` takes most: " + fixed(worst / 60, 0) + " min of sun a day from `" + reply.worst + "`";
     }
     return sentence;
+  }
+
+  // The algorithm names a caster by its index.
+  static Error named(Error error, const std::vector<Caster>& casters) {
+    if (const auto index = parse_number(error.place); index && *index < static_cast<double>(casters.size()))
+      error.message = "`" + casters[static_cast<std::size_t>(*index)].id + "`: " + error.message;
+    error.place = "volumes";
+    return error;
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
     const auto moments = moments_of(sets.suns);
     if (!moments) return moments.error();
     Out out;
+    const std::vector<Caster>& casters = sets.volumes;  // all of them, from all sets
+    std::vector<CasterReply> replies;
     std::vector<MeshPointer> meshes;
-    for (const Caster& caster : sets.volumes) {
+    for (const Caster& caster : casters) {
       const bool has_shape = caster.casts && caster.mesh && !caster.mesh->triangles.empty();
       meshes.push_back(has_shape ? caster.mesh : nullptr);
-      CasterReply& reply = out.volumes.emplace_back();
+      CasterReply& reply = replies.emplace_back();
       if (has_shape) reply.outline = shadow_outline(*caster.mesh, sets.suns.front().direction, in.ground);
       out.caster_count += has_shape ? 1 : 0;
     }
     std::vector<SunReceiver> receivers;
-    for (const Receiver& receiver : sets.receivers) receivers.push_back(receiver_of(receiver, sets.volumes, out.message));
-    SunStudy::Kept own;
-    SunStudy::Kept& kept = tick.memo != nullptr ? tick.memo->of<SunStudy::Kept>() : own;
-    const auto records = SunStudy{meshes, *moments, receivers, tick.pool}.run(kept);
-    if (!records) return records.error().within("volumes");
+    for (const Receiver& receiver : sets.receivers) receivers.push_back(receiver_of(receiver, casters, out.message));
+    const auto records = sun_study(meshes, *moments, receivers, tick.pool);
+    if (!records) return named(records.error(), casters);
     for (std::size_t r = 0; r < receivers.size(); ++r) {
       const SunRecord& record = (*records)[r];
-      const ReceiverReply& reply = out.receivers.emplace_back(reply_of(receivers[r], record, sets.volumes));
+      const ReceiverReply& reply = out.receivers.emplace_back(reply_of(receivers[r], record, casters));
       out.area += reply.area;
       out.sun_mean += reply.area * record.mean;
       out.sun_possible += reply.area * record.hours.possible;
@@ -229,9 +241,11 @@ struct SunStudyNode {
     }
     out.receiver_count = static_cast<std::int64_t>(receivers.size());
     out.moment_count = static_cast<std::int64_t>(moments->size());
-    if (!(out.area > 0)) return out;
-    for (double* mean : {&out.sun_mean, &out.sun_possible, &out.share_met}) *mean /= out.area;
-    out.message += deal_out(sets, *records, out);
+    if (out.area > 0) {
+      for (double* mean : {&out.sun_mean, &out.sun_possible, &out.share_met}) *mean /= out.area;
+      out.message += deal_out(*records, sets.receivers, casters, out, replies);
+    }
+    out.volumes = std::move(replies);
     return out;
   }
 };

@@ -25,8 +25,7 @@ struct Search {
   const std::vector<Triangle>* triangles = nullptr;
   const RayTest* ray = nullptr;
   ShadowScene::Mask mask;
-  std::vector<std::uint32_t>* found = nullptr;  // empty: the first hit ends the search
-  bool is_hit = false;
+  std::vector<std::uint32_t>* found = nullptr;
 };
 
 }  // namespace
@@ -74,17 +73,15 @@ void box_of(const RTCBoundsFunctionArguments* args) {
   box.upper_z = high(a.z, b.z, c.z, centre.z);
 }
 
+// Never says that the ray is stopped, so that Embree goes on to all triangles along it.
 void judge(const RTCOccludedFunctionNArguments* args) {
   if (args->valid[0] == 0) return;
   Search& search = *reinterpret_cast<Search*>(args->context);
   const Triangle& triangle = (*search.triangles)[args->primID];
   if (!search.mask.empty() && search.mask[triangle.caster] == 0) return;
-  if (search.found != nullptr && std::find(search.found->begin(), search.found->end(), triangle.caster) != search.found->end())
-    return;
-  if (!search.ray->meets(triangle.a, triangle.b, triangle.c, ShadowScene::kStart)) return;
-  search.is_hit = true;
-  if (search.found != nullptr) search.found->push_back(triangle.caster);
-  else RTCRayN_tfar(args->ray, args->N, 0) = -std::numeric_limits<float>::infinity();
+  std::vector<std::uint32_t>& found = *search.found;
+  if (std::find(found.begin(), found.end(), triangle.caster) != found.end()) return;
+  if (search.ray->meets(triangle.a, triangle.b, triangle.c, ShadowScene::kStart)) found.push_back(triangle.caster);
 }
 
 Error embree_error() {
@@ -162,16 +159,6 @@ Result<ShadowScene> ShadowScene::build(std::span<const MeshPointer> casters) {
   }
   made.content_ = std::move(content);
   return made;
-}
-
-bool ShadowScene::is_shaded(const Point3& origin, const Vector3& toward, Mask mask) const {
-  if (content_->triangles.empty()) return false;
-  const RayTest ray(origin, toward);
-  Search search{};
-  search.ray = &ray;
-  search.mask = mask;
-  content_->search(origin, toward, search);
-  return search.is_hit;
 }
 
 void ShadowScene::blockers(const Point3& origin, const Vector3& toward, std::vector<std::uint32_t>& found, Mask mask) const {

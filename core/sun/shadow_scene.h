@@ -20,9 +20,8 @@ class ShadowScene {
   /// Which casters count; empty: all of them.
   using Mask = std::span<const std::uint8_t>;
 
-  /// Does any caster that counts meet the ray further than `kStart` from its origin? `toward` has length 1.
-  bool is_shaded(const Point3& origin, const Vector3& toward, Mask mask = {}) const;
-  /// All casters that do, in ascending order.
+  /// All casters that count and meet the ray further than `kStart` from its origin, in ascending order; none: the sun reaches the
+  /// point. `toward` has length 1.
   void blockers(const Point3& origin, const Vector3& toward, std::vector<std::uint32_t>& found, Mask mask = {}) const;
 
   std::size_t casters() const;

@@ -13,18 +13,15 @@ struct Account {
   std::vector<SunLoss> casters;
 };
 
-// One point at all moments. A ray that meets nobody is one search; only one that does is followed to all that it meets.
+// One point at all moments. A search for all who stand in the way costs a free ray no more than one for the first.
 double measure_point(const ShadowScene& scene, const SunPoint& point, std::span<const SunMoment> moments, ShadowScene::Mask mask,
                      Account& account, std::vector<std::uint32_t>& found) {
   double sun = 0;
   for (const SunMoment& moment : moments) {
     if (!(dot(point.normal, moment.toward) > 0)) continue;
     account.possible += moment.seconds;
-    if (!scene.is_shaded(point.place, moment.toward, mask)) {
-      sun += moment.seconds;
-      continue;
-    }
     scene.blockers(point.place, moment.toward, found, mask);
+    if (found.empty()) sun += moment.seconds;
     if (found.size() == 1) account.casters[found[0]].lost += moment.seconds;
     for (const std::uint32_t caster : found) account.casters[caster].shared += moment.seconds / static_cast<double>(found.size());
   }

@@ -1,4 +1,4 @@
-// Receivers measured one after the other, each on all threads; records that still hold are taken from the time before.
+// Receivers measured one after the other, each on all threads that there are.
 #include "core/sun/sun_study.h"
 
 #include <algorithm>
@@ -9,26 +9,6 @@ namespace bl {
 namespace {
 
 constexpr double kRadian = 0.017453292519943295;
-
-bool same_mesh(const MeshPointer& a, const MeshPointer& b) {
-  if (a == b) return true;
-  return a && b && a->vertices == b->vertices && a->triangles == b->triangles;
-}
-
-bool same_casters(std::span<const MeshPointer> a, std::span<const MeshPointer> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_mesh);
-}
-
-bool same_moments(std::span<const SunMoment> a, std::span<const SunMoment> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const SunMoment& x, const SunMoment& y) { return x.toward == y.toward && x.seconds == y.seconds; });
-}
-
-// The same points among the same casters, so the same sun; what is required of it may be another.
-bool same_place(const SunReceiver& a, const SunReceiver& b) {
-  return a.centre == b.centre && a.half_across == b.half_across && a.half_up == b.half_up && a.spacing == b.spacing &&
-         a.mask == b.mask;
-}
 
 void judge(double required, SunRecord& record) {
   const std::vector<double>& sun = record.hours.seconds;
@@ -61,34 +41,18 @@ void upright_axes(double width, double height, double azimuth, SunReceiver& rece
   receiver.half_up = {0, 0, 0.5 * height};
 }
 
-Result<std::vector<SunRecord>> SunStudy::run(Kept& kept) const {
-  const bool is_scene_kept = kept.scene != nullptr && same_casters(casters, kept.casters);
-  const bool is_sun_kept = is_scene_kept && same_moments(moments, kept.moments);
-  Kept next;
-  next.casters.assign(casters.begin(), casters.end());
-  next.moments.assign(moments.begin(), moments.end());
-  next.receivers.assign(receivers.begin(), receivers.end());
-  if (is_scene_kept) {
-    next.scene = kept.scene;
-  } else {
-    auto built = ShadowScene::build(casters);
-    if (!built) return built.error();
-    next.scene = std::make_shared<const ShadowScene>(std::move(*built));
-  }
+Result<std::vector<SunRecord>> sun_study(std::span<const MeshPointer> casters, std::span<const SunMoment> moments,
+                                         std::span<const SunReceiver> receivers, ThreadPool* pool) {
+  const auto scene = ShadowScene::build(casters);
+  if (!scene) return scene.error();
+  std::vector<SunRecord> records;
   for (const SunReceiver& receiver : receivers) {
-    SunRecord& record = next.records.emplace_back();
-    const auto same = std::find_if(kept.receivers.begin(), kept.receivers.end(),
-                                   [&](const SunReceiver& other) { return same_place(receiver, other); });
-    if (is_sun_kept && same != kept.receivers.end()) {
-      record = kept.records[static_cast<std::size_t>(same - kept.receivers.begin())];
-    } else {
-      record.grid = sun_grid(receiver.centre, receiver.half_across, receiver.half_up, receiver.spacing, kMostSunPoints);
-      record.hours = sun_hours(*next.scene, record.grid.points, moments, receiver.mask, pool);
-    }
+    SunRecord& record = records.emplace_back();
+    record.grid = sun_grid(receiver.centre, receiver.half_across, receiver.half_up, receiver.spacing, kMostSunPoints);
+    record.hours = sun_hours(*scene, record.grid.points, moments, receiver.mask, pool);
     judge(receiver.required, record);
   }
-  kept = std::move(next);
-  return kept.records;
+  return records;
 }
 
 }  // namespace bl

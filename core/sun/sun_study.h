@@ -2,7 +2,6 @@
 // changed.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,7 +16,6 @@ struct SunReceiver {
   double spacing = 2;              ///< [m]
   double required = 0;             ///< direct sun that each point should have [s per day]
   std::vector<std::uint8_t> mask;  ///< which casters count; empty: all
-  bool operator==(const SunReceiver&) const = default;
 };
 /// Half axes of a level rectangle, turned counter-clockwise by `rotation` [degree].
 void level_axes(double width, double depth, double rotation, SunReceiver& receiver);
@@ -36,23 +34,8 @@ struct SunRecord {
 /// The most points of one receiver; their spacing grows until there are no more.
 inline constexpr std::size_t kMostSunPoints = 4096;
 
-struct SunStudy {
-  /// What was worked out before. The same bits come out with an empty one.
-  struct Kept {
-    std::vector<MeshPointer> casters;
-    std::vector<SunMoment> moments;
-    std::shared_ptr<const ShadowScene> scene;
-    std::vector<SunReceiver> receivers;
-    std::vector<SunRecord> records;
-  };
-
-  std::span<const MeshPointer> casters;  ///< an empty one casts nothing
-  std::span<const SunMoment> moments;
-  std::span<const SunReceiver> receivers;
-  ThreadPool* pool = nullptr;
-
-  /// One record for each receiver.
-  Result<std::vector<SunRecord>> run(Kept& kept) const;
-};
+/// One record for each receiver. An empty mesh casts nothing.
+Result<std::vector<SunRecord>> sun_study(std::span<const MeshPointer> casters, std::span<const SunMoment> moments,
+                                         std::span<const SunReceiver> receivers, ThreadPool* pool = nullptr);
 
 }  // namespace bl

@@ -28,7 +28,7 @@ TEST(CastsShadowOn, LayingALinkMatters) {
   ASSERT_EQ(
       world.submit(command<AddLink>({.id = "l2", .link = {R"({"kind": "casts_shadow_on", "from": "tower", "to": "garden"})"}})),
       "");
-  world.tick(3);
+  world.tick(8);
   ASSERT_TRUE(world.settle());
   const double both = world.number("garden", "shadow_receiver.sun_mean");
   EXPECT_LT(both, linked - 600);
@@ -36,7 +36,7 @@ TEST(CastsShadowOn, LayingALinkMatters) {
   // Without any link all count.
   ASSERT_EQ(world.submit(command<RemoveLink>({.id = "l1_shadow"})), "");
   ASSERT_EQ(world.submit(command<RemoveLink>({.id = "l2"})), "");
-  world.tick(3);
+  world.tick(8);
   ASSERT_TRUE(world.settle());
   EXPECT_EQ(world.number("garden", "shadow_receiver.sun_mean"), both);
 }

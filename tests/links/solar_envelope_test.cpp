@@ -73,7 +73,7 @@ TEST(SolarEnvelope, SceneKeepsTheNeighboursSun) {
         world.submit(command<SetPort>(
             {.node = id, .port = {"node.position"}, .value = {std::string(id) == "slab" ? "[14, 12, 6]" : "[40, 14, 14]"}})),
         "");
-  world.tick(3);
+  world.tick(8);
   ASSERT_TRUE(world.settle(400));
   EXPECT_LT(world.number("windows", "shadow_receiver.sun_mean"), 0.9 * world.number("windows", "shadow_receiver.sun_possible"));
 }

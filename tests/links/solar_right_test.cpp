@@ -81,7 +81,7 @@ TEST(SolarRight, SceneTheGardenGetsItsSun) {
             held / world.number("tower", "smart_volume.demand"));
   // Without the link the garden is short.
   ASSERT_EQ(world.submit(command<RemoveLink>({.id = "l1_right"})), "");
-  world.tick(3);
+  world.tick(8);
   ASSERT_TRUE(world.settle(400));
   EXPECT_GT(world.number("garden", "shadow_receiver.deficit"), 0.09 * required);
   EXPECT_EQ(world.number("tower", "smart_volume.wanted"), world.number("tower", "smart_volume.demand"));
@@ -94,7 +94,7 @@ TEST(SolarRight, OtherWaysToGiveWaySettleToo) {
     ASSERT_EQ(world.submit(
                   command<SetLinkParameter>({.id = "l1_right", .parameter = "mode", .value = {"\"" + std::string(mode) + "\""}})),
               "");
-    world.tick(3);
+    world.tick(8);
     EXPECT_TRUE(world.settle(600)) << mode;
     const Vector3 moved = world.point("tower", "node.position") - before;
     if (std::string(mode) == "lower") EXPECT_LT(moved.z, -0.5);

@@ -30,7 +30,7 @@ TEST(ShadowCaster, TheOutlineReachesAsFarAsTheSunIsLow) {
   EXPECT_NEAR(reach, wanted, 1e-9);
   // By night there is no shadow.
   ASSERT_EQ(world.submit(command<SetPort>({.node = "sun", .port = {"sun_and_sky.time"}, .value = {"7200"}})), "");
-  world.tick(2);
+  world.tick(8);
   EXPECT_TRUE(outline(world, "tower").empty());
 }
 

@@ -13,7 +13,7 @@ World alone(const std::string& ports) {
   World world = World::from_text(scene_text(node_text("it", "[10, 20, 1]", "shadow_receiver", ports) + "," +
                                             node_text("study", "[0, 0, 0]", "sun_study") + "," +
                                             node_text("sun", "[0, 0, 0]", "sun_and_sky", R"("min_altitude": 5)")));
-  world.tick(2);
+  world.tick(8);
   return world;
 }
 

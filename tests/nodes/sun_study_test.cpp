@@ -1,4 +1,4 @@
-// Sun studies: who takes how much from whom, who counts, what is missing, and the same bits whatever was kept.
+// Sun studies: who takes how much from whom, who counts, what is missing, and when a result counts.
 #include <gtest/gtest.h>
 
 #include "tests/nodes/scene_text.h"
@@ -63,7 +63,7 @@ TEST(SunStudy, TakingACasterAwayGivesBackWhatItLost) {
   const double before = world.number("garden", "shadow_receiver.sun_mean"),
                lost = world.number("tower", "shadow_caster.sun_lost");
   ASSERT_EQ(world.submit(command<SetPort>({.node = "tower", .port = {"shadow_caster.casts"}, .value = {"false"}})), "");
-  world.tick(2);
+  world.tick(10);
   EXPECT_NEAR(world.number("garden", "shadow_receiver.sun_mean"), before + lost, 1e-6);
   EXPECT_EQ(world.number("study", "sun_study.caster_count"), 1);
   EXPECT_EQ(world.number("tower", "shadow_caster.sun_shared"), 0);
@@ -76,7 +76,7 @@ TEST(SunStudy, RequiredSunIsJudgedPointByPoint) {
     ASSERT_EQ(world.submit(command<SetPort>(
                   {.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {std::to_string(seconds)}})),
               "");
-    world.tick(2);
+    world.tick(10);
   };
   required(world.number("garden", "shadow_receiver.sun_min") - 1);
   EXPECT_EQ(world.number("garden", "shadow_receiver.share_met"), 1);
@@ -109,11 +109,11 @@ TEST(SunStudy, AFreeRoofHasTheWholeDay) {
 
 TEST(SunStudy, NeedsExactlyOneSun) {
   World none = World::from_text(scene_text(kStudy));
-  none.tick();
+  none.tick(5);
   EXPECT_EQ(none.node_error("study", "sun_study"),
             "nodes/study/sun_study/sun: a sun is needed and none was found: add a node `sun_and_sky`, or choose one here");
   World two = World::from_text(scene_text(kStudy + "," + kSun + "," + node_text("moon", "[0, 0, 0]", "sun_and_sky")));
-  two.tick();
+  two.tick(5);
   EXPECT_EQ(two.node_error("study", "sun_study"),
             "nodes/study/sun_study/sun: `moon` and `sun` are both suns: choose the one that is studied here");
   World empty = World::from_text(scene_text(kStudy + "," + kSun));
@@ -121,8 +121,7 @@ TEST(SunStudy, NeedsExactlyOneSun) {
   EXPECT_EQ(empty.number("study", "sun_study.receiver_count"), 0);
 }
 
-// What is kept from tick to tick saves work and changes nothing: a world that loses it in every tick has the same hashes.
-TEST(SunStudy, ThreadsAndMemoryChangeNothing) {
+TEST(SunStudy, ThreadsAndTheWayThereChangeNothing) {
   World one = quarter(kGarden, 1), three = quarter(kGarden, 3);
   for (int i = 0; i < 12; ++i) {
     one.tick();
@@ -133,7 +132,7 @@ TEST(SunStudy, ThreadsAndMemoryChangeNothing) {
   const auto required = [&](const char* seconds) {
     ASSERT_EQ(three.submit(command<SetPort>({.node = "garden", .port = {"shadow_receiver.required_sun"}, .value = {seconds}})),
               "");
-    three.tick(3);
+    three.tick(10);
   };
   ASSERT_TRUE(one.settle(200));
   required("100");
@@ -141,6 +140,15 @@ TEST(SunStudy, ThreadsAndMemoryChangeNothing) {
   ASSERT_TRUE(three.settle(200));
   EXPECT_EQ(one.number("garden", "shadow_receiver.deficit"), three.number("garden", "shadow_receiver.deficit"));
   EXPECT_EQ(one.table("garden", "shadow_receiver.losses"), three.table("garden", "shadow_receiver.losses"));
+}
+
+TEST(SunStudy, ResultsCountAfterTheLatency) {
+  World world =
+      World::from_text(scene_text(kSun + "," + node_text("study", "[0, 0, 0]", "sun_study", R"("latency": 4)") + "," + kGarden));
+  world.tick(4);
+  EXPECT_EQ(world.number("garden", "shadow_receiver.sun_mean"), 0);
+  world.tick(1);
+  EXPECT_NEAR(world.number("garden", "shadow_receiver.sun_mean"), world.number("sun", "sun_and_sky.possible"), 1e-6);
 }
 
 TEST(SunStudy, Scene) {

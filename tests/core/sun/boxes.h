@@ -7,6 +7,7 @@
 
 #include "core/base/mesh.h"
 #include "core/base/random.h"
+#include "core/sun/shadow_scene.h"
 
 namespace bl {
 
@@ -36,6 +37,12 @@ inline std::vector<MeshPointer> random_boxes(int count, std::uint64_t seed, doub
         box_mesh({random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-1, 5)}, random.uniform(3, 30),
                  random.uniform(3, 30), random.uniform(3, 60), random.uniform(0, 3.2))));
   return boxes;
+}
+
+inline bool is_shaded(const ShadowScene& scene, const Point3& origin, const Vector3& toward, ShadowScene::Mask mask = {}) {
+  std::vector<std::uint32_t> found;
+  scene.blockers(origin, toward, found, mask);
+  return !found.empty();
 }
 
 /// Solves origin + t toward = a + u (b - a) + v (c - a) by cross products (Möller and Trumbore 1997): unlike the one under test.
