@@ -43,11 +43,12 @@ std::map<std::tuple<ImportOutcome, std::string, std::string>, std::size_t> Impor
   return sums;
 }
 
-std::string ImportReport::csv() const {
-  const std::vector<std::string> header{"outcome", "kind", "id", "reason", "detail", "count"};
+std::string import_csv(const std::vector<std::pair<std::string, ImportReport>>& reports) {
+  const std::vector<std::string> header{"file", "outcome", "kind", "id", "reason", "detail", "count"};
   std::vector<std::vector<CsvCell>> cells;
-  cells.reserve(rows_.size());
-  for (const ImportRow& row : rows_) cells.push_back({name_of(row.outcome), row.kind, row.id, row.reason, row.detail, row.count});
+  for (const auto& [file, report] : reports)
+    for (const ImportRow& row : report.rows())
+      cells.push_back({file, name_of(row.outcome), row.kind, row.id, row.reason, row.detail, row.count});
   return write_csv(header, cells);
 }
 

@@ -38,11 +38,12 @@ class ImportReport {
   std::size_t total(std::string_view kind = "") const;
   /// Numbers by outcome, kind and reason, in that order.
   std::map<std::tuple<ImportOutcome, std::string, std::string>, std::size_t> counts() const;
-  /// All rows as CSV: outcome, kind, id, reason, detail, count.
-  std::string csv() const;
 
  private:
   std::vector<ImportRow> rows_;
 };
+
+/// The rows of several files as CSV: file, outcome, kind, id, reason, detail, count.
+std::string import_csv(const std::vector<std::pair<std::string, ImportReport>>& reports);
 
 }  // namespace bl
