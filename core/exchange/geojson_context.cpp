@@ -27,7 +27,7 @@ constexpr std::array kAliases = {
     Alias{"levels", {"building:levels", "levels", "floors", "storeys", "stories", "num_floors", "bouwlagen", "geschosse", "etages"}},
     Alias{"base", {"min_height", "base_height", "ground_height", "base"}},
     Alias{"name", {"name", "title", "naam"}},
-    Alias{"use", {"use", "function", "usage", "building:use", "building", "class", "landuse"}},
+    Alias{"use", {"use", "function", "usage", "building:use", "building", "class", "landuse", "natural"}},
     Alias{"id", {"id", "uid", "osm_id", "identificatie", "gml_id", "fid", "gid"}},
     Alias{"lanes", {"lanes", "num_lanes"}},
     Alias{"speed", {"maxspeed", "speed_limit", "speed"}},
@@ -48,7 +48,7 @@ class Properties {
   }
   std::string get(std::string_view ours) const {
     for (const auto& [name, theirs] : options_.properties)
-      if (name == ours) return raw(lower_case(theirs));
+      if (const std::string named = raw(lower_case(theirs)); name == ours && !named.empty()) return named;
     for (const Alias& alias : kAliases)
       if (alias.ours == ours)
         for (const std::string_view name : alias.theirs)

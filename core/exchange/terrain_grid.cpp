@@ -29,8 +29,6 @@ class Words {
     return text_.substr(begin, at_ - begin);
   }
   std::string place() const { return "line " + std::to_string(line_); }
-  std::size_t position() const { return at_; }
-  void back_to(std::size_t position) { at_ = position; }
 
  private:
   static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
@@ -58,11 +56,11 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
   std::map<std::string, double> header;
   const std::vector<std::string> known{"ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter", "cellsize", "dx", "dy", "nodata_value"};
   while (true) {
-    const std::size_t before = words.position();
+    const Words before = words;
     const std::string name = lower_case(words.next().substr(0, 40));
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       if (header.empty()) return no_grid(words.place(), "`" + name + "` is no line of a header.");
-      words.back_to(before);
+      words = before;
       break;
     }
     const auto value = number_of(words.next());
@@ -94,7 +92,7 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::string_view word = words.next();
     if (word.empty())
-      return Error{ErrorCode::parse, words.place(), "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) + " cells: is the file complete?"};
+      return Error{ErrorCode::parse, "end of the file", "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) + " cells: is the file complete?"};
     const auto value = number_of(word);
     if (!value) return Error{ErrorCode::parse, words.place(), "`" + std::string(word.substr(0, 40)) + "` is no number."};
     grid.values.push_back(*value == nodata || !std::isfinite(*value) ? kNothing : *value);

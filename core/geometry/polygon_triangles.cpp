@@ -13,6 +13,9 @@ double turn(const Point3& a, const Point3& b, const Point3& c) { return (b.x - a
 
 double plane_distance(const Point3& a, const Point3& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
 
+// Outer rings run counter-clockwise, holes clockwise; rings of no area stay as they are.
+bool is_turned(const Ring& ring, std::size_t number) { return number == 0 ? signed_area(ring) < 0 : signed_area(ring) > 0; }
+
 using Loop = std::vector<std::uint32_t>;
 
 class Clipping {
@@ -28,7 +31,7 @@ class Clipping {
       Loop loop(rings[r].size());
       std::iota(loop.begin(), loop.end(), first);
       first += static_cast<std::uint32_t>(rings[r].size());
-      if ((signed_area(rings[r]) > 0) != (r == 0)) std::reverse(loop.begin(), loop.end());
+      if (is_turned(rings[r], r)) std::reverse(loop.begin(), loop.end());
       if (r == 0) loop_ = std::move(loop);
       else if (loop.size() >= 3)
         holes.push_back(std::move(loop));
@@ -59,14 +62,16 @@ class Clipping {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Point3 &a = points_[loop[i]], &b = points_[loop[(i + 1) % loop.size()]];
       if (turn(a, b, from) * turn(a, b, to) < 0 && turn(from, to, a) * turn(from, to, b) < 0) return true;
+      // Through a corner.
+      if (turn(from, to, a) == 0 && a != from && a != to && dot(a - from, a - to) < 0) return true;
     }
     return false;
   }
 
-  // Does the way to `to` leave corner i of the loop into the polygon?
-  bool leads_inside(std::size_t i, const Point3& to) const {
-    const Point3 &before = points_[loop_[(i + loop_.size() - 1) % loop_.size()]], &here = points_[loop_[i]],
-                 &after = points_[loop_[(i + 1) % loop_.size()]];
+  // Does the way to `to` leave corner i of a loop into the polygon?
+  bool leads_inside(const Loop& loop, std::size_t i, const Point3& to) const {
+    const Point3 &before = points_[loop[(i + loop.size() - 1) % loop.size()]], &here = points_[loop[i]],
+                 &after = points_[loop[(i + 1) % loop.size()]];
     if (turn(before, here, after) >= 0) return turn(before, here, to) >= 0 && turn(here, after, to) >= 0;
     return turn(before, here, to) >= 0 || turn(here, after, to) >= 0;
   }
@@ -74,6 +79,8 @@ class Clipping {
   // The hole becomes part of the loop by a bridge to the nearest corner that can be seen from its rightmost one.
   void join(const Loop& hole, const std::vector<Loop>& others) {
     const std::uint32_t start = rightmost(hole);
+    const auto begin = std::find(hole.begin(), hole.end(), start);
+    const auto begins = static_cast<std::size_t>(begin - hole.begin());
     std::vector<std::size_t> order(loop_.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -81,11 +88,10 @@ class Clipping {
     });
     const auto seen = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
       const Point3 &from = points_[start], &to = points_[loop_[i]];
-      return leads_inside(i, from) && !crosses(loop_, from, to) && !crosses(hole, from, to) &&
+      return leads_inside(loop_, i, from) && leads_inside(hole, begins, to) && !crosses(loop_, from, to) && !crosses(hole, from, to) &&
              std::none_of(others.begin(), others.end(), [&](const Loop& other) { return crosses(other, from, to); });
     });
     const std::size_t at = seen == order.end() ? order.front() : *seen;
-    const auto begin = std::find(hole.begin(), hole.end(), start);
     Loop bridge(begin, hole.end());
     bridge.insert(bridge.end(), hole.begin(), begin);
     bridge.push_back(start);
@@ -105,7 +111,8 @@ class Clipping {
       if (p == a || p == b || p == c) continue;
       if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
     }
-    return true;
+    // A side from the other end of a bridge may begin at a corner of the ear and run right through it.
+    return !crosses(loop_, a, c);
   }
 
   void clip() {
@@ -118,12 +125,17 @@ class Clipping {
         continue;
       }
       const std::size_t count = loop_.size();
-      triangles_.push_back({loop_[(i + count - 1) % count], loop_[i], loop_[(i + 1) % count]});
+      add(loop_[(i + count - 1) % count], loop_[i], loop_[(i + 1) % count]);
       loop_.erase(loop_.begin() + static_cast<std::ptrdiff_t>(i));
       i = i % loop_.size();
       tried = 0;
     }
-    triangles_.push_back({loop_[0], loop_[1], loop_[2]});
+    add(loop_[0], loop_[1], loop_[2]);
+  }
+
+  // There and back along a bridge is no triangle, and its edges cancel each other out.
+  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a != b && b != c && c != a) triangles_.push_back({a, b, c});
   }
 
   std::vector<Point3> points_;
@@ -139,7 +151,7 @@ Mesh prism_mesh(const Ring& outer, std::span<const Ring> holes, double bottom, d
   std::vector<Ring> rings{outer};
   rings.insert(rings.end(), holes.begin(), holes.end());
   for (std::size_t r = 0; r < rings.size(); ++r)
-    if ((signed_area(rings[r]) > 0) != (r == 0)) std::reverse(rings[r].begin(), rings[r].end());
+    if (is_turned(rings[r], r)) std::reverse(rings[r].begin(), rings[r].end());
   Mesh mesh;
   for (const double height : {bottom, top})
     for (const Ring& ring : rings)
