@@ -21,7 +21,8 @@ struct ShadowCaster {
   static void declare(TypificationBuilder<ShadowCaster>& t) {
     t.id("shadow_caster").label("Shadow caster");
     t.doc(
-        "A role for nodes with a shape, such as SmartVolumes: a sun study counts the sun that the shape takes from receivers, "
+        "A role for nodes with a shape, SmartVolumes and existing buildings: a sun study counts the sun that the shape takes "
+        "from receivers, "
         "and "
         "draws its shadow.");
     t.in(&In::casts, "casts").doc("When off, the sun passes through the shape, as if it were not built yet.");

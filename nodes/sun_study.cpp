@@ -13,7 +13,8 @@ namespace {
 
 struct SunStudyNode {
   struct In {
-    Selection sun{{}, "sun_and_sky", {}}, volumes{{}, "shadow_caster", {}}, receivers{{}, "shadow_receiver", {}};
+    Selection sun{{}, "sun_and_sky", {}}, volumes{{}, "shadow_caster", {}}, buildings{{}, "shadow_caster", {}};
+    Selection receivers{{}, "shadow_receiver", {}};
     double ground = 0;
     int latency = 3;
   };
@@ -36,7 +37,7 @@ struct SunStudyNode {
   };
   struct Sets {
     std::vector<Sun> suns;
-    std::vector<Caster> volumes;
+    std::vector<Caster> volumes, buildings;
     std::vector<Receiver> receivers;
   };
   struct CasterReply {
@@ -55,7 +56,7 @@ struct SunStudyNode {
     std::int64_t caster_count = 0, receiver_count = 0, moment_count = 0, ray_count = 0;
     double area = 0, sun_mean = 0, sun_possible = 0, share_met = 0;
     std::string message;
-    std::vector<CasterReply> volumes;
+    std::vector<CasterReply> volumes, buildings;
     std::vector<ReceiverReply> receivers;
   };
 
@@ -68,6 +69,8 @@ struct SunStudyNode {
     t.in(&In::sun, "sun").doc("The sun whose period is studied. Exactly one node has to result.");
     t.in(&In::volumes, "volumes")
         .doc("The SmartVolumes that cast shadow; nodes without the role of a shadow caster do not count.");
+    t.in(&In::buildings, "buildings")
+        .doc("The existing buildings that cast shadow; they need the role of a shadow caster as well.");
     t.in(&In::receivers, "receivers").doc("The receivers that are measured; a receiver belongs to one study only.");
     t.in(&In::ground, "ground")
         .unit(Unit::metre)
@@ -90,15 +93,14 @@ struct SunStudyNode {
         .reads(&Sun::id, "node.id")
         .reads(&Sun::direction, "sun_and_sky.direction")
         .reads(&Sun::moments, "sun_and_sky.moments");
-    declare_casters(t);
+    bind_casters(t.set("volumes", &Sets::volumes, &Out::volumes), "smart_volume.mesh");
+    bind_casters(t.set("buildings", &Sets::buildings, &Out::buildings), "existing_building.mesh");
     declare_receivers(t);
   }
 
-  // Other shapes that cast join as a set of their own, with the mesh of their own typification: `evaluate` then puts them behind
-  // these, and hands the replies back to both.
-  static void declare_casters(TypificationBuilder<SunStudyNode>& t) {
-    auto set = t.set("volumes", &Sets::volumes, &Out::volumes);
-    set.reads(&Caster::id, "node.id").reads(&Caster::casts, "shadow_caster.casts").reads(&Caster::mesh, "smart_volume.mesh");
+  template <class Set>
+  static void bind_casters(Set set, const char* mesh) {
+    set.reads(&Caster::id, "node.id").reads(&Caster::casts, "shadow_caster.casts").reads(&Caster::mesh, mesh);
     set.writes(&CasterReply::lost, "shadow_caster.sun_lost").writes(&CasterReply::shared, "shadow_caster.sun_shared");
     set.writes(&CasterReply::worst, "shadow_caster.worst").writes(&CasterReply::taken, "shadow_caster.taken");
     set.writes(&CasterReply::outline, "shadow_caster.outline");
@@ -216,7 +218,8 @@ struct SunStudyNode {
     const auto moments = moments_of(sets.suns);
     if (!moments) return moments.error();
     Out out;
-    const std::vector<Caster>& casters = sets.volumes;  // all of them, from all sets
+    std::vector<Caster> casters = sets.volumes;
+    casters.insert(casters.end(), sets.buildings.begin(), sets.buildings.end());
     std::vector<CasterReply> replies;
     std::vector<MeshPointer> meshes;
     for (const Caster& caster : casters) {
@@ -245,7 +248,9 @@ struct SunStudyNode {
       for (double* mean : {&out.sun_mean, &out.sun_possible, &out.share_met}) *mean /= out.area;
       out.message += deal_out(*records, sets.receivers, casters, out, replies);
     }
-    out.volumes = std::move(replies);
+    const auto buildings = replies.begin() + static_cast<std::ptrdiff_t>(sets.volumes.size());
+    out.volumes.assign(replies.begin(), buildings);
+    out.buildings.assign(buildings, replies.end());
     return out;
   }
 };

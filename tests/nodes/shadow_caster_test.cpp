@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/nodes/scene_text.h"
 #include "tests/support/world.h"
 
 namespace bl {
@@ -43,6 +44,25 @@ TEST(ShadowCaster, WhoDoesNotCastTakesNothing) {
   EXPECT_EQ(world.number("shed", "shadow_caster.sun_shared"), 0);
   EXPECT_TRUE(outline(world, "shed").empty());
   EXPECT_EQ(world.text("shed", "shadow_caster.worst"), "");
+}
+
+// A house of ten metres that stands already: its shadow is ten metres over the tangent of the sun's height long.
+TEST(ShadowCaster, ExistingBuildingsCastShadowToo) {
+  const std::string house = R"({"id": "house", "types": {"shadow_caster": {}, "existing_building": {
+      "outline": [[-10, -6, 0], [10, -6, 0], [10, 0, 0], [-10, 0, 0]], "height": 10}}})";
+  World world = World::from_text(scene_text(house + "," + node_text("sun", "[0, 0, 0]", "sun_and_sky") + "," +
+                                            node_text("study", "[0, 0, 0]", "sun_study") + "," +
+                                            node_text("court", "[0, 4, 0]", "shadow_receiver", R"("width": 16, "depth": 8)")));
+  world.tick(8);
+  const Vector3 sun = world.point("sun", "sun_and_sky.direction");
+  double reach = -1e9;
+  for (const Point3& corner : outline(world, "house")) reach = std::max(reach, corner.y);
+  EXPECT_NEAR(reach, 10 * -sun.y / sun.z, 1e-9);  // to the north of its wall at y = 0
+  const double lost = world.number("house", "shadow_caster.sun_lost");
+  EXPECT_GT(lost, 3600);
+  EXPECT_NEAR(world.number("court", "shadow_receiver.sun_mean") + lost, world.number("sun", "sun_and_sky.possible"), 1e-6);
+  EXPECT_EQ(world.text("house", "shadow_caster.worst"), "court");
+  EXPECT_EQ(world.number("study", "sun_study.caster_count"), 1);
 }
 
 }  // namespace

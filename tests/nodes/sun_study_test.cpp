@@ -156,6 +156,8 @@ TEST(SunStudy, Scene) {
   ASSERT_TRUE(world.settle());
   EXPECT_GT(world.number("tower", "shadow_caster.sun_lost"), world.number("house", "shadow_caster.sun_lost"));
   EXPECT_EQ(world.text("tower", "shadow_caster.worst"), "garden_north");
+  EXPECT_EQ(world.text("old_mill", "shadow_caster.worst"), "garden_east");
+  EXPECT_EQ(world.number("study", "sun_study.caster_count"), 4);
 }
 
 }  // namespace
