@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -143,55 +142,6 @@ std::vector<SunPlane> solar_envelope(const Point3& a, const Point3& b, const Poi
     planes.push_back({normal, dot(normal, a)});
   }
   return planes;
-}
-
-namespace {
-
-// From `from` along `toward` in plan: the parameter at which the polygon is first met; infinity where it is not. A start within
-// it: 0.
-double entry(std::span<const Point3> plan, const Point3& from, const Vector3& toward) {
-  double first = std::numeric_limits<double>::infinity();
-  bool is_inside = false;
-  for (std::size_t i = 0, j = plan.size() - 1; i < plan.size(); j = i++) {
-    const Point3 &p = plan[j], &q = plan[i];
-    if ((p.y > from.y) != (q.y > from.y) && from.x < (q.x - p.x) * (from.y - p.y) / (q.y - p.y) + p.x) is_inside = !is_inside;
-    const double across = toward.x * (q.y - p.y) - toward.y * (q.x - p.x);
-    if (across == 0) continue;
-    const double t = ((p.x - from.x) * (q.y - p.y) - (p.y - from.y) * (q.x - p.x)) / across;
-    const double s = ((p.x - from.x) * toward.y - (p.y - from.y) * toward.x) / across;
-    if (t >= 0 && s >= 0 && s <= 1) first = std::min(first, t);
-  }
-  return is_inside ? 0 : first;
-}
-
-}  // namespace
-
-// Along the line the way to the plan is a polyline over the place: it bends only where the line's end, or a corner of the plan,
-// is met.
-double lowest_sun_limit(std::span<const Point3> plan, const Point3& a, const Point3& b, std::span<const Vector3> suns) {
-  double limit = std::numeric_limits<double>::infinity();
-  if (plan.size() < 3) return limit;
-  for (const Vector3& sun : suns) {
-    if (!(sun.z > kLeastRise)) continue;
-    const auto look = [&](double share) {
-      const Point3 from = a + (b - a) * share;
-      limit = std::min(limit, from.z + entry(plan, from, sun) * sun.z);
-    };
-    look(0);
-    look(1);
-    const double across = (b.x - a.x) * sun.y - (b.y - a.y) * sun.x;
-    if (across == 0) continue;
-    for (const Point3& corner : plan) {
-      const double share = ((corner.x - a.x) * sun.y - (corner.y - a.y) * sun.x) / across;
-      if (!(share > 0 && share < 1)) continue;
-      look(share);
-      // The corner itself, which a rounding may let the ray miss.
-      const Point3 from = a + (b - a) * share;
-      const double way = ((corner.x - from.x) * sun.x + (corner.y - from.y) * sun.y) / (sun.x * sun.x + sun.y * sun.y);
-      if (way >= 0) limit = std::min(limit, from.z + way * sun.z);
-    }
-  }
-  return limit;
 }
 
 }  // namespace bl

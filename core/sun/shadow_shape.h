@@ -28,8 +28,4 @@ struct SunPlane {
 /// on the other side of the edge, along it or below the horizon give none.
 std::vector<SunPlane> solar_envelope(const Point3& a, const Point3& b, const Point3& inside, std::span<const Vector3> suns);
 
-/// The greatest height above the origin to which a plan may be built straight up without taking any of the suns from the line
-/// from `a` to `b`; infinity where none is taken at any height. `plan` is a polygon, of which the heights do not count.
-double lowest_sun_limit(std::span<const Point3> plan, const Point3& a, const Point3& b, std::span<const Vector3> suns);
-
 }  // namespace bl
