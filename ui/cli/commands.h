@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/cli/context_import.h"
 #include "ui/cli/scene_making.h"
 
 namespace bl::cli {
@@ -47,6 +48,8 @@ struct CompareOptions {
 int compare_command(const CompareOptions& options);
 
 int new_command(const NewOptions& options);
+
+int import_command(const ImportOptions& options);
 
 struct OpenOptions {
   std::vector<std::string> arguments;  ///< as the window's own program takes them

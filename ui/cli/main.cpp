@@ -114,6 +114,45 @@ void declare_new(CLI::App& app, NewOptions& o) {
   c.footer("Example:\n  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json");
 }
 
+void declare_import(CLI::App& app, ImportOptions& o) {
+  CLI::App& c = *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
+  c.add_option("files", o.files, "OSM (.osm, .osm.gz, .pbf), CityJSON (.json, .jsonl), GeoJSON, ASCII grid (.asc), GeoTIFF, CSV with coordinates.")
+      ->type_name("FILE")
+      ->required();
+  c.add_option("--into", o.into, "The scene that is added to. Default: an empty one.")->type_name("SCENE");
+  c.add_option("--out", o.out, "The scene file to write.")->type_name("SCENE")->required();
+  c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
+  c.add_option("--as", o.kind, "What the features or the grid are, where the file does not say: building, street, plot, area, terrain, layer.")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"building", "street", "plot", "area", "terrain", "layer"}));
+  c.add_option("--crs", o.context.crs, "CRS of the files in place of what they say, such as EPSG:28992.")->type_name("CRS");
+  c.add_option("--origin", o.origin, "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
+      ->type_name("X,Y");
+  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m.")->type_name("METRES");
+  c.add_option("--property", o.properties, "Names a property that is called otherwise, as often as needed: height=H_MAX.")
+      ->type_name("OURS=THEIRS")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--value", o.value, "Of a data layer: the column or property with the values.")->type_name("NAME");
+  c.add_option("--unit", o.unit, "Of a data layer: the unit of the values, such as dB.")->type_name("UNIT");
+  c.add_option("--source", o.source, "Who made the data, for the nodes that keep it. Default: the name of the file.")->type_name("TEXT");
+  c.add_option("--licence", o.licence, "What may be done with the data, for the nodes that keep it.")->type_name("TEXT");
+  c.add_option("--storey-height", o.context.storey_height, "Height of storeys where only their number is known, in m. Default: 3.2.")
+      ->type_name("METRES");
+  c.add_option("--default-height", o.context.default_height, "Height of buildings that nothing is known about, in m. Default: 9.6.")
+      ->type_name("METRES");
+  c.add_option("--neighbours", o.context.neighbour_distance, "How near buildings are whose heights are taken over, in m. Default: 100.")
+      ->type_name("METRES");
+  c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")->type_name("LEVEL");
+  c.add_flag("--extruded", o.is_extruded, "Makes buildings from outline and height even where the file has solids.");
+  c.add_flag("--all-streets", o.takes_all_streets, "Takes footpaths, cycleways and steps as well, not only streets for cars.");
+  c.add_option("--report", o.report, "Writes what became of every single element as CSV.")->type_name("FILE");
+  c.footer(
+      "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
+      "--report import.csv\n\nHeights that are not in the file are assumed, and marked as such. Exit codes: 0 imported; 2 bad input, "
+      "nothing written.");
+}
+
 void declare_check(CLI::App& app, CheckOptions& o) {
   CLI::App& c = *app.add_subcommand("check", "Says everything that is wrong with scene files.");
   c.add_option("scenes", o.scenes, "The scene files.")->type_name("SCENE")->required();
@@ -268,7 +307,7 @@ void declare_bench(CLI::App& app, BenchOptions& o) {
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "study"}))
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "study"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")
@@ -291,6 +330,7 @@ int run_program(int count, char** arguments) {
   RunOptions run;
   OpenOptions window;
   NewOptions fresh;
+  ImportOptions import;
   CheckOptions check;
   ReplayOptions replay;
   CompareOptions compare;
@@ -303,6 +343,7 @@ int run_program(int count, char** arguments) {
   declare_run(app, run);
   declare_open(app);
   declare_new(app, fresh);
+  declare_import(app, import);
   declare_check(app, check);
   declare_papers(app, docs, schema);
   declare_replay(app, replay);
@@ -333,6 +374,7 @@ int run_program(int count, char** arguments) {
     return open_command(window);
   }
   if (app.got_subcommand("new")) return new_command(fresh);
+  if (app.got_subcommand("import")) return import_command(import);
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand("docs")) return docs_command(docs);
   if (app.got_subcommand("schema")) return schema_command(schema);
