@@ -177,11 +177,12 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making)
       Fitting fit(*street);
       fit.set_node("start", id_of(piece.start));
       fit.set_node("end", id_of(piece.end));
-      fit.set("lanes", piece.lanes);
+      // A street has lanes in each direction; maps count those of both together, and a narrow one is shared.
+      fit.set("lanes", piece.is_one_way ? piece.lanes : std::max(1.0, piece.lanes / 2));
       fit.set("speed", piece.speed);
       fit.set("length", length_of(piece.line));
       fit.set("one_way", piece.is_one_way);
-      fit.set("open", true);
+      fit.set("for_cars", piece.for_cars);
       fit.set("line", piece.line);
       const Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
                          {"position", position_json(piece.line[piece.line.size() / 2])},
