@@ -27,26 +27,33 @@ struct PlotRules {
   };
 
   static void declare(LinkBuilder<PlotRules>& l) {
-    l.id("plot_rules").label("Plot rules").doc(
-        "Turns what goes beyond the rules of a plot into tension: the demands of the volumes on it are limited in one proportion "
-        "until FSI and GSI fit, and those of volumes that reach too high until they fit below the largest height. When there is room again, "
-        "the limits are loosened in the same way, up to what each volume wants.");
+    l.id("plot_rules")
+        .label("Plot rules")
+        .doc(
+            "Turns what goes beyond the rules of a plot into tension: the demands of the volumes on it are limited in one "
+            "proportion "
+            "until FSI and GSI fit, and those of volumes that reach too high until they fit below the largest height. When there "
+            "is room again, "
+            "the limits are loosened in the same way, up to what each volume wants.");
     l.param(&In::hold_fsi, "hold_fsi").doc("When on, floor area beyond the largest FSI limits all volumes on the plot.");
     l.param(&In::hold_gsi, "hold_gsi").doc("When on, built ground beyond the largest GSI limits all volumes on the plot.");
-    l.param(&In::hold_height, "hold_height").doc("When on, a volume that reaches beyond the largest height is limited by itself.");
+    l.param(&In::hold_height, "hold_height")
+        .doc("When on, a volume that reaches beyond the largest height is limited by itself.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0.01, 0.5)
         .doc("How strongly one tick answers to an overshoot. Volumes answer some ticks later, so that large gains swing.");
     l.reads(&Ends::polygon, End::from, "plot.polygon", Unit::metre);
-    l.reads(&Ends::ground, End::from, "plot.ground", Unit::metre).reads(&Ends::height_max, End::from, "plot.height_max", Unit::metre);
+    l.reads(&Ends::ground, End::from, "plot.ground", Unit::metre)
+        .reads(&Ends::height_max, End::from, "plot.height_max", Unit::metre);
     l.reads(&Ends::fsi, End::from, "plot.fsi", Unit::ratio).reads(&Ends::fsi_max, End::from, "plot.fsi_max", Unit::ratio);
     l.reads(&Ends::gsi, End::from, "plot.gsi", Unit::ratio).reads(&Ends::gsi_max, End::from, "plot.gsi_max", Unit::ratio);
     l.reads(&Ends::centroids, End::to, "smart_volume.centroid", Unit::metre);
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
-    l.reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre).reads(&Ends::heights, End::to, "smart_volume.height", Unit::metre);
+    l.reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre)
+        .reads(&Ends::heights, End::to, "smart_volume.height", Unit::metre);
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
@@ -69,7 +76,8 @@ struct PlotRules {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = std::max(kLeast, share * (1 + in.gain * (room - 1)));
       const double top = ends.bottoms.values[i] + ends.heights.values[i] - ends.ground;
-      if (in.hold_height) limit = std::min(limit, std::max(kLeast, granted(ends, i) * (1 + in.gain * (allowed(ends.height_max, top) - 1))));
+      if (in.hold_height)
+        limit = std::min(limit, std::max(kLeast, granted(ends, i) * (1 + in.gain * (allowed(ends.height_max, top) - 1))));
       out.limits.values[i] = ends.demands.values[i] * limit;
     }
     return out;

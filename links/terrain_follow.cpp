@@ -26,10 +26,16 @@ struct TerrainFollow {
   };
 
   static void declare(LinkBuilder<TerrainFollow>& l) {
-    l.id("terrain_follow").label("Terrain follow").doc("Brings nodes to a height above the ground, upright, tick by tick; in plan they stay where they are.");
+    l.id("terrain_follow")
+        .label("Terrain follow")
+        .doc("Brings nodes to a height above the ground, upright, tick by tick; in plan they stay where they are.");
     l.param(&In::offset, "offset").unit(Unit::metre).soft(-5, 50).doc("Wanted height of the position above the ground.");
-    l.param(&In::stiffness, "stiffness").unit(Unit::ratio).range(0, 1).doc("The share of the deviation that is corrected in one tick.");
-    l.param(&In::needs_ground, "needs_ground").doc("When on, a node beside the ground is an error; when off, such a node is left alone.");
+    l.param(&In::stiffness, "stiffness")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .doc("The share of the deviation that is corrected in one tick.");
+    l.param(&In::needs_ground, "needs_ground")
+        .doc("When on, a node beside the ground is an error; when off, such a node is left alone.");
     l.reads(&Ends::rows, End::from, "terrain.rows");
     l.reads(&Ends::west, End::from, "terrain.west", Unit::metre).reads(&Ends::north, End::from, "terrain.north", Unit::metre);
     l.reads(&Ends::cell, End::from, "terrain.cell", Unit::metre).reads(&Ends::lowest, End::from, "terrain.lowest", Unit::metre);
@@ -42,11 +48,13 @@ struct TerrainFollow {
     HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
     const std::size_t column = ends.rows->column("heights");
     for (const auto& row : ends.rows->rows)
-      if (const std::string* text = column < row.size() ? std::get_if<std::string>(&row[column]) : nullptr) grid.rows.push_back(*text);
+      if (const std::string* text = column < row.size() ? std::get_if<std::string>(&row[column]) : nullptr)
+        grid.rows.push_back(*text);
     const auto ground = grid.sample(ends.position.x, ends.position.y);
     if (!ground && in.needs_ground)
       return Error{ErrorCode::not_found, "to",
-                   "there is no ground at (" + fixed(ends.position.x, 1) + ", " + fixed(ends.position.y, 1) + "): move the node onto the terrain, or turn `needs_ground` off"};
+                   "there is no ground at (" + fixed(ends.position.x, 1) + ", " + fixed(ends.position.y, 1) +
+                       "): move the node onto the terrain, or turn `needs_ground` off"};
     if (!ground) return Out{};
     const double error = *ground + in.offset - ends.position.z;
     if (std::abs(error) < 1e-6) return Out{};

@@ -42,13 +42,20 @@ struct ExistingBuilding {
          {{Form::extrusion, "extrusion", "The outline from the base up to the height."},
           {Form::mesh, "mesh", "The closed mesh of `vertices` and `triangles`; the outline is its footprint."}})
         .doc("How the body is given.");
-    t.in(&In::outline, "outline").unit(Unit::metre).doc("Corners of the footprint, in order around it; their heights count for nothing.");
+    t.in(&In::outline, "outline")
+        .unit(Unit::metre)
+        .doc("Corners of the footprint, in order around it; their heights count for nothing.");
     t.in(&In::holes, "holes")
         .column({.id = "name", .is_text = true, .default_value = std::string(), .doc = "Rows of one name make one court."})
         .column({.id = "x", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "East of the corner."})
         .column({.id = "y", .unit = Unit::metre, .minimum = -1e8, .maximum = 1e8, .doc = "North of the corner."})
         .doc("Courts in the footprint, one corner per row.");
-    t.in(&In::base, "base").unit(Unit::metre).range(-1e4, 1e5).soft(-20, 50).combine(CombineRule::blend).doc("Height of the underside above the origin.");
+    t.in(&In::base, "base")
+        .unit(Unit::metre)
+        .range(-1e4, 1e5)
+        .soft(-20, 50)
+        .combine(CombineRule::blend)
+        .doc("Height of the underside above the origin.");
     t.in(&In::height, "height")
         .unit(Unit::metre)
         .range(0.01, 1e5)
@@ -62,7 +69,11 @@ struct ExistingBuilding {
           {Source::neighbour, "neighbour", "Assumed: the median of known buildings nearby."},
           {Source::assumed, "default", "Assumed: nothing is known about it."}})
         .doc("Where the height is known from; the last two are assumptions, and are drawn as such.");
-    t.in(&In::storey_height, "storey_height").unit(Unit::metre).range(1, 50).soft(2.4, 6).doc("Height from floor to floor, by which the floor area is estimated.");
+    t.in(&In::storey_height, "storey_height")
+        .unit(Unit::metre)
+        .range(1, 50)
+        .soft(2.4, 6)
+        .doc("Height from floor to floor, by which the floor area is estimated.");
     t.in(&In::use, "use").doc("What the building is used for, such as `apartments`.");
     t.in(&In::origin, "origin").doc("Where the building comes from: its id in the source, and the source.");
     t.in(&In::vertices, "vertices").unit(Unit::metre).doc("Corners of the mesh. Used where the form is `mesh`.");
@@ -89,8 +100,9 @@ struct ExistingBuilding {
     if (ring.size() < 3)
       return Error{ErrorCode::geometry, place, "a ring needs at least 3 corners; this one has " + std::to_string(ring.size())};
     if (const auto crossing = find_self_crossing(ring))
-      return Error{ErrorCode::geometry, place,
-                   "the ring meets itself at (" + fixed(crossing->where.x, 3) + ", " + fixed(crossing->where.y, 3) + "): redraw it there"};
+      return Error{
+          ErrorCode::geometry, place,
+          "the ring meets itself at (" + fixed(crossing->where.x, 3) + ", " + fixed(crossing->where.y, 3) + "): redraw it there"};
     return {};
   }
 
@@ -101,12 +113,14 @@ struct ExistingBuilding {
       for (std::size_t i = 0; i < 3; ++i) {
         const double index = in.triangles.number(row, i == 0 ? "a" : i == 1 ? "b" : "c");
         if (!(index < static_cast<double>(in.vertices.size())) || index != std::floor(index))
-          return Error{ErrorCode::out_of_range, "triangles/" + std::to_string(row), "names a vertex that does not exist, " + shortest(index)};
+          return Error{ErrorCode::out_of_range, "triangles/" + std::to_string(row),
+                       "names a vertex that does not exist, " + shortest(index)};
         corners[i] = static_cast<std::uint32_t>(index);
       }
     }
     if (mesh.triangles.empty() || !(enclosed_volume(mesh) > 0))
-      return Error{ErrorCode::geometry, "triangles", "the mesh encloses no volume, or is turned inside out: turn its triangles, or use the form `extrusion`"};
+      return Error{ErrorCode::geometry, "triangles",
+                   "the mesh encloses no volume, or is turned inside out: turn its triangles, or use the form `extrusion`"};
     return mesh;
   }
 

@@ -31,12 +31,23 @@ struct Terrain {
                  .is_text = true,
                  .is_required = true,
                  .default_value = std::string(),
-                 .doc = "One row of the grid from west to east: three characters for each height, digits of base 64 from `A` to `/` that "
+                 .doc = "One row of the grid from west to east: three characters for each height, digits of base 64 from `A` to "
+                        "`/` that "
                         "count steps above the lowest height, or `...` where there is none."})
         .doc("The grid, the northernmost row first; all rows have one length. A million cells take three megabytes.");
-    t.in(&In::west, "west").unit(Unit::metre).range(-1e7, 1e7).doc("East of the origin of the first cell of each row: its centre.");
-    t.in(&In::north, "north").unit(Unit::metre).range(-1e7, 1e7).doc("North of the origin of the first row: the centres of its cells.");
-    t.in(&In::cell, "cell").unit(Unit::metre).range(0.01, 1e5).soft(1, 100).doc("Distance between the centres of neighbouring cells.");
+    t.in(&In::west, "west")
+        .unit(Unit::metre)
+        .range(-1e7, 1e7)
+        .doc("East of the origin of the first cell of each row: its centre.");
+    t.in(&In::north, "north")
+        .unit(Unit::metre)
+        .range(-1e7, 1e7)
+        .doc("North of the origin of the first row: the centres of its cells.");
+    t.in(&In::cell, "cell")
+        .unit(Unit::metre)
+        .range(0.01, 1e5)
+        .soft(1, 100)
+        .doc("Distance between the centres of neighbouring cells.");
     t.in(&In::lowest, "lowest").unit(Unit::metre).range(-1e5, 1e5).doc("The height that `AAA` stands for.");
     t.in(&In::step, "step").unit(Unit::metre).range(1e-4, 10).soft(0.001, 1).doc("How much higher each following number stands.");
     t.in(&In::origin, "origin").doc("Where the grid comes from: file, source and licence.");
@@ -59,7 +70,8 @@ struct Terrain {
       if (text.size() % 3 != 0 || text.size() != in.rows->text(0, "heights").size() || text.empty())
         return Error{ErrorCode::parse, place, "a row has three characters for each cell, and as many cells as the first row"};
       if (const std::size_t wrong = first_wrong_character(text); wrong < text.size())
-        return Error{ErrorCode::parse, place, "character " + std::to_string(wrong + 1) + " is no digit of base 64: import the grid again"};
+        return Error{ErrorCode::parse, place,
+                     "character " + std::to_string(wrong + 1) + " is no digit of base 64: import the grid again"};
       grid.rows.push_back(text);
     }
     return grid;
@@ -78,7 +90,8 @@ struct Terrain {
         const auto height = grid.at(row, column);
         index.push_back(height ? static_cast<std::int64_t>(mesh.vertices.size()) : -1);
         if (height)
-          mesh.vertices.push_back({grid.west + grid.cell * static_cast<double>(column), grid.north - grid.cell * static_cast<double>(row), *height});
+          mesh.vertices.push_back(
+              {grid.west + grid.cell * static_cast<double>(column), grid.north - grid.cell * static_cast<double>(row), *height});
       }
     }
     for (std::size_t i = 0; across > 1 && i + across < index.size(); ++i) {

@@ -172,7 +172,8 @@ bool add_floor(Mesh& mesh) {
   for (const auto& [edge, sum] : unmatched_edges(mesh)) {
     if (mesh.vertices[edge.first].z > foot + kSameHeight || mesh.vertices[edge.second].z > foot + kSameHeight) return false;
     // The missing face runs along its edges the other way round.
-    for (int i = 0; i < std::abs(sum); ++i) ways[sum > 0 ? edge.second : edge.first].push_back(sum > 0 ? edge.first : edge.second);
+    for (int i = 0; i < std::abs(sum); ++i)
+      ways[sum > 0 ? edge.second : edge.first].push_back(sum > 0 ? edge.first : edge.second);
   }
   for (const auto& ring : chained(std::move(ways))) {
     CitySurface floor;
@@ -241,7 +242,8 @@ std::vector<Ring> city_outlines(const std::vector<Point3>& vertices, const std::
   }
   std::map<std::uint32_t, std::vector<std::uint32_t>> ways;
   for (const auto& [edge, sum] : sums)
-    for (int i = 0; i < std::abs(sum); ++i) ways[sum > 0 ? edge.first : edge.second].push_back(sum > 0 ? edge.second : edge.first);
+    for (int i = 0; i < std::abs(sum); ++i)
+      ways[sum > 0 ? edge.first : edge.second].push_back(sum > 0 ? edge.second : edge.first);
   std::vector<Ring> rings;
   for (const auto& chain : chained(std::move(ways))) {
     Ring& ring = rings.emplace_back();

@@ -19,12 +19,12 @@ struct CitySurface {
 
 /// What became of the surfaces of one object.
 struct CitySolid {
-  Mesh mesh;                ///< outward where it is closed
-  bool is_closed = false;   ///< every edge has its twin, so that there is an inside
-  bool was_turned = false;  ///< the surfaces looked inward, or in different directions, and were turned
+  Mesh mesh;                  ///< outward where it is closed
+  bool is_closed = false;     ///< every edge has its twin, so that there is an inside
+  bool was_turned = false;    ///< the surfaces looked inward, or in different directions, and were turned
   bool had_no_floor = false;  ///< open at its foot only, and closed there
   std::size_t open_edges = 0;
-  double volume = 0;        ///< [m³] where it is closed
+  double volume = 0;  ///< [m³] where it is closed
 };
 
 /// Vertices at one place count as one. Surfaces of several shells may be given together.

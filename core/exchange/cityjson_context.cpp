@@ -52,10 +52,8 @@ class Importer {
   void run() {
     for (const CityObject& object : model_.objects) {
       if (is_building(object.type)) building(object);
-      else if (is_ground(object.type))
-        ground(object);
-      else
-        context_.report.skip(object.type, object.id, "objects of this type are not read");
+      else if (is_ground(object.type)) ground(object);
+      else context_.report.skip(object.type, object.id, "objects of this type are not read");
     }
   }
 
@@ -111,16 +109,17 @@ class Importer {
         continue;
       }
       if (is_hole) holes.push_back(std::move(sound.ring));
-      else
-        outers.push_back({std::move(sound.ring), {}, sound.mended, ""});
+      else outers.push_back({std::move(sound.ring), {}, sound.mended, ""});
     }
     if (outers.empty()) {
       SoundRing hull = sound_ring(hull_of_plan(points), true);
-      outers.push_back({std::move(hull.ring), {}, hull.fault.empty() ? "its outline is the hull of its corners" : "", hull.fault});
+      outers.push_back(
+          {std::move(hull.ring), {}, hull.fault.empty() ? "its outline is the hull of its corners" : "", hull.fault});
       return outers;
     }
     if (!fault.empty()) note(outers.front().mended, "a ring left out: " + fault);
-    std::sort(outers.begin(), outers.end(), [](const Outline& a, const Outline& b) { return signed_area(a.outer) > signed_area(b.outer); });
+    std::sort(outers.begin(), outers.end(),
+              [](const Outline& a, const Outline& b) { return signed_area(a.outer) > signed_area(b.outer); });
     for (Ring& hole : holes)
       for (Outline& outline : outers)
         if (ring_contains(outline.outer, hole.front())) {
@@ -137,9 +136,9 @@ class Importer {
     const bool is_drawn_by_parts = has_drawn_parts(object);
     // Its own outline in level 0 says nothing that the parts do not say.
     if (is_drawn_by_parts && (geometry == nullptr || geometry->level_of_detail < 1))
-      return context_.report.take(object.type, object.id, "drawn by its parts", std::to_string(object.children.size()) + " parts");
-    if (geometry == nullptr)
-      return context_.report.skip(object.type, object.id, "no geometry that can be read", faults);
+      return context_.report.take(object.type, object.id, "drawn by its parts",
+                                  std::to_string(object.children.size()) + " parts");
+    if (geometry == nullptr) return context_.report.skip(object.type, object.id, "no geometry that can be read", faults);
     const std::vector<Point3> points = corners(object, *geometry);
     if (const std::string far = out_of_reach(options_, points); !far.empty())
       return context_.report.skip(object.type, object.id, far);
@@ -153,11 +152,11 @@ class Importer {
     describe(object, made);
     measure(object, *geometry, points, made, mended);
     if (found.size() > 1)
-      note(mended, std::to_string(found.size() - 1) + (made.solid ? " more outlines only in its solid" : " smaller outlines left out"));
+      note(mended,
+           std::to_string(found.size() - 1) + (made.solid ? " more outlines only in its solid" : " smaller outlines left out"));
     const std::string reason = made.solid ? "building with a solid" : "building as an extrusion";
     if (mended.empty()) context_.report.take(object.type, object.id, reason);
-    else
-      context_.report.repair(object.type, object.id, reason, mended);
+    else context_.report.repair(object.type, object.id, reason, mended);
     context_.buildings.push_back(std::move(made));
   }
 
@@ -178,7 +177,8 @@ class Importer {
   // Base, height and solid from the geometry; from attributes where it is flat.
   void measure(const CityObject& object, const CityGeometry& geometry, const std::vector<Point3>& points, ContextBuilding& made,
                std::string& mended) const {
-    const auto [low, high] = std::minmax_element(points.begin(), points.end(), [](const Point3& a, const Point3& b) { return a.z < b.z; });
+    const auto [low, high] =
+        std::minmax_element(points.begin(), points.end(), [](const Point3& a, const Point3& b) { return a.z < b.z; });
     made.base = low->z;
     if (geometry.level_of_detail >= 1 && high->z - low->z > 0.01) {
       made.height = high->z - low->z;
@@ -219,8 +219,7 @@ class Importer {
                                 std::move(found[i].outer), std::move(found[i].holes), false});
     }
     if (mended.empty()) context_.report.take(object.type, object.id, "area of ground");
-    else
-      context_.report.repair(object.type, object.id, "area of ground", mended);
+    else context_.report.repair(object.type, object.id, "area of ground", mended);
   }
 
   const CityModel& model_;

@@ -94,8 +94,7 @@ class Boundaries {
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Json* value = values != nullptr && values->is_array() && i < values->size() ? &(*values)[i] : nullptr;
       if (depth > 0) read(list[i], value, depth - 1);
-      else
-        surface(list[i], value);
+      else surface(list[i], value);
     }
   }
 
@@ -140,21 +139,17 @@ CityGeometry geometry_of(const Json& json, std::size_t vertices) {
   const Json* boundaries = member(json, "boundaries");
   const Json* semantics = member(json, "semantics");
   const int depth = geometry.type == "MultiSurface" || geometry.type == "CompositeSurface" ? 0
-                    : geometry.type == "Solid"                                              ? 1
-                    : geometry.type == "MultiSolid" || geometry.type == "CompositeSolid"    ? 2
-                                                                                            : -1;
+                    : geometry.type == "Solid"                                             ? 1
+                    : geometry.type == "MultiSolid" || geometry.type == "CompositeSolid"   ? 2
+                                                                                           : -1;
   if (geometry.type == "GeometryInstance") geometry.fault = "geometry templates are not read";
-  else if (depth < 0)
-    geometry.fault = "geometries of type `" + geometry.type.substr(0, 40) + "` are not read";
-  else if (boundaries == nullptr)
-    geometry.fault = "it has no boundaries";
+  else if (depth < 0) geometry.fault = "geometries of type `" + geometry.type.substr(0, 40) + "` are not read";
+  else if (boundaries == nullptr) geometry.fault = "it has no boundaries";
   if (!geometry.fault.empty()) return geometry;
   geometry.solids = depth == 1 ? 1 : depth == 2 && boundaries->is_array() ? boundaries->size() : 0;
-  Boundaries(geometry, vertices, semantics)
-      .read(*boundaries, member(semantics ? *semantics : Json::object(), "values"), depth);
+  Boundaries(geometry, vertices, semantics).read(*boundaries, member(semantics ? *semantics : Json::object(), "values"), depth);
   if (!geometry.fault.empty()) geometry.surfaces.clear();
-  else if (geometry.surfaces.empty())
-    geometry.fault = "it has no surfaces";
+  else if (geometry.surfaces.empty()) geometry.fault = "it has no surfaces";
   return geometry;
 }
 
@@ -180,14 +175,14 @@ class Reader {
     try {
       [[maybe_unused]] const Json unused = Json::parse(text);
     } catch (const Json::parse_error& error) {
-      const std::string_view before = std::string_view(text).substr(0, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size()));
+      const std::string_view before =
+          std::string_view(text).substr(0, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size()));
       const std::size_t last = before.rfind('\n');
       return {ErrorCode::parse,
               "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column " +
                   std::to_string(before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1),
               "The text is not valid JSON from here on; is the file complete, and is it CityJSON?"};
-    } catch (const Json::exception&) {
-    }
+    } catch (const Json::exception&) {}
     return {ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
   }
 
@@ -218,8 +213,7 @@ class Reader {
       if (part.find_first_not_of(" \t\r") == std::string_view::npos) continue;
       const std::string place = "line " + std::to_string(line);
       const Json json = Json::parse(part, nullptr, false);
-      if (json.is_discarded())
-        return Error{ErrorCode::parse, place, "This line is not valid JSON; is the file complete?"};
+      if (json.is_discarded()) return Error{ErrorCode::parse, place, "This line is not valid JSON; is the file complete?"};
       if (text_of(member(json, "type")) != "CityJSONFeature")
         return Error{ErrorCode::parse, place, "Every line after the first must be a CityJSONFeature."};
       if (auto done = feature(json, place); !done) return done;

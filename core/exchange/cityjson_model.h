@@ -12,10 +12,10 @@
 namespace bl {
 
 struct CityGeometry {
-  std::string type;                    ///< "Solid", "MultiSurface", ...
+  std::string type;  ///< "Solid", "MultiSurface", ...
   double level_of_detail = 0;
-  std::vector<CitySurface> surfaces;   ///< of all shells and solids; empty where `fault` says why
-  std::size_t solids = 0;              ///< how many solids; 0: surfaces only
+  std::vector<CitySurface> surfaces;  ///< of all shells and solids; empty where `fault` says why
+  std::size_t solids = 0;             ///< how many solids; 0: surfaces only
   std::string fault;
 };
 
@@ -28,9 +28,9 @@ struct CityObject {
 };
 
 struct CityModel {
-  std::string version, crs;                  ///< crs: tidy name; empty where the file says nothing
-  std::vector<std::vector<Point3>> vertices; ///< one list, or one for each feature of a sequence
-  std::vector<CityObject> objects;           ///< in the order of their ids, feature by feature
+  std::string version, crs;                   ///< crs: tidy name; empty where the file says nothing
+  std::vector<std::vector<Point3>> vertices;  ///< one list, or one for each feature of a sequence
+  std::vector<CityObject> objects;            ///< in the order of their ids, feature by feature
   std::vector<std::string> notes;
 };
 

@@ -48,20 +48,20 @@ struct ContextJunction {
 /// A street between two junctions, with none in between.
 struct ContextStreet {
   std::string id, name;
-  std::string street_class;  ///< "residential", as OpenStreetMap has it; empty: not known
-  std::vector<Point3> line;  ///< from `start` to `end`
+  std::string street_class;        ///< "residential", as OpenStreetMap has it; empty: not known
+  std::vector<Point3> line;        ///< from `start` to `end`
   std::size_t start = 0, end = 0;  ///< indices of junctions
   double lanes = 1;                ///< of both directions together
   double speed = 0;                ///< allowed [m/s]
   bool is_lanes_assumed = true, is_speed_assumed = true;
-  bool is_one_way = false;         ///< from `start` to `end`
+  bool is_one_way = false;  ///< from `start` to `end`
   bool for_cars = true, for_cycles = true, for_feet = true;
 };
 
 /// A turn that is forbidden, or the only one allowed, at a junction.
 struct ContextRestriction {
-  std::string id, rule;                    ///< "no_left_turn", "only_straight_on"
-  std::size_t from = 0, to = 0, via = 0;   ///< two streets and the junction between them
+  std::string id, rule;                   ///< "no_left_turn", "only_straight_on"
+  std::size_t from = 0, to = 0, via = 0;  ///< two streets and the junction between them
 };
 
 /// Land use, green and water: what the ground is.

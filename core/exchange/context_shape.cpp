@@ -48,9 +48,10 @@ Result<LocalFrame> context_frame(const ContextOptions& options, const std::strin
                  "The file does not say in which CRS its coordinates are. Give it, such as EPSG:28992."};
   const std::array<double, 2> about = options.origin.value_or(middle);
   if (is_longitude_latitude(crs) && !(std::abs(about[0]) <= 180 && std::abs(about[1]) <= 90))
-    return Error{ErrorCode::out_of_range, "crs",
-                 "(" + fixed(about[0], 3) + ", " + fixed(about[1], 3) +
-                     ") is no longitude and latitude: the coordinates are probably projected. Give their CRS, such as EPSG:28992."};
+    return Error{
+        ErrorCode::out_of_range, "crs",
+        "(" + fixed(about[0], 3) + ", " + fixed(about[1], 3) +
+            ") is no longitude and latitude: the coordinates are probably projected. Give their CRS, such as EPSG:28992."};
   if (options.target && !options.origin) return LocalFrame::into(crs, *options.target, options.proj_database);
   return LocalFrame::make(crs, about[0], about[1], options.proj_database);
 }
@@ -140,8 +141,7 @@ void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& droppe
     for (const Ring& other : kept)
       is_sound = is_sound && !find_crossing(other, hole) && !ring_contains(other, hole[0]) && !ring_contains(hole, other[0]);
     if (is_sound) kept.push_back(std::move(hole));
-    else
-      ++bad;
+    else ++bad;
   }
   holes = std::move(kept);
   if (bad == 0) return;
@@ -167,8 +167,8 @@ void assume_heights(const ContextOptions& options, Context& context) {
     const Point3 centre = centre_of(building.outer);
     const double reach = options.neighbour_distance;
     std::vector<double> heights;
-    auto it = std::lower_bound(known.begin(), known.end(), centre.x - reach,
-                               [](const Known& a, double x) { return a.centre.x < x; });
+    auto it =
+        std::lower_bound(known.begin(), known.end(), centre.x - reach, [](const Known& a, double x) { return a.centre.x < x; });
     for (; it != known.end() && it->centre.x <= centre.x + reach; ++it)
       if (distance(it->centre, centre) <= reach) heights.push_back(it->height);
     const bool has_neighbours = heights.size() >= kFewestNeighbours;
@@ -182,11 +182,12 @@ void assume_heights(const ContextOptions& options, Context& context) {
     ++(has_neighbours ? by_neighbours : by_default);
   }
   if (by_neighbours > 0)
-    context.notes.push_back("The heights of " + std::to_string(by_neighbours) + " buildings were taken from their neighbours within " +
-                            shortest(options.neighbour_distance) + " m (median).");
+    context.notes.push_back("The heights of " + std::to_string(by_neighbours) +
+                            " buildings were taken from their neighbours within " + shortest(options.neighbour_distance) +
+                            " m (median).");
   if (by_default > 0)
-    context.notes.push_back("The heights of " + std::to_string(by_default) + " buildings are not known: " +
-                            shortest(options.default_height) + " m were assumed.");
+    context.notes.push_back("The heights of " + std::to_string(by_default) +
+                            " buildings are not known: " + shortest(options.default_height) + " m were assumed.");
 }
 
 std::optional<std::array<double, 2>> middle_of(std::vector<std::array<double, 2>> points) {

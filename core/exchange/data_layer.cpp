@@ -25,13 +25,15 @@ struct RawPoint {
   double x = 0, y = 0, value = 0;
 };
 
-Result<void> place_points(std::vector<RawPoint> raw, const ContextOptions& options, const std::string& crs, const char* kind, DataLayer& layer) {
+Result<void> place_points(std::vector<RawPoint> raw, const ContextOptions& options, const std::string& crs, const char* kind,
+                          DataLayer& layer) {
   std::vector<std::array<double, 2>> positions;
   for (const RawPoint& point : raw) positions.push_back({point.x, point.y});
   const auto middle = middle_of(std::move(positions));
   if (!middle) return Error{ErrorCode::missing, "", "The file holds no point with a value: there is nothing to import."};
   if (raw.size() > kMostLayerPoints)
-    return Error{ErrorCode::out_of_range, "", "The layer has more than " + std::to_string(kMostLayerPoints) + " points: cut out the part that you need."};
+    return Error{ErrorCode::out_of_range, "",
+                 "The layer has more than " + std::to_string(kMostLayerPoints) + " points: cut out the part that you need."};
   auto frame = context_frame(options, crs, *middle);
   if (!frame) return frame.error();
   layer.source_crs = context_crs(options, crs);
@@ -63,18 +65,18 @@ class TableReader {
     const CsvRecord& header = csv_.records.front();
     for (std::size_t i = 0; i < header.fields.size(); ++i) {
       const std::string name = normal_header(header.fields[i]).name;
-      const auto is = [&name](std::initializer_list<std::string_view> names) { return std::find(names.begin(), names.end(), name) != names.end(); };
+      const auto is = [&name](std::initializer_list<std::string_view> names) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+      };
       if (!x_ && is({"x", "easting", "east", "x_coordinate", "coord_x"})) x_ = i;
-      else if (!y_ && is({"y", "northing", "north", "y_coordinate", "coord_y"}))
-        y_ = i;
-      else if (!x_ && is({"lon", "long", "longitude", "lng"}))
-        x_ = i, is_degrees = true;
-      else if (!y_ && is({"lat", "latitude"}))
-        y_ = i;
+      else if (!y_ && is({"y", "northing", "north", "y_coordinate", "coord_y"})) y_ = i;
+      else if (!x_ && is({"lon", "long", "longitude", "lng"})) x_ = i, is_degrees = true;
+      else if (!y_ && is({"lat", "latitude"})) y_ = i;
     }
     const std::string line = "line " + std::to_string(header.line);
     if (!x_ || !y_)
-      return Error{ErrorCode::missing, line, "There are no columns of coordinates: call them x and y, or longitude and latitude."};
+      return Error{ErrorCode::missing, line,
+                   "There are no columns of coordinates: call them x and y, or longitude and latitude."};
     return choose_value(header, line);
   }
 
@@ -92,8 +94,7 @@ class TableReader {
       point.place = "line " + std::to_string(record.line);
       const auto x = number(record, columns[0]), y = number(record, columns[1]), value = number(record, columns[2]);
       if (!x || !y) report.skip("record", point.place, "no coordinates");
-      else if (!value)
-        report.skip("record", point.place, "no value", text(record, value_).substr(0, 40));
+      else if (!value) report.skip("record", point.place, "no value", text(record, value_).substr(0, 40));
       else {
         point.x = *x, point.y = *y, point.value = *value;
         points.push_back(std::move(point));
@@ -106,7 +107,9 @@ class TableReader {
   bool is_degrees = false;
 
  private:
-  static std::string text(const CsvRecord& record, std::size_t index) { return index < record.fields.size() ? record.fields[index] : std::string(); }
+  static std::string text(const CsvRecord& record, std::size_t index) {
+    return index < record.fields.size() ? record.fields[index] : std::string();
+  }
 
   static std::optional<double> number(const CsvRecord& record, const Column& column) {
     const std::string field = text(record, column.index);
@@ -155,8 +158,9 @@ class TableReader {
     }
     std::string list;
     for (const std::size_t i : numeric) list += (list.empty() ? "`" : ", `") + header.fields[i].substr(0, 40) + "`";
-    return Error{ErrorCode::missing, line, numeric.empty() ? "There is no column with numbers beside the coordinates."
-                                                           : "Several columns hold numbers (" + list + "): say which one is the value."};
+    return Error{ErrorCode::missing, line,
+                 numeric.empty() ? "There is no column with numbers beside the coordinates."
+                                 : "Several columns hold numbers (" + list + "): say which one is the value."};
   }
 
   const CsvText& csv_;
@@ -184,8 +188,9 @@ Result<std::string> value_property(const GeoDocument& document) {
       ++hits;
     }
   if (hits == 1) return found;
-  return Error{ErrorCode::missing, "features", hits == 0 ? "No property is a number in every point: say which one is the value."
-                                                         : "Several properties are numbers (" + list + "): say which one is the value."};
+  return Error{ErrorCode::missing, "features",
+               hits == 0 ? "No property is a number in every point: say which one is the value."
+                         : "Several properties are numbers (" + list + "): say which one is the value."};
 }
 
 }  // namespace
@@ -195,7 +200,9 @@ Result<DataLayer> read_layer_csv(std::string_view bytes, const ContextOptions& o
   if (!text) return text.error();
   auto csv = read_csv(*text);
   if (!csv) return csv.error();
-  if (csv->records.empty()) return Error{ErrorCode::missing, "line 1", "The table is empty: it needs a header such as x,y,value and one row for each point."};
+  if (csv->records.empty())
+    return Error{ErrorCode::missing, "line 1",
+                 "The table is empty: it needs a header such as x,y,value and one row for each point."};
   TableReader reader(*csv, value);
   if (auto matched = reader.match(); !matched) return matched.error();
   DataLayer layer;
@@ -204,7 +211,8 @@ Result<DataLayer> read_layer_csv(std::string_view bytes, const ContextOptions& o
   if (!points) return points.error();
   layer.value_name = reader.value_name();
   layer.unit = normal_header(layer.value_name).unit;
-  if (auto placed = place_points(std::move(*points), options, reader.is_degrees ? "OGC:CRS84" : "", "record", layer); !placed) return placed.error();
+  if (auto placed = place_points(std::move(*points), options, reader.is_degrees ? "OGC:CRS84" : "", "record", layer); !placed)
+    return placed.error();
   return layer;
 }
 
@@ -231,9 +239,11 @@ Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOption
       continue;
     }
     if (crs.empty()) crs = feature.crs;
-    const auto property = std::find_if(feature.properties.begin(), feature.properties.end(), [&](const auto& p) { return p.first == layer.value_name; });
+    const auto property = std::find_if(feature.properties.begin(), feature.properties.end(),
+                                       [&](const auto& p) { return p.first == layer.value_name; });
     const auto number = property == feature.properties.end() ? std::nullopt : parse_number(property->second);
-    if (!number) layer.report.skip("feature", place, "no value", property == feature.properties.end() ? "" : property->second.substr(0, 40));
+    if (!number)
+      layer.report.skip("feature", place, "no value", property == feature.properties.end() ? "" : property->second.substr(0, 40));
     else
       for (const GeoPoint& point : feature.points) points.push_back({place, point.position[0], point.position[1], *number});
   }

@@ -23,8 +23,10 @@ struct Alias {
   std::array<std::string_view, 9> theirs;
 };
 constexpr std::array kAliases = {
-    Alias{"height", {"height", "measuredheight", "building:height", "bldg_height", "hoehe", "hauteur", "hoogte", "roof_height", "h"}},
-    Alias{"levels", {"building:levels", "levels", "floors", "storeys", "stories", "num_floors", "bouwlagen", "geschosse", "etages"}},
+    Alias{"height",
+          {"height", "measuredheight", "building:height", "bldg_height", "hoehe", "hauteur", "hoogte", "roof_height", "h"}},
+    Alias{"levels",
+          {"building:levels", "levels", "floors", "storeys", "stories", "num_floors", "bouwlagen", "geschosse", "etages"}},
     Alias{"base", {"min_height", "base_height", "ground_height", "base"}},
     Alias{"name", {"name", "title", "naam"}},
     Alias{"use", {"use", "function", "usage", "building:use", "building", "class", "landuse", "natural"}},
@@ -81,12 +83,9 @@ class Importer {
     if (id_.empty()) id_ = std::to_string(index);
     const std::string shown = feature.place.empty() ? "the feature" : feature.place;
     if (!feature.polygons.empty()) polygons(feature, properties, shown);
-    else if (!feature.lines.empty())
-      lines(feature, properties, shown);
-    else if (!feature.points.empty())
-      context_.report.skip("feature", shown, "a single place: points are not read");
-    else
-      context_.report.skip("feature", shown, "it has no geometry");
+    else if (!feature.lines.empty()) lines(feature, properties, shown);
+    else if (!feature.points.empty()) context_.report.skip("feature", shown, "a single place: points are not read");
+    else context_.report.skip("feature", shown, "it has no geometry");
   }
 
   std::size_t unsure = 0;  // polygons whose properties did not say what they are
@@ -129,8 +128,7 @@ class Importer {
     if (taken < feature.polygons.size())
       note(mended, std::to_string(feature.polygons.size() - taken) + " of its polygons left out: " + fault);
     if (mended.empty()) context_.report.take("feature", shown, kind);
-    else
-      context_.report.repair("feature", shown, kind, mended);
+    else context_.report.repair("feature", shown, kind, mended);
   }
 
   // Empty where it was taken, else the reason why not.
@@ -152,7 +150,8 @@ class Importer {
     }
     sort_holes(outer.ring, holes, mended);
     if (kind != "building") {
-      context_.areas.push_back({id, properties.get("name"), properties.get("use"), std::move(outer.ring), std::move(holes), kind == "plot"});
+      context_.areas.push_back(
+          {id, properties.get("name"), properties.get("use"), std::move(outer.ring), std::move(holes), kind == "plot"});
       return {};
     }
     ContextBuilding& building = context_.buildings.emplace_back();
@@ -203,10 +202,10 @@ class Importer {
       ++taken;
     }
     if (taken == 0) return context_.report.skip("feature", shown, "street: " + fault);
-    if (taken < feature.lines.size()) note(mended, std::to_string(feature.lines.size() - taken) + " of its lines left out: " + fault);
+    if (taken < feature.lines.size())
+      note(mended, std::to_string(feature.lines.size() - taken) + " of its lines left out: " + fault);
     if (mended.empty()) context_.report.take("feature", shown, "street");
-    else
-      context_.report.repair("feature", shown, "street", mended);
+    else context_.report.repair("feature", shown, "street", mended);
   }
 
  public:
@@ -226,7 +225,8 @@ class Importer {
         street.id = raw.id + "/" + std::to_string(number++);
         street.name = raw.name;
         street.street_class = raw.road.road_class;
-        street.line.assign(raw.line.begin() + static_cast<std::ptrdiff_t>(first), raw.line.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        street.line.assign(raw.line.begin() + static_cast<std::ptrdiff_t>(first),
+                           raw.line.begin() + static_cast<std::ptrdiff_t>(i) + 1);
         street.start = junction(raw.line[first]);
         street.end = junction(raw.line[i]);
         street.lanes = raw.road.lanes;
@@ -288,8 +288,9 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   const std::string crs = document->features.front().crs;
   for (const GeoFeature& feature : document->features)
     if (feature.crs != crs && options.crs.empty())
-      return Error{ErrorCode::conflict, feature.place, "This feature is in " + feature.crs + ", the first one in " + crs +
-                                                           ": split the file, or give one CRS for all."};
+      return Error{
+          ErrorCode::conflict, feature.place,
+          "This feature is in " + feature.crs + ", the first one in " + crs + ": split the file, or give one CRS for all."};
   auto frame = context_frame(options, crs, *centre);
   if (!frame) return frame.error();
   Context context;
@@ -301,8 +302,9 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   for (std::size_t i = 0; i < document->features.size(); ++i) importer.read(document->features[i], i);
   importer.cut_streets();
   if (importer.unsure > 0)
-    context.notes.push_back("The properties of " + std::to_string(importer.unsure) +
-                            " polygons do not say what they are: they were taken as buildings. Say so if they are plots or areas.");
+    context.notes.push_back(
+        "The properties of " + std::to_string(importer.unsure) +
+        " polygons do not say what they are: they were taken as buildings. Say so if they are plots or areas.");
   assume_heights(options, context);
   return context;
 }

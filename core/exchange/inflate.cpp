@@ -9,10 +9,13 @@ namespace bl {
 
 Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
   const auto refused = [](const char* name) {
-    return Error{ErrorCode::parse, "", std::string("The file is packed with ") + name + ", which is not read: unpack it, or pack it with gzip."};
+    return Error{ErrorCode::parse, "",
+                 std::string("The file is packed with ") + name + ", which is not read: unpack it, or pack it with gzip."};
   };
   if (bytes.starts_with("BZh")) return refused("bzip2");
-  if (bytes.starts_with("\xFD" "7zXZ")) return refused("xz");
+  if (bytes.starts_with("\xFD"
+                        "7zXZ"))
+    return refused("xz");
   if (bytes.starts_with("PK\x03\x04")) return refused("zip");
   if (!bytes.starts_with("\x1F\x8B")) return std::string(bytes);
   std::string text;
@@ -38,8 +41,9 @@ Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
   const std::size_t read = stream.total_in;
   inflateEnd(&stream);
   if (text.size() > limit)
-    return Error{ErrorCode::out_of_range, "", "The file unpacks to more than " + std::to_string(limit >> 20) +
-                                                  " MiB, the most that is read: cut out the part that you need."};
+    return Error{ErrorCode::out_of_range, "",
+                 "The file unpacks to more than " + std::to_string(limit >> 20) +
+                     " MiB, the most that is read: cut out the part that you need."};
   if (state != Z_STREAM_END)
     return Error{ErrorCode::parse, "byte " + std::to_string(read),
                  "The packed file is damaged or cut off here: fetch or pack it again."};

@@ -13,8 +13,8 @@ namespace bl {
 
 namespace {
 
-constexpr double kCovered = 0.9;        // [ratio] of a building: parts that cover less do not replace it
-constexpr double kSameHeight = 0.01;    // [m]
+constexpr double kCovered = 0.9;      // [ratio] of a building: parts that cover less do not replace it
+constexpr double kSameHeight = 0.01;  // [m]
 
 // An outline with its holes, and where its row stands.
 struct Shape {
@@ -71,8 +71,7 @@ Joined join(std::vector<const OsmWay*> ways) {
       chain.insert(chain.end(), more.begin() + 1, more.end());
     }
     if (chain.front() == chain.back() && chain.size() > 3) joined.rings.push_back(std::move(chain));
-    else
-      ++joined.open;
+    else ++joined.open;
   }
   return joined;
 }
@@ -148,7 +147,8 @@ class Areas {
     if (type == "restriction") return;  // the streets' concern
     if (type != "multipolygon")
       return decide(row, ImportOutcome::skipped,
-                    type == "building" ? "groups a building and its parts, which are read by themselves" : "relations of this type are not read",
+                    type == "building" ? "groups a building and its parts, which are read by themselves"
+                                       : "relations of this type are not read",
                     "type=" + type);
     std::vector<const OsmWay*> outer, inner;
     std::size_t missing = 0;
@@ -214,7 +214,8 @@ class Areas {
         continue;
       }
       const Point3 inside = place_inside(hole);
-      const auto home = std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) { return ring_contains(s.outer, inside); });
+      const auto home =
+          std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) { return ring_contains(s.outer, inside); });
       if (home == shapes.end()) note(mended, "an inner ring outside of all outer ones left out");
       else home->holes.push_back(std::move(hole));
     }
@@ -230,8 +231,7 @@ class Areas {
     if (!way.is_closed()) {
       if (!is_built && tag_of(way.tags, "area") != "yes")
         return decide(row, ImportOutcome::skipped, "area of ground: its line is open", osm_ground(way.tags));
-      return decide(row, ImportOutcome::skipped, word + ": its line is open",
-                    std::to_string(way.nodes.size()) + " nodes");
+      return decide(row, ImportOutcome::skipped, word + ": its line is open", std::to_string(way.nodes.size()) + " nodes");
     }
     Shape shape;
     std::string fault;
@@ -282,8 +282,7 @@ class Areas {
             (!home || ground_area(wholes_[w].building) < ground_area(wholes_[*home].building)))
           home = w;
       if (home) parts_of[*home].push_back(p);
-      else
-        parts_[p].building.is_part = false;  // nobody's part: a building like any other
+      else parts_[p].building.is_part = false;  // nobody's part: a building like any other
     }
     for (const auto& [w, list] : parts_of) {
       Candidate& whole = wholes_[w];
@@ -300,7 +299,8 @@ class Areas {
         note(whole.row->detail, std::to_string(list.size()) + " parts");
         for (const std::size_t p : list)
           if (parts_[p].building.height == 0 && whole.building.height > 0) {
-            parts_[p].building.height = std::max(kSameHeight, whole.building.base + whole.building.height - parts_[p].building.base);
+            parts_[p].building.height =
+                std::max(kSameHeight, whole.building.base + whole.building.height - parts_[p].building.base);
             parts_[p].building.height_source = whole.building.height_source;
           }
       } else {
@@ -320,7 +320,8 @@ class Areas {
       return;
     }
     part.is_dropped = true;
-    decide(*part.row, ImportOutcome::skipped, "building part: within its building, whose parts do not cover it", part.building.whole);
+    decide(*part.row, ImportOutcome::skipped, "building part: within its building, whose parts do not cover it",
+           part.building.whole);
   }
 
   OsmImport& in_;

@@ -38,10 +38,8 @@ void report_nodes(const OsmStore& store, ImportReport& report) {
   for (const OsmNode& node : store.nodes) {
     const bool is_used = used.contains(node.id);
     if (!node.has_position) ++lost;
-    else if (is_used)
-      ++corners;
-    else if (node.tags.empty())
-      ++loose;
+    else if (is_used) ++corners;
+    else if (node.tags.empty()) ++loose;
     else
       report.skip("node", "n" + std::to_string(node.id), "a single place: points are not read",
                   node.tags.begin()->first + "=" + node.tags.begin()->second);
@@ -82,8 +80,7 @@ std::vector<Point3> OsmImport::places(const std::vector<std::int64_t>& nodes, st
   for (const std::int64_t id : nodes) {
     const OsmNode* node = store->node(id);
     if (node == nullptr || !node->has_position) ++missing;
-    else
-      places.push_back(frame->to_local(node->longitude, node->latitude));
+    else places.push_back(frame->to_local(node->longitude, node->latitude));
   }
   return places;
 }
@@ -102,7 +99,8 @@ Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& o
   context.reference = frame->reference();
   context.notes = frame->notes();
   OsmImport import{&*store, &options, &*frame, &context, {}, {}};
-  for (const OsmWay& way : store->ways) import.ways.push_back({ImportOutcome::taken, "way", "w" + std::to_string(way.id), "", "", 1});
+  for (const OsmWay& way : store->ways)
+    import.ways.push_back({ImportOutcome::taken, "way", "w" + std::to_string(way.id), "", "", 1});
   for (const OsmRelation& relation : store->relations)
     import.relations.push_back({ImportOutcome::taken, "relation", "r" + std::to_string(relation.id), "", "", 1});
   read_osm_areas(import);

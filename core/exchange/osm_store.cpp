@@ -56,8 +56,7 @@ std::size_t sort_and_keep_last(std::vector<Element>& list) {
   kept.reserve(list.size());
   for (Element& element : list) {
     if (!kept.empty() && kept.back().id == element.id) kept.back() = std::move(element);
-    else
-      kept.push_back(std::move(element));
+    else kept.push_back(std::move(element));
   }
   const std::size_t dropped = list.size() - kept.size();
   list = std::move(kept);
@@ -87,8 +86,9 @@ Result<OsmStore> read(const std::string& bytes, const std::string& format) {
   while (const osmium::memory::Buffer buffer = reader.read()) {
     take(buffer, store);
     if (store.nodes.size() + store.ways.size() + store.relations.size() > kMostOsmElements)
-      return Error{ErrorCode::out_of_range, "", "The file holds more than " + std::to_string(kMostOsmElements) +
-                                                    " elements, the most that is read: cut out the part that you need."};
+      return Error{ErrorCode::out_of_range, "",
+                   "The file holds more than " + std::to_string(kMostOsmElements) +
+                       " elements, the most that is read: cut out the part that you need."};
   }
   reader.close();
   store.older_nodes = sort_and_keep_last(store.nodes);

@@ -64,10 +64,11 @@ class Streets {
         continue;
       }
       if (i > first) {
-        if (add_piece(way, road, {nodes.begin() + static_cast<std::ptrdiff_t>(first), nodes.begin() + static_cast<std::ptrdiff_t>(i) + 1}, pieces))
+        if (add_piece(way, road,
+                      {nodes.begin() + static_cast<std::ptrdiff_t>(first), nodes.begin() + static_cast<std::ptrdiff_t>(i) + 1},
+                      pieces))
           ++pieces;
-        else
-          ++beyond;
+        else ++beyond;
       }
       first = i;
     }
@@ -104,7 +105,8 @@ class Streets {
     if (beyond > 0) add(std::to_string(beyond) + " pieces are out of reach");
     if (!road.fault.empty()) add("not understood: " + road.fault);
     if (pieces == 0)
-      return decide(row, ImportOutcome::skipped, beyond > 0 ? "street: it lies out of reach" : "street: its nodes are not in the file", detail);
+      return decide(row, ImportOutcome::skipped,
+                    beyond > 0 ? "street: it lies out of reach" : "street: its nodes are not in the file", detail);
     decide(row, missing > 0 || !road.fault.empty() ? ImportOutcome::repaired : ImportOutcome::taken, "street", detail);
   }
 

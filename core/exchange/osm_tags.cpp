@@ -35,18 +35,18 @@ struct RoadClass {
   bool for_cars, for_cycles, for_feet;
 };
 constexpr std::array kRoads = {
-    RoadClass{"motorway", 2, 120, true, false, false},     RoadClass{"motorway_link", 1, 80, true, false, false},
-    RoadClass{"trunk", 2, 100, true, true, false},         RoadClass{"trunk_link", 1, 60, true, true, false},
-    RoadClass{"primary", 2, 50, true, true, true},         RoadClass{"primary_link", 1, 50, true, true, true},
-    RoadClass{"secondary", 2, 50, true, true, true},       RoadClass{"secondary_link", 1, 50, true, true, true},
-    RoadClass{"tertiary", 2, 50, true, true, true},        RoadClass{"tertiary_link", 1, 50, true, true, true},
-    RoadClass{"unclassified", 2, 50, true, true, true},    RoadClass{"residential", 2, 50, true, true, true},
-    RoadClass{"road", 2, 50, true, true, true},            RoadClass{"living_street", 1, 20, true, true, true},
-    RoadClass{"service", 1, 20, true, true, true},         RoadClass{"track", 1, 20, true, true, true},
-    RoadClass{"busway", 1, 50, false, false, false},       RoadClass{"bus_guideway", 1, 50, false, false, false},
-    RoadClass{"pedestrian", 1, 5, false, true, true},      RoadClass{"footway", 1, 5, false, false, true},
-    RoadClass{"path", 1, 5, false, true, true},            RoadClass{"cycleway", 1, 20, false, true, true},
-    RoadClass{"bridleway", 1, 5, false, false, true},      RoadClass{"steps", 1, 3, false, false, true},
+    RoadClass{"motorway", 2, 120, true, false, false},  RoadClass{"motorway_link", 1, 80, true, false, false},
+    RoadClass{"trunk", 2, 100, true, true, false},      RoadClass{"trunk_link", 1, 60, true, true, false},
+    RoadClass{"primary", 2, 50, true, true, true},      RoadClass{"primary_link", 1, 50, true, true, true},
+    RoadClass{"secondary", 2, 50, true, true, true},    RoadClass{"secondary_link", 1, 50, true, true, true},
+    RoadClass{"tertiary", 2, 50, true, true, true},     RoadClass{"tertiary_link", 1, 50, true, true, true},
+    RoadClass{"unclassified", 2, 50, true, true, true}, RoadClass{"residential", 2, 50, true, true, true},
+    RoadClass{"road", 2, 50, true, true, true},         RoadClass{"living_street", 1, 20, true, true, true},
+    RoadClass{"service", 1, 20, true, true, true},      RoadClass{"track", 1, 20, true, true, true},
+    RoadClass{"busway", 1, 50, false, false, false},    RoadClass{"bus_guideway", 1, 50, false, false, false},
+    RoadClass{"pedestrian", 1, 5, false, true, true},   RoadClass{"footway", 1, 5, false, false, true},
+    RoadClass{"path", 1, 5, false, true, true},         RoadClass{"cycleway", 1, 20, false, true, true},
+    RoadClass{"bridleway", 1, 5, false, false, true},   RoadClass{"steps", 1, 3, false, false, true},
     RoadClass{"corridor", 1, 5, false, false, true},
 };
 
@@ -62,8 +62,7 @@ void read_access(const OsmTags& tags, OsmRoad& road) {
   const auto allow = [&tags](const char* key, bool& mode) {
     const std::string& value = tag_of(tags, key);
     if (is_no(value)) mode = false;
-    else if (value == "yes" || value == "designated" || value == "permissive")
-      mode = true;
+    else if (value == "yes" || value == "designated" || value == "permissive") mode = true;
   };
   for (const char* key : {"access", "vehicle"}) {
     const bool no = is_no(tag_of(tags, key));
@@ -79,8 +78,7 @@ void read_direction(const OsmTags& tags, OsmRoad& road) {
   const std::string& oneway = tag_of(tags, "oneway");
   const std::string& junction = tag_of(tags, "junction");
   if (oneway == "yes" || oneway == "true" || oneway == "1") road.direction = 1;
-  else if (oneway == "-1" || oneway == "reverse")
-    road.direction = -1;
+  else if (oneway == "-1" || oneway == "reverse") road.direction = -1;
   else if (oneway != "no" && (junction == "roundabout" || junction == "circular" || road.road_class == "motorway"))
     road.direction = 1;
   if (!oneway.empty() && oneway != "no" && oneway != "false" && oneway != "0" && road.direction == 0)
@@ -184,8 +182,7 @@ OsmRoad osm_road(const OsmTags& tags) {
     const auto number = osm_number(lanes);
     road.is_lanes_assumed = !(number && *number > 0 && *number <= 20);
     if (!road.is_lanes_assumed) road.lanes = *number;
-    else
-      road.fault += (road.fault.empty() ? "" : ", ") + std::string("lanes=") + lanes.substr(0, 40);
+    else road.fault += (road.fault.empty() ? "" : ", ") + std::string("lanes=") + lanes.substr(0, 40);
   }
   if (const std::string& speed = tag_of(tags, "maxspeed"); !speed.empty()) {
     const auto number = osm_speed(speed);

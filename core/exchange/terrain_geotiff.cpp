@@ -74,7 +74,8 @@ std::string crs_of(TIFF* tiff) {
   if (keys == nullptr) return {};
   unsigned short model = 0, code = 0;
   GTIFKeyGetSHORT(keys, GTModelTypeGeoKey, &model, 0, 1);
-  const bool is_found = GTIFKeyGetSHORT(keys, model == ModelTypeProjected ? ProjectedCSTypeGeoKey : GeographicTypeGeoKey, &code, 0, 1) == 1;
+  const bool is_found =
+      GTIFKeyGetSHORT(keys, model == ModelTypeProjected ? ProjectedCSTypeGeoKey : GeographicTypeGeoKey, &code, 0, 1) == 1;
   GTIFFree(keys);
   constexpr unsigned short kUserDefined = 32767;
   return is_found && code > 0 && code != kUserDefined ? tidy_crs_name("EPSG:" + std::to_string(code)) : std::string();
@@ -104,9 +105,12 @@ Result<void> place(TIFF* tiff, TerrainGrid& grid) {
     grid.cell_y = -numbers[5];
     x = numbers[3], y = numbers[7];
   } else {
-    return Error{ErrorCode::missing, "GeoTIFF tags", "The picture has no place on Earth (no pixel scale and tie point), or is turned: export it as a GeoTIFF with north up."};
+    return Error{
+        ErrorCode::missing, "GeoTIFF tags",
+        "The picture has no place on Earth (no pixel scale and tie point), or is turned: export it as a GeoTIFF with north up."};
   }
-  if (!(grid.cell_x > 0) || !(grid.cell_y > 0) || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(column) || !std::isfinite(row))
+  if (!(grid.cell_x > 0) || !(grid.cell_y > 0) || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(column) ||
+      !std::isfinite(row))
     return Error{ErrorCode::out_of_range, "GeoTIFF tags", "The size of the cells must be more than 0, with north up."};
   const double half = is_pixel_a_point(tiff) ? 0 : 0.5;
   grid.west = x + (half - column) * grid.cell_x;
@@ -127,12 +131,19 @@ struct Sample {
   double read(const unsigned char* at) const {
     if (format == SAMPLEFORMAT_IEEEFP) return bits == 32 ? as<float>(at) : as<double>(at);
     if (format == SAMPLEFORMAT_INT)
-      return bits == 8 ? as<std::int8_t>(at) : bits == 16 ? as<std::int16_t>(at) : bits == 32 ? as<std::int32_t>(at) : as<std::int64_t>(at);
-    return bits == 8 ? as<std::uint8_t>(at) : bits == 16 ? as<std::uint16_t>(at) : bits == 32 ? as<std::uint32_t>(at) : as<std::uint64_t>(at);
+      return bits == 8    ? as<std::int8_t>(at)
+             : bits == 16 ? as<std::int16_t>(at)
+             : bits == 32 ? as<std::int32_t>(at)
+                          : as<std::int64_t>(at);
+    return bits == 8    ? as<std::uint8_t>(at)
+           : bits == 16 ? as<std::uint16_t>(at)
+           : bits == 32 ? as<std::uint32_t>(at)
+                        : as<std::uint64_t>(at);
   }
   bool is_known() const {
     const bool is_whole = format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT;
-    return (is_whole && (bits == 8 || bits == 16 || bits == 32 || bits == 64)) || (format == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64));
+    return (is_whole && (bits == 8 || bits == 16 || bits == 32 || bits == 64)) ||
+           (format == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64));
   }
 };
 
@@ -151,18 +162,23 @@ Result<void> read_blocks(TIFF* tiff, const MemoryFile& file, const Sample& sampl
   }
   const std::size_t pixel = sample.bits / 8u * (planar == PLANARCONFIG_CONTIG ? sample.per_pixel : 1u);
   const tmsize_t size = is_tiled ? TIFFTileSize(tiff) : TIFFStripSize(tiff);
-  if (width == 0 || height == 0 || size <= 0 || static_cast<std::size_t>(size) < pixel * width * height || static_cast<std::size_t>(size) > (std::size_t{1} << 29))
+  if (width == 0 || height == 0 || size <= 0 || static_cast<std::size_t>(size) < pixel * width * height ||
+      static_cast<std::size_t>(size) > (std::size_t{1} << 29))
     return Error{ErrorCode::parse, "TIFF", "The blocks of the picture have no sensible size: the file is damaged."};
   std::vector<unsigned char> block(static_cast<std::size_t>(size));
   for (std::size_t top = 0; top < grid.rows; top += height)
     for (std::size_t left = 0; left < grid.columns; left += width) {
-      const std::uint32_t number = is_tiled ? TIFFComputeTile(tiff, static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(top), 0, 0)
-                                            : TIFFComputeStrip(tiff, static_cast<std::uint32_t>(top), 0);
-      const std::size_t rows = std::min<std::size_t>(height, grid.rows - top), columns = std::min<std::size_t>(width, grid.columns - left);
-      const tmsize_t got = is_tiled ? TIFFReadEncodedTile(tiff, number, block.data(), size) : TIFFReadEncodedStrip(tiff, number, block.data(), size);
+      const std::uint32_t number =
+          is_tiled ? TIFFComputeTile(tiff, static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(top), 0, 0)
+                   : TIFFComputeStrip(tiff, static_cast<std::uint32_t>(top), 0);
+      const std::size_t rows = std::min<std::size_t>(height, grid.rows - top),
+                        columns = std::min<std::size_t>(width, grid.columns - left);
+      const tmsize_t got = is_tiled ? TIFFReadEncodedTile(tiff, number, block.data(), size)
+                                    : TIFFReadEncodedStrip(tiff, number, block.data(), size);
       if (got < 0 || static_cast<std::size_t>(got) < pixel * width * (rows - 1) + pixel * columns)
         return Error{ErrorCode::parse, "block " + std::to_string(number),
-                     "The picture cannot be read from here on" + (file.message.empty() ? "" : " (" + file.message + ")") + ": is the file complete?"};
+                     "The picture cannot be read from here on" + (file.message.empty() ? "" : " (" + file.message + ")") +
+                         ": is the file complete?"};
       for (std::size_t r = 0; r < rows; ++r)
         for (std::size_t c = 0; c < columns; ++c)
           grid.values[(top + r) * grid.columns + left + c] = sample.read(block.data() + (r * width + c) * pixel);
@@ -190,7 +206,10 @@ void drop_nodata(TIFF* tiff, TerrainGrid& grid) {
 Result<TerrainGrid> read_geotiff(std::string_view bytes) {
   MemoryFile file{bytes, 0, {}};
   const Tiff tiff = open(file);
-  if (!tiff) return Error{ErrorCode::parse, "TIFF", "The file cannot be read as TIFF" + (file.message.empty() ? "" : " (" + file.message + ")") + ": is it complete?"};
+  if (!tiff)
+    return Error{
+        ErrorCode::parse, "TIFF",
+        "The file cannot be read as TIFF" + (file.message.empty() ? "" : " (" + file.message + ")") + ": is it complete?"};
   std::uint32_t width = 0, height = 0;
   Sample sample;
   TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
@@ -203,9 +222,11 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes) {
   grid.rows = height;
   if (width == 0 || height == 0) return Error{ErrorCode::parse, "TIFF", "The picture has no pixels."};
   if (grid.columns * grid.rows > kMostGridCells)
-    return Error{ErrorCode::out_of_range, "TIFF", "The picture has more than " + std::to_string(kMostGridCells) + " pixels: cut out the part that you need."};
+    return Error{ErrorCode::out_of_range, "TIFF",
+                 "The picture has more than " + std::to_string(kMostGridCells) + " pixels: cut out the part that you need."};
   if (!sample.is_known() || sample.per_pixel == 0)
-    return Error{ErrorCode::parse, "TIFF", "Pixels of this kind are not read: 8 to 64 bit whole numbers and 32 or 64 bit floating ones are."};
+    return Error{ErrorCode::parse, "TIFF",
+                 "Pixels of this kind are not read: 8 to 64 bit whole numbers and 32 or 64 bit floating ones are."};
   if (auto placed = place(tiff.get(), grid); !placed) return placed.error();
   grid.crs = crs_of(tiff.get());
   // What the file has room for, unpacked a thousand times at most.

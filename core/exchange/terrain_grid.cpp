@@ -48,13 +48,15 @@ std::optional<double> number_of(std::string_view word) {
 }
 
 Error no_grid(const std::string& place, const std::string& what) {
-  return {ErrorCode::parse, place, what + " An ASCII grid begins with ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value."};
+  return {ErrorCode::parse, place,
+          what + " An ASCII grid begins with ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value."};
 }
 
 Result<TerrainGrid> read_ascii(std::string_view text) {
   Words words(text);
   std::map<std::string, double> header;
-  const std::vector<std::string> known{"ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter", "cellsize", "dx", "dy", "nodata_value"};
+  const std::vector<std::string> known{"ncols",     "nrows",    "xllcorner", "yllcorner", "xllcenter",
+                                       "yllcenter", "cellsize", "dx",        "dy",        "nodata_value"};
   while (true) {
     const Words before = words;
     const std::string name = lower_case(words.next().substr(0, 40));
@@ -73,7 +75,8 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
       return no_grid("header", std::string("`") + name + "` must be a whole number, at least 1.");
   TerrainGrid grid;
   if (header["ncols"] * header["nrows"] > static_cast<double>(kMostGridCells))
-    return Error{ErrorCode::out_of_range, "header", "The grid has more than " + std::to_string(kMostGridCells) + " cells: cut out the part that you need."};
+    return Error{ErrorCode::out_of_range, "header",
+                 "The grid has more than " + std::to_string(kMostGridCells) + " cells: cut out the part that you need."};
   grid.columns = static_cast<std::size_t>(header["ncols"]);
   grid.rows = static_cast<std::size_t>(header["nrows"]);
   grid.cell_x = has("dx") ? header["dx"] : has("cellsize") ? header["cellsize"] : 0;
@@ -87,17 +90,21 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
   const double nodata = has("nodata_value") ? header["nodata_value"] : -9999;
   const std::size_t count = grid.columns * grid.rows;
   // A cell takes two characters at least; a header that promises more than the file can hold is not believed.
-  if (count > text.size()) return Error{ErrorCode::parse, "header", "The header promises " + std::to_string(count) + " cells, more than the file can hold: is it complete?"};
+  if (count > text.size())
+    return Error{ErrorCode::parse, "header",
+                 "The header promises " + std::to_string(count) + " cells, more than the file can hold: is it complete?"};
   grid.values.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string_view word = words.next();
     if (word.empty())
-      return Error{ErrorCode::parse, "end of the file", "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) + " cells: is the file complete?"};
+      return Error{ErrorCode::parse, "end of the file",
+                   "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) + " cells: is the file complete?"};
     const auto value = number_of(word);
     if (!value) return Error{ErrorCode::parse, words.place(), "`" + std::string(word.substr(0, 40)) + "` is no number."};
     grid.values.push_back(*value == nodata || !std::isfinite(*value) ? kNothing : *value);
   }
-  if (!words.next().empty()) grid.notes.push_back("What follows after the last cell, from " + words.place() + " on, was left out.");
+  if (!words.next().empty())
+    grid.notes.push_back("What follows after the last cell, from " + words.place() + " on, was left out.");
   summarise(grid);
   return grid;
 }
@@ -108,7 +115,8 @@ bool is_shift(const LocalFrame& frame, const TerrainGrid& grid) {
   const double east = grid.west + grid.cell_x * static_cast<double>(grid.columns - 1);
   const double south = grid.north - grid.cell_y * static_cast<double>(grid.rows - 1);
   const Point3 a = frame.to_local(grid.west, grid.north), b = frame.to_local(east, south);
-  return std::abs(b.x - a.x - (east - grid.west)) < 1e-6 && std::abs(b.y - a.y - (south - grid.north)) < 1e-6 && grid.cell_x == grid.cell_y;
+  return std::abs(b.x - a.x - (east - grid.west)) < 1e-6 && std::abs(b.y - a.y - (south - grid.north)) < 1e-6 &&
+         grid.cell_x == grid.cell_y;
 }
 
 struct Box {
@@ -193,15 +201,16 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
   local.reference = frame->reference();
   local.notes = frame->notes();
   const Box box = box_of(*frame, grid, options.radius);
-  if (!(box.east >= box.west) || !(box.north >= box.south) || !std::isfinite(box.east - box.west) || !std::isfinite(box.north - box.south))
+  if (!(box.east >= box.west) || !(box.north >= box.south) || !std::isfinite(box.east - box.west) ||
+      !std::isfinite(box.north - box.south))
     return Error{ErrorCode::out_of_range, "", "No cell of the grid lies within the radius of the origin, or its CRS is wrong."};
   if (std::max({std::abs(box.west), std::abs(box.east), std::abs(box.south), std::abs(box.north)}) > kContextExtent)
-    return Error{ErrorCode::out_of_range, "", "The grid reaches more than 100 km from the origin: cut out the part that you need, or give a radius."};
+    return Error{ErrorCode::out_of_range, "",
+                 "The grid reaches more than 100 km from the origin: cut out the part that you need, or give a radius."};
   const Point3 corner = frame->to_local(grid.west, grid.north);
   const bool keeps_cells = is_shift(*frame, grid);
   const Point3 near = frame->from_local(0, 0), beside = frame->from_local(1, 0), above = frame->from_local(0, 1);
-  const double per_metre = std::max(std::hypot(beside.x - near.x, beside.y - near.y) / grid.cell_x,
-                                    std::hypot(above.x - near.x, above.y - near.y) / grid.cell_y);
+  const double per_metre = std::max(distance(near, beside) / grid.cell_x, distance(near, above) / grid.cell_y);
   local.cell = keeps_cells ? grid.cell_x : std::max(0.01, std::round(100 / per_metre) / 100);
   double step = 1;
   const auto cells = [&](double length) { return std::floor(length / local.cell + 1e-9) + 1; };
@@ -216,15 +225,18 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
   local.values.reserve(local.columns * local.rows);
   for (std::size_t row = 0; row < local.rows; ++row)
     for (std::size_t column = 0; column < local.columns; ++column) {
-      const Point3 at = frame->from_local(local.west + local.cell * static_cast<double>(column), local.north - local.cell * static_cast<double>(row));
+      const Point3 at = frame->from_local(local.west + local.cell * static_cast<double>(column),
+                                          local.north - local.cell * static_cast<double>(row));
       const auto value = grid.sample(at.x, at.y);
       local.values.push_back(value.value_or(kNothing));
       nothing += value ? 0 : 1;
     }
-  local.report.take("cell", "", local.is_resampled ? "height sampled anew" : "height as in the file", "", local.values.size() - nothing);
+  local.report.take("cell", "", local.is_resampled ? "height sampled anew" : "height as in the file", "",
+                    local.values.size() - nothing);
   if (nothing > 0) local.report.skip("cell", "", "no value, or outside the grid", "", nothing);
   const std::size_t given = grid.columns * grid.rows;
-  if (!local.is_resampled && given > local.values.size()) local.report.skip("cell", "", "it lies beyond the radius", "", given - local.values.size());
+  if (!local.is_resampled && given > local.values.size())
+    local.report.skip("cell", "", "it lies beyond the radius", "", given - local.values.size());
   if (local.is_resampled)
     local.notes.push_back("The grid was sampled anew: " + std::to_string(given) + " cells of the file became " +
                           std::to_string(local.values.size()) + " of " + shortest(local.cell) + " m.");

@@ -15,10 +15,10 @@ namespace bl {
 
 /// As the file has it: rows from north to south, in the units of its CRS; cells without a value are not finite.
 struct TerrainGrid {
-  std::string crs;               ///< tidy name; empty where the file says nothing
+  std::string crs;  ///< tidy name; empty where the file says nothing
   std::size_t columns = 0, rows = 0;
-  double west = 0, north = 0;    ///< centre of the first cell of the first row
-  double cell_x = 1, cell_y = 1; ///< size of a cell, both positive
+  double west = 0, north = 0;     ///< centre of the first cell of the first row
+  double cell_x = 1, cell_y = 1;  ///< size of a cell, both positive
   std::vector<double> values;
   std::size_t without_value = 0;
   double lowest = 0, highest = 0;

@@ -1,7 +1,7 @@
 // The value at a place from scattered points with values: of the nearest one, weighted by distance, or the mean nearby.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -28,7 +28,7 @@ class PointSampler {
       nearest_ = squared;
       nearest_value_ = value;
     }
-    const double weight = method_ == Sampling::mean ? 1 : 1 / std::fmax(squared, 1e-12);
+    const double weight = method_ == Sampling::mean ? 1 : 1 / std::max(squared, 1e-12);
     sum_ += weight * value;
     weight_ += weight;
   }

@@ -33,8 +33,7 @@ class Clipping {
       first += static_cast<std::uint32_t>(rings[r].size());
       if (is_turned(rings[r], r)) std::reverse(loop.begin(), loop.end());
       if (r == 0) loop_ = std::move(loop);
-      else if (loop.size() >= 3)
-        holes.push_back(std::move(loop));
+      else if (loop.size() >= 3) holes.push_back(std::move(loop));
     }
     if (loop_.size() < 3) return {};
     // The rightmost hole first: its bridge to the outside cannot run through another one that is bridged later.
@@ -88,7 +87,8 @@ class Clipping {
     });
     const auto seen = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
       const Point3 &from = points_[start], &to = points_[loop_[i]];
-      return leads_inside(loop_, i, from) && leads_inside(hole, begins, to) && !crosses(loop_, from, to) && !crosses(hole, from, to) &&
+      return leads_inside(loop_, i, from) && leads_inside(hole, begins, to) && !crosses(loop_, from, to) &&
+             !crosses(hole, from, to) &&
              std::none_of(others.begin(), others.end(), [&](const Loop& other) { return crosses(other, from, to); });
     });
     const std::size_t at = seen == order.end() ? order.front() : *seen;

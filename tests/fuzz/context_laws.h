@@ -30,7 +30,8 @@ inline void check_context(const Result<Context>& context) {
     require(street.speed > 0 && street.lanes > 0, "a street without speed or lanes");
   }
   for (const ContextRestriction& turn : context->restrictions)
-    require(turn.from < context->streets.size() && turn.to < context->streets.size() && turn.via < context->junctions.size(), "a turn to nowhere");
+    require(turn.from < context->streets.size() && turn.to < context->streets.size() && turn.via < context->junctions.size(),
+            "a turn to nowhere");
   for (const ImportRow& row : context->report.rows()) require(!row.reason.empty() && row.count > 0, "a row without a reason");
 }
 

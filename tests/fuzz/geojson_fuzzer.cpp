@@ -1,4 +1,5 @@
-// Feeds bytes to the GeoJSON importers of surroundings and of data layers; what they take must be sound, finite and accounted for.
+// Feeds bytes to the GeoJSON importers of surroundings and of data layers; what they take must be sound, finite and accounted
+// for.
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -19,6 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   for (const bl::LayerPoint& point : layer->points)
-    bl::fuzz::require(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.value), "a point that is not finite");
+    bl::fuzz::require(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.value),
+                      "a point that is not finite");
   return 0;
 }

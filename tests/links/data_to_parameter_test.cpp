@@ -4,9 +4,7 @@
 namespace bl {
 namespace {
 
-Value layer() {
-  return Shared<Table>(Table{{"x", "y", "value"}, {{0.0, 0.0, 10.0}, {10.0, 0.0, 40.0}, {0.0, 30.0, 70.0}}});
-}
+Value layer() { return Shared<Table>(Table{{"x", "y", "value"}, {{0.0, 0.0, 10.0}, {10.0, 0.0, 40.0}, {0.0, 30.0, 70.0}}}); }
 
 LinkCase at(double x, double y, const std::string& sampling) {
   LinkCase link("data_to_parameter");
@@ -36,18 +34,25 @@ TEST(DataToParameter, RangesAndClamp) {
   };
   const auto rescaled = [](bool clamp) {
     LinkCase link = at(0, 0, "nearest");
-    link.set("rescale", true).set("in_min", 20.0).set("in_max", 40.0).set("out_min", 100.0).set("out_max", 200.0).set("clamp", clamp);
+    link.set("rescale", true)
+        .set("in_min", 20.0)
+        .set("in_max", 40.0)
+        .set("out_min", 100.0)
+        .set("out_max", 200.0)
+        .set("clamp", clamp);
     return link;
   };
   EXPECT_EQ(number(rescaled(true)), 100);
   EXPECT_EQ(number(rescaled(false)), 50);
   LinkCase empty = rescaled(true);
-  EXPECT_EQ(empty.set("in_max", 20.0).run(), "in_max: the range of the data is empty; give `in_min` and `in_max` different values");
+  EXPECT_EQ(empty.set("in_max", 20.0).run(),
+            "in_max: the range of the data is empty; give `in_min` and `in_max` different values");
 }
 
 TEST(DataToParameter, ANodeBesideTheDataIsAnErrorOrLeftAlone) {
   LinkCase beside = at(500, 0, "nearest");
-  EXPECT_EQ(beside.run(), "radius: the layer has no point within 20 m of the node: make the radius larger, or turn `needs_data` off");
+  EXPECT_EQ(beside.run(),
+            "radius: the layer has no point within 20 m of the node: make the radius larger, or turn `needs_data` off");
   EXPECT_EQ(beside.set("needs_data", false).run(), "");
   EXPECT_FALSE(beside.proposed(End::to, "target").has_value());
 }

@@ -21,7 +21,8 @@ TEST(DataLayer, AnEmptyOneIsNothing) {
   World world = World::from_text(one_node("data_layer", ""));
   world.tick();
   EXPECT_EQ(world.node_error("it", "data_layer"), "");
-  for (const char* port : {"count", "sum", "mean", "minimum", "maximum"}) EXPECT_EQ(world.number("it", std::string("data_layer.") + port), 0);
+  for (const char* port : {"count", "sum", "mean", "minimum", "maximum"})
+    EXPECT_EQ(world.number("it", std::string("data_layer.") + port), 0);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ TEST(ExistingBuilding, SceneHasTheVolumesOfTheHand) {
 }
 
 TEST(ExistingBuilding, EitherTurningIsTheSameBuilding) {
-  World world = World::from_text(one_node("existing_building", R"("outline": [[0, 0, 0], [0, 4, 0], [4, 4, 0], [4, 0, 0]], "height": 5)"));
+  World world =
+      World::from_text(one_node("existing_building", R"("outline": [[0, 0, 0], [0, 4, 0], [4, 4, 0], [4, 0, 0]], "height": 5)"));
   world.tick();
   EXPECT_EQ(world.node_error("it", "existing_building"), "");
   EXPECT_DOUBLE_EQ(enclosed_volume(*world.mesh("it", "existing_building.mesh")), 80);

@@ -15,7 +15,8 @@ TEST(Plot, FiguresFollowFromTheVolumesOnIt) {
   const auto of = [&](const char* node, const char* port) { return world.number(node, std::string("smart_volume.") + port); };
   EXPECT_EQ(world.number("plot", "plot.count"), 2);
   EXPECT_EQ(world.number("plot", "plot.area"), 1600);
-  const double floor = of("west", "floor_area") + of("east", "floor_area"), ground = of("west", "footprint") + of("east", "footprint");
+  const double floor = of("west", "floor_area") + of("east", "floor_area"),
+               ground = of("west", "footprint") + of("east", "footprint");
   EXPECT_NEAR(world.number("plot", "plot.floor_area"), floor, 1e-6 * floor);
   EXPECT_NEAR(world.number("plot", "plot.fsi"), floor / 1600, 1e-6);
   EXPECT_NEAR(world.number("plot", "plot.gsi"), ground / 1600, 1e-6);
@@ -45,10 +46,12 @@ TEST(Plot, AnEmptyPlotHasNoDensity) {
   World world = World::from_text(one_node("plot", ""));
   world.tick();
   EXPECT_EQ(world.node_error("it", "plot"), "");
-  for (const char* port : {"count", "fsi", "gsi", "osr", "layers", "overshoot"}) EXPECT_EQ(world.number("it", std::string("plot.") + port), 0);
+  for (const char* port : {"count", "fsi", "gsi", "osr", "layers", "overshoot"})
+    EXPECT_EQ(world.number("it", std::string("plot.") + port), 0);
   World crossed = World::from_text(one_node("plot", R"("polygon": [[0, 0, 0], [4, 4, 0], [4, 0, 0], [0, 4, 0]])"));
   crossed.tick();
-  EXPECT_EQ(crossed.node_error("it", "plot"), "nodes/it/plot/polygon: the polygon meets itself at (2.000, 2.000): redraw it there");
+  EXPECT_EQ(crossed.node_error("it", "plot"),
+            "nodes/it/plot/polygon: the polygon meets itself at (2.000, 2.000): redraw it there");
 }
 
 }  // namespace

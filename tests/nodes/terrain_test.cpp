@@ -22,7 +22,8 @@ TEST(Terrain, SceneHasTheFiguresOfTheHand) {
 }
 
 TEST(Terrain, DigitsCountStepsAboveTheLowest) {
-  World world = World::from_text(one_node("terrain", R"("rows": [{"heights": "AAAAAB"}, {"heights": "ABA///"}], "lowest": -5, "step": 0.5)"));
+  World world = World::from_text(
+      one_node("terrain", R"("rows": [{"heights": "AAAAAB"}, {"heights": "ABA///"}], "lowest": -5, "step": 0.5)"));
   world.tick();
   EXPECT_EQ(world.node_error("it", "terrain"), "");
   EXPECT_EQ(world.number("it", "terrain.minimum"), -5);
@@ -38,7 +39,8 @@ TEST(Terrain, DamagedRowsAreSaid) {
   };
   EXPECT_EQ(error(R"({"heights": "AAAAAA"}, {"heights": "AAA"})"),
             "nodes/it/terrain/rows/1/heights: a row has three characters for each cell, and as many cells as the first row");
-  EXPECT_EQ(error(R"({"heights": "AAA A "})"), "nodes/it/terrain/rows/0/heights: character 4 is no digit of base 64: import the grid again");
+  EXPECT_EQ(error(R"({"heights": "AAA A "})"),
+            "nodes/it/terrain/rows/0/heights: character 4 is no digit of base 64: import the grid again");
   EXPECT_EQ(error(""), "");
 }
 

@@ -23,7 +23,8 @@ namespace {
 enum class Format { osm, cityjson, geojson, grid, table, unknown };
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return text;
 }
 
@@ -41,8 +42,11 @@ Format format_of(const std::string& path, std::string_view text) {
   const std::string_view head = text.substr(0, 65536);
   if (head.find("\"CityJSON\"") != std::string_view::npos) return Format::cityjson;
   if (ends({".geojson"}) || head.find_first_of("{[") == head.find_first_not_of(" \t\r\n\xEF\xBB\xBF")) return Format::geojson;
-  if (head.find("<osm") != std::string_view::npos || head.substr(0, 64).find("OSMHeader") != std::string_view::npos) return Format::osm;
-  if (head.starts_with("II") || head.starts_with("MM") || lower(std::string(head.substr(0, 64))).find("ncols") != std::string::npos) return Format::grid;
+  if (head.find("<osm") != std::string_view::npos || head.substr(0, 64).find("OSMHeader") != std::string_view::npos)
+    return Format::osm;
+  if (head.starts_with("II") || head.starts_with("MM") ||
+      lower(std::string(head.substr(0, 64))).find("ncols") != std::string::npos)
+    return Format::grid;
   return Format::unknown;
 }
 
@@ -60,8 +64,7 @@ class Import {
     if (!result_.errors.empty()) return std::move(result_);
     Ledger ledger(registry_, scene_);
     if (auto done = ledger.submit(nodes_.batch(), "import", 0); !done) fail(o_.out, done.error());
-    else
-      result_.scene = ledger.scene();
+    else result_.scene = ledger.scene();
     return std::move(result_);
   }
 
@@ -70,26 +73,30 @@ class Import {
   void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
 
   void check() {
-    for (const auto& [name, value] : {std::pair{"--storey-height", context_.storey_height}, {"--default-height", context_.default_height}})
+    for (const auto& [name, value] :
+         {std::pair{"--storey-height", context_.storey_height}, {"--default-height", context_.default_height}})
       if (!(value >= 1) || !(value <= 1000)) refuse(name, "must be between 1 and 1000 m, found " + shortest(value));
     if (!(context_.radius >= 0) || !(context_.neighbour_distance >= 0)) refuse("--radius", "distances must be 0 m or more");
     for (const std::string& property : o_.properties) {
       const std::size_t equals = property.find('=');
-      if (equals == std::string::npos || equals == 0) refuse("--property", "expects OURS=THEIRS such as height=H_MAX, found `" + property + "`");
-      else
-        context_.properties.emplace_back(property.substr(0, equals), property.substr(equals + 1));
+      if (equals == std::string::npos || equals == 0)
+        refuse("--property", "expects OURS=THEIRS such as height=H_MAX, found `" + property + "`");
+      else context_.properties.emplace_back(property.substr(0, equals), property.substr(equals + 1));
     }
     if (o_.kind == "building" || o_.kind == "street" || o_.kind == "plot" || o_.kind == "area") context_.feature_kind = o_.kind;
     const Settings settings = settings_of(scene_);
     if (!settings.coordinate_system.empty())
-      context_.target = GeoReference{settings.coordinate_system, settings.origin_x, settings.origin_y,
+      context_.target = GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
                                      settings.latitude,          settings.longitude, settings.true_north};
     if (o_.origin.empty()) return;
     const std::size_t comma = o_.origin.find(',');
-    const auto x = parse_number(o_.origin.substr(0, comma)), y = comma == std::string::npos ? std::nullopt : parse_number(o_.origin.substr(comma + 1));
+    const auto x = parse_number(o_.origin.substr(0, comma)),
+               y = comma == std::string::npos ? std::nullopt : parse_number(o_.origin.substr(comma + 1));
     if (!x || !y) return refuse("--origin", "expects two numbers such as 85000,447000, found `" + o_.origin + "`");
     if (context_.target)
-      return fail("", {ErrorCode::conflict, "--origin", "the scene lies in " + context_.target->crs + " already, and its origin stays where it is: leave --origin out"});
+      return fail(
+          "", {ErrorCode::conflict, "--origin",
+               "the scene lies in " + context_.target->crs + " already, and its origin stays where it is: leave --origin out"});
     context_.origin = {*x, *y};
   }
 
@@ -97,13 +104,15 @@ class Import {
   void settle(const GeoReference& reference) {
     if (context_.target) return;
     if (!scene_.nodes.empty())
-      result_.notes.push_back("The scene had no place on Earth: it has that of the first file now, and what was in it is about its origin.");
+      result_.notes.push_back(
+          "The scene had no place on Earth: it has that of the first file now, and what was in it is about its origin.");
     nodes_.place(reference);
     context_.target = reference;
     context_.origin.reset();
   }
 
-  void take(const std::string& file, const ImportReport& report, const std::vector<std::string>& notes, const GeoReference& reference) {
+  void take(const std::string& file, const ImportReport& report, const std::vector<std::string>& notes,
+            const GeoReference& reference) {
     result_.reports.emplace_back(file, report);
     for (const std::string& note : notes) result_.notes.push_back(file + ": " + note);
     settle(reference);
@@ -126,12 +135,15 @@ class Import {
     const Format format = format_of(file, *text);
     if (format == Format::grid) return read_grid(file, *text);
     if (format == Format::table || o_.kind == "layer") return read_layer(file, *text, format);
-    if (o_.kind == "terrain") return fail(file, {ErrorCode::wrong_kind, "--as", "a terrain is read from an ASCII grid or a GeoTIFF"});
-    auto context = format == Format::osm        ? read_osm_context(*text, context_)
-                   : format == Format::cityjson ? read_cityjson_context(*text, context_)
-                   : format == Format::geojson
-                       ? read_geojson_context(*text, context_)
-                       : Result<Context>(Error{ErrorCode::parse, "", "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
+    if (o_.kind == "terrain")
+      return fail(file, {ErrorCode::wrong_kind, "--as", "a terrain is read from an ASCII grid or a GeoTIFF"});
+    auto context =
+        format == Format::osm        ? read_osm_context(*text, context_)
+        : format == Format::cityjson ? read_cityjson_context(*text, context_)
+        : format == Format::geojson
+            ? read_geojson_context(*text, context_)
+            : Result<Context>(Error{ErrorCode::parse, "",
+                                    "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
     if (!told(file, context)) return;
     take(file, context->report, context->notes, context->reference);
     nodes_.add(*context, making_);

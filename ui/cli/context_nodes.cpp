@@ -50,8 +50,7 @@ class Fitting {
     if (found == nullptr || found->is_computed) return;
     const double fitted = std::clamp(value, found->hard_minimum, found->hard_maximum);
     if (found->kind == ValueKind::integer) values[port] = static_cast<std::int64_t>(std::llround(fitted));
-    else if (found->kind == ValueKind::number)
-      values[port] = fitted;
+    else if (found->kind == ValueKind::number) values[port] = fitted;
   }
   void set(const char* port, bool value) {
     const PortDefinition* found = type_.find_port(port);
@@ -107,11 +106,11 @@ void ContextNodes::add(const Context& context, const NodeMaking& making) {
   std::size_t ground = 0;
   for (const ContextArea& area : context.areas) {
     if (area.is_plot) add_plot(area);
-    else
-      ++ground;
+    else ++ground;
   }
   if (ground > 0)
-    notes_.push_back(std::to_string(ground) + " areas of ground (land use, green, water) became no nodes: there is no typification for them.");
+    notes_.push_back(std::to_string(ground) +
+                     " areas of ground (land use, green, water) became no nodes: there is no typification for them.");
   if (!context.streets.empty()) add_streets(context, making);
 }
 
@@ -146,7 +145,8 @@ void ContextNodes::add_plot(const ContextArea& area) {
   const Json node = {{"name", area.name.empty() ? area.id : area.name},
                      {"position", position_json(middle(area.outer))},
                      {"types", {{"plot", ports}}}};
-  commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({fresh_id("plot_" + area.id), {write_json_line(node)}}))));
+  commands_.push_back(
+      write_json_line(command_to_json(*registry_, command<AddNode>({fresh_id("plot_" + area.id), {write_json_line(node)}}))));
   ++made_["plot"];
   if (!area.holes.empty()) notes_.push_back("The holes of plot `" + area.id + "` were left out: a plot is one polygon.");
 }
@@ -154,7 +154,8 @@ void ContextNodes::add_plot(const ContextArea& area) {
 void ContextNodes::add_streets(const Context& context, const NodeMaking& making) {
   const TypificationDefinition *junction = registry_->typification("junction"), *street = registry_->typification("street");
   if (junction == nullptr || street == nullptr) {
-    notes_.push_back(std::to_string(context.streets.size()) + " pieces of street became no nodes: this program has no typifications `junction` and `street`.");
+    notes_.push_back(std::to_string(context.streets.size()) +
+                     " pieces of street became no nodes: this program has no typifications `junction` and `street`.");
     return;
   }
   std::vector<std::string> ids(context.junctions.size());
@@ -171,29 +172,33 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making)
   std::size_t without_cars = 0, loops = 0;
   for (const ContextStreet& piece : context.streets) {
     if (!piece.for_cars && !making.takes_all_streets) ++without_cars;
-    else if (piece.start == piece.end)
-      ++loops;
+    else if (piece.start == piece.end) ++loops;
     else {
       Fitting fit(*street);
       fit.set_node("start", id_of(piece.start));
       fit.set_node("end", id_of(piece.end));
-      fit.set("lanes", piece.lanes);
+      // A street has lanes in each direction; maps count those of both together, and a narrow one is shared.
+      fit.set("lanes", piece.is_one_way ? piece.lanes : std::max(1.0, piece.lanes / 2));
       fit.set("speed", piece.speed);
       fit.set("length", length_of(piece.line));
       fit.set("one_way", piece.is_one_way);
-      fit.set("open", true);
+      fit.set("for_cars", piece.for_cars);
       fit.set("line", piece.line);
       const Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
                          {"position", position_json(piece.line[piece.line.size() / 2])},
                          {"types", {{"street", fit.values}}}};
-      commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({fresh_id("street_" + piece.id), {write_json_line(node)}}))));
+      commands_.push_back(write_json_line(
+          command_to_json(*registry_, command<AddNode>({fresh_id("street_" + piece.id), {write_json_line(node)}}))));
       ++made_["street"];
     }
   }
-  if (without_cars > 0) notes_.push_back(std::to_string(without_cars) + " pieces of street without cars became no nodes; --all-streets takes them.");
-  if (loops > 0) notes_.push_back(std::to_string(loops) + " pieces of street that begin and end at one junction became no nodes.");
+  if (without_cars > 0)
+    notes_.push_back(std::to_string(without_cars) + " pieces of street without cars became no nodes; --all-streets takes them.");
+  if (loops > 0)
+    notes_.push_back(std::to_string(loops) + " pieces of street that begin and end at one junction became no nodes.");
   if (!context.restrictions.empty())
-    notes_.push_back(std::to_string(context.restrictions.size()) + " turn restrictions became nothing: the network of streets has no turns.");
+    notes_.push_back(std::to_string(context.restrictions.size()) +
+                     " turn restrictions became nothing: the network of streets has no turns.");
 }
 
 void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making) {
@@ -207,14 +212,20 @@ void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making) {
   while ((highest - lowest) / step > HeightGrid::kMostSteps) step *= 10;
   Json rows = Json::array();
   for (std::size_t row = 0; row < terrain.rows; ++row)
-    rows.push_back({{"heights", height_row(std::span(terrain.values).subspan(row * terrain.columns, terrain.columns), lowest, step)}});
-  const Json ports = {{"rows", rows},         {"west", tidy(terrain.west)}, {"north", tidy(terrain.north)},
-                      {"cell", terrain.cell}, {"lowest", lowest},           {"step", step},
+    rows.push_back(
+        {{"heights", height_row(std::span(terrain.values).subspan(row * terrain.columns, terrain.columns), lowest, step)}});
+  const Json ports = {{"rows", rows},
+                      {"west", tidy(terrain.west)},
+                      {"north", tidy(terrain.north)},
+                      {"cell", terrain.cell},
+                      {"lowest", lowest},
+                      {"step", step},
                       {"origin", making.source + (making.licence.empty() ? "" : ", " + making.licence)}};
   const double east = terrain.west + terrain.cell * static_cast<double>(terrain.columns) / 2;
   const double south = terrain.north - terrain.cell * static_cast<double>(terrain.rows) / 2;
   const Json node = {{"name", "Terrain"}, {"position", position_json({east, south, lowest})}, {"types", {{"terrain", ports}}}};
-  commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({fresh_id("terrain"), {write_json_line(node)}}))));
+  commands_.push_back(
+      write_json_line(command_to_json(*registry_, command<AddNode>({fresh_id("terrain"), {write_json_line(node)}}))));
   ++made_["terrain"];
 }
 
@@ -231,7 +242,8 @@ void ContextNodes::add(const DataLayer& layer, const NodeMaking& making) {
                       {"source", making.source},
                       {"licence", making.licence}};
   const Json node = {{"name", layer.value_name}, {"position", position_json(middle(places))}, {"types", {{"data_layer", ports}}}};
-  commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({fresh_id("layer_" + layer.value_name), {write_json_line(node)}}))));
+  commands_.push_back(write_json_line(
+      command_to_json(*registry_, command<AddNode>({fresh_id("layer_" + layer.value_name), {write_json_line(node)}}))));
   ++made_["data_layer"];
 }
 

@@ -17,12 +17,15 @@ void print_counts(const ImportedScene& imported) {
     TextTable table({{"outcome"}, {"kind"}, {"number", true}, {"what it is, or why not"}});
     for (const auto& [key, number] : report.counts()) {
       const auto& [outcome, kind, reason] = key;
-      const Colour colour = outcome == ImportOutcome::taken ? Colour::plain : outcome == ImportOutcome::repaired ? Colour::yellow : Colour::dim;
+      const Colour colour = outcome == ImportOutcome::taken      ? Colour::plain
+                            : outcome == ImportOutcome::repaired ? Colour::yellow
+                                                                 : Colour::dim;
       table.add({std::string(name_of(outcome)), kind, std::to_string(number), reason}, colour);
     }
     table.print();
-    print_line("total: " + std::to_string(report.count(ImportOutcome::taken)) + " taken, " + std::to_string(report.count(ImportOutcome::repaired)) +
-               " repaired, " + std::to_string(report.count(ImportOutcome::skipped)) + " skipped of " + counted(report.total(), "element"));
+    print_line("total: " + std::to_string(report.count(ImportOutcome::taken)) + " taken, " +
+               std::to_string(report.count(ImportOutcome::repaired)) + " repaired, " +
+               std::to_string(report.count(ImportOutcome::skipped)) + " skipped of " + counted(report.total(), "element"));
   }
 }
 
@@ -42,7 +45,8 @@ int import_command(const ImportOptions& options) {
     scene = std::move(reading->scene);
   }
   const bool is_taken = !options.is_forced && is_there(options.out);
-  if (is_taken) print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
+  if (is_taken)
+    print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
   const ImportedScene imported = import_context(scene, options, registry);
   print_counts(imported);
   for (const std::string& note : imported.notes) print_line("note: " + note);

@@ -15,7 +15,8 @@ namespace {
 using test::area_of, test::reason_of, test::rows_of, test::shared_bytes;
 
 // A box of 10 by 20 by 5 m whose vertices are decimetres from a corner far away; `faces` over its corners 0-3 below, 4-7 above.
-std::string box(const std::string& faces, const std::string& object = R"("type": "Building", "attributes": {"name": "Box", "function": "house"})",
+std::string box(const std::string& faces,
+                const std::string& object = R"("type": "Building", "attributes": {"name": "Box", "function": "house"})",
                 const std::string& lod = "\"1.2\"") {
   return R"({"type": "CityJSON", "version": "2.0", "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"},
     "transform": {"scale": [0.1, 0.1, 0.1], "translate": [85000, 447000, -1]},
@@ -70,7 +71,8 @@ TEST(CityJson, SolidsAreTurnedAndClosedWhereThatIsClear) {
 
 TEST(CityJson, FacesMayHaveHoles) {
   // The roof with a hole whose sides lead to a shaft down to the floor, which has the hole, too.
-  const std::string text = R"({"type": "CityJSON", "version": "1.1", "metadata": {"referenceSystem": "urn:ogc:def:crs:EPSG::7415"},
+  const std::string text =
+      R"({"type": "CityJSON", "version": "1.1", "metadata": {"referenceSystem": "urn:ogc:def:crs:EPSG::7415"},
     "transform": {"scale": [1,1,1], "translate": [85000,447000,0]},
     "vertices": [[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,4],[9,0,4],[9,9,4],[0,9,4],[3,3,0],[6,3,0],[6,6,0],[3,6,0],[3,3,4],[6,3,4],[6,6,4],[3,6,4]],
     "CityObjects": {"court": {"type": "Building", "geometry": [{"type": "Solid", "lod": 1, "boundaries": [[
@@ -87,7 +89,8 @@ TEST(CityJson, FacesMayHaveHoles) {
 TEST(CityJson, WhatIsNotReadHasItsRow) {
   const auto bridge = read(box(std::string(kFloor) + "," + kRest, R"("type": "Bridge")"));
   EXPECT_EQ(reason_of(bridge->report, "box"), "skipped: objects of this type are not read");
-  const std::string instance = R"({"type": "CityJSON", "version": "2.0", "vertices": [[0,0,0]], "metadata": {"referenceSystem": "EPSG:28992"},
+  const std::string instance =
+      R"({"type": "CityJSON", "version": "2.0", "vertices": [[0,0,0]], "metadata": {"referenceSystem": "EPSG:28992"},
     "CityObjects": {"a": {"type": "Building", "geometry": [{"type": "GeometryInstance", "template": 0, "boundaries": [0]}]}}})";
   const auto templates = read(instance);
   ASSERT_TRUE(templates.ok()) << templates.error().text();
@@ -99,16 +102,24 @@ TEST(CityJson, WhatIsNotReadHasItsRow) {
 
 TEST(CityJson, HostileInputIsAnErrorWithAPlace) {
   const std::string good = box(std::string(kFloor) + "," + kRest);
-  const std::string no_crs = R"({"type": "CityJSON", "version": "2.0", "vertices": [[0,0,0]], "CityObjects": {"a": {"type": "Building"}}})";
+  const std::string no_crs =
+      R"({"type": "CityJSON", "version": "2.0", "vertices": [[0,0,0]], "CityObjects": {"a": {"type": "Building"}}})";
   const std::pair<std::string, std::string> rows[] = {
-      {"", "line 1"}, {"{}", "type"}, {"[1, 2", "line 1, column 6"}, {"noise \x01\xff", "line 1, column 2"},
-      {good.substr(0, good.size() - 40), ""}, {R"({"type": "CityJSON", "version": "0.8"})", "version"},
+      {"", "line 1"},
+      {"{}", "type"},
+      {"[1, 2", "line 1, column 6"},
+      {"noise \x01\xff", "line 1, column 2"},
+      {good.substr(0, good.size() - 40), ""},
+      {R"({"type": "CityJSON", "version": "0.8"})", "version"},
       {R"({"type": "CityJSON", "version": "2.0", "CityObjects": {}})", "vertices"},
       {R"({"type": "CityJSON", "version": "2.0", "vertices": [[1, 2]], "CityObjects": {}})", "vertices/0"},
       {R"({"type": "CityJSON", "version": "2.0", "vertices": [[1, 2, "x"]], "CityObjects": {}})", "vertices/0"},
-      {R"({"type": "CityJSON", "version": "2.0", "transform": {"scale": 1}, "vertices": [], "CityObjects": {}})", "transform/scale"},
-      {R"({"type": "CityJSON", "version": "2.0", "vertices": [], "CityObjects": []})", ""}, {no_crs, "crs"},
-      {"{\"type\": \"CityJSON\", \"version\": \"2.0\", \"vertices\": [], \"CityObjects\": {}}\n{\"type\": \"oops\"}\n", "line 2"}};
+      {R"({"type": "CityJSON", "version": "2.0", "transform": {"scale": 1}, "vertices": [], "CityObjects": {}})",
+       "transform/scale"},
+      {R"({"type": "CityJSON", "version": "2.0", "vertices": [], "CityObjects": []})", ""},
+      {no_crs, "crs"},
+      {"{\"type\": \"CityJSON\", \"version\": \"2.0\", \"vertices\": [], \"CityObjects\": {}}\n{\"type\": \"oops\"}\n",
+       "line 2"}};
   for (const auto& [text, place] : rows) {
     const auto context = read(text);
     ASSERT_FALSE(context.ok()) << text;
@@ -208,7 +219,8 @@ TEST(CityJson, DelftHasTheVolumesAndStaysExactFarFromTheOrigin) {
   const ContextBuilding& first = placed->buildings.front();
   double nearest = 1;
   for (const auto& p : v)
-    nearest = std::min(nearest, std::hypot(p[0].get<double>() - 85000 - first.outer[0].x, p[1].get<double>() - 447500 - first.outer[0].y));
+    nearest = std::min(nearest,
+                       std::hypot(p[0].get<double>() - 85000 - first.outer[0].x, p[1].get<double>() - 447500 - first.outer[0].y));
   EXPECT_LT(nearest, 1e-9);
   // Solids of level 1 are prisms: outline times height.
   const std::string v20 = shared_bytes("cityjson/delft_v20.city.json");

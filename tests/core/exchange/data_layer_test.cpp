@@ -15,7 +15,8 @@ using test::reason_of, test::shared_bytes;
 const ContextOptions kDutch = test::in_crs("EPSG:28992");
 
 TEST(DataLayerImport, ATableWithCoordinates) {
-  const auto plain = read_layer_csv("name;x_m;y_m;noise\na;85000;447000;50,5\nb;85010;447000;\nc;;447000;3\nd;85020;447000;60,5\n", kDutch);
+  const auto plain =
+      read_layer_csv("name;x_m;y_m;noise\na;85000;447000;50,5\nb;85010;447000;\nc;;447000;3\nd;85020;447000;60,5\n", kDutch);
   ASSERT_TRUE(plain.ok()) << plain.error().text();
   EXPECT_EQ(plain->value_name, "noise");
   ASSERT_EQ(plain->points.size(), 2u);
@@ -34,7 +35,8 @@ TEST(DataLayerImport, DegreesNeedNoCrsAndMetresDo) {
 }
 
 TEST(DataLayerImport, TheValueHasToBeClear) {
-  EXPECT_EQ(read_layer_csv("x,y,a,b\n1,2,3,4\n", kDutch).error().message, "Several columns hold numbers (`a`, `b`): say which one is the value.");
+  EXPECT_EQ(read_layer_csv("x,y,a,b\n1,2,3,4\n", kDutch).error().message,
+            "Several columns hold numbers (`a`, `b`): say which one is the value.");
   EXPECT_EQ(read_layer_csv("x,y,a,b\n1,2,3,4\n", kDutch, "c").error().code, ErrorCode::not_found);
   EXPECT_EQ(read_layer_csv("a,b\n1,2\n", kDutch).error().place, "line 1");
   EXPECT_FALSE(read_layer_csv("", kDutch).ok());

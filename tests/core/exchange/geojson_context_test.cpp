@@ -10,21 +10,24 @@ namespace {
 using test::area_of, test::reason_of, test::shared_bytes;
 
 std::string dutch(const std::string& features) {
-  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::28992"}}, "features": [)" + features + "]}";
+  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::28992"}}, "features": [)" +
+         features + "]}";
 }
 std::string square(double x, double y, double side, const std::string& properties) {
   const auto point = [](double a, double b) { return "[" + std::to_string(a) + "," + std::to_string(b) + "]"; };
-  return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": "Polygon", "coordinates": [[)" + point(x, y) + "," + point(x + side, y) + "," +
-         point(x + side, y + side) + "," + point(x, y + side) + "," + point(x, y) + "]]}}";
+  return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": "Polygon", "coordinates": [[)" +
+         point(x, y) + "," + point(x + side, y) + "," + point(x + side, y + side) + "," + point(x, y + side) + "," + point(x, y) +
+         "]]}}";
 }
 
 TEST(GeoJsonContext, PropertiesUnderTheirManyNames) {
   ContextOptions options;
   options.storey_height = 3;
   options.properties = {{"use", "Nutzung"}};
-  const auto context = read_geojson_context(dutch(square(85000, 447000, 10, R"("measuredHeight": 12.5, "gid": 7, "Nutzung": "school")") + "," +
-                                                  square(85020, 447000, 10, R"("bouwlagen": 4)") + "," + square(85040, 447000, 10, R"("landuse": "grass")")),
-                                            options);
+  const auto context = read_geojson_context(
+      dutch(square(85000, 447000, 10, R"("measuredHeight": 12.5, "gid": 7, "Nutzung": "school")") + "," +
+            square(85020, 447000, 10, R"("bouwlagen": 4)") + "," + square(85040, 447000, 10, R"("landuse": "grass")")),
+      options);
   ASSERT_TRUE(context.ok()) << context.error().text();
   ASSERT_EQ(context->buildings.size(), 2u);
   EXPECT_EQ(context->buildings[0].id, "7");
@@ -40,10 +43,12 @@ TEST(GeoJsonContext, PropertiesUnderTheirManyNames) {
 
 TEST(GeoJsonContext, StreetsAreCutWhereTheyMeet) {
   const auto line = [](const std::string& points, const std::string& properties) {
-    return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": "LineString", "coordinates": [)" + points + "]}}";
+    return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": "LineString", "coordinates": [)" +
+           points + "]}}";
   };
-  const auto context = read_geojson_context(dutch(line("[85000,447000],[85050,447000],[85100,447000]", R"("highway": "primary", "maxspeed": "50", "oneway": "yes")") + "," +
-                                                  line("[85050,447000],[85050,447080]", R"("name": "Side")")));
+  const auto context = read_geojson_context(
+      dutch(line("[85000,447000],[85050,447000],[85100,447000]", R"("highway": "primary", "maxspeed": "50", "oneway": "yes")") +
+            "," + line("[85050,447000],[85050,447080]", R"("name": "Side")")));
   ASSERT_TRUE(context.ok());
   ASSERT_EQ(context->streets.size(), 3u);
   EXPECT_EQ(context->junctions.size(), 4u);
@@ -55,10 +60,13 @@ TEST(GeoJsonContext, StreetsAreCutWhereTheyMeet) {
 TEST(GeoJsonContext, KindsAreToldByTheOptionAndFaultsAreRows) {
   ContextOptions options;
   options.feature_kind = "plot";
-  const std::string crossed = R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[[85000,447000],[85010,447010],[85010,447000],[85000,447010],[85000,447000]]]}})";
-  const std::string point = R"({"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [85000,447000]}})";
+  const std::string crossed =
+      R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[[85000,447000],[85010,447010],[85010,447000],[85000,447010],[85000,447000]]]}})";
+  const std::string point =
+      R"({"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [85000,447000]}})";
   const std::string nothing = R"({"type": "Feature", "properties": {}, "geometry": null})";
-  const auto context = read_geojson_context(dutch(square(85000, 447000, 10, "") + "," + crossed + "," + point + "," + nothing), options);
+  const auto context =
+      read_geojson_context(dutch(square(85000, 447000, 10, "") + "," + crossed + "," + point + "," + nothing), options);
   ASSERT_TRUE(context.ok());
   ASSERT_EQ(context->areas.size(), 1u);
   EXPECT_TRUE(context->areas[0].is_plot);
@@ -70,9 +78,13 @@ TEST(GeoJsonContext, KindsAreToldByTheOptionAndFaultsAreRows) {
 
 TEST(GeoJsonContext, HostileInputIsAnErrorWithAPlace) {
   const std::pair<std::string, std::string> rows[] = {
-      {"", "line 1, column 1"}, {"noise\x01", "line 1, column 2"}, {"{}", ""}, {dutch(""), "features"},
+      {"", "line 1, column 1"},
+      {"noise\x01", "line 1, column 2"},
+      {"{}", ""},
+      {dutch(""), "features"},
       {R"({"type": "FeatureCollection"})", "features"},
-      {dutch(R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[["a", 1]]]}})"), "features/0/geometry/coordinates/0/0"},
+      {dutch(R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[["a", 1]]]}})"),
+       "features/0/geometry/coordinates/0/0"},
       {R"({"type": "Polygon", "coordinates": [[[85000,447000],[85010,447000],[85010,447010],[85000,447000]]]})", "crs"}};
   for (const auto& [text, place] : rows) {
     const auto context = read_geojson_context(text);
@@ -114,8 +126,10 @@ TEST(GeoJsonContext, RealFilesAgreeWithAnIndependentReader) {
 }
 
 TEST(GeoJsonContext, AreasAreThoseOfAnIndependentReader) {
-  // `ogr2ogr -dialect SQLite -sql 'select sum(st_area(geometry)) from ...'`: 330629.690 over the buildings, 614625.896 the domain.
-  const std::string campus = shared_bytes("geojson/tudelft_campus_buildings.geojson"), domain = shared_bytes("geojson/tudelft_campus_domain.geojson");
+  // `ogr2ogr -dialect SQLite -sql 'select sum(st_area(geometry)) from ...'`: 330629.690 over the buildings, 614625.896 the
+  // domain.
+  const std::string campus = shared_bytes("geojson/tudelft_campus_buildings.geojson"),
+                    domain = shared_bytes("geojson/tudelft_campus_domain.geojson");
   if (campus.empty() || domain.empty()) return;
   ContextOptions options;
   options.feature_kind = "building";

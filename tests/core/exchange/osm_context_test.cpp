@@ -16,7 +16,8 @@ using test::area_of, test::reason_of, test::rows_of, test::shared_bytes;
 std::string osm(const std::string& elements) {
   std::string text = R"(<?xml version="1.0"?><osm version="0.6">)";
   for (int i = 0; i < 9; ++i)
-    text += "<node id=\"" + std::to_string(i + 1) + "\" lat=\"" + std::to_string(60 + 0.001 * (i / 3)) + "\" lon=\"" + std::to_string(25 + 0.001 * (i % 3)) + "\"/>";
+    text += "<node id=\"" + std::to_string(i + 1) + "\" lat=\"" + std::to_string(60 + 0.001 * (i / 3)) + "\" lon=\"" +
+            std::to_string(25 + 0.001 * (i % 3)) + "\"/>";
   return text + elements + "</osm>";
 }
 std::string way(int id, std::initializer_list<int> nodes, const std::string& tags) {
@@ -53,7 +54,8 @@ TEST(OsmTags, HeightsComeFromTagsThenFromLevels) {
   EXPECT_EQ(tag.base, 3);
   EXPECT_EQ(tag.height, 9);
   EXPECT_FALSE(tag.is_from_levels);
-  const OsmHeight levels = osm_height({{"building:levels", "4"}, {"roof:levels", "1"}, {"building:min_level", "2"}, {"height", "tall"}}, 3);
+  const OsmHeight levels =
+      osm_height({{"building:levels", "4"}, {"roof:levels", "1"}, {"building:min_level", "2"}, {"height", "tall"}}, 3);
   EXPECT_EQ(levels.base, 6);
   EXPECT_EQ(levels.height, 9);
   EXPECT_TRUE(levels.is_from_levels);
@@ -104,9 +106,11 @@ TEST(OsmContext, HeightsOfNeighboursThenTheDefault) {
 }
 
 TEST(OsmContext, MultipolygonsHaveCourtsAndMayBePutTogether) {
-  const std::string ring = "<node id=\"21\" lat=\"60.0005\" lon=\"25.0005\"/><node id=\"22\" lat=\"60.0005\" lon=\"25.0015\"/>"
-                           "<node id=\"23\" lat=\"60.0015\" lon=\"25.0010\"/>";
-  const std::string relation = R"(<relation id="5"><member type="way" ref="10" role="outer"/><member type="way" ref="11" role="outer"/>
+  const std::string ring =
+      "<node id=\"21\" lat=\"60.0005\" lon=\"25.0005\"/><node id=\"22\" lat=\"60.0005\" lon=\"25.0015\"/>"
+      "<node id=\"23\" lat=\"60.0015\" lon=\"25.0010\"/>";
+  const std::string relation =
+      R"(<relation id="5"><member type="way" ref="10" role="outer"/><member type="way" ref="11" role="outer"/>
     <member type="way" ref="12" role="inner"/><tag k="type" v="multipolygon"/><tag k="building" v="yes"/></relation>)";
   const std::string halves = way(10, {1, 2, 3, 6, 9}, "") + way(11, {1, 4, 7, 8, 9}, "");
   const auto context = read_osm_context(osm(ring + halves + way(12, {21, 22, 23, 21}, "") + relation));
@@ -122,7 +126,8 @@ TEST(OsmContext, MultipolygonsHaveCourtsAndMayBePutTogether) {
 
 TEST(OsmContext, PartsTakeThePlaceOfTheirBuilding) {
   const std::string whole = way(10, {1, 2, 3, 6, 5, 4, 1}, "building=yes;height=30");
-  const auto both = read_osm_context(osm(whole + way(11, {1, 2, 5, 4, 1}, "building:part=yes;height=10") + way(12, {2, 3, 6, 5, 2}, "building:part=yes")));
+  const auto both = read_osm_context(
+      osm(whole + way(11, {1, 2, 5, 4, 1}, "building:part=yes;height=10") + way(12, {2, 3, 6, 5, 2}, "building:part=yes")));
   ASSERT_EQ(both->buildings.size(), 2u);
   EXPECT_EQ(both->buildings[0].height, 10);
   EXPECT_EQ(both->buildings[1].height, 30) << "a part without a height has that of its building";
@@ -138,8 +143,8 @@ TEST(OsmContext, PartsTakeThePlaceOfTheirBuilding) {
 }
 
 TEST(OsmContext, StreetsEndAtJunctions) {
-  const auto context = read_osm_context(osm(way(10, {4, 5, 6}, "highway=residential;oneway=-1;maxspeed=30 mph;lanes=1") + way(11, {2, 5, 8}, "highway=footway") +
-                                            way(12, {7, 8, 9}, "highway=proposed")));
+  const auto context = read_osm_context(osm(way(10, {4, 5, 6}, "highway=residential;oneway=-1;maxspeed=30 mph;lanes=1") +
+                                            way(11, {2, 5, 8}, "highway=footway") + way(12, {7, 8, 9}, "highway=proposed")));
   ASSERT_TRUE(context.ok());
   ASSERT_EQ(context->streets.size(), 4u);
   EXPECT_EQ(context->junctions.size(), 5u);
@@ -153,7 +158,8 @@ TEST(OsmContext, StreetsEndAtJunctions) {
 }
 
 TEST(OsmContext, TurnRestrictionsNamePieces) {
-  const std::string ways = way(10, {4, 5}, "highway=primary") + way(11, {5, 6}, "highway=primary") + way(12, {5, 8}, "highway=primary");
+  const std::string ways =
+      way(10, {4, 5}, "highway=primary") + way(11, {5, 6}, "highway=primary") + way(12, {5, 8}, "highway=primary");
   const auto rule = [](const std::string& via) {
     return R"(<relation id="7"><member type="way" ref="10" role="from"/>)" + via +
            R"(<member type="way" ref="12" role="to"/><tag k="type" v="restriction"/><tag k="restriction" v="no_left_turn"/></relation>)";
@@ -167,8 +173,10 @@ TEST(OsmContext, TurnRestrictionsNamePieces) {
 }
 
 TEST(OsmContext, FaultsOfElementsAreRowsNotErrors) {
-  const auto context = read_osm_context(osm(way(10, {1, 5, 2, 4, 1}, "building=yes") + way(11, {1, 2, 5}, "building=yes") + way(12, {1, 2, 99, 1}, "building=yes") +
-                                            way(13, {1, 99, 5, 6}, "highway=road") + way(14, {1, 2, 1, 2, 1}, "building=yes") + way(15, {1, 2, 5, 4, 1}, "building=yes;height=high")));
+  const auto context =
+      read_osm_context(osm(way(10, {1, 5, 2, 4, 1}, "building=yes") + way(11, {1, 2, 5}, "building=yes") +
+                           way(12, {1, 2, 99, 1}, "building=yes") + way(13, {1, 99, 5, 6}, "highway=road") +
+                           way(14, {1, 2, 1, 2, 1}, "building=yes") + way(15, {1, 2, 5, 4, 1}, "building=yes;height=high")));
   ASSERT_TRUE(context.ok());
   EXPECT_EQ(reason_of(context->report, "w10"), "skipped: building: its outline crosses or touches itself");
   EXPECT_EQ(reason_of(context->report, "w11"), "skipped: building: its line is open");
@@ -199,8 +207,16 @@ TEST(OsmContext, TheRadiusAndTheFrameOfTheScene) {
 
 TEST(OsmContext, HostileInputIsAnErrorWithAPlace) {
   const std::string good = osm(way(10, {1, 2, 5, 4, 1}, "building=yes"));
-  const std::string rows[] = {"", "\n\n", "noise \x01\x02\x03", good.substr(0, good.size() / 2), "<osm><way>", "<html></html>", "\x1f\x8b\x08 truncated",
-                              "BZh91AY", std::string("\0\0\0\x0d\x0a\x09OSMHeader\x18\x7f", 16), R"(<osm version="0.6"></osm>)",
+  const std::string rows[] = {"",
+                              "\n\n",
+                              "noise \x01\x02\x03",
+                              good.substr(0, good.size() / 2),
+                              "<osm><way>",
+                              "<html></html>",
+                              "\x1f\x8b\x08 truncated",
+                              "BZh91AY",
+                              std::string("\0\0\0\x0d\x0a\x09OSMHeader\x18\x7f", 16),
+                              R"(<osm version="0.6"></osm>)",
                               R"(<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b "c">]><osm version="0.6"></osm>)",
                               R"(<osm version="0.6"><node id="1" lat="sixty" lon="25"/></osm>)"};
   for (const std::string& row : rows) {
@@ -216,7 +232,8 @@ TEST(OsmContext, HostileInputIsAnErrorWithAPlace) {
 struct Extract {
   const char* file;
   std::size_t nodes, ways, relations;
-  std::size_t streets, buildings, outlines, parts;  // ways with highway; with building, of which outlines of multipolygons; parts alone
+  std::size_t streets, buildings, outlines,
+      parts;  // ways with highway; with building, of which outlines of multipolygons; parts alone
   std::size_t restrictions;
   std::size_t made;  // buildings that came out
 };

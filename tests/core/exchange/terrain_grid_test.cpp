@@ -13,7 +13,92 @@ namespace {
 
 using test::shared_bytes;
 
-const std::string kPacked("\x1f""\x8b""\x08""\x00""\x00""\x00""\x00""\x00""\x02""\x03""\xcb""\x4b""\xce""\xcf""\x29""\x56""\x30""\xe2""\xca""\x2b""\xca""\x2f""\x07""\xd1""\x15""\x39""\x39""\xc9""\xf9""\x45""\x79""\xa9""\x45""\x0a""\x06""\x5c""\x95""\x48""\xec""\xe4""\xd4""\x9c""\x9c""\xe2""\xcc""\xaa""\x54""\x05""\x43""\x03""\x2e""\x3f""\x7f""\x17""\xc7""\x10""\xc7""\xf8""\xb2""\xc4""\x9c""\xd2""\x54""\x05""\x5d""\x4b""\x20""\xe0""\x32""\x04""\x6a""\x35""\x86""\xb2""\x01""\xc0""\xb9""\x10""\x2b""\x53""\x00""\x00""\x00""", 83);
+const std::string kPacked(
+    "\x1f"
+    "\x8b"
+    "\x08"
+    "\x00"
+    "\x00"
+    "\x00"
+    "\x00"
+    "\x00"
+    "\x02"
+    "\x03"
+    "\xcb"
+    "\x4b"
+    "\xce"
+    "\xcf"
+    "\x29"
+    "\x56"
+    "\x30"
+    "\xe2"
+    "\xca"
+    "\x2b"
+    "\xca"
+    "\x2f"
+    "\x07"
+    "\xd1"
+    "\x15"
+    "\x39"
+    "\x39"
+    "\xc9"
+    "\xf9"
+    "\x45"
+    "\x79"
+    "\xa9"
+    "\x45"
+    "\x0a"
+    "\x06"
+    "\x5c"
+    "\x95"
+    "\x48"
+    "\xec"
+    "\xe4"
+    "\xd4"
+    "\x9c"
+    "\x9c"
+    "\xe2"
+    "\xcc"
+    "\xaa"
+    "\x54"
+    "\x05"
+    "\x43"
+    "\x03"
+    "\x2e"
+    "\x3f"
+    "\x7f"
+    "\x17"
+    "\xc7"
+    "\x10"
+    "\xc7"
+    "\xf8"
+    "\xb2"
+    "\xc4"
+    "\x9c"
+    "\xd2"
+    "\x54"
+    "\x05"
+    "\x5d"
+    "\x4b"
+    "\x20"
+    "\xe0"
+    "\x32"
+    "\x04"
+    "\x6a"
+    "\x35"
+    "\x86"
+    "\xb2"
+    "\x01"
+    "\xc0"
+    "\xb9"
+    "\x10"
+    "\x2b"
+    "\x53"
+    "\x00"
+    "\x00"
+    "\x00"
+    "",
+    83);
 
 TEST(TerrainGrid, ThePackedGridIsThePlainOne) {
   const auto grid = read_terrain_grid(kPacked);
@@ -57,7 +142,8 @@ TEST(TerrainGrid, MetricCellsAreKeptAndOthersSampledAnew) {
   EXPECT_FALSE(kept->is_resampled);
   EXPECT_EQ(kept->values, grid->values);
   EXPECT_EQ(kept->report.total("cell"), 600u);
-  options.target = GeoReference{"+proj=tmerc +lat_0=52.01 +lon_0=4.36 +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs", 0, 0, 52.01, 4.36, 0};
+  options.target = GeoReference{
+      "+proj=tmerc +lat_0=52.01 +lon_0=4.36 +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs", 0, 0, 52.01, 4.36, 0};
   const auto turned = local_terrain(*grid, options);
   ASSERT_TRUE(turned.ok()) << turned.error().text();
   EXPECT_TRUE(turned->is_resampled);
@@ -75,10 +161,17 @@ TEST(TerrainGrid, MetricCellsAreKeptAndOthersSampledAnew) {
 TEST(TerrainGrid, HostileInputIsAnErrorWithAPlace) {
   const std::string head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n";
   const std::pair<std::string, std::string> rows[] = {
-      {"", "byte 0"}, {"noise \x01\x02", "line 1"}, {head + "1 2 3", "end of the file"}, {head + "1 2 3 x", "line 6"}, {head, "end of the file"},
-      {"ncols 2\nnrows x\n", "line 2"}, {"ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\ncellsize 10\n1", "header"},
-      {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2 3 4", "header"}, {"ncols 2\nnrows 2\ncellsize 1\n1 2 3 4", "header"},
-      {"ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4", "header"}, {std::string("II*\0\x08\0\0\0", 8), "TIFF"},
+      {"", "byte 0"},
+      {"noise \x01\x02", "line 1"},
+      {head + "1 2 3", "end of the file"},
+      {head + "1 2 3 x", "line 6"},
+      {head, "end of the file"},
+      {"ncols 2\nnrows x\n", "line 2"},
+      {"ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\ncellsize 10\n1", "header"},
+      {"ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2 3 4", "header"},
+      {"ncols 2\nnrows 2\ncellsize 1\n1 2 3 4", "header"},
+      {"ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4", "header"},
+      {std::string("II*\0\x08\0\0\0", 8), "TIFF"},
       {std::string("II*\0\xff\xff\xff\x7f", 8), "TIFF"}};
   for (const auto& [text, place] : rows) {
     const auto grid = read_terrain_grid(text);

@@ -11,7 +11,8 @@ namespace bl::test {
 
 namespace {
 
-constexpr const char* kHouses = R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
+constexpr const char* kHouses =
+    R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
   {"type": "Feature", "properties": {"gid": 1, "height": 12, "use": "school"}, "geometry": {"type": "Polygon", "coordinates": [[[85000, 447000], [85020, 447000], [85020, 447010], [85000, 447010], [85000, 447000]]]}},
   {"type": "Feature", "properties": {"gid": 2}, "geometry": {"type": "Polygon", "coordinates": [[[85030, 447000], [85040, 447010], [85040, 447000], [85030, 447010], [85030, 447000]]]}}]})";
 constexpr const char* kPlot = R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
@@ -28,7 +29,8 @@ class Import : public testing::Test {
   Import() {
     place.write("houses.geojson", kHouses);
     place.write("plot.geojson", kPlot);
-    place.write("heights.asc", "ncols 3\nnrows 2\nxllcorner 84990\nyllcorner 446990\ncellsize 50\nNODATA_value -9999\n1 2 3\n4 5 -9999\n");
+    place.write("heights.asc",
+                "ncols 3\nnrows 2\nxllcorner 84990\nyllcorner 446990\ncellsize 50\nNODATA_value -9999\n1 2 3\n4 5 -9999\n");
     place.write("noise.csv", "x,y,level\n85000,447000,55\n85040,447040,65\n");
   }
   Workplace place;
@@ -45,7 +47,9 @@ TEST_F(Import, BringsBuildingsIntoASceneWithTheirPlace) {
   EXPECT_EQ(house["types"]["existing_building"]["height"], 12);
   EXPECT_EQ(house["types"]["existing_building"]["height_source"], "tag");
   EXPECT_EQ(house["types"]["existing_building"]["origin"], "1 of houses.geojson");
-  EXPECT_NE(place.text("rows.csv").find("houses.geojson,skipped,feature,features/1,building: its outline crosses or touches itself"), std::string::npos)
+  EXPECT_NE(
+      place.text("rows.csv").find("houses.geojson,skipped,feature,features/1,building: its outline crosses or touches itself"),
+      std::string::npos)
       << place.text("rows.csv");
   EXPECT_EQ(place.run({"check", "scene.json"}).code, 0);
   EXPECT_EQ(place.run({"run", "scene.json"}).code, 0);
@@ -56,7 +60,8 @@ TEST_F(Import, SeveralFilesShareOneFrame) {
   ASSERT_EQ(houses.code, 0) << houses.err;
   const Outcome plot = place.run({"import", "plot.geojson", "--as", "plot", "--into", "a.json", "--out", "b.json"});
   ASSERT_EQ(plot.code, 0) << plot.err;
-  const Outcome rest = place.run({"import", "heights.asc", "noise.csv", "--crs", "EPSG:28992", "--into", "b.json", "--out", "c.json", "--unit", "dB", "--licence", "CC0"});
+  const Outcome rest = place.run({"import", "heights.asc", "noise.csv", "--crs", "EPSG:28992", "--into", "b.json", "--out",
+                                  "c.json", "--unit", "dB", "--licence", "CC0"});
   ASSERT_EQ(rest.code, 0) << rest.err;
   const nlohmann::json scene = place.json("c.json");
   ASSERT_EQ(scene["nodes"].size(), 4u);
@@ -101,7 +106,8 @@ TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
 }
 
 TEST_F(Import, RealCityModelsBecomeScenes) {
-  const auto village = shared_file("data/osm/small_village.osm"), city = shared_file("data/cityjson/denhaag_DH01_subset_v11.city.json");
+  const auto village = shared_file("data/osm/small_village.osm"),
+             city = shared_file("data/cityjson/denhaag_DH01_subset_v11.city.json");
   if (village.empty() || city.empty()) {
     std::printf("the shared data are not beside this checkout: no real files are read here\n");
     return;
@@ -113,7 +119,9 @@ TEST_F(Import, RealCityModelsBecomeScenes) {
   const Outcome model = place.run({"import", city.string(), "--crs", "EPSG:28992", "--out", "city.json"});
   ASSERT_EQ(model.code, 0) << model.err;
   const nlohmann::json scene = place.json("city.json");
-  EXPECT_EQ(std::count_if(scene["nodes"].begin(), scene["nodes"].end(), [](const auto& one) { return one["types"]["existing_building"]["form"] == "mesh"; }), 9);
+  EXPECT_EQ(std::count_if(scene["nodes"].begin(), scene["nodes"].end(),
+                          [](const auto& one) { return one["types"]["existing_building"]["form"] == "mesh"; }),
+            9);
   EXPECT_EQ(place.run({"run", "city.json"}).code, 0);
 }
 
