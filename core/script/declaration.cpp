@@ -23,7 +23,8 @@ class Declaration {
       : lua_(lua), file_(file), text_(text), types_(types) {}
 
   Result<ScriptDeclaration> run() {
-    if (!lua_istable(lua_, -1)) fail("", "the script must return a table: return {id = ..., evaluate = function(params, ends, tick) ... end}");
+    if (!lua_istable(lua_, -1))
+      fail("", "the script must return a table: return {id = ..., evaluate = function(params, ends, tick) ... end}");
     else read();
     if (error_) return *error_;
     return ScriptDeclaration{std::move(link_), std::move(reads_), std::move(proposes_)};
@@ -36,7 +37,8 @@ class Declaration {
     std::size_t at = token.empty() ? text_.find("return") : text_.find("\"" + std::string(token) + "\"");
     if (at == std::string_view::npos) at = text_.find("'" + std::string(token) + "'");
     if (at == std::string_view::npos) at = text_.find(token);
-    const auto line = at == std::string_view::npos ? 1 : 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(at), '\n');
+    const auto line =
+        at == std::string_view::npos ? 1 : 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(at), '\n');
     error_ = Error{code, "", file_ + ":" + std::to_string(line) + ": " + message};
   }
 
@@ -71,8 +73,10 @@ class Declaration {
     lua_getfield(lua_, -1, key);
     std::optional<double> found;
     if (lua_type(lua_, -1) == LUA_TNUMBER) found = lua_tonumber(lua_, -1);
-    else if (!lua_isnil(lua_, -1)) fail(key, "`" + std::string(key) + "` of " + where + " must be a number", ErrorCode::wrong_kind);
-    if (found && !std::isfinite(*found)) fail(key, "`" + std::string(key) + "` of " + where + " must be finite", ErrorCode::not_finite);
+    else if (!lua_isnil(lua_, -1))
+      fail(key, "`" + std::string(key) + "` of " + where + " must be a number", ErrorCode::wrong_kind);
+    if (found && !std::isfinite(*found))
+      fail(key, "`" + std::string(key) + "` of " + where + " must be finite", ErrorCode::not_finite);
     lua_pop(lua_, 1);
     return found;
   }
@@ -146,7 +150,9 @@ class Declaration {
       for (const std::string& name : keys(key)) {
         lua_getfield(lua_, -1, name.c_str());
         if (lua_istable(lua_, -1)) read_one(name);
-        else fail(name, "`" + name + "` must be a table such as {at = \"from\", port = \"smart_volume.volume\", unit = \"m3\"}", ErrorCode::wrong_kind);
+        else
+          fail(name, "`" + name + "` must be a table such as {at = \"from\", port = \"smart_volume.volume\", unit = \"m3\"}",
+               ErrorCode::wrong_kind);
         lua_pop(lua_, 1);
       }
     } else if (!lua_isnil(lua_, -1)) {
@@ -226,14 +232,16 @@ class Declaration {
     expected = unit(name);
     is_whole = flag(name, "whole");
     const auto port = text(name, "port"), chosen = text(name, "chosen_by"), wanted = text(name, "kind");
-    if (port.has_value() == chosen.has_value()) fail(name, "`" + name + "` needs a `port`, or `chosen_by` with the parameter that names it", ErrorCode::missing);
+    if (port.has_value() == chosen.has_value())
+      fail(name, "`" + name + "` needs a `port`, or `chosen_by` with the parameter that names it", ErrorCode::missing);
     else if (chosen) chosen_path(name, *chosen, wanted, path, kind);
     else declared_path(*port, path, kind, expected);
     if (!error_ && !is_readable(kind))
       fail(name, "`" + name + "`: scripts cannot read a " + std::string(bl::name_of(kind)), ErrorCode::wrong_kind);
     return at == "from" ? End::from : End::to;
   }
-  void chosen_path(const std::string& name, const std::string& chosen, const std::optional<std::string>& wanted, PortPath& path, ValueKind& kind) {
+  void chosen_path(const std::string& name, const std::string& chosen, const std::optional<std::string>& wanted, PortPath& path,
+                   ValueKind& kind) {
     const PortDefinition* parameter = link_.find_port(chosen);
     if (parameter == nullptr || parameter->kind != ValueKind::port)
       fail(name, "`" + name + "` is chosen by `" + chosen + "`, which is no parameter of kind = \"port\"", ErrorCode::not_found);
@@ -254,8 +262,10 @@ class Declaration {
     kind = (*port)->kind;
     is_open_ = (*port)->rule != CombineRule::none;
     if (expected && (*port)->unit_from.empty() && !same_dimension(*expected, (*port)->unit))
-      fail(text, "`" + text + "` is in " + std::string(info((*port)->unit).name) + "s, the script works in " +
-                     std::string(info(*expected).name) + "s", ErrorCode::wrong_unit);
+      fail(text,
+           "`" + text + "` is in " + std::string(info((*port)->unit).name) + "s, the script works in " +
+               std::string(info(*expected).name) + "s",
+           ErrorCode::wrong_unit);
   }
 
   void read_of(const std::string& name) {
@@ -289,20 +299,26 @@ class Declaration {
 bool is_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80 ? 1 : lead >= 0xc2 && lead < 0xe0 ? 2 : lead >= 0xe0 && lead < 0xf0 ? 3 : lead >= 0xf0 && lead < 0xf5 ? 4 : 0;
+    const std::size_t length = lead < 0x80                   ? 1
+                               : lead >= 0xc2 && lead < 0xe0 ? 2
+                               : lead >= 0xe0 && lead < 0xf0 ? 3
+                               : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                             : 0;
     if (length == 0 || i + length > text.size()) return false;
     for (std::size_t k = 1; k < length; ++k)
       if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return false;
     const auto second = length > 2 ? static_cast<unsigned char>(text[i + 1]) : 0xa0;
     // Overlong forms, surrogates, and what lies beyond the last character.
-    if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) || (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f))
+    if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) || (lead == 0xf0 && second < 0x90) ||
+        (lead == 0xf4 && second > 0x8f))
       return false;
     i += length;
   }
   return true;
 }
 
-Result<ScriptDeclaration> read_declaration(lua_State* lua, const std::string& file, std::string_view text, const Registry& types) {
+Result<ScriptDeclaration> read_declaration(lua_State* lua, const std::string& file, std::string_view text,
+                                           const Registry& types) {
   return Declaration(lua, file, text, types).run();
 }
 

@@ -155,7 +155,8 @@ int random_of(lua_State* lua) {
       }
       default: return luaL_error(lua, "random takes numbers, texts and truth values: what the number shall follow from");
     }
-  if (count == 0) return luaL_error(lua, "random needs to know what the number shall follow from, such as random(ends.id, tick.index)");
+  if (count == 0)
+    return luaL_error(lua, "random needs to know what the number shall follow from, such as random(ends.id, tick.index)");
   lua_pushnumber(lua, Random(hash.value()).uniform());
   return 1;
 }
@@ -208,7 +209,7 @@ void push_raw(lua_State* lua, int base, int text, int list, int math) {
 }  // namespace
 
 int open_library(lua_State* lua) {
-  luaL_requiref(lua, "_G", luaopen_base, 0);      // 1
+  luaL_requiref(lua, "_G", luaopen_base, 0);        // 1
   luaL_requiref(lua, "string", luaopen_string, 0);  // 2
   luaL_requiref(lua, "table", luaopen_table, 0);    // 3
   luaL_requiref(lua, "math", luaopen_math, 0);      // 4
@@ -218,11 +219,10 @@ int open_library(lua_State* lua) {
   lua_newtable(lua);                                // 8: math
   take(lua, 1, 5, {"assert", "error", "ipairs", "select", "tonumber", "type"});
   take(lua, 2, 6, {"byte", "char", "len", "lower", "reverse", "sub", "upper"});
-  take(lua, 4, 8, {"abs",  "acos", "asin", "atan",       "ceil",       "cos", "deg", "exp", "floor", "fmod",      "huge", "log",
-                   "max",  "min",  "modf", "maxinteger", "mininteger", "pi",  "rad", "sin", "sqrt",  "tointeger", "tan",  "type",
-                   "ult"});
-  if (luaL_loadbufferx(lua, kLibrary, sizeof kLibrary - 1, "=(library)", "t") != LUA_OK)
-    return lua_error(lua);
+  take(lua, 4, 8,
+       {"abs", "acos", "asin",       "atan",       "ceil", "cos", "deg", "exp",  "floor",     "fmod", "huge", "log", "max",
+        "min", "modf", "maxinteger", "mininteger", "pi",   "rad", "sin", "sqrt", "tointeger", "tan",  "type", "ult"});
+  if (luaL_loadbufferx(lua, kLibrary, sizeof kLibrary - 1, "=(library)", "t") != LUA_OK) return lua_error(lua);
   push_raw(lua, 1, 2, 3, 4);
   lua_call(lua, 1, 4);
   pour(lua, 6);

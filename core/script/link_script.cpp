@@ -95,9 +95,11 @@ void check_answer(lua_State* lua, const Call& call) {
     lua_pop(lua, 1);
     bool is_known = false;
     if (lua_type(lua, -1) == LUA_TSTRING)
-      for (const std::string& name : call.script.proposes) is_known = is_known || std::strcmp(name.c_str(), lua_tostring(lua, -1)) == 0;
+      for (const std::string& name : call.script.proposes)
+        is_known = is_known || std::strcmp(name.c_str(), lua_tostring(lua, -1)) == 0;
     if (is_known) continue;
-    if (lua_type(lua, -1) == LUA_TSTRING) luaL_error(lua, "evaluate answers `%s`, which `proposes` does not declare", lua_tostring(lua, -1));
+    if (lua_type(lua, -1) == LUA_TSTRING)
+      luaL_error(lua, "evaluate answers `%s`, which `proposes` does not declare", lua_tostring(lua, -1));
     luaL_error(lua, "evaluate answers a value without a name; write return {name = value}");
   }
 }
@@ -111,7 +113,8 @@ void take_answer(lua_State* lua, const Call& call, std::size_t w) {
   } else if (lua_istable(lua, -1)) {
     const std::size_t count = values.size();
     if (lua_rawlen(lua, -1) > count)
-      luaL_error(lua, "`%s` answers %d values for an end of %d nodes", name, static_cast<int>(lua_rawlen(lua, -1)), static_cast<int>(count));
+      luaL_error(lua, "`%s` answers %d values for an end of %d nodes", name, static_cast<int>(lua_rawlen(lua, -1)),
+                 static_cast<int>(count));
     for (std::size_t i = 0; i < count; ++i) {
       lua_rawgeti(lua, -1, static_cast<lua_Integer>(i + 1));
       values[i] = proposal_at(lua, -1, call.script.write_kinds[w], name);
@@ -138,7 +141,8 @@ int evaluate_in_lua(lua_State* lua, void* context) {
   lua_pushinteger(lua, call.tick);
   lua_setfield(lua, -2, "index");
   lua_call(lua, 3, 1);
-  if (!lua_istable(lua, -1)) return luaL_error(lua, "evaluate must return a table of proposals, not a %s; {} proposes nothing", luaL_typename(lua, -1));
+  if (!lua_istable(lua, -1))
+    return luaL_error(lua, "evaluate must return a table of proposals, not a %s; {} proposes nothing", luaL_typename(lua, -1));
   check_answer(lua, call);
   for (std::size_t w = 0; w < call.writes.values.size(); ++w) take_answer(lua, call, w);
   return 0;

@@ -78,7 +78,8 @@ std::optional<Value> proposal_at(lua_State* lua, int index, ValueKind kind, cons
   if (kind == ValueKind::point) {
     if (lua_type(lua, index) != LUA_TTABLE)
       luaL_error(lua, "`%s` needs a point {x = , y = , z = }, not a %s", name, luaL_typename(lua, index));
-    const double x = coordinate(lua, index, "x", name), y = coordinate(lua, index, "y", name), z = coordinate(lua, index, "z", name);
+    const double x = coordinate(lua, index, "x", name), y = coordinate(lua, index, "y", name),
+                 z = coordinate(lua, index, "z", name);
     return Value(Vector3{x, y, z});
   }
   if (lua_type(lua, index) != LUA_TNUMBER) luaL_error(lua, "`%s` needs a number, not a %s", name, luaL_typename(lua, index));

@@ -28,14 +28,14 @@ enum class Stop { none, instructions, memory, piece, text };
 struct Machine::Box {
   lua_State* lua = nullptr;
   std::string file;
-  std::size_t held = 0;               // now [byte]
-  std::size_t base = 0;               // held after the last collection
-  std::size_t left = kUnlimited;      // memory that may still be taken
-  std::int64_t instructions = 0;      // that may still run
+  std::size_t held = 0;           // now [byte]
+  std::size_t base = 0;           // held after the last collection
+  std::size_t left = kUnlimited;  // memory that may still be taken
+  std::int64_t instructions = 0;  // that may still run
   bool is_limited = false;
   Stop stop = Stop::none;
-  int blamed_line = 0;                // of errors that no code of the script is running at
-  char place[128] = "";               // where the limit was met
+  int blamed_line = 0;   // of errors that no code of the script is running at
+  char place[128] = "";  // where the limit was met
 
   ~Box() {
     if (lua != nullptr) lua_close(lua);
@@ -190,8 +190,8 @@ Error Machine::failure(int status) {
                   " MiB for one link in one tick"};
     case Stop::piece:
       return {ErrorCode::cancelled, "",
-              place + "stopped when a table or the depth of its calls grew beyond " +
-                  std::to_string(ScriptLimits::kPiece >> 10) + " KiB"};
+              place + "stopped when a table or the depth of its calls grew beyond " + std::to_string(ScriptLimits::kPiece >> 10) +
+                  " KiB"};
     case Stop::text:
       return {ErrorCode::cancelled, "",
               place + "stopped when a text grew beyond " + std::to_string(ScriptLimits::kText >> 10) + " KiB"};
@@ -221,6 +221,10 @@ int Machine::call(int (*use)(lua_State*, void*), void* context, bool lifts_limit
 
 Result<void> Machine::run(int (*use)(lua_State*, void*), void* context, ScriptBudget& budget) {
   Box& self = *box_;
+  if (budget.instructions <= 0) {  // short runs never come to the hook
+    self.stop = Stop::instructions;
+    return failure(LUA_ERRRUN);
+  }
   const std::int64_t instructions = std::min(budget.instructions, ScriptLimits::kInstructions);
   const std::size_t memory = std::min(budget.memory, ScriptLimits::kMemory);
   self.instructions = instructions;

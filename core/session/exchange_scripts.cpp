@@ -47,4 +47,3 @@ Inverse exchange_scripts(SceneEdit& edit, const Scripts& after, std::vector<Comm
 }
 
 }  // namespace bl
-

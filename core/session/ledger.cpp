@@ -93,7 +93,8 @@ Result<void> Ledger::take_back(const std::string& author, std::int64_t tick,
   }
   const std::int64_t fresh = new_gesture();
   for (const Command& command : commands)
-    if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? gesture : 0, is_undo ? 0 : gesture}); !done) return done;
+    if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? gesture : 0, is_undo ? 0 : gesture}); !done)
+      return done;
   return {};
 }
 

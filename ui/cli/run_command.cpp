@@ -7,13 +7,14 @@
 
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "core/file/log_writer.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
-#include "core/file/log_writer.h"
 #include "ui/cli/report/report.h"
 #include "ui/cli/run_output.h"
 #include "ui/cli/scene_loading.h"
+#include "ui/cli/script_file.h"
 #include "ui/cli/set_argument.h"
 #include "ui/cli/settle_watch.h"
 #include "ui/cli/terminal.h"
@@ -78,6 +79,11 @@ class Run {
       if (auto opened = log_.open(options_.log); !opened) return fail(options_.log, opened.error());
       log_.write(log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr)));
       session_->on_entry([this](const LogEntry& entry) { log_.write(log_line(entry, full_registry())); });
+    }
+    for (const std::string& file : options_.scripts) {
+      auto command = script_command(file);
+      if (!command) return fail(file, command.error());
+      if (auto done = session_->submit(*command, "command line"); !done) return fail(file, done.error());
     }
     for (const std::string& argument : options_.set) {
       auto command = set_command(session_->scene(), full_registry(), argument);

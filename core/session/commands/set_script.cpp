@@ -5,9 +5,12 @@
 namespace bl {
 
 void SetScript::declare(CommandBuilder<SetScript>& c) {
-  c.id("set_script").label("Set script").doc(
-      "Adds a link kind that is written in Lua, or gives it a new text. A text that cannot be read is refused, and the old one "
-      "stays in force.");
+  c.id("set_script")
+      .label("Set script")
+      .doc(
+          "Adds a link kind that is written in Lua, or gives it a new text. A text that cannot be read is refused, and the old "
+          "one "
+          "stays in force.");
   c.argument(&In::id, "id").required().doc("The name of the script: that of its file without .lua.");
   c.argument(&In::text, "text").required().doc("The whole text.");
   c.argument(&In::even_if_broken, "even_if_broken")

@@ -38,15 +38,20 @@ std::vector<Hostile> hostile_scripts() {
       {"table bomb", body("local t = {}\nwhile true do t[#t + 1] = {} end"), "bad.lua:6: |table or the depth of its calls"},
       {"array bomb", body("local t = {}\nfor i = 1, 1e9 do t[i] = i end"), "bad.lua:6: |table or the depth of its calls"},
       {"string bomb", body("local s = 'x'\nwhile true do s = s .. s end"), "bad.lua:6: |text grew"},
-      {"string heap", body("local t, s = {}, ('x')\nfor i = 1, 11 do s = s .. s end\nfor i = 1, 1e9 do t[i % 3000] = s .. i end"), "bad.lua:7: |MiB of memory"},
+      {"string heap", body("local t, s = {}, ('x')\nfor i = 1, 11 do s = s .. s end\nfor i = 1, 1e9 do t[i % 3000] = s .. i end"),
+       "bad.lua:7: |MiB of memory"},
       {"deep recursion", body("local function f(n) return 1 + f(n + 1) end\nreturn f(1)"), "bad.lua:5: |depth of its calls"},
       {"growing arguments", body("local function f(...) return f(1, ...) end\nreturn f()"), "bad.lua:5: |stopped"},
-      {"sort of nonsense", body("local t = {}\nfor i = 1, 3000 do t[i] = i end\nwhile true do table.sort(t, function() return true end) end"), "bad.lua:7: |instructions"},
+      {"sort of nonsense",
+       body("local t = {}\nfor i = 1, 3000 do t[i] = i end\nwhile true do table.sort(t, function() return true end) end"),
+       "bad.lua:7: |instructions"},
       {"insert in front", body("local t = {}\nfor i = 1, 1e9 do table.insert(t, 1, i) end"), "bad.lua:6: |instructions"},
       {"concat of nothing", body(big + "while true do table.concat(t) end"), "bad.lua:6: |instructions"},
       {"unpack of nothing", body("while true do table.unpack({}, 1, 90) end"), "bad.lua:5: |"},
       {"unpack of much", body("return table.unpack({}, 1, 1e8)"), "bad.lua:4: |100 values"},
-      {"comparing long texts", body("local s = 'x'\nfor i = 1, 11 do s = s .. s end\nlocal r = s:reverse()\nwhile true do local _ = s < r end"), "bad.lua:8: |instructions"},
+      {"comparing long texts",
+       body("local s = 'x'\nfor i = 1, 11 do s = s .. s end\nlocal r = s:reverse()\nwhile true do local _ = s < r end"),
+       "bad.lua:8: |instructions"},
       {"a pattern", body("return string.find('aaaa', '.-.-.-.-b')"), "bad.lua:5: |nil value (field 'find')"},
       {"a pattern of a text", body("return ('aaaa'):find('b')"), "bad.lua:5: |nil value (method 'find')"},
       {"rep", body("return ('x'):rep(1e9)"), "bad.lua:5: |nil value (method 'rep')"},
@@ -71,18 +76,24 @@ std::vector<Hostile> hostile_scripts() {
       {"nothing", "", "bad.lua:1: |must return a table"},
       {"a number", "return 3", "bad.lua:1: |must return a table"},
       {"no UTF-8", "return '\xff'", "bad.lua: |UTF-8"},
-      {"unknown typification", declaring("here = {at = 'from', port = 'smart_volum.volume'}"), "bad.lua:2: |did you mean `smart_volume`"},
+      {"unknown typification", declaring("here = {at = 'from', port = 'smart_volum.volume'}"),
+       "bad.lua:2: |did you mean `smart_volume`"},
       {"unknown port", declaring("here = {at = 'from', port = 'smart_volume.volum'}"), "bad.lua:2: |did you mean `volume`"},
-      {"unknown unit", declaring("here = {at = 'from', port = 'smart_volume.volume', unit = 'furlong'}"), "bad.lua:2: |unknown unit `furlong`"},
-      {"unit that is no SI unit", declaring("here = {at = 'from', port = 'node.position', unit = 'km'}"), "bad.lua:2: |values come in `m`"},
+      {"unknown unit", declaring("here = {at = 'from', port = 'smart_volume.volume', unit = 'furlong'}"),
+       "bad.lua:2: |unknown unit `furlong`"},
+      {"unit that is no SI unit", declaring("here = {at = 'from', port = 'node.position', unit = 'km'}"),
+       "bad.lua:2: |values come in `m`"},
       {"wrong unit", declaring("here = {at = 'from', port = 'smart_volume.volume', unit = 'm'}"), "bad.lua:2: |in cubic metres"},
       {"unknown end", declaring("here = {at = 'left', port = 'node.position'}"), "bad.lua:2: |\"from\" or \"to\""},
       {"unknown field", declaring("here = {at = 'from', prot = 'node.position'}"), "bad.lua:2: |did you mean `port`"},
       {"taken id", "return {id = 'ratio', doc = 'x', proposes = {}, evaluate = function() end}", "bad.lua:1: |already"},
       {"no id", "return {doc = 'x'}", "bad.lua:1: |`id` of the script is missing"},
-      {"computed port", "return {id = 'bad', doc = 'x',\nproposes = {v = {at = 'to', port = 'smart_volume.volume'}}, evaluate = function() end}",
+      {"computed port",
+       "return {id = 'bad', doc = 'x',\nproposes = {v = {at = 'to', port = 'smart_volume.volume'}}, evaluate = function() end}",
        "bad.lua:2: |cannot be changed by links"},
-      {"default out of range", "return {id = 'bad', doc = 'x',\nparams = {{id = 'size', default = 5, max = 3, doc = 'x'}},\nproposes = {}, evaluate = 3}", "bad.lua:2: |at most 3"},
+      {"default out of range",
+       "return {id = 'bad', doc = 'x',\nparams = {{id = 'size', default = 5, max = 3, doc = 'x'}},\nproposes = {}, evaluate = 3}",
+       "bad.lua:2: |at most 3"},
       {"too long a script", "return '" + std::string(300000, 'x') + "'", "bad.lua: |longer than 256 KiB"},
       {"a deep table in the text", "return " + std::string(1000, '{') + std::string(1000, '}'), "bad.lua: |C stack overflow"},
   };
@@ -103,7 +114,8 @@ TEST(HostileScript, IsStoppedAndNamed) {
     const auto begin = std::chrono::steady_clock::now();
     const std::string said = said_by(hostile.text);
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    const std::string wanted = hostile.said, start = wanted.substr(0, wanted.find('|')), words = wanted.substr(wanted.find('|') + 1);
+    const std::string wanted = hostile.said, start = wanted.substr(0, wanted.find('|')),
+                      words = wanted.substr(wanted.find('|') + 1);
     EXPECT_TRUE(said.starts_with(start)) << hostile.name << ": " << said;
     EXPECT_NE(said.find(words), std::string::npos) << hostile.name << ": " << said;
     EXPECT_EQ(said, said_by(hostile.text)) << hostile.name;
@@ -114,7 +126,8 @@ TEST(HostileScript, IsStoppedAndNamed) {
 
 // Evaluations after a stopped one are as if nothing had been.
 TEST(HostileScript, LeavesNothingBehind) {
-  const auto kind = read_link_script("bad", body("if ends.here.x > 1 then while true do end end\nreturn {move = ends.here}"), full_registry());
+  const auto kind =
+      read_link_script("bad", body("if ends.here.x > 1 then while true do end end\nreturn {move = ends.here}"), full_registry());
   ASSERT_TRUE(kind.ok());
   LinkCase link(*kind);
   EXPECT_NE(link.from("node.position", Vector3{2, 0, 0}).run(), "");

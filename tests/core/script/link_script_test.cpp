@@ -122,7 +122,8 @@ TEST(LinkScript, ParametersOfEveryKind) {
   const LinkDefinition kind = kind_of(
       "return {id = 'kinds', doc = 'Kinds.', params = {\n"
       "{id = 'flag', default = true, doc = 'A switch.'}, {id = 'whole', kind = 'integer', default = 3, doc = 'A count.'},\n"
-      "{id = 'word', default = 'x', doc = 'A text.'}, {id = 'place', default = {x = 1, y = 2, z = 3}, unit = 'm', doc = 'A place.'},\n"
+      "{id = 'word', default = 'x', doc = 'A text.'}, {id = 'place', default = {x = 1, y = 2, z = 3}, unit = 'm', doc = 'A "
+      "place.'},\n"
       "{id = 'mode', default = 'up', choices = {{id = 'up', doc = 'Up.'}, {id = 'down', doc = 'Down.'}}, doc = 'Where to.'},\n"
       "{id = 'source', kind = 'port', doc = 'What is read.'}},\n"
       "reads = {value = {at = 'from', chosen_by = 'source'}},\n"
@@ -145,9 +146,16 @@ TEST(LinkScript, LibraryByHand) {
   EXPECT_EQ(number_of("math.max(3, math.floor(7.9), 5)"), 7);
   EXPECT_EQ(number_of("#(('abc'):upper() .. string.sub('defg', 2, 3))"), 5);
   EXPECT_EQ(number_of("tonumber(string.format('%.1f', 2.25)) + select('#', table.unpack({1, 2, 3}))"), 5.2);
-  EXPECT_EQ(number_of("(function() local t = {5, 2, 9} table.sort(t) table.insert(t, 1, 7) table.remove(t, 2) return t[1] * 100 + t[2] * 10 + t[3] end)()"), 759);
-  EXPECT_EQ(number_of("(function() local t = {5, 2, 9} table.sort(t, function(a, b) return a > b end) return tonumber(table.concat(t)) end)()"), 952);
-  EXPECT_EQ(number_of("(function() local n = 0 for k, v in pairs({b = 2, a = 1, c = 3, [1] = 4}) do n = n * 10 + v end return n end)()"), 4123);
+  EXPECT_EQ(number_of("(function() local t = {5, 2, 9} table.sort(t) table.insert(t, 1, 7) table.remove(t, 2) return t[1] * 100 "
+                      "+ t[2] * 10 + t[3] end)()"),
+            759);
+  EXPECT_EQ(number_of("(function() local t = {5, 2, 9} table.sort(t, function(a, b) return a > b end) return "
+                      "tonumber(table.concat(t)) end)()"),
+            952);
+  EXPECT_EQ(
+      number_of(
+          "(function() local n = 0 for k, v in pairs({b = 2, a = 1, c = 3, [1] = 4}) do n = n * 10 + v end return n end)()"),
+      4123);
 }
 
 TEST(LinkScript, RandomFollowsFromItsArgumentsAlone) {
@@ -173,10 +181,12 @@ TEST(LinkScript, NothingIsKeptBetweenEvaluations) {
 }
 
 TEST(LinkScript, WhatIsDangerousIsNotThere) {
-  for (const char* name : {"io", "os", "package", "debug", "load", "loadstring", "loadfile", "dofile", "require", "coroutine", "pcall", "xpcall",
-                           "collectgarbage", "print", "setmetatable", "getmetatable", "rawset", "rawget", "rawequal", "next", "_G",
-                           "string.find", "string.match", "string.gmatch", "string.gsub", "string.rep", "string.dump", "string.pack", "table.move",
-                           "math.random", "math.randomseed", "('x').find", "('x').rep"})
+  for (const char* name :
+       {"io",           "os",           "package",         "debug",       "load",       "loadstring",     "loadfile",
+        "dofile",       "require",      "coroutine",       "pcall",       "xpcall",     "collectgarbage", "print",
+        "setmetatable", "getmetatable", "rawset",          "rawget",      "rawequal",   "next",           "_G",
+        "string.find",  "string.match", "string.gmatch",   "string.gsub", "string.rep", "string.dump",    "string.pack",
+        "table.move",   "math.random",  "math.randomseed", "('x').find",  "('x').rep"})
     EXPECT_EQ(number_of(std::string(name) + " == nil and 1 or 0"), 1) << name;
 }
 

@@ -7,7 +7,8 @@ namespace bl::test {
 
 namespace {
 
-const std::vector<std::string> kCommands = {"run", "open", "new", "check", "docs", "schema", "replay", "bench", "cells", "fit"};
+const std::vector<std::string> kCommands = {"run",    "open",   "script", "new",   "check", "docs",
+                                            "schema", "replay", "bench",  "cells", "fit"};
 
 TEST(Help, AloneIsAnOverview) {
   const Workplace place;

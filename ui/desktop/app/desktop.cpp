@@ -63,18 +63,22 @@ std::string Desktop::title() {
 }
 
 void Desktop::drop(const std::string& path) {
-  dialogs_->guard([this, path] { editor_->open(path, true); });
+  if (!path.ends_with(".lua")) return dialogs_->guard([this, path] { editor_->open(path, true); });
+  if (editor_->document) editor_->script_watch.add(*editor_, path);
+  else editor_->tell(NoticeKind::warning, "A link script belongs to a scene: open the scene first, then drop the script again.");
 }
 
 void Desktop::ask_to_quit() {
   dialogs_->guard([this] { editor_->wants_quit = true; });
 }
 
-void Desktop::offer_recovery() { dialogs_->offer_recovery(Journal::find(editor_->registry)); }
+void Desktop::offer_recovery() { dialogs_->offer_recovery(Journal::find(editor_->program)); }
 
 void Desktop::frame(double now) {
   Editor& editor = *editor_;
   editor.now = now;
+  editor.begin_frame();
+  editor.script_watch.poll(editor);
   if (editor.document) editor.moment = editor.document->session().moment();
   else editor.moment = nullptr;
   const ImVec2 size = ImGui::GetIO().DisplaySize;

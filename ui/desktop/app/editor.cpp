@@ -74,7 +74,7 @@ bool Editor::open(const std::string& wanted, bool plays) {
   const auto absolute = std::filesystem::absolute(wanted, error);
   const std::string path = error ? wanted : absolute.lexically_normal().string();
   std::vector<Problem> found;
-  auto fresh = Document::open(registry, path, kThreads, found);
+  auto fresh = Document::open(program, path, kThreads, found);
   problems = std::move(found);
   problem_file = path;
   if (!fresh) {
@@ -93,6 +93,21 @@ void Editor::take(std::unique_ptr<Document> fresh) {
   moment = document->session().moment();
   picks = {};
   panels = nullptr;
+  script_watch.clear();
+}
+
+const Registry& Editor::types() const {
+  if (!document) return program;
+  const Scripts& scripts = scene().scripts;
+  if (!scripts.texts().empty() && (held_.empty() || &held_.back().types(program) != &scripts.types(program)))
+    held_.push_back(scripts);
+  return scripts.types(program);
+}
+
+void Editor::begin_frame() {
+  held_before_ = std::move(held_);
+  held_.clear();
+  (void)types();
 }
 
 }  // namespace bl::desktop

@@ -82,6 +82,11 @@ void Dialogs::ask_open() {
   });
 }
 
+void Dialogs::ask_script() {
+  chooser_.open(FileChooser::Purpose::open_file, "Add a link script", {".lua"}, folder_of(*editor_));
+  chosen_ = [this](const std::string& path) { editor_->script_watch.add(*editor_, path); };
+}
+
 void Dialogs::ask_save_as() {
   const std::string path = editor_->document->path();
   chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"},
@@ -191,7 +196,7 @@ void Dialogs::draw_recovery() {
     if (recovers) {
       editor_->problems.clear();
       editor_->problem_file = one.path;
-      if (auto document = Document::recover(editor_->registry, one, kThreads, editor_->problems)) {
+      if (auto document = Document::recover(editor_->program, one, kThreads, editor_->problems)) {
         editor_->take(std::move(document));
         editor_->tell(NoticeKind::told, "Recovered. Save it to keep it.");
       } else {

@@ -187,12 +187,13 @@ void ProblemList::add_file(const Editor& editor) {
   for (std::size_t k = 0; k < editor.problems.size(); ++k) {
     const Problem& problem = editor.problems[k];
     const std::string& place = problem.error.place;
+    const bool is_script = place.starts_with("scripts/");
     ProblemItem item{ProblemKind::file,
                      "file/" + std::to_string(k),
                      problem.is_error ? 1 : 0,
                      problem.is_error,
-                     file,
-                     problem.error.text(),
+                     is_script ? place.substr(place.find('/') + 1) + ".lua" : file,
+                     is_script ? problem.error.message : problem.error.text(),
                      {},
                      {},
                      {}};
@@ -210,12 +211,14 @@ void ProblemList::add_file(const Editor& editor) {
 
 void ProblemList::refresh(const Editor& editor, const report::ReportModel& figures) {
   const std::shared_ptr<const State> state = editor.moment ? editor.moment->state : nullptr;
-  const bool is_same = state == state_ && file_problems_ == editor.problems.size() && file_ == editor.problem_file;
+  std::string file_problems;
+  for (const Problem& problem : editor.problems) file_problems += problem.error.text() + "\n";
+  const bool is_same = state == state_ && file_problems_ == file_problems && file_ == editor.problem_file;
   if (is_same) return;
   if (state && state->plan.get() != plan_) bands_.clear();
   plan_ = state ? state->plan.get() : nullptr;
   state_ = state;
-  file_problems_ = editor.problems.size();
+  file_problems_ = std::move(file_problems);
   file_ = editor.problem_file;
   items_.clear();
   if (state) {

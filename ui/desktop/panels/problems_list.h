@@ -52,8 +52,7 @@ class ProblemList {
   std::array<std::size_t, kProblemKinds> counts_{};
   std::shared_ptr<const State> state_;
   const Plan* plan_ = nullptr;
-  std::size_t file_problems_ = static_cast<std::size_t>(-1);
-  std::string file_;
+  std::string file_problems_ = "none read yet", file_;
   std::map<PortRef, int> bands_;
   std::map<std::string, bool> short_uses_;
 };

@@ -94,7 +94,7 @@ Result<void> paste_nodes(Pasting& pasting, const Json& list) {
     if (id.empty()) return Error{ErrorCode::missing, "nodes", "a node has no id"};
     pasting.new_ids[id] = pasting.ids.of(id);
   }
-  const Registry& registry = pasting.board.editor.registry;
+  const Registry& registry = pasting.board.editor.types();
   for (const Json& item : list) {
     const std::string id = text_in(item, "id");
     auto node = node_from_json(without(item, {"id", "box"}), registry, "nodes/" + id);
@@ -117,7 +117,7 @@ Result<void> paste_nodes(Pasting& pasting, const Json& list) {
 }
 
 Result<void> paste_links(Pasting& pasting, const Json& list) {
-  const Registry& registry = pasting.board.editor.registry;
+  const Registry& registry = pasting.board.editor.types();
   for (const Json& item : list) {
     const std::string id = text_in(item, "id");
     if (id.empty()) return Error{ErrorCode::missing, "links", "a link has no id"};
@@ -195,7 +195,7 @@ std::string clip_of_choice(const Board& board) {
     if (found == editor.scene().nodes.end()) continue;
     Json item = Json::object();
     item["id"] = id;
-    item.update(node_to_json(found->second, editor.registry));
+    item.update(node_to_json(found->second, editor.types()));
     if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size())
       item["box"] = corner_json(board.model.boxes[k].box.at);
     clip["nodes"].push_back(std::move(item));
@@ -204,7 +204,7 @@ std::string clip_of_choice(const Board& board) {
     if (!link.ghost.empty() || !is_inner(link.from, nodes) || !is_inner(link.to, nodes)) continue;
     Json item = Json::object();
     item["id"] = id;
-    item.update(link_to_json(link, editor.registry));
+    item.update(link_to_json(link, editor.types()));
     if (const auto dots = board.model.view.dots.find(id); dots != board.model.view.dots.end())
       for (const ImVec2& p : dots->second) item["dots"].push_back(corner_json(p));
     clip["links"].push_back(std::move(item));
