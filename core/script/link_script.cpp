@@ -126,11 +126,10 @@ void take_answer(lua_State* lua, const Call& call, std::size_t w) {
   lua_pop(lua, 1);
 }
 
-// The script's table is on top. Raises Lua errors: nothing here has a destructor.
+// The function is on top. Raises Lua errors: nothing here has a destructor.
 int evaluate_in_lua(lua_State* lua, void* context) {
   const Call& call = *static_cast<Call*>(context);
   luaL_checkstack(lua, 16, nullptr);
-  lua_getfield(lua, -1, "evaluate");
   lua_pushvalue(lua, -1);
   lua_Debug function;
   lua_getinfo(lua, ">S", &function);

@@ -126,14 +126,59 @@ struct Use {
   bool* is_limited;
 };
 
-// Stack: the compiled text at 1, Use at 2. The text gets new globals, so that nothing is kept from run to run.
-int run_text(lua_State* lua) {
-  const Use& use = *static_cast<Use*>(lua_touserdata(lua, 2));
-  lua_pushvalue(lua, 1);
+// Place in Lua's registry, by address: the `evaluate` that can be called without running its text again.
+char plain_key;
+
+// Is the function on top such that nothing can last in it? It knows no variables of the text around it, only globals.
+bool is_plain(lua_State* lua) {
+  bool is = true;
+  for (int i = 1; const char* name = lua_getupvalue(lua, -1, i); ++i) {
+    lua_pop(lua, 1);
+    is = is && i == 1 && std::strcmp(name, "_ENV") == 0;
+  }
+  return is;
+}
+
+// Runs the text at 1 with new globals, which go to 3, and leaves what it returned on top.
+void run_anew(lua_State* lua) {
   push_globals(lua);
+  lua_pushvalue(lua, 1);
+  lua_pushvalue(lua, 3);
   lua_setupvalue(lua, -2, 1);
   lua_call(lua, 0, 1);
-  if (use.lifts_limits) *use.is_limited = false;
+}
+
+// Leaves `evaluate` on top. Where it is plain and the text has made no globals, it is kept and given new globals each time;
+// else the whole text runs again, so that nothing is kept from run to run.
+void push_evaluate(lua_State* lua) {
+  if (lua_rawgetp(lua, LUA_REGISTRYINDEX, &plain_key) == LUA_TFUNCTION) {
+    push_globals(lua);
+    if (lua_setupvalue(lua, -2, 1) == nullptr) lua_pop(lua, 1);
+    return;
+  }
+  lua_pop(lua, 1);
+  run_anew(lua);
+  if (!lua_istable(lua, -1)) luaL_error(lua, "the script must return a table");
+  lua_getfield(lua, -1, "evaluate");
+  if (!lua_isfunction(lua, -1)) luaL_error(lua, "`evaluate` must be a function");
+  lua_pushnil(lua);
+  if (lua_next(lua, 3) != 0) {
+    lua_pop(lua, 2);
+  } else if (is_plain(lua)) {
+    lua_pushvalue(lua, -1);
+    lua_rawsetp(lua, LUA_REGISTRYINDEX, &plain_key);
+  }
+}
+
+// Stack: the compiled text at 1, Use at 2.
+int run_text(lua_State* lua) {
+  const Use& use = *static_cast<Use*>(lua_touserdata(lua, 2));
+  if (use.lifts_limits) {
+    run_anew(lua);
+    *use.is_limited = false;
+  } else {
+    push_evaluate(lua);
+  }
   return use.use(lua, use.context);
 }
 

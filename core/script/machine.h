@@ -28,11 +28,12 @@ class Machine {
   Machine(const Machine&) = delete;
   Machine& operator=(const Machine&) = delete;
 
-  /// Runs the whole text with globals of its own and leaves what it returned on the stack, then calls `use` with `context`.
+  /// Leaves the script's `evaluate` on the stack, with globals of its own and as if the text had just run for the first time, and
+  /// calls `use` with `context`.
   /// Everything runs under the limits of one evaluation and of `budget`, which is lowered by what was used. `use` may raise
   /// Lua errors, and so must hold nothing that has a destructor. After an error the machine must not be used again.
   Result<void> run(int (*use)(lua_State*, void*), void* context, ScriptBudget& budget);
-  /// The same without limits in `use`, for a host that only looks at what the text returned.
+  /// Runs the whole text and leaves what it returned on the stack; in `use` there are no limits.
   Result<void> look(int (*use)(lua_State*, void*), void* context);
 
   /// "name.lua"

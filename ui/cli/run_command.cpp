@@ -70,7 +70,7 @@ class Run {
 
   bool start() {
     if (!check_outputs()) return false;
-    auto reading = load_scene(options_.scene);
+    auto reading = load_scene(options_.scene, !options_.scripts.empty());
     if (!reading) return false;
     auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options_.threads);
     if (!session) return fail(options_.scene, session.error());
@@ -85,6 +85,7 @@ class Run {
       if (!command) return fail(file, command.error());
       if (auto done = session_->submit(*command, "command line"); !done) return fail(file, done.error());
     }
+    if (!options_.scripts.empty()) print_problems(options_.scene, check_scene(session_->scene(), full_registry()));
     for (const std::string& argument : options_.set) {
       auto command = set_command(session_->scene(), full_registry(), argument);
       if (!command) return fail("", command.error());

@@ -37,7 +37,7 @@ bool extract(const Scripts& scripts, const std::string& folder) {
 }  // namespace
 
 int script_command(const ScriptOptions& options) {
-  auto reading = load_scene(options.scene);
+  auto reading = load_scene(options.scene, !options.files.empty());
   if (!reading) return kBadInput;
   SceneEdit edit(reading->scene, full_registry());
   for (const std::string& file : options.files) {
@@ -56,6 +56,7 @@ int script_command(const ScriptOptions& options) {
       print_error(options.scene, done.error());
       return kBadInput;
     }
+  if (!options.files.empty()) print_problems(options.scene, check_scene(reading->scene, full_registry()));
   if (!options.extract.empty() && !extract(reading->scene.scripts, options.extract)) return kBadInput;
   if (!options.out.empty()) {
     const std::string text = write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr);

@@ -1,9 +1,12 @@
 // Scripts as link kinds: what a declaration becomes, evaluations by hand, and what scripts can and cannot reach.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <thread>
+#include <vector>
 
 #include "core/script/link_script.h"
 #include "tests/links/link_case.h"
@@ -168,6 +171,18 @@ TEST(LinkScript, RandomFollowsFromItsArgumentsAlone) {
 
 // The globals, what a text keeps outside its functions, and the library start anew in each evaluation.
 TEST(LinkScript, NothingIsKeptBetweenEvaluations) {
+  // Outside variables, globals of the text, and neither: these are kept from lasting in different ways.
+  for (const std::string& text :
+       {"function seen() count = (count or 0) + 1 return count end\n" + mover("return {move = point(1, seen(), 0)}"),
+        mover("count = (count or 0) + 1 return {move = point(1, count, 0)}")}) {
+    const LinkDefinition other = kind_of(text);
+    LinkCase link(other);
+    link.from("node.position", Vector3{}).from("node.id", std::string("a"));
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_EQ(link.run(), "");
+      expect_near(link.move(End::from), {1, 1, 0});
+    }
+  }
   const LinkDefinition kind = kind_of("local outside = 0\n" + mover("outside = outside + 1 count = (count or 0) + 1\n"
                                                                     "return {move = point(outside, count, 0)}"));
   LinkCase link(kind);
@@ -178,6 +193,31 @@ TEST(LinkScript, NothingIsKeptBetweenEvaluations) {
   }
   EXPECT_NE(run_mover("math.pi = 3 return {}"), "");
   EXPECT_NE(run_mover("string.len = nil return {}"), "");
+}
+
+// Threads that evaluate one kind at once get the bits that one alone gets, runaways among them.
+TEST(LinkScript, ThreadsDoNotMeet) {
+  const LinkDefinition kind = kind_of("local function double(x) return 2 * x end\n" +
+                                      mover("if ends.id == 'bad' then while true do end end\n"
+                                            "return {move = ends.here * double(random(ends.id, ends.here.x))}"));
+  auto walk = [&kind](int thread) {
+    Hash hash;
+    for (int i = 0; i < 200; ++i) {
+      LinkCase link(kind);
+      const bool is_bad = i % 50 == thread;
+      const std::string said =
+          link.from("node.position", Vector3{double(i), 1, 2}).from("node.id", std::string(is_bad ? "bad" : "good")).run();
+      EXPECT_EQ(said.empty(), !is_bad) << said;
+      if (said.empty() && i % 50 > 4) hash.add(link.move(End::from));
+    }
+    return hash.value();
+  };
+  const std::uint64_t alone = walk(0);
+  std::array<std::uint64_t, 4> together{};
+  std::vector<std::thread> threads;
+  for (int k = 0; k < 4; ++k) threads.emplace_back([&, k] { together[static_cast<std::size_t>(k)] = walk(k); });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::uint64_t hash : together) EXPECT_EQ(hash, alone);
 }
 
 TEST(LinkScript, WhatIsDangerousIsNotThere) {

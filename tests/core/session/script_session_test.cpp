@@ -228,7 +228,7 @@ TEST(ScriptSession, IsSavedLineByLineAndReadBack) {
 TEST(ScriptSession, ABrokenTextInAFileIsKeptAndItsLinksRest) {
   World world = scripted_world();
   Scene scene = world.session().scene();
-  const std::string broken = with_kind(write_scene(scene, full_registry()), "return {demand", "retrun {demand");
+  const std::string broken = with_kind(write_scene(scene, full_registry()), "return {demand", "return = {demand");
   const SceneReading reading = read_scene(broken, full_registry());
   ASSERT_TRUE(reading.is_usable());
   ASSERT_FALSE(reading.problems.empty());
@@ -245,6 +245,13 @@ TEST(ScriptSession, ABrokenTextInAFileIsKeptAndItsLinksRest) {
   EXPECT_EQ(run.link_error("l1_parking"), "");
   ASSERT_TRUE(run.session().undo("test").ok());
   EXPECT_EQ(run.session().scene(), before);
+}
+
+TEST(ScriptSession, TheShippedSceneCarriesTheShippedScripts) {
+  const SceneReading reading = read_scene(project_file("scenes/studies/scripted_terraces.json"), full_registry());
+  ASSERT_TRUE(reading.is_usable() && reading.problems.empty());
+  for (const auto& [name, text] : reading.scene.scripts.texts()) EXPECT_EQ(text, project_file("links/scripts/" + name + ".lua"));
+  EXPECT_EQ(reading.scene.scripts.kinds().size(), 2u);
 }
 
 TEST(ScriptSession, WrongFormsInAFileHaveTheirPlace) {

@@ -19,6 +19,7 @@ TEST(Script, GoesIntoASceneRunsAndComesOutAgain) {
   Outcome done = place.run({"script", "scene.json", shipped("lean_uphill.lua"), "--out", "out.json"});
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("lean_uphill.lua: link kind `lean_uphill`"), std::string::npos) << done.out;
+  EXPECT_EQ(done.err, "") << "the link runs now";
   done = place.run({"run", "out.json", "--save", "end.json"});
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(place.text("end.json").find("\"hut\": {\"node.position\": [8, 0, 1.9"), std::string::npos) << place.text("end.json");
