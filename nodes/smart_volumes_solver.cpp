@@ -204,7 +204,7 @@ struct SmartVolumesSolver {
     if (!domain) return domain.error();
     Out out;
     out.boundary_volume = domain->volume;
-    if (sets.members.empty()) return out;
+    if (sets.members.empty() || (tick.is_recall && in.metric != Metric::power)) return out;
     std::vector<PowerSite> sites;
     std::vector<double> wanted, storey_heights;
     std::vector<std::string> names;
@@ -216,7 +216,7 @@ struct SmartVolumesSolver {
     }
     VolumeTick::Kept own;
     VolumeTick::Kept& kept = tick.memo != nullptr ? tick.memo->of<VolumeTick::Kept>() : own;
-    const VolumeTick now{in.metric,    in.resolution,         in.method,      in.gain,  in.steps,
+    const VolumeTick now{in.metric,    in.resolution,         in.method,      in.gain,  tick.is_recall ? 0 : in.steps,
                          in.tolerance, in.tessellation_depth, storey_heights, tick.pool};
     const auto done = now.run(*domain, sites, wanted, last_state(in, sets.members), kept);
     if (!done) return Error{done.error().code, "members", with_names(done.error().message, names)};

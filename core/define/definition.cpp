@@ -12,6 +12,7 @@ std::string_view name_of(CombineRule rule) {
     case CombineRule::blend: return "blend";
     case CombineRule::min: return "min";
     case CombineRule::max: return "max";
+    case CombineRule::collect: return "collect";
   }
   return "none";
 }

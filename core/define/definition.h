@@ -40,10 +40,12 @@ struct Tick {
   std::int64_t index = 0;
   ThreadPool* pool = nullptr;  ///< only set evaluations (solvers) may use it; nullptr means one thread
   Memo* memo = nullptr;        ///< only where somebody keeps it: a set's from tick to tick, a link's during one tick
+  bool is_recall = false;      ///< only the meshes of the values as they stand are wanted: no step is taken
 };
 
-/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; the others choose a value.
-enum class CombineRule { none, sum, blend, min, max };
+/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of texts;
+/// the others choose a value.
+enum class CombineRule { none, sum, blend, min, max, collect };
 std::string_view name_of(CombineRule rule);
 
 /// One column of a table port.
@@ -143,6 +145,8 @@ struct TypeDefinition {
 /// A role of a node. `evaluate` is empty for roles whose computed ports are written by a solver.
 struct TypificationDefinition : TypeDefinition {
   std::vector<SetDefinition> sets;
+  /// Id of the port that holds how many ticks after its beginning a result counts; empty for what is worked out within a tick.
+  std::string latency;
   /// Reads the settings in `values` (all ports, in order), writes the computed ones; `sets` as declared.
   std::function<Result<void>(std::span<Value> values, std::span<SetValues> sets, const Tick&)> evaluate;
 };

@@ -60,6 +60,11 @@ class PortBuilder {
     port_->rule = rule;
     return *this;
   }
+  /// Links may propose texts: the value is what people set and all that links propose, sorted, each once.
+  PortBuilder& collect() requires std::same_as<M, std::vector<std::string>> {
+    port_->rule = CombineRule::collect;
+    return *this;
+  }
   PortBuilder& step_limit(double limit) requires std::same_as<M, double> || std::same_as<M, Vector3> {
     port_->step_limit = limit;
     return *this;

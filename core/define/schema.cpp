@@ -166,7 +166,7 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
   const Json object = {{"type", "object"}};
   const Json objects = {{"type", "object"}, {"additionalProperties", object}};
   const Json state = {{"type", "object"},
-                      {"properties", {{"tick", tick}, {"calm", tick}, {"nodes", objects}, {"held", objects}}},
+                      {"properties", {{"tick", tick}, {"calm", tick}, {"nodes", objects}, {"held", objects}, {"analyses", objects}}},
                       {"additionalProperties", false}};
   const Json properties = {{"format", {{"const", "behaviourlinks"}}},
                            {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},

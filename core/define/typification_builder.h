@@ -63,6 +63,12 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   PortBuilder<E> in(E In::*member, std::string id, std::vector<Choice<E>> choices) {
     return add_choice(definition_->ports, member, std::move(id), std::move(choices));
   }
+  /// The evaluation runs beside the loop: begun with the data of one tick, its result is taken in so many ticks later, whatever
+  /// time it takes. Its outputs hold no meshes. Only for typifications with sets; `Tick::pool` and `Tick::memo` are not there.
+  PortBuilder<int> latency(int In::*member, std::string id) {
+    definition_->latency = id;
+    return in(member, std::move(id)).unit(Unit::count).range(0, 1000).soft(1, 30);
+  }
   /// Declare all settings before the first output.
   template <class M>
   PortBuilder<M> out(M Out::*member, std::string id) {

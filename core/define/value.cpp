@@ -50,7 +50,9 @@ std::string_view name_of(ValueKind kind) {
   return "a value";
 }
 
-bool is_proposable(ValueKind kind) { return kind == ValueKind::number || kind == ValueKind::point; }
+bool is_proposable(ValueKind kind) {
+  return kind == ValueKind::number || kind == ValueKind::point || kind == ValueKind::texts;
+}
 
 bool is_finite(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return std::isfinite(*number);

@@ -2,6 +2,7 @@
 #include "core/file/scene_file.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include <nlohmann/json.hpp>
 
@@ -176,27 +177,86 @@ class Reader {
 
   void read_state(const Json& json) {
     if (!json.is_object()) return fail({ErrorCode::wrong_kind, "state", "expects an object"});
-    if (!note(check_keys(json, {"tick", "calm", "nodes", "held"}, "state"))) return;
+    if (!note(check_keys(json, {"tick", "calm", "nodes", "held", "analyses"}, "state"))) return;
     SavedState state;
-    for (const auto& [key, number] : {std::pair<const char*, std::int64_t&>{"tick", state.tick}, {"calm", state.calm}}) {
-      const auto it = json.find(key);
-      if (it == json.end()) continue;
-      if (!it->is_number_integer() || *it < 0 || *it > (std::int64_t{1} << 53))
-        return fail({ErrorCode::wrong_kind, std::string("state/") + key, "expects a whole number from 0"});
-      number = it->get<std::int64_t>();
-    }
+    if (!read_tick(json, "tick", "state", state.tick) || !read_tick(json, "calm", "state", state.calm)) return;
     const Json nodes = json.value("nodes", Json::object());
-    if (!nodes.is_object()) return fail({ErrorCode::wrong_kind, "state/nodes", "expects an object"});
+    const bool is_read = read_values(nodes, "state/nodes", [&](const std::string& node, const std::string& path, Value&& value) {
+      state.nodes[node][path] = std::move(value);
+    });
+    if (!is_read || !read_held(json.value("held", Json::object()), state)) return;
+    if (!read_analyses(json.value("analyses", Json::object()), state)) return;
+    reading_.state = std::move(state);
+  }
+
+  bool read_tick(const Json& json, const char* key, const std::string& place, std::int64_t& tick) {
+    const auto it = json.find(key);
+    if (it == json.end()) return true;
+    const bool is_good = it->is_number_integer() && *it >= 0 && *it <= (std::int64_t{1} << 53);
+    if (is_good) tick = it->get<std::int64_t>();
+    else fail({ErrorCode::wrong_kind, place + "/" + key, "expects a whole number from 0"});
+    return is_good;
+  }
+
+  // {"node": {"typification.port": value, ...}, ...}
+  template <class Take>
+  bool read_values(const Json& nodes, const std::string& place, Take&& take) {
+    if (!nodes.is_object()) {
+      fail({ErrorCode::wrong_kind, place, "expects an object"});
+      return false;
+    }
     for (const auto& [node, values] : nodes.items()) {
-      if (!values.is_object()) return fail({ErrorCode::wrong_kind, "state/nodes/" + node, "expects an object"});
+      if (!values.is_object()) {
+        fail({ErrorCode::wrong_kind, place + "/" + node, "expects an object"});
+        return false;
+      }
       for (const auto& [path, content] : values.items()) {
-        auto value = state_value(node, path, content, "state/nodes/" + node + "/" + path);
-        if (!note(value)) return;
-        state.nodes[node][path] = std::move(*value);
+        auto value = state_value(node, path, content, place + "/" + node + "/" + path);
+        if (!note(value)) return false;
+        take(node, path, std::move(*value));
       }
     }
-    if (!read_held(json.value("held", Json::object()), state)) return;
-    reading_.state = std::move(state);
+    return true;
+  }
+
+  // {"node/typification": {"as_of": ..., "inputs": ..., "begun": ..., "due": ..., "running": ..., "outputs": {...}}, ...}
+  bool read_analyses(const Json& analyses, SavedState& state) {
+    if (!analyses.is_object()) {
+      fail({ErrorCode::wrong_kind, "state/analyses", "expects an object"});
+      return false;
+    }
+    for (const auto& [name, json] : analyses.items()) {
+      const std::string place = "state/analyses/" + name;
+      const std::size_t slash = name.find('/');
+      if (slash == std::string::npos || !json.is_object()) {
+        fail({ErrorCode::wrong_kind, place, "expects the results of `node/typification`"});
+        return false;
+      }
+      if (!note(check_keys(json, {"as_of", "inputs", "begun", "due", "running", "error", "outputs"}, place))) return false;
+      SavedAnalysis& saved = state.analyses[{name.substr(0, slash), name.substr(slash + 1)}];
+      if (!read_tick(json, "as_of", place, saved.as_of) || !read_tick(json, "begun", place, saved.begun) ||
+          !read_tick(json, "due", place, saved.due) || !read_digest(json, "inputs", place, saved.inputs) ||
+          !read_digest(json, "running", place, saved.running_inputs))
+        return false;
+      if (const auto error = json.find("error"); error != json.end() && error->is_string())
+        saved.result.error = Error{ErrorCode::internal, "", error->get<std::string>()};
+      const bool is_read = read_values(json.value("outputs", Json::object()), place + "/outputs",
+                                       [&](const std::string& node, const std::string& path, Value&& value) {
+                                         saved.result.outputs.push_back({node, path, std::move(value)});
+                                       });
+      if (!is_read) return false;
+    }
+    return true;
+  }
+
+  bool read_digest(const Json& json, const char* key, const std::string& place, std::uint64_t& digest) {
+    const auto it = json.find(key);
+    if (it == json.end()) return true;
+    const std::string text = it->is_string() ? it->get<std::string>() : "";
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), digest, 16);
+    if (code == std::errc() && end == text.data() + text.size() && !text.empty()) return true;
+    fail({ErrorCode::wrong_kind, place + "/" + key, "expects sixteen hexadecimal digits"});
+    return false;
   }
 
   bool read_held(const Json& held, SavedState& state) {
@@ -265,6 +325,19 @@ Json state_to_json(const SavedState& state, const Registry& registry) {
   for (const auto& [link, voices] : state.held)
     for (const auto& [target, voice] : voices)
       json["held"][link][target.first + "/" + target.second] = value_to_json(voice.value, port_of(target.second));
+  for (const auto& [name, saved] : state.analyses) {
+    Json& analysis = json["analyses"][name.first + "/" + name.second] = Json::object();
+    if (saved.as_of >= 0) analysis["as_of"] = saved.as_of;
+    if (saved.as_of >= 0) analysis["inputs"] = hex_digits(saved.inputs);
+    if (saved.due < 0) continue;
+    analysis["begun"] = saved.begun;
+    analysis["due"] = saved.due;
+    analysis["running"] = hex_digits(saved.running_inputs);
+    if (saved.result.error) analysis["error"] = saved.result.error->text();
+    for (const AnalysisOutput& output : saved.result.outputs)
+      if (port_of(output.path).kind != ValueKind::mesh)
+        analysis["outputs"][output.node][output.path] = value_to_json(output.value, port_of(output.path));
+  }
   return json;
 }
 

@@ -25,26 +25,29 @@ void take_weights(const FitReport& fit, std::span<PowerSite> sites) {
 
 Result<VolumeTick::Outcome> VolumeTick::run(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted,
                                             const FitState& state, Kept& kept) const {
-  start_newcomers(domain, sites, wanted);
+  if (steps > 0) start_newcomers(domain, sites, wanted);
   return metric == Metric::power ? run_exact(domain, sites, wanted, state, kept)
                                  : run_sampled(domain, sites, wanted, state, kept);
 }
 
 Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vector<PowerSite>& sites,
                                                   std::span<const double> wanted, const FitState& state, Kept& kept) const {
-  const FitOptions options{
-      .method = method, .gain = gain, .steps = steps, .tolerance = tolerance, .pool = pool, .diagram = &kept.fitted};
-  auto fit = adapt_weights(domain, sites, wanted, {}, state, options);
-  if (!fit) return fit.error();
-  take_weights(*fit, sites);
+  FitReport fit;
+  fit.state = state;
+  if (steps > 0) {
+    const FitOptions options{
+        .method = method, .gain = gain, .steps = steps, .tolerance = tolerance, .pool = pool, .diagram = &kept.fitted};
+    auto adapted = adapt_weights(domain, sites, wanted, {}, state, options);
+    if (!adapted) return adapted.error();
+    fit = std::move(*adapted);
+    take_weights(fit, sites);
+  }
   if (auto set = kept.shown.set_domain(domain); !set) return set.error();
-  const auto cells =
-      kept.shown.update(sites, {.storey_heights = storey_heights,
-                                .with_coarse_mesh = true,
-                                .tessellation_depth = tessellation_depth,
-                                .pool = pool});
+  const auto cells = kept.shown.update(
+      sites,
+      {.storey_heights = storey_heights, .with_coarse_mesh = true, .tessellation_depth = tessellation_depth, .pool = pool});
   if (!cells) return cells.error();
-  return Outcome{std::move(fit->state), std::move(fit->losses), "", *cells};
+  return Outcome{std::move(fit.state), std::move(fit.losses), "", *cells};
 }
 
 Result<VolumeTick::Outcome> VolumeTick::run_sampled(const Domain& domain, std::vector<PowerSite>& sites,

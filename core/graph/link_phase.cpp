@@ -16,9 +16,14 @@ struct Collected {
   double number = 0;
   Vector3 vector;
   double magnitude = 0;
+  std::vector<std::string> texts;
 
   void add(const Value& value, CombineRule rule) {
     ++count;
+    if (const auto* list = std::get_if<Shared<std::vector<std::string>>>(&value)) {
+      texts.insert(texts.end(), (*list)->begin(), (*list)->end());
+      return;
+    }
     if (const auto* v = std::get_if<Vector3>(&value)) {
       vector += *v;
       magnitude += norm(*v);
@@ -34,6 +39,12 @@ struct Collected {
   }
 
   Voice voice(PortRef target, const PortDefinition& port, double strength) const {
+    if (port.rule == CombineRule::collect) {
+      std::vector<std::string> all = texts;
+      std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+      return {target, Shared(std::move(all)), 0, strength};
+    }
     const int voices = port.rule == CombineRule::blend ? count : port.rule == CombineRule::sum ? std::max(1, moving) : 1;
     const double share = 1.0 / voices;
     if (port.kind == ValueKind::point) return {target, vector * share, magnitude * share, strength};

@@ -18,9 +18,22 @@ void resolve_proposals(const State& frozen, State& next, ThreadPool& pool);
 void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool);
 /// What typifications with sets keep from tick to tick, by node and type id; no state.
 using SetMemos = std::map<std::pair<std::string, std::string>, Memo>;
-/// Phase 6: typifications with sets, in ascending node id; all read what phase 5 left, then all replies are written.
-void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos);
+/// Phase 6: typifications with sets; all read what phase 5 left, then all replies are written, in ascending node id. Analyses
+/// are begun here, and their results taken in when they are due.
+void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner);
+/// Makes the meshes that were not saved with a state, from the values that were.
+void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos);
 /// Phase 7: residuals, calm count and hash.
 void commit(State& next);
+
+// What the phases share.
+
+/// Where errors of a typification of a node stand: "nodes/tower/smart_volume".
+std::string place_of(const State& state, std::size_t n, std::size_t t);
+/// Takes over what an evaluation wrote, or keeps the last good values and the error.
+void accept_values(const TypificationDefinition& definition, TypeState& state, std::vector<Value>&& values, Result<void> done,
+                   const std::string& place);
+/// By what share of itself a number has changed; 1 for a list of texts that changed, 0 for what is neither.
+double relative_change(const Value& before, const Value& after);
 
 }  // namespace bl

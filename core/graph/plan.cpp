@@ -49,9 +49,7 @@ class Compiler {
       fill(link, record);
     }
     for (std::uint32_t n = 0; n < plan_->nodes.size(); ++n)
-      for (std::uint32_t t = 0; t < plan_->nodes[n].types.size(); ++t)
-        for (std::uint32_t s = 0; s < plan_->nodes[n].types[t].definition->sets.size(); ++s)
-          plan_->sets.push_back(set_plan(n, t, s));
+      for (std::uint32_t t = 0; t < plan_->nodes[n].types.size(); ++t) add_sets(n, t);
     for (const SetPlan& set : plan_->sets)
       for (const PortRef& ref : set.writes) plan_->nodes[ref.node].types[ref.type].is_served = true;
     return plan_;
@@ -230,6 +228,13 @@ class Compiler {
     return Error{ErrorCode::wrong_kind, "",
                  "the " + std::string(verb) + " " + std::string(name_of(expected)) + ", but `" + plan_->path_text(ref) +
                      "` holds " + std::string(name_of(found))};
+  }
+
+  void add_sets(std::uint32_t n, std::uint32_t t) {
+    const TypificationDefinition& definition = *plan_->nodes[n].types[t].definition;
+    if (!definition.latency.empty())
+      plan_->analyses.push_back({n, t, plan_->sets.size(), definition.sets.size(), definition.port_index(definition.latency)});
+    for (std::uint32_t s = 0; s < definition.sets.size(); ++s) plan_->sets.push_back(set_plan(n, t, s));
   }
 
   SetPlan set_plan(std::uint32_t n, std::uint32_t t, std::uint32_t s) const {

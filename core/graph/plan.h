@@ -53,12 +53,20 @@ struct SetPlan {
   std::optional<Error> error;
 };
 
+/// A typification that is evaluated beside the loop, with its sets.
+struct AnalysisPlan {
+  std::uint32_t node = 0, type = 0;
+  std::size_t first_set = 0, set_count = 0;  ///< in Plan::sets
+  std::size_t latency = 0;                   ///< index of the port that holds it
+};
+
 struct Plan {
   Scene scene;  ///< as compiled; what the definitions and ids refer to, and whose scripts it keeps alive
   Settings settings;
-  std::vector<NodePlan> nodes;  ///< ascending id
-  std::vector<LinkPlan> links;  ///< ascending id
-  std::vector<SetPlan> sets;    ///< ascending node id, then typification, then set
+  std::vector<NodePlan> nodes;         ///< ascending id
+  std::vector<LinkPlan> links;         ///< ascending id
+  std::vector<SetPlan> sets;           ///< ascending node id, then typification, then set
+  std::vector<AnalysisPlan> analyses;  ///< ascending node id, then typification
 
   /// Index of a node, or nodes.size().
   std::uint32_t node_index(std::string_view id) const;

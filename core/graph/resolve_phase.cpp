@@ -84,6 +84,25 @@ void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t
   if (is_set && port.rule == CombineRule::blend) tension += std::abs(as_number(type.set_values[p]) - as_number(value));
 }
 
+// Texts of all voices beside those that people set, sorted, each once. A lock leaves the set ones; what it keeps out is tension.
+void resolve_texts(const Value& set, bool is_locked, std::span<const Heard> heard, Value& value, double& tension) {
+  using Texts = Shared<std::vector<std::string>>;
+  std::vector<std::string> own = *std::get<Texts>(set), all = own;
+  for (const Heard& h : heard)
+    if (h.voice->strength > 0)
+      for (const std::string& text : *std::get<Texts>(h.voice->value))
+        if (!text.empty()) all.push_back(text);
+  auto tidy = [](std::vector<std::string>& texts) {
+    std::sort(texts.begin(), texts.end());
+    texts.erase(std::unique(texts.begin(), texts.end()), texts.end());
+  };
+  tidy(all);
+  tidy(own);
+  if (is_locked) tension = static_cast<double>(all.size() - own.size());
+  // Without a proposal the list stands as people wrote it.
+  value = is_locked || heard.empty() ? set : Value(Texts(std::move(all)));
+}
+
 // All voices that count, by port; within a port in ascending link id, because links are walked in that order.
 std::vector<Heard> gather(const State& next) {
   std::vector<Heard> heard;
@@ -100,12 +119,6 @@ struct Unrest {
   double move = 0, change = 0;
   PortRef restless;
 };
-
-double relative_change(const Value& before, const Value& after) {
-  if (!std::holds_alternative<double>(after) || before == after) return 0;
-  const double a = as_number(before), b = as_number(after);
-  return std::abs(b - a) / std::max(std::abs(a), std::abs(b));
-}
 
 void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<const Heard> heard, Unrest& unrest) {
   std::size_t at = 0;
@@ -124,7 +137,9 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<c
         if (port.unit == Unit::metre) unrest.move = std::max(unrest.move, move);
       } else if (port.rule != CombineRule::none) {
         const Value& before = frozen.nodes[n].types[t].values[p];
-        resolve_value(port, type, p, before, voices, state.values[p], tension);
+        if (port.rule == CombineRule::collect)
+          resolve_texts(type.set_values[p], type.is_locked[p], voices, state.values[p], tension);
+        else resolve_value(port, type, p, before, voices, state.values[p], tension);
         if (const double change = relative_change(before, state.values[p]); change > unrest.change) {
           unrest.change = change;
           unrest.restless = {n, t, p};
@@ -138,6 +153,14 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<c
 }
 
 }  // namespace
+
+double relative_change(const Value& before, const Value& after) {
+  if (before == after) return 0;
+  if (std::holds_alternative<Shared<std::vector<std::string>>>(after)) return 1;
+  if (!std::holds_alternative<double>(after)) return 0;
+  const double a = as_number(before), b = as_number(after);
+  return std::abs(b - a) / std::max(std::abs(a), std::abs(b));
+}
 
 void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
   const std::vector<Heard> heard = gather(next);

@@ -20,6 +20,7 @@ void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::str
 Result<void> Simulation::restore_state(const SavedState& saved) {
   auto state = restore(saved, state_->plan);
   if (!state) return state.error();
+  recall_meshes(*state, pool_, memos_);
   state_ = std::make_shared<State>(std::move(*state));
   return {};
 }
@@ -46,7 +47,7 @@ void Simulation::step() {
   lap(times_.resolve);
   evaluate_nodes(frozen, *next, pool_);
   lap(times_.nodes);
-  evaluate_sets(*next, pool_, memos_);
+  evaluate_sets(*next, pool_, memos_, runner_);
   lap(times_.solve);
   commit(*next);
   lap(times_.commit);

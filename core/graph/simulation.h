@@ -45,6 +45,7 @@ class Simulation {
   std::shared_ptr<const State> state_;
   PhaseTimes times_;
   SetMemos memos_;
+  AnalysisRunner runner_;
 };
 
 }  // namespace bl

@@ -12,6 +12,11 @@ bool is_held(const State& state, const LinkState& link, const Voice& voice) {
   return link.error.has_value() && state.plan->port(voice.target).rule != CombineRule::sum;
 }
 
+std::pair<std::string, std::string> analysis_name(const Plan& plan, std::size_t a) {
+  const NodePlan& node = plan.nodes[plan.analyses[a].node];
+  return {node.id, node.types[plan.analyses[a].type].definition->id};
+}
+
 }  // namespace
 
 bool has_failure(const State& state) {
@@ -23,6 +28,11 @@ bool has_failure(const State& state) {
     if (state.links[l].error && plan.definition != nullptr && plan.is_enabled && !plan.is_muted) return true;
   }
   return false;
+}
+
+bool State::is_settled() const {
+  if (calm < plan->settings.calm_ticks) return false;
+  return std::all_of(analyses.begin(), analyses.end(), [&](const AnalysisState& a) { return a.as_of > tick - calm; });
 }
 
 double largest_residual_of(const State& state) {
@@ -53,11 +63,16 @@ std::uint64_t hash_of(const State& state) {
         hash.add(std::string_view(state.plan->links[l].id));
         add_to(hash, voice.value);
       }
+  for (const AnalysisState& analysis : state.analyses) {
+    for (const std::int64_t tick : {analysis.as_of, analysis.begun, analysis.due}) hash.add(static_cast<std::uint64_t>(tick));
+    hash.add(analysis.inputs);
+    hash.add(analysis.running_inputs);
+  }
   return hash.value();
 }
 
 SavedState save(const State& state) {
-  SavedState saved{state.tick, state.calm, {}, {}};
+  SavedState saved{state.tick, state.calm, {}, {}, {}};
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
     auto& values = saved.nodes[state.plan->nodes[n].id];
     for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t) {
@@ -74,6 +89,12 @@ SavedState save(const State& state) {
       if (is_held(state, state.links[l], voice))
         saved.held[state.plan->links[l].id].push_back(
             {{state.plan->nodes[voice.target.node].id, state.plan->path_text(voice.target)}, voice});
+  for (std::size_t a = 0; a < state.analyses.size(); ++a) {
+    const AnalysisState& now = state.analyses[a];
+    if (now.as_of < 0 && now.due < 0) continue;
+    saved.analyses[analysis_name(*state.plan, a)] = {
+        now.as_of, now.begun, now.due, now.inputs, now.running_inputs, now.running ? now.running->result() : AnalysisResult{}};
+  }
   return saved;
 }
 
@@ -85,6 +106,7 @@ State initial_state(std::shared_ptr<const Plan> plan) {
       fresh.types.push_back({type.set_values, std::vector<double>(type.set_values.size(), 0), std::nullopt, false});
   }
   state.links.resize(plan->links.size());
+  state.analyses.resize(plan->analyses.size());
   state.plan = std::move(plan);
   state.hash = hash_of(state);
   return state;
@@ -142,6 +164,9 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<s
     // By id: a script that was edited is another definition of the same kind.
     if (before != nullptr && now != nullptr && before->id == now->id) carry_link(old, o, *state.plan, state.links[l]);
   }
+  for (std::size_t a = 0; a < state.analyses.size(); ++a)
+    for (std::size_t o = 0; o < old.analyses.size(); ++o)
+      if (analysis_name(*state.plan, a) == analysis_name(*old.plan, o)) state.analyses[a] = old.analyses[o];
   state.hash = hash_of(state);
   return state;
 }
@@ -174,6 +199,13 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
       if (!ref) return ref.error();
       state.links[l].voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
     }
+  }
+  for (std::size_t a = 0; a < state.analyses.size(); ++a) {
+    const auto kept = saved.analyses.find(analysis_name(*state.plan, a));
+    if (kept == saved.analyses.end()) continue;
+    const SavedAnalysis& now = kept->second;
+    state.analyses[a] = {now.as_of, now.inputs,         now.begun,
+                         now.due,   now.running_inputs, now.due < 0 ? nullptr : std::make_shared<Analysis>(now.result)};
   }
   state.largest_residual = largest_residual_of(state);
   state.hash = hash_of(state);

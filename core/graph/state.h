@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/graph/analysis.h"
 #include "core/graph/plan.h"
 
 namespace bl {
@@ -36,19 +37,30 @@ struct LinkState {
   std::optional<Error> error;  ///< why it did not run; value proposals of the last good tick are kept
 };
 
+/// How far an analysis beside the loop has come.
+struct AnalysisState {
+  std::int64_t as_of = -1;            ///< the last tick whose data the outputs fit; -1: no result yet
+  std::uint64_t inputs = 0;           ///< hash of the data that the outputs follow from
+  std::int64_t begun = -1, due = -1;  ///< ticks of the one that is running
+  std::uint64_t running_inputs = 0;
+  std::shared_ptr<Analysis> running;  ///< nullptr where none is
+};
+
 struct State {
   std::int64_t tick = 0;
   std::shared_ptr<const Plan> plan;
-  std::vector<NodeState> nodes;  ///< as plan->nodes
-  std::vector<LinkState> links;  ///< as plan->links
-  std::int64_t calm = 0;         ///< ticks in a row in which nothing much moved and all demands were met
-  double largest_move = 0;       ///< [m] of this tick
-  double largest_change = 0;     ///< of this tick, of any number that links choose, as a share of itself
-  PortRef restless;              ///< who has that change
-  double largest_residual = 0;   ///< over all residual ports
+  std::vector<NodeState> nodes;         ///< as plan->nodes
+  std::vector<LinkState> links;         ///< as plan->links
+  std::vector<AnalysisState> analyses;  ///< as plan->analyses
+  std::int64_t calm = 0;                ///< ticks in a row in which nothing much moved and all demands were met
+  double largest_move = 0;              ///< [m] of this tick
+  double largest_change = 0;            ///< of this tick, of any number that links choose, as a share of itself
+  PortRef restless;                     ///< who has that change
+  double largest_residual = 0;          ///< over all residual ports
   std::uint64_t hash = 0;
 
-  bool is_settled() const { return calm >= plan->settings.calm_ticks; }
+  /// Calm for long enough, and every analysis has seen the calm state.
+  bool is_settled() const;
   const Value& value(PortRef ref) const {
     return ref.type == PortRef::kNodeId ? plan->nodes[ref.node].id_value : nodes[ref.node].types[ref.type].values[ref.port];
   }
@@ -63,11 +75,19 @@ bool has_failure(const State& state);
 std::uint64_t hash_of(const State& state);
 
 /// Values of a running state as a scene file keeps them, by node and "typification.port"; meshes are not among them.
+/// An analysis as files keep it. One that was running is finished first: its result follows from what it was given.
+struct SavedAnalysis {
+  std::int64_t as_of = -1, begun = -1, due = -1;  ///< due is -1 where none was running
+  std::uint64_t inputs = 0, running_inputs = 0;
+  AnalysisResult result;  ///< of the one that was running
+};
+
 struct SavedState {
   std::int64_t tick = 0, calm = 0;
   std::map<std::string, std::map<std::string, Value>> nodes;
   std::map<std::string, std::vector<std::pair<std::pair<std::string, std::string>, Voice>>>
-      held;  ///< by link: (node, path), voice
+      held;                                                               ///< by link: (node, path), voice
+  std::map<std::pair<std::string, std::string>, SavedAnalysis> analyses;  ///< by node and typification
 };
 SavedState save(const State& state);
 

@@ -2,7 +2,9 @@
 #include "core/script/lua_values.h"
 
 #include <cmath>
-#include <type_traits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <lua.hpp>
 
@@ -72,9 +74,35 @@ void push_value(lua_State* lua, const Value& value) {
   lua_pushnil(lua);
 }
 
+namespace {
+
+// A list of texts. Checked as a whole before a C++ list is made of it, which an error's jump would leave behind.
+Value texts_at(lua_State* lua, int index, const char* name) {
+  if (lua_type(lua, index) != LUA_TTABLE)
+    luaL_error(lua, "`%s` needs a list of texts, not a %s", name, luaL_typename(lua, index));
+  const auto count = static_cast<lua_Integer>(lua_rawlen(lua, index));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    if (lua_rawgeti(lua, index, i) != LUA_TSTRING)
+      luaL_error(lua, "`%s` needs a list of texts; one is a %s", name, luaL_typename(lua, -1));
+    lua_pop(lua, 1);
+  }
+  std::vector<std::string> texts;
+  for (lua_Integer i = 1; i <= count; ++i) {
+    lua_rawgeti(lua, index, i);
+    std::size_t length = 0;
+    const char* text = lua_tolstring(lua, -1, &length);
+    texts.emplace_back(text, length);
+    lua_pop(lua, 1);
+  }
+  return Shared<std::vector<std::string>>(std::move(texts));
+}
+
+}  // namespace
+
 std::optional<Value> proposal_at(lua_State* lua, int index, ValueKind kind, const char* name) {
   index = lua_absindex(lua, index);
   if (lua_isnil(lua, index) || (lua_isboolean(lua, index) && lua_toboolean(lua, index) == 0)) return std::nullopt;
+  if (kind == ValueKind::texts) return texts_at(lua, index, name);
   if (kind == ValueKind::point) {
     if (lua_type(lua, index) != LUA_TTABLE)
       luaL_error(lua, "`%s` needs a point {x = , y = , z = }, not a %s", name, luaL_typename(lua, index));

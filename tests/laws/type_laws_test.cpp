@@ -69,6 +69,7 @@ TEST(TypeLaws, DefaultsAndSoftRangesLieInsideHardRanges) {
       if (port.soft_minimum) { EXPECT_GE(*port.soft_minimum, port.hard_minimum) << type.id << "." << port.id; }
       if (port.soft_maximum) { EXPECT_LE(*port.soft_maximum, port.hard_maximum) << type.id << "." << port.id; }
       if (port.rule != CombineRule::none) { EXPECT_TRUE(is_proposable(port.kind)) << type.id << "." << port.id; }
+      if (port.rule == CombineRule::collect) { EXPECT_EQ(port.kind, ValueKind::texts) << type.id << "." << port.id; }
     }
   });
 }

@@ -13,6 +13,7 @@ namespace {
 struct Toy {
   struct In {
     double blended = 10, smallest = 100, largest = 0;
+    std::vector<std::string> friends;
   };
   struct Out {
     double doubled = 0;
@@ -22,6 +23,7 @@ struct Toy {
     t.in(&In::blended, "blended").combine(CombineRule::blend).range(-1000, 1000).doc("Mean.");
     t.in(&In::smallest, "smallest").combine(CombineRule::min).doc("Minimum.");
     t.in(&In::largest, "largest").combine(CombineRule::max).step_limit(3).doc("Maximum, 3 a tick.");
+    t.in(&In::friends, "friends").collect().doc("Names.");
     t.out(&Out::doubled, "doubled").doc("Twice the blended.");
   }
   static Result<Out> evaluate(const In& in, const Tick&) {
@@ -57,6 +59,28 @@ struct Want {
   }
 };
 
+// Adds itself and a name to the friends of others.
+struct Befriend {
+  struct In {
+    std::string name;
+  };
+  struct Ends {
+    std::string id;
+  };
+  struct Out {
+    std::vector<std::string> friends;
+  };
+  static void declare(LinkBuilder<Befriend>& l) {
+    l.id("befriend").label("Befriend").doc("Adds names.");
+    l.param(&In::name, "name").doc("Another name.");
+    l.reads(&Ends::id, End::from, "node.id").proposes(&Out::friends, End::to, "toy.friends");
+  }
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    if (in.name == "fail") return Error{ErrorCode::conflict, "name", "does not want to"};
+    return Out{{in.name, ends.id}};
+  }
+};
+
 struct Push {
   struct In {
     Vector3 move;
@@ -82,6 +106,7 @@ const Registry& toys() {
     registry.add(TypificationBuilder<Toy>::build());
     registry.add(LinkBuilder<Want>::build());
     registry.add(LinkBuilder<Push>::build());
+    registry.add(LinkBuilder<Befriend>::build());
     return registry;
   }();
   return kRegistry;
@@ -125,6 +150,49 @@ TEST_F(TickTest, ADefaultIsNoVoice) {
   start().step();
   EXPECT_DOUBLE_EQ(number("b", "toy.blended"), 40);
   EXPECT_DOUBLE_EQ(tension("b", 1, 0), 0);
+}
+
+using Names = std::vector<std::string>;
+
+TEST_F(TickTest, CollectUnitesWhatPeopleSetWithWhatLinksPropose) {
+  node("a");
+  node("b", {{"friends", Shared<Names>(Names{"zoe", "ann"})}});
+  link("l1", "befriend", "a", "b", {{"name", std::string("max")}}, 0.3);
+  link("l2", "befriend", "a", "b", {{"name", std::string("ann")}});
+  link("l3", "befriend", "a", "b", {{"name", std::string("nobody")}}, 0);
+  start().step();
+  EXPECT_EQ(*std::get<Shared<Names>>(value_in(*simulation_.state(), "b", "toy.friends")), (Names{"a", "ann", "max", "zoe"}));
+  EXPECT_EQ(*std::get<Shared<Names>>(value_in(*simulation_.state(), "a", "toy.friends")), Names{});
+  EXPECT_EQ(simulation_.state()->largest_change, 1);  // the list is new: the scene is not at rest
+  simulation_.step();
+  EXPECT_EQ(simulation_.state()->largest_change, 0);
+}
+
+TEST_F(TickTest, CollectTakesAllPairsOfALinkAndALockKeepsThemOut) {
+  node("a");
+  node("b");
+  node("c", {{"friends", Shared<Names>(Names{"ann"})}});
+  link("l1", "befriend", "a", "c", {{"name", std::string("")}});
+  scene_.links["l1"].from.ids = {"a", "b"};
+  start().step();
+  EXPECT_EQ(*std::get<Shared<Names>>(value_in(*simulation_.state(), "c", "toy.friends")), (Names{"a", "ann", "b"}));
+  scene_.nodes["c"].locked.insert("toy.friends");
+  simulation_.set_scene(scene_);
+  simulation_.step();
+  EXPECT_EQ(*std::get<Shared<Names>>(value_in(*simulation_.state(), "c", "toy.friends")), Names{"ann"});
+  EXPECT_EQ(tension("c", 1, 3), 2);
+}
+
+TEST_F(TickTest, AFailingLinkStaysInTheCollection) {
+  node("a");
+  node("b");
+  link("l1", "befriend", "a", "b", {{"name", std::string("max")}});
+  start().step();
+  scene_.links["l1"].parameters["name"] = std::string("fail");
+  simulation_.set_scene(scene_);
+  simulation_.step();
+  EXPECT_TRUE(simulation_.state()->links[0].error.has_value());
+  EXPECT_EQ(*std::get<Shared<Names>>(value_in(*simulation_.state(), "b", "toy.friends")), (Names{"a", "max"}));
 }
 
 TEST_F(TickTest, MinAndMaxTakeTheExtremesAndStepLimitsHold) {

@@ -52,6 +52,11 @@ std::string own_word(const TypePlan& type, std::uint16_t p) {
 std::string voice_text(const State& state, const Voice& voice) {
   const PortDefinition& port = state.plan->port(voice.target);
   const std::string loudness = voice.strength == 1 ? "" : ", strength " + shortest(voice.strength);
+  if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&voice.value)) {
+    std::string list;
+    for (const std::string& text : **texts) list += (list.empty() ? "`" : ", `") + text + "`";
+    return list.empty() ? "adds nothing" : "adds " + list;
+  }
   if (port.rule != CombineRule::sum) {
     if (std::holds_alternative<Vector3>(voice.value)) return "wants another place" + loudness;
     return "wants " + quantity(as_number(voice.value), port.unit) + loudness;

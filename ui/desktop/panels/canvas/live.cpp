@@ -2,6 +2,7 @@
 #include "ui/desktop/panels/canvas/live.h"
 
 #include "ui/cli/report/figures.h"
+#include "ui/cli/report/report_model.h"
 #include "ui/desktop/panels/canvas/sections.h"
 
 namespace bl::desktop::canvas {
@@ -65,7 +66,8 @@ void Live::listen(const Editor& editor, const Model& model) {
     if (port.rule != CombineRule::sum) has_moved = std::abs(loudest - pulse.magnitude) > kStillShare * std::abs(loudest);
     pulse.magnitude = loudest;
     if (has_moved && !line.is_muted) pulse.pulse_at = editor.now;
-    pulse.text = port.rule == CombineRule::sum && loudest <= kStillMove ? "" : report::quantity(loudest, port.unit);
+    if (port.rule == CombineRule::collect) pulse.text = report::voice_text(state, *shown);
+    else pulse.text = port.rule == CombineRule::sum && loudest <= kStillMove ? "" : report::quantity(loudest, port.unit);
   }
 }
 

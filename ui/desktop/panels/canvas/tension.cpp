@@ -53,6 +53,10 @@ std::vector<std::string> voices_at(const State& state, PortRef ref) {
       const bool is_sum = port.rule == CombineRule::sum;
       if (voice.target != ref || voice.strength <= 0 || (is_sum && voice.magnitude <= 0)) continue;
       const std::string who = link.definition->label + " (" + link.id + ") ";
+      if (port.rule == CombineRule::collect) {
+        texts.push_back(who + report::voice_text(state, voice));
+        continue;
+      }
       const double size = is_sum ? voice.magnitude : as_number(voice.value);
       texts.push_back(who + (is_sum ? "pulls " : "wants ") + report::quantity(size, port.unit));
     }

@@ -1,0 +1,104 @@
+// Working analyses out on a thread of their own.
+#include "core/graph/analysis.h"
+
+namespace bl {
+
+namespace {
+
+// Meshes count as nothing in a state's hash, because they follow from the rest; the rest need not be among an analysis' inputs.
+void add_input(Hash& hash, const Value& value) {
+  const MeshPointer* mesh = std::get_if<MeshPointer>(&value);
+  if (mesh == nullptr || *mesh == nullptr) return add_to(hash, value);
+  hash.add(static_cast<std::uint64_t>((*mesh)->vertices.size()));
+  for (const Point3& vertex : (*mesh)->vertices)
+    for (const double coordinate : {vertex.x, vertex.y, vertex.z}) hash.add(coordinate);
+  for (const auto& triangle : (*mesh)->triangles)
+    for (const auto corner : triangle) hash.add(static_cast<std::uint64_t>(corner));
+}
+
+AnalysisResult worked_out(AnalysisInput& input) {
+  const TypificationDefinition& definition = *input.definition;
+  const auto done = definition.evaluate(input.values, input.sets, Tick{.index = input.tick});
+  AnalysisResult result;
+  if (!done) {
+    result.error = done.error();
+    return result;
+  }
+  for (std::size_t p = 0; p < definition.ports.size(); ++p)
+    if (definition.ports[p].is_computed)
+      result.outputs.push_back({input.node, definition.id + "." + definition.ports[p].id, std::move(input.values[p])});
+  for (std::size_t s = 0; s < input.sets.size(); ++s) {
+    const auto& paths = input.write_paths[s];
+    for (std::size_t w = 0; w < input.sets[s].writes.size(); ++w)
+      if (auto& value = input.sets[s].writes[w])
+        result.outputs.push_back({input.members[s][w / paths.size()], paths[w % paths.size()], std::move(*value)});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::uint64_t hash_of(const AnalysisInput& input) {
+  Hash hash;
+  for (std::size_t p = 0; p < input.values.size(); ++p)
+    if (!input.definition->ports[p].is_computed && input.definition->ports[p].id != input.definition->latency)
+      add_input(hash, input.values[p]);
+  for (std::size_t s = 0; s < input.sets.size(); ++s) {
+    for (const std::string& member : input.members[s]) hash.add(std::string_view(member));
+    for (const Value& value : input.sets[s].reads) add_input(hash, value);
+  }
+  return hash.value();
+}
+
+void Analysis::run() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_claimed_) return;
+    is_claimed_ = true;
+  }
+  AnalysisResult result = worked_out(input_);
+  {
+    const std::lock_guard lock(mutex_);
+    result_ = std::move(result);
+    input_ = {};
+    is_done_ = true;
+  }
+  done_.notify_all();
+}
+
+const AnalysisResult& Analysis::result() {
+  run();
+  std::unique_lock lock(mutex_);
+  done_.wait(lock, [this] { return is_done_; });
+  return result_;
+}
+
+AnalysisRunner::~AnalysisRunner() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void AnalysisRunner::begin(const std::shared_ptr<Analysis>& analysis) {
+  const std::lock_guard lock(mutex_);
+  waiting_.push_back(analysis);
+  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  wake_.notify_all();
+}
+
+void AnalysisRunner::work() {
+  for (std::unique_lock lock(mutex_);;) {
+    wake_.wait(lock, [this] { return is_ending_ || !waiting_.empty(); });
+    if (is_ending_) return;
+    const std::shared_ptr<Analysis> next = waiting_.front().lock();
+    waiting_.pop_front();
+    lock.unlock();
+    if (next) next->run();
+    lock.lock();
+  }
+}
+
+}  // namespace bl

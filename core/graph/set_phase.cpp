@@ -1,0 +1,192 @@
+// Phase 6: solvers over sets of nodes, within the tick or beside it, and their replies.
+#include <algorithm>
+#include <cmath>
+
+#include "core/graph/phases.h"
+
+namespace bl {
+
+namespace {
+
+struct Reply {
+  PortRef target;
+  Value value;
+  std::uint32_t node = 0, type = 0;  // who wrote it
+};
+
+// One typification with all of its sets, and what it reads, gathered before any of them writes.
+struct SetCase {
+  std::span<const SetPlan> plans;
+  std::size_t analysis = kNone;
+  std::vector<Value> values;
+  std::vector<SetValues> sets;
+  static constexpr std::size_t kNone = ~std::size_t{0};
+
+  std::uint32_t node() const { return plans.front().node; }
+  std::uint32_t type() const { return plans.front().type; }
+  const TypificationDefinition& definition(const State& state) const {
+    return *state.plan->nodes[node()].types[type()].definition;
+  }
+  const Error* error() const {
+    const auto broken = std::find_if(plans.begin(), plans.end(), [](const SetPlan& plan) { return plan.error.has_value(); });
+    return broken == plans.end() ? nullptr : &*broken->error;
+  }
+};
+
+std::vector<SetCase> gather(const State& state) {
+  const auto& plans = state.plan->sets;
+  std::vector<SetCase> cases;
+  std::size_t analysis = 0;
+  for (std::size_t begin = 0, end = 0; begin < plans.size(); begin = end) {
+    while (end < plans.size() && plans[end].node == plans[begin].node && plans[end].type == plans[begin].type) ++end;
+    SetCase& one = cases.emplace_back();
+    one.plans = std::span(plans).subspan(begin, end - begin);
+    if (analysis < state.plan->analyses.size() && state.plan->analyses[analysis].first_set == begin) one.analysis = analysis++;
+    one.values = state.nodes[one.node()].types[one.type()].values;
+    for (const SetPlan& plan : one.plans) {
+      SetValues& set = one.sets.emplace_back();
+      set.members = plan.members.size();
+      for (const PortRef& ref : plan.reads) set.reads.push_back(state.value(ref));
+      set.writes.resize(plan.writes.size());
+    }
+  }
+  return cases;
+}
+
+void evaluate_now(State& next, SetCase& one, ThreadPool& pool, SetMemos& memos, std::vector<Reply>& replies) {
+  const TypificationDefinition& definition = one.definition(next);
+  TypeState& state = next.nodes[one.node()].types[one.type()];
+  const std::string place = place_of(next, one.node(), one.type());
+  auto done =
+      definition.evaluate(one.values, one.sets, Tick{next.tick, &pool, &memos[{next.plan->nodes[one.node()].id, definition.id}]});
+  const bool is_good = done.ok();
+  accept_values(definition, state, std::move(one.values), std::move(done), place);
+  if (!is_good) return;
+  for (std::size_t s = 0; s < one.sets.size(); ++s)
+    for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w) {
+      auto& value = one.sets[s].writes[w];
+      if (!value) continue;
+      if (is_finite(*value)) replies.push_back({one.plans[s].writes[w], std::move(*value), one.node(), one.type()});
+      else
+        state.error =
+            Error{ErrorCode::not_finite, place, "wrote a number that is not finite to a member; it keeps its last good value"};
+    }
+}
+
+// Results that came from nodes which have gone since are for nobody.
+void take_result(State& next, const SetCase& one, const AnalysisResult& result, std::vector<Reply>& replies) {
+  TypeState& state = next.nodes[one.node()].types[one.type()];
+  state.error.reset();
+  if (result.error) state.error = result.error->within(place_of(next, one.node(), one.type()));
+  state.is_evaluated = !result.error;
+  for (const AnalysisOutput& output : result.outputs) {
+    const std::uint32_t node = next.plan->node_index(output.node);
+    const auto path = parse_port_path(output.path);
+    if (node == next.plan->nodes.size() || !path) continue;
+    const auto ref = next.plan->find(node, *path);
+    if (!ref) continue;
+    if (!is_finite(output.value)) {
+      state.error = Error{ErrorCode::not_finite, place_of(next, one.node(), one.type()),
+                          "`" + output.path + "` of `" + output.node + "` came out as a number that is not finite"};
+      continue;
+    }
+    // A result that changes much makes the scene restless again: links have to answer it.
+    if (const double change = relative_change(next.value(*ref), output.value); change > next.largest_change) {
+      next.largest_change = change;
+      next.restless = *ref;
+    }
+    replies.push_back({*ref, output.value, one.node(), one.type()});
+  }
+}
+
+AnalysisInput input_of(const State& state, SetCase& one) {
+  AnalysisInput input{
+      &one.definition(state), state.plan->nodes[one.node()].id, state.tick, std::move(one.values), std::move(one.sets), {}, {}};
+  for (std::size_t s = 0; s < one.plans.size(); ++s) {
+    std::vector<std::string>& members = input.members.emplace_back();
+    std::vector<std::string>& paths = input.write_paths.emplace_back();
+    for (const std::uint32_t member : one.plans[s].members) members.push_back(state.plan->nodes[member].id);
+    const std::size_t count = input.definition->sets[s].writes.size();
+    for (std::size_t w = 0; w < count && w < one.plans[s].writes.size(); ++w)
+      paths.push_back(state.plan->path_text(one.plans[s].writes[w]));
+  }
+  return input;
+}
+
+void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, std::vector<Reply>& replies) {
+  AnalysisState& analysis = next.analyses[one.analysis];
+  if (analysis.running && next.tick >= analysis.due) {
+    take_result(next, one, analysis.running->result(), replies);
+    analysis = {analysis.begun, analysis.running_inputs, -1, -1, 0, nullptr};
+  }
+  if (analysis.running) return;
+  const std::int64_t latency = static_cast<std::int64_t>(as_number(one.values[next.plan->analyses[one.analysis].latency]));
+  AnalysisInput input = input_of(next, one);
+  const std::uint64_t inputs = hash_of(input);
+  if (analysis.as_of >= 0 && inputs == analysis.inputs) {
+    analysis.as_of = next.tick;
+    return;
+  }
+  const auto begun = std::make_shared<Analysis>(std::move(input));
+  if (latency > 0) {
+    analysis.begun = next.tick;
+    analysis.due = next.tick + latency;
+    analysis.running_inputs = inputs;
+    analysis.running = begun;
+    runner.begin(begun);
+  } else {
+    take_result(next, one, begun->result(), replies);
+    analysis = {next.tick, inputs, -1, -1, 0, nullptr};
+  }
+}
+
+// Where two write to one port the first one has it, and the other one says so.
+void write_replies(State& next, std::vector<Reply>& replies) {
+  std::map<PortRef, const Reply*> owner;
+  for (Reply& reply : replies) {
+    const auto [it, is_first] = owner.emplace(reply.target, &reply);
+    if (is_first) {
+      next.nodes[reply.target.node].types[reply.target.type].values[reply.target.port] = std::move(reply.value);
+    } else {
+      next.nodes[reply.node].types[reply.type].error =
+          Error{ErrorCode::conflict, place_of(next, reply.node, reply.type),
+                "`" + next.plan->nodes[reply.target.node].id + "` already belongs to `" + next.plan->nodes[it->second->node].id +
+                    "`; a node can be a member of one such set only"};
+    }
+  }
+}
+
+}  // namespace
+
+void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner) {
+  std::vector<SetCase> cases = gather(next);
+  std::vector<Reply> replies;
+  for (SetCase& one : cases) {
+    if (const Error* error = one.error()) next.nodes[one.node()].types[one.type()].error = *error;
+    else if (one.analysis == SetCase::kNone) evaluate_now(next, one, pool, memos, replies);
+    else advance_analysis(next, one, runner, replies);
+  }
+  write_replies(next, replies);
+}
+
+void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
+  for (SetCase& one : gather(state)) {
+    const TypificationDefinition& definition = one.definition(state);
+    const bool has_mesh = std::any_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) {
+      return std::any_of(set.writes.begin(), set.writes.end(),
+                         [](const WriteDefinition& w) { return w.kind == ValueKind::mesh; });
+    });
+    if (!has_mesh || one.error() != nullptr) continue;
+    Memo& memo = memos[{state.plan->nodes[one.node()].id, definition.id}];
+    // A failure here is that of the next tick, which says so.
+    if (!definition.evaluate(one.values, one.sets, Tick{state.tick, &pool, &memo, true}).ok()) continue;
+    for (std::size_t s = 0; s < one.sets.size(); ++s)
+      for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w)
+        if (auto& value = one.sets[s].writes[w]; value && std::holds_alternative<MeshPointer>(*value)) {
+          const PortRef target = one.plans[s].writes[w];
+          state.nodes[target.node].types[target.type].values[target.port] = std::move(*value);
+        }
+  }
+}
+
+}  // namespace bl
