@@ -17,9 +17,6 @@ struct ScriptDeclaration {
   std::vector<std::string> reads, proposes;
 };
 
-/// Is the text well-formed UTF-8? Others could not be written to a scene file.
-bool is_utf8(std::string_view text);
-
 /// Reads the table on top of the stack, all but `evaluate`, which is only checked to be a function. `text` serves to name the
 /// line that a message is about. Runs without limits and raises no Lua errors.
 Result<ScriptDeclaration> read_declaration(lua_State* lua, const std::string& file, std::string_view text, const Registry& types);

@@ -12,6 +12,7 @@
 #include "core/script/declaration.h"
 #include "core/script/lua_values.h"
 #include "core/script/machine.h"
+#include "core/script/utf8.h"
 
 namespace bl {
 

@@ -9,6 +9,7 @@
 #include <lua.hpp>
 
 #include "core/script/library.h"
+#include "core/script/utf8.h"
 
 namespace bl {
 
@@ -84,6 +85,9 @@ Value texts_at(lua_State* lua, int index, const char* name) {
   for (lua_Integer i = 1; i <= count; ++i) {
     if (lua_rawgeti(lua, index, i) != LUA_TSTRING)
       luaL_error(lua, "`%s` needs a list of texts; one is a %s", name, luaL_typename(lua, -1));
+    std::size_t length = 0;
+    const char* text = lua_tolstring(lua, -1, &length);
+    if (!is_utf8({text, length})) luaL_error(lua, "a text of `%s` is no UTF-8", name);
     lua_pop(lua, 1);
   }
   std::vector<std::string> texts;

@@ -11,6 +11,7 @@
 
 #include "core/script/library.h"
 #include "core/script/link_script.h"
+#include "core/script/utf8.h"
 
 namespace bl {
 
@@ -244,7 +245,7 @@ Error Machine::failure(int status) {
   }
   const char* text = lua_type(self.lua, -1) == LUA_TSTRING ? lua_tostring(self.lua, -1) : nullptr;
   const ErrorCode code = status == LUA_ERRMEM ? ErrorCode::cancelled : ErrorCode::conflict;
-  return {code, "", text != nullptr ? std::string(text) : self.file + ": the script failed without a text"};
+  return {code, "", text != nullptr ? shown_as_utf8(text) : self.file + ": the script failed without a text"};
 }
 
 // Stack: the compiled text at 1; the handler of errors goes to 2.

@@ -58,6 +58,7 @@ std::vector<Hostile> hostile_scripts() {
       {"files", body("return io.open('/etc/passwd')"), "bad.lua:5: |nil value (global 'io')"},
       {"an error", body("error('no way')"), "bad.lua:5: |no way"},
       {"an error that is a table", body("error({})"), "bad.lua:5: |no text"},
+      {"an error that is no UTF-8", body("error('no \\xff way')"), "bad.lua:5: |no ? way"},
       {"a failed assertion", body("assert(1 > 2, 'smaller')"), "bad.lua:5: |smaller"},
       {"an error in the library", body("\ntable.sort({1, 'x'})\n"), "bad.lua:6: |compare"},
       {"index of nil", body("return {move = ends.there.x}"), "bad.lua:5: |nil value (field 'there')"},

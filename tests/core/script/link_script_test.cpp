@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/define/typification_builder.h"
 #include "core/script/link_script.h"
 #include "tests/links/link_case.h"
 
@@ -119,6 +120,40 @@ TEST(LinkScript, WholeEndsAreLists) {
   EXPECT_EQ(link.number(End::to, "smart_volume.demand_limit", 0), 25);
   EXPECT_FALSE(link.proposed(End::to, "smart_volume.demand_limit", 1).has_value());
   EXPECT_EQ(link.number(End::to, "smart_volume.demand_limit", 2), 75);
+}
+
+struct Guest {
+  struct In {
+    std::vector<std::string> friends;
+  };
+  struct Out {};
+  static void declare(TypificationBuilder<Guest>& t) {
+    t.id("guest").label("Guest").doc("Somebody with friends.");
+    t.in(&In::friends, "friends").collect().doc("Names.");
+  }
+};
+
+TEST(LinkScript, ListsOfTextsAreCollected) {
+  Registry types = full_registry();
+  types.add(TypificationBuilder<Guest>::build());
+  auto text = [](const std::string& answer) {
+    return "return {id = 'friends', doc = 'x', reads = {id = {at = 'from', port = 'node.id'}},\n"
+           "proposes = {friends = {at = 'to', port = 'guest.friends'}},\nevaluate = function(p, ends) return {friends = " +
+           answer + "} end}";
+  };
+  const auto kind = read_link_script("case", text("{ends.id, 'b'}"), types);
+  ASSERT_TRUE(kind.ok()) << kind.error().text();
+  LinkCase link(*kind);
+  ASSERT_EQ(link.from("node.id", std::string("a")).run(), "");
+  const auto friends = link.proposed(End::to, "guest.friends");
+  ASSERT_TRUE(friends.has_value());
+  EXPECT_EQ(*std::get<Shared<std::vector<std::string>>>(*friends), (std::vector<std::string>{"a", "b"}));
+  for (const char* wrong : {"3", "{1, 2}", "{'\\xff'}"}) {
+    const auto other = read_link_script("case", text(wrong), types);
+    ASSERT_TRUE(other.ok()) << other.error().text();
+    LinkCase bad(*other);
+    EXPECT_TRUE(bad.from("node.id", std::string("a")).run().starts_with("case.lua:3: ")) << wrong;
+  }
 }
 
 TEST(LinkScript, ParametersOfEveryKind) {
