@@ -37,7 +37,7 @@ namespace {
 class Compiler {
  public:
   Compiler(const Scene& scene, const Registry& program)
-      : plan_(std::make_shared<Plan>(Plan{scene, {}, {}, {}, {}})), registry_(plan_->scene.scripts.types(program)) {
+      : plan_(std::make_shared<Plan>()), registry_((plan_->scene = scene).scripts.types(program)) {
     plan_->settings = settings_of(scene);
   }
 
