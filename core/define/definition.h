@@ -17,8 +17,8 @@
 
 namespace bl {
 
-/// Where a set evaluation keeps what it has worked out, to work less in the next tick. It is no state: it is neither saved nor
-/// hashed, and an evaluation has to give the same bits with an empty one.
+/// Where an evaluation keeps what it has worked out: that of a set to work less in the next tick, a link's for the other pairs of
+/// the same tick. It is no state: it is neither saved nor hashed, and an evaluation has to give the same bits with an empty one.
 class Memo {
  public:
   /// What was kept, or a new T.
@@ -39,7 +39,7 @@ class Memo {
 struct Tick {
   std::int64_t index = 0;
   ThreadPool* pool = nullptr;  ///< only set evaluations (solvers) may use it; nullptr means one thread
-  Memo* memo = nullptr;        ///< only for set evaluations, and only where somebody keeps it
+  Memo* memo = nullptr;        ///< only where somebody keeps it: a set's from tick to tick, a link's during one tick
   bool is_recall = false;      ///< only the meshes of the values as they stand are wanted: no step is taken
 };
 

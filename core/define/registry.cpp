@@ -32,7 +32,21 @@ const Definition* find(const std::map<std::string, Definition, std::less<>>& typ
   return nullptr;
 }
 
+template <class Definition>
+std::string first_taken(const std::map<std::string, Definition, std::less<>>& types,
+                        const std::map<std::string, std::string, std::less<>>& aliases, const Definition& definition) {
+  if (find(types, aliases, definition.id) != nullptr) return definition.id;
+  for (const std::string& alias : definition.aliases)
+    if (find(types, aliases, alias) != nullptr) return alias;
+  return "";
+}
+
 }  // namespace
+
+std::string Registry::taken(const TypificationDefinition& definition) const {
+  return first_taken(typifications_, typification_aliases_, definition);
+}
+std::string Registry::taken(const LinkDefinition& definition) const { return first_taken(links_, link_aliases_, definition); }
 
 void Registry::add(TypificationDefinition definition) { insert(typifications_, typification_aliases_, std::move(definition)); }
 void Registry::add(LinkDefinition definition) { insert(links_, link_aliases_, std::move(definition)); }

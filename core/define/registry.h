@@ -18,6 +18,10 @@ class Registry {
   void add(LinkDefinition definition);
   void add(CommandDefinition definition);
 
+  /// The id or alias of a type from outside the program that is taken already; empty where it can be added.
+  std::string taken(const TypificationDefinition& definition) const;
+  std::string taken(const LinkDefinition& definition) const;
+
   const TypificationDefinition* typification(std::string_view id) const;
   const LinkDefinition* link(std::string_view id) const;
   const CommandDefinition* command(std::string_view id) const;

@@ -113,6 +113,13 @@ Json node_schema(const Registry& registry) {
   return {{"type", "object"}, {"properties", properties}, {"required", {"id"}}, {"additionalProperties", false}};
 }
 
+Json script_schema() {
+  return {{"type", "object"},
+          {"properties", {{"id", id_schema()}, {"lines", {{"type", "array"}, {"items", text_schema()}, {"minItems", 1}}}}},
+          {"required", {"id", "lines"}},
+          {"additionalProperties", false}};
+}
+
 // A known kind must have the full form; a link of another kind is kept as it is.
 Json link_schema(const Registry& registry) {
   Json known = Json::array(), cases = Json::array();
@@ -165,6 +172,7 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
                            {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},
                            {"revisions", {{"type", "object"}, {"additionalProperties", {{"type", "integer"}, {"minimum", 1}}}}},
                            {"settings", values_schema(settings)},
+                           {"scripts", {{"type", "array"}, {"items", script_schema()}}},
                            {"nodes", {{"type", "array"}, {"items", node_schema(registry)}}},
                            {"links", {{"type", "array"}, {"items", link_schema(registry)}}},
                            {"state", state},

@@ -37,9 +37,15 @@ Result<void> upgrade_values(const TypeDefinition& type, std::int64_t revision, J
   return {};
 }
 
+std::string joined_lines(const Json& lines) {
+  std::string text;
+  for (const Json& line : lines) text += (&line == &lines.front() ? "" : "\n") + line.get<std::string>();
+  return text;
+}
+
 class Reader {
  public:
-  explicit Reader(const Registry& registry) : registry_(registry) {}
+  explicit Reader(const Registry& program) : program_(program), registry_(&program) {}
 
   SceneReading run(std::string_view text) {
     auto json = parse_json(text);
@@ -69,11 +75,12 @@ class Reader {
                    "the file has version " + version->dump() + ", this program reads up to " + std::to_string(kSceneVersion) +
                        "; get a newer program"});
     if (*version < 1) return fail({ErrorCode::version, "version", "there is no version " + version->dump()});
-    note(check_keys(file, {"format", "version", "revisions", "settings", "nodes", "links", "state", "view"}, ""));
+    note(check_keys(file, {"format", "version", "revisions", "settings", "scripts", "nodes", "links", "state", "view"}, ""));
     read_revisions(file);
     if (const auto it = file.find("settings"); it != file.end())
       if (auto settings = ports_from_json(settings_type(), *it, "settings"); note(settings))
         reading_.scene.settings = std::move(*settings);
+    read_scripts(file);
     read_records(file, "nodes",
                  [this](Json& json, const std::string& id, const std::string& place) { read_node(json, id, place); });
     read_records(file, "links",
@@ -83,7 +90,7 @@ class Reader {
       else fail({ErrorCode::wrong_kind, "view", "expects an object"});
     }
     if (reading_.is_usable())
-      for (Problem& problem : check_scene(reading_.scene, registry_)) reading_.problems.push_back(std::move(problem));
+      for (Problem& problem : check_scene(reading_.scene, program_)) reading_.problems.push_back(std::move(problem));
     if (const auto it = file.find("state"); it != file.end() && reading_.is_usable()) read_state(*it);
   }
 
@@ -120,24 +127,40 @@ class Reader {
     }
   }
 
+  // Before the links, because it is the scripts that make their kinds known.
+  void read_scripts(Json& file) {
+    std::map<std::string, std::string> texts;
+    read_records(file, "scripts", [&](const Json& json, const std::string& id, const std::string& place) {
+      if (!note(check_keys(json, {"id", "lines"}, place))) return;
+      const auto lines = json.find("lines");
+      if (lines == json.end() || !lines->is_array() || lines->empty() ||
+          !std::all_of(lines->begin(), lines->end(), [](const Json& line) { return line.is_string(); }))
+        return fail({ErrorCode::wrong_kind, place + "/lines", "expects the lines of the script, a list of texts"});
+      if (!texts.emplace(id, joined_lines(*lines)).second)
+        fail({ErrorCode::duplicate, place, "two scripts have the id `" + id + "`; ids must be unique"});
+    });
+    reading_.scene.scripts = Scripts::read(std::move(texts), program_);
+    registry_ = &reading_.scene.scripts.types(program_);
+  }
+
   void read_node(Json& json, const std::string& id, const std::string& place) {
     if (reading_.scene.nodes.contains(id))
       return fail({ErrorCode::duplicate, place, "two nodes have the id `" + id + "`; ids must be unique"});
     if (const auto types = json.find("types"); types != json.end() && types->is_object())
       for (auto& [type_id, values] : types->items())
-        if (const TypificationDefinition* type = registry_.typification(type_id))
+        if (const TypificationDefinition* type = registry_->typification(type_id))
           if (!note(upgrade_values(*type, revision_of(type_id), values, place + "/types/" + type_id))) return;
-    if (auto node = node_from_json(json, registry_, place); note(node)) reading_.scene.nodes.emplace(id, std::move(*node));
+    if (auto node = node_from_json(json, *registry_, place); note(node)) reading_.scene.nodes.emplace(id, std::move(*node));
   }
 
   void read_link(Json& json, const std::string& id, const std::string& place) {
     if (reading_.scene.links.contains(id))
       return fail({ErrorCode::duplicate, place, "two links have the id `" + id + "`; ids must be unique"});
     if (const auto kind = json.find("kind"); kind != json.end() && kind->is_string())
-      if (const LinkDefinition* type = registry_.link(kind->get_ref<const std::string&>()); type && json.contains("parameters"))
+      if (const LinkDefinition* type = registry_->link(kind->get_ref<const std::string&>()); type && json.contains("parameters"))
         if (!note(upgrade_values(*type, revision_of(kind->get<std::string>()), json["parameters"], place + "/parameters")))
           return;
-    if (auto link = link_from_json(json, registry_, place); note(link)) reading_.scene.links.emplace(id, std::move(*link));
+    if (auto link = link_from_json(json, *registry_, place); note(link)) reading_.scene.links.emplace(id, std::move(*link));
   }
 
   Result<Value> state_value(const std::string& node, const std::string& path, const Json& json, const std::string& place) const {
@@ -145,7 +168,7 @@ class Reader {
     const auto record = reading_.scene.nodes.find(node);
     if (record == reading_.scene.nodes.end()) return Error{ErrorCode::not_found, place, "there is no node `" + node + "`"};
     if (!parsed) return Error{ErrorCode::wrong_kind, place, "expects \"typification.port\""};
-    const auto port = registry_.port(*parsed);
+    const auto port = registry_->port(*parsed);
     if (!port) return port.error().within(place);
     if (!record->second.types.contains(parsed->typification))
       return Error{ErrorCode::not_found, place, "the node is not a `" + parsed->typification + "`"};
@@ -258,10 +281,27 @@ class Reader {
     return true;
   }
 
-  const Registry& registry_;
+  const Registry& program_;
+  const Registry* registry_;  // with the kinds of the scene's scripts
   SceneReading reading_;
   std::map<std::string, std::int64_t> revisions_;
 };
+
+// One line per element, so that a diff shows the lines that changed.
+Json scripts_to_json(const Scripts& scripts) {
+  Json list = Json::array();
+  for (const auto& [name, text] : scripts.texts()) {
+    Json lines = Json::array();
+    for (std::size_t begin = 0;;) {
+      const std::size_t end = text.find('\n', begin);
+      lines.push_back(text.substr(begin, end == std::string::npos ? end : end - begin));
+      if (end == std::string::npos) break;
+      begin = end + 1;
+    }
+    list.push_back({{"id", name}, {"lines", std::move(lines)}});
+  }
+  return list;
+}
 
 Json revisions_of(const Scene& scene, const Registry& registry) {
   std::map<std::string, int> revisions;
@@ -305,12 +345,14 @@ Json state_to_json(const SavedState& state, const Registry& registry) {
 
 SceneReading read_scene(std::string_view text, const Registry& registry) { return Reader(registry).run(text); }
 
-std::string write_scene(const Scene& scene, const Registry& registry, const SavedState* state) {
+std::string write_scene(const Scene& scene, const Registry& program, const SavedState* state) {
+  const Registry& registry = scene.scripts.types(program);
   Json file = Json::object();
   file["format"] = "behaviourlinks";
   file["version"] = kSceneVersion;
   if (Json revisions = revisions_of(scene, registry); !revisions.empty()) file["revisions"] = std::move(revisions);
   if (Json settings = ports_to_json(settings_type(), scene.settings); !settings.empty()) file["settings"] = std::move(settings);
+  if (Json scripts = scripts_to_json(scene.scripts); !scripts.empty()) file["scripts"] = std::move(scripts);
   file["nodes"] = Json::array();
   for (const auto& [id, node] : scene.nodes) {
     Json record = {{"id", id}};

@@ -27,7 +27,8 @@ struct SceneReading {
 /// Never fails as a whole: whatever is wrong is among the problems, each with its place.
 SceneReading read_scene(std::string_view text, const Registry& registry);
 
-/// The canonical text: fixed order of keys, ids ascending, only values that differ from their defaults, ends with a line feed.
+/// `registry`, here and above: the types of the program; the scene brings the kinds of its scripts along. The canonical text:
+/// fixed order of keys, ids ascending, only values that differ from their defaults, ends with a line feed.
 std::string write_scene(const Scene& scene, const Registry& registry, const SavedState* state = nullptr);
 
 /// One node or link as it stands in a file, without its id: what add_node and add_link take.

@@ -63,6 +63,7 @@ std::vector<Problem> check_scene(const Scene& scene, const Registry& registry) {
     check_selection(scene, link.from, "links/" + id + "/from", registry, problems);
     check_selection(scene, link.to, "links/" + id + "/to", registry, problems);
   }
+  for (const auto& [name, error] : scene.scripts.errors()) problems.push_back({false, error.within("scripts/" + name)});
   const bool has_errors = std::any_of(problems.begin(), problems.end(), [](const Problem& p) { return p.is_error; });
   if (has_errors) return problems;
   const auto plan = compile(scene, registry);

@@ -125,7 +125,8 @@ void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
   std::optional<Error> error = plan.error;
   if (!error) {
     LinkRun run(frozen, plan);
-    if (auto done = run.run(Tick{.index = frozen.tick}); done) {
+    Memo memo;
+    if (auto done = run.run(Tick{.index = frozen.tick, .memo = &memo}); done) {
       next.voices = run.voices();
       return;
     } else {

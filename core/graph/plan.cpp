@@ -36,8 +36,8 @@ namespace {
 
 class Compiler {
  public:
-  Compiler(const Scene& scene, const Registry& registry) : registry_(registry), plan_(std::make_shared<Plan>()) {
-    plan_->scene = scene;
+  Compiler(const Scene& scene, const Registry& program)
+      : plan_(std::make_shared<Plan>()), registry_((plan_->scene = scene).scripts.types(program)) {
     plan_->settings = settings_of(scene);
   }
 
@@ -269,8 +269,8 @@ class Compiler {
     return set;
   }
 
-  const Registry& registry_;
   std::shared_ptr<Plan> plan_;
+  const Registry& registry_;  // kept alive by the plan's scene
 };
 
 }  // namespace

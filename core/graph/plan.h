@@ -61,7 +61,7 @@ struct AnalysisPlan {
 };
 
 struct Plan {
-  Scene scene;  ///< as compiled; what the definitions and ids refer to
+  Scene scene;  ///< as compiled; what the definitions and ids refer to, and whose scripts it keeps alive
   Settings settings;
   std::vector<NodePlan> nodes;         ///< ascending id
   std::vector<LinkPlan> links;         ///< ascending id
@@ -76,7 +76,7 @@ struct Plan {
   std::string path_text(PortRef ref) const;
 };
 
-/// Links that cannot run are kept with the reason; nothing is left out.
+/// Links that cannot run are kept with the reason; nothing is left out. `registry`: the types of the program.
 std::shared_ptr<const Plan> compile(const Scene& scene, const Registry& registry);
 
 }  // namespace bl

@@ -105,6 +105,10 @@ std::uint64_t hash_of(const Scene& scene) {
     add_values(hash, link.parameters);
     hash.add(std::string_view(link.ghost));
   }
+  for (const auto& [name, text] : scene.scripts.texts()) {
+    hash.add(std::string_view(name));
+    hash.add(std::string_view(text));
+  }
   return hash.value();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/define/registry.h"
+#include "core/graph/scripts.h"
 
 namespace bl {
 
@@ -53,6 +54,7 @@ struct Scene {
   PortValues settings;
   std::map<std::string, NodeRecord> nodes;
   std::map<std::string, LinkRecord> links;
+  Scripts scripts;   ///< link kinds that people wrote for this scene
   std::string view;  ///< JSON of canvas layout and cameras; never read by the tick
   bool operator==(const Scene&) const = default;
 };
@@ -74,7 +76,10 @@ class SceneEdit {
   SceneEdit(Scene& scene, const Registry& registry) : scene_(&scene), registry_(&registry) {}
   Scene& scene() { return *scene_; }
   const Scene& scene() const { return *scene_; }
-  const Registry& registry() const { return *registry_; }
+  /// The types that this scene knows: those of the program, and the kinds of its scripts.
+  const Registry& registry() const { return scene_->scripts.types(*registry_); }
+  /// The types of the program alone.
+  const Registry& program() const { return *registry_; }
   /// A port that accumulates (a position) starts again from its set value after this.
   void place(std::string node, std::string path) { placed_.emplace(std::move(node), std::move(path)); }
   const std::set<std::pair<std::string, std::string>>& placed() const { return placed_; }

@@ -148,7 +148,7 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<s
     for (std::size_t t = 0; t < node.types.size(); ++t)
       for (std::size_t o = 0; o < old.plan->nodes[before].types.size(); ++o) {
         const TypePlan& type = old.plan->nodes[before].types[o];
-        if (type.definition != node.types[t].definition) continue;
+        if (type.definition->id != node.types[t].definition->id) continue;
         std::set<std::string> ports;
         for (const PortDefinition& port : type.definition->ports)
           if (placed.contains({node.id, type.definition->id + "." + port.id})) ports.insert(port.id);
@@ -159,8 +159,10 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<s
   for (std::size_t l = 0, o = 0; l < state.links.size(); ++l) {
     const LinkPlan& link = state.plan->links[l];
     while (o < old.plan->links.size() && old.plan->links[o].id < link.id) ++o;
-    if (o < old.plan->links.size() && old.plan->links[o].id == link.id && old.plan->links[o].definition == link.definition)
-      carry_link(old, o, *state.plan, state.links[l]);
+    if (o == old.plan->links.size() || old.plan->links[o].id != link.id) continue;
+    const LinkDefinition *before = old.plan->links[o].definition, *now = link.definition;
+    // By id: a script that was edited is another definition of the same kind.
+    if (before != nullptr && now != nullptr && before->id == now->id) carry_link(old, o, *state.plan, state.links[l]);
   }
   for (std::size_t a = 0; a < state.analyses.size(); ++a)
     for (std::size_t o = 0; o < old.analyses.size(); ++o)

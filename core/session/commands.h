@@ -138,6 +138,21 @@ struct SetSetting {
   static void declare(CommandBuilder<SetSetting>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
+struct SetScript {
+  struct In {
+    std::string id, text;
+    bool even_if_broken = false;
+  };
+  static void declare(CommandBuilder<SetScript>& c);
+  static Inverse apply(SceneEdit& edit, const In& in);
+};
+struct RemoveScript {
+  struct In {
+    std::string id;
+  };
+  static void declare(CommandBuilder<RemoveScript>& c);
+  static Inverse apply(SceneEdit& edit, const In& in);
+};
 struct SetView {
   struct In {
     JsonText changes;

@@ -9,10 +9,11 @@
 namespace bl {
 
 Inverse apply(SceneEdit& edit, const Command& command) {
-  const CommandDefinition* definition = edit.registry().command(command.id);
+  // Of the program: the registry of the scene may be replaced by what the command does.
+  const CommandDefinition* definition = edit.program().command(command.id);
   if (definition == nullptr)
     return Error{ErrorCode::unknown_type, "",
-                 "unknown command `" + command.id + "`" + did_you_mean(command.id, keys_of(edit.registry().commands()))};
+                 "unknown command `" + command.id + "`" + did_you_mean(command.id, keys_of(edit.program().commands()))};
   std::vector<Value> values;
   for (const PortDefinition& port : definition->ports) {
     const auto it = command.arguments.find(port.id);
@@ -92,7 +93,8 @@ Result<void> Ledger::take_back(const std::string& author, std::int64_t tick,
   }
   const std::int64_t fresh = new_gesture();
   for (const Command& command : commands)
-    if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? gesture : 0, is_undo ? 0 : gesture}); !done) return done;
+    if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? gesture : 0, is_undo ? 0 : gesture}); !done)
+      return done;
   return {};
 }
 

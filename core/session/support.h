@@ -30,6 +30,9 @@ Result<PortSite> find_setting(SceneEdit& edit, const std::string& node, const Po
 Result<void> check_selection(const Scene& scene, const Selection& selection, const std::string& place);
 /// The selection without `id`; whether it changed.
 bool drop(Selection& selection, const std::string& id);
+/// Puts other scripts in place: links of their kinds are read anew, become ghosts where the kind is gone, and come back where it
+/// is there again. `back` are the commands that bring the scripts back; what those would not restore to the letter is added.
+Inverse exchange_scripts(SceneEdit& edit, const Scripts& after, std::vector<Command> back);
 /// An id for a new element, or why it cannot be one.
 Result<void> check_new_id(const std::string& id, bool is_taken, const std::string& place);
 

@@ -21,7 +21,8 @@ struct Layer {
 constexpr std::array kLayers = {
     Layer{"core/base/", {"core/base/"}},
     Layer{"core/define/", {"core/define/", "core/base/"}},
-    Layer{"core/graph/", {"core/graph/", "core/define/", "core/base/"}},
+    Layer{"core/script/", {"core/script/", "core/define/", "core/base/"}},
+    Layer{"core/graph/", {"core/graph/", "core/script/", "core/define/", "core/base/"}},
     Layer{"core/file/", {"core/file/", "core/graph/", "core/define/", "core/base/"}},
     Layer{"core/session/", {"core/session/", "core/file/", "core/graph/", "core/define/", "core/base/"}},
     Layer{"core/exchange/",
@@ -48,6 +49,7 @@ constexpr std::array kLibraries = {
     Library{"proj.h", "core/exchange/", true, "PROJ"},
     Library{"csv.h", "core/exchange/", true, "libcsv"},
     Library{"embree3/", "core/sun/", true, "Embree"},
+    Library{"lua.hpp", "core/script/", true, "Lua"},
     Library{"GLFW/", "ui/desktop/", false, "GLFW"},
     Library{"imgui", "ui/desktop/", false, "Dear ImGui"},
     Library{"backends/imgui", "ui/desktop/", false, "Dear ImGui"},

@@ -8,14 +8,27 @@
 namespace bl {
 namespace {
 
-constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "nodes": [
+constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "scripts": [
+  {"id": "mover", "lines": ["return {id = 'mover', doc = 'Moves.', params = {{id = 'step', default = 1, doc = 'Metres.'}},",
+   "proposes = {move = {at = 'to', port = 'node.position', unit = 'm'}},",
+   "evaluate = function(params) return {move = point(params.step, 0, 0)} end}", ""]},
+  {"id": "sketch", "lines": ["return 3 4"]}], "nodes": [
   {"id": "a", "position": [1, 2, 3], "tags": ["x"], "types": {"smart_volume": {"demand": 900}, "strange": {"deep": [1, {"k": null}]}}, "locked": ["node.position"]},
   {"id": "b", "types": {"smart_volume": {}}},
   {"id": "c", "types": {"statistics": {"nodes": ["a", "b"]}}}],
   "links": [
   {"id": "l", "kind": "keep_distance", "from": "a", "to": "b"},
   {"id": "m", "kind": "keep_distance", "from": "b", "to": ["a", "c"], "strength": 0.5},
-  {"id": "n", "kind": "unheard_of", "from": "nowhere", "to": 7}]})";
+  {"id": "n", "kind": "unheard_of", "from": "nowhere", "to": 7},
+  {"id": "p", "kind": "mover", "from": "a", "to": "b", "parameters": {"step": 2}},
+  {"id": "q", "kind": "second_mover", "to": "b", "from": ["a"], "strength": 1}]})";
+
+// The script of the scene under another id and with another default.
+std::string mover(const std::string& id, const std::string& step) {
+  return "return {id = '" + id + "', doc = 'Moves.', params = {{id = 'step', default = " + step +
+         ", doc = 'Metres.'}},\nproposes = {move = {at = 'to', port = 'node.position', unit = 'm'}},\n"
+         "evaluate = function(params) return {move = point(0, params.step, 0)} end}";
+}
 
 std::vector<Command> every_command() {
   return {
@@ -38,6 +51,13 @@ std::vector<Command> every_command() {
       command<EnableLink>({"l", false}),
       command<MuteLink>({"l", true}),
       command<SetSetting>({"tolerance", {"0.02"}}),
+      command<SetScript>({"mover", mover("mover", "2"), false}),
+      command<SetScript>({"mover", mover("other_mover", "2"), false}),
+      command<SetScript>({"mover", "no Lua", true}),
+      command<SetScript>({"sketch", mover("second_mover", "3"), false}),
+      command<SetScript>({"fresh", mover("second_mover", "3"), false}),
+      command<RemoveScript>({"mover"}),
+      command<RemoveScript>({"sketch"}),
       command<SetView>({{R"({"boxes": {"a": [1, 2], "b": null}})"}}),
       command<Batch>(
           {{R"([{"command": "rename_node", "arguments": {"id": "a", "name": "B"}}, {"command": "remove_node", "arguments": {"id": "b"}}])"}})};

@@ -16,6 +16,8 @@ namespace bl {
 class LinkCase {
  public:
   explicit LinkCase(const std::string& kind) : link_(full_registry().link(kind)) {}
+  /// A kind of no registry; it has to outlive the case.
+  explicit LinkCase(const LinkDefinition& kind) : link_(&kind) {}
 
   LinkCase& set(const std::string& parameter, Value value) {
     parameters_[parameter] = std::move(value);

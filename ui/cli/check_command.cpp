@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/file_io.h"
+#include "core/script/link_script.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/scene_loading.h"
+#include "ui/cli/script_file.h"
 #include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
@@ -49,6 +51,11 @@ Checked check_file(const std::string& file, bool is_writing) {
   const auto text = read_file(file);
   if (!text) {
     checked.problems.push_back({true, text.error()});
+    return checked;
+  }
+  if (file.ends_with(".lua")) {
+    if (auto kind = read_link_script(script_name(file), *text, full_registry()); !kind)
+      checked.problems.push_back({true, kind.error()});
     return checked;
   }
   SceneReading reading = read_scene(*text, full_registry());
@@ -100,7 +107,9 @@ int check_command(const CheckOptions& options) {
                           Colour::red));
       continue;
     }
-    print_line(coloured(prefix + "ok: " + counted(checked.nodes, "node") + ", " + counted(checked.links, "link") +
+    print_line(coloured(prefix + "ok: " +
+                            (file.ends_with(".lua") ? std::string("a link script")
+                                                    : counted(checked.nodes, "node") + ", " + counted(checked.links, "link")) +
                             (warnings > 0 ? ", " + counted(warnings, "warning") : "") +
                             (checked.is_rewritten ? "; rewritten" : ""),
                         Colour::green));

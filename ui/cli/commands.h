@@ -21,9 +21,15 @@ struct RunOptions {
   long long max_ticks = 2000;  ///< of a run until settled
   int threads = 1;
   std::string log, report, json, save;
-  std::vector<std::string> set;
+  std::vector<std::string> set, scripts;
 };
 int run_command(const RunOptions& options);
+
+struct ScriptOptions {
+  std::string scene, out, extract;
+  std::vector<std::string> files, removed;
+};
+int script_command(const ScriptOptions& options);
 
 struct CheckOptions {
   std::vector<std::string> scenes;

@@ -10,6 +10,7 @@
 
 #include "core/base/text.h"
 #include "ui/cli/commands.h"
+#include "ui/cli/plugin_choice.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -50,6 +51,11 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->type_name("NODE/TYPIFICATION.PORT=VALUE")
       ->expected(1)
       ->take_all();
+  c.add_option("--script", o.scripts,
+               "Adds a link kind written in Lua before the first tick, or replaces it; as often as needed.")
+      ->type_name("FILE.lua")
+      ->expected(1)
+      ->take_all();
   add_threads(c, o.threads);
   c.add_option("--log", o.log, "Writes the log of commands and hashes, for `replay`.")->type_name("FILE");
   c.add_option("--report", o.report, "Writes report.html, volumes.csv and volumes.obj into a folder.")->type_name("DIR");
@@ -84,6 +90,17 @@ void declare_compare(CLI::App& app, CompareOptions& o) {
       "What one scene has and the other has not is told too. Amounts are added up over all nodes, shares and rates averaged.\n\n"
       "Example:\n  behaviourlinks compare scenes/start/quarter.json other.json --report difference.html\n\n"
       "Exit codes: 0 compared; 2 bad input; 130 stopped by Ctrl-C.");
+void declare_script(CLI::App& app, ScriptOptions& o) {
+  CLI::App& c = *app.add_subcommand("script", "Puts link kinds written in Lua into a scene, lists them, takes them out.");
+  c.add_option("scene", o.scene, "The scene file.")->type_name("SCENE")->required();
+  c.add_option("files", o.files, "Lua files; a script of the same name is replaced.")->type_name("FILE.lua");
+  c.add_option("--remove", o.removed, "Takes a script away, as often as needed; its links stay and do not run.")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--extract", o.extract, "Writes all scripts of the scene as files into a folder.")->type_name("DIR");
+  c.add_option("--out", o.out, "Where the changed scene is written; may be the scene itself.")->type_name("SCENE");
+  c.footer("Example:\n  behaviourlinks script scene.json lean_uphill.lua --out scene.json");
 }
 
 void declare_new(CLI::App& app, NewOptions& o) {
@@ -154,8 +171,8 @@ void declare_import(CLI::App& app, ImportOptions& o) {
 }
 
 void declare_check(CLI::App& app, CheckOptions& o) {
-  CLI::App& c = *app.add_subcommand("check", "Says everything that is wrong with scene files.");
-  c.add_option("scenes", o.scenes, "The scene files.")->type_name("SCENE")->required();
+  CLI::App& c = *app.add_subcommand("check", "Says everything that is wrong with scene files and link scripts.");
+  c.add_option("scenes", o.scenes, "The scene files, and link scripts (.lua).")->type_name("FILE")->required();
   c.add_flag("--write", o.is_writing, "Rewrites each sound file in the one canonical form.");
   c.add_option("--json", o.json, "Writes the problems as JSON.")->type_name("FILE");
   c.footer("Example:\n  behaviourlinks check scenes/start/*.json\n\nExit codes: 0 no errors; 2 errors.");
@@ -327,7 +344,14 @@ int run_program(int count, char** arguments) {
   CLI::App app{kOverview, "behaviourlinks"};
   app.set_version_flag("--version", std::string("behaviourlinks ") + BL_VERSION, "Prints the version and ends.");
   app.require_subcommand(0, 1);
+  std::vector<std::string> plugins;
+  app.add_option("--plugins", plugins,
+                 "Folder of plugins: link kinds and typifications as shared libraries; as often as needed, before the command.")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
   RunOptions run;
+  ScriptOptions script;
   OpenOptions window;
   NewOptions fresh;
   ImportOptions import;
@@ -342,6 +366,7 @@ int run_program(int count, char** arguments) {
   BenchOptions bench;
   declare_run(app, run);
   declare_open(app);
+  declare_script(app, script);
   declare_new(app, fresh);
   declare_import(app, import);
   declare_check(app, check);
@@ -368,9 +393,12 @@ int run_program(int count, char** arguments) {
     complain("`behaviourlinks " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help` explains.");
     return kBadInput;
   }
+  if (const CLI::App* open = app.get_subcommand("open"); !open->parsed()) load_chosen_plugins(plugins);
   if (app.got_subcommand("run")) return run_command(run);
+  if (app.got_subcommand("script")) return script_command(script);
   if (const CLI::App* open = app.get_subcommand("open"); open->parsed()) {
     window.arguments = open->remaining();
+    for (const std::string& folder : plugins) window.arguments.push_back("--plugins=" + folder);
     return open_command(window);
   }
   if (app.got_subcommand("new")) return new_command(fresh);

@@ -7,13 +7,14 @@
 
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "core/file/log_writer.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
-#include "core/file/log_writer.h"
 #include "ui/cli/report/report.h"
 #include "ui/cli/run_output.h"
 #include "ui/cli/scene_loading.h"
+#include "ui/cli/script_file.h"
 #include "ui/cli/set_argument.h"
 #include "ui/cli/settle_watch.h"
 #include "ui/cli/terminal.h"
@@ -69,7 +70,7 @@ class Run {
 
   bool start() {
     if (!check_outputs()) return false;
-    auto reading = load_scene(options_.scene);
+    auto reading = load_scene(options_.scene, !options_.scripts.empty());
     if (!reading) return false;
     auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options_.threads);
     if (!session) return fail(options_.scene, session.error());
@@ -77,6 +78,12 @@ class Run {
     // The log of an earlier run is replaced only once it is sure that there is another.
     std::string lines = log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr));
     session_->on_entry([&lines](const LogEntry& entry) { lines += log_line(entry, full_registry()); });
+    for (const std::string& file : options_.scripts) {
+      auto command = script_command(file);
+      if (!command) return fail(file, command.error());
+      if (auto done = session_->submit(*command, "command line"); !done) return fail(file, done.error());
+    }
+    if (!options_.scripts.empty()) print_problems(options_.scene, check_scene(session_->scene(), full_registry()));
     for (const std::string& argument : options_.set) {
       auto command = set_command(session_->scene(), full_registry(), argument);
       if (!command) return fail("", command.error());

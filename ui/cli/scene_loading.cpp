@@ -6,14 +6,15 @@
 
 namespace bl::cli {
 
-std::optional<SceneReading> load_scene(const std::string& file) {
+std::optional<SceneReading> load_scene(const std::string& file, bool gets_scripts) {
   const auto text = read_file(file);
   if (!text) {
     print_error(file, text.error());
     return std::nullopt;
   }
   SceneReading reading = read_scene(*text, full_registry());
-  print_problems(file, reading.problems);
+  // Links that rest now may run once their script is there: what is still wrong then is told then.
+  if (!gets_scripts || !reading.is_usable()) print_problems(file, reading.problems);
   if (!reading.is_usable()) return std::nullopt;
   return reading;
 }

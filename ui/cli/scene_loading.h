@@ -8,8 +8,9 @@
 
 namespace bl::cli {
 
-/// The scene, or nothing after all of its problems were printed. Warnings are printed and do not stop it.
-std::optional<SceneReading> load_scene(const std::string& file);
+/// The scene, or nothing after all of its problems were printed. Warnings are printed and do not stop it. With `gets_scripts` they
+/// are left to the caller, who adds link kinds first.
+std::optional<SceneReading> load_scene(const std::string& file, bool gets_scripts = false);
 
 /// "1 node", "3 nodes".
 std::string counted(std::size_t number, const std::string& noun);

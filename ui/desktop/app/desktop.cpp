@@ -63,7 +63,9 @@ std::string Desktop::title() {
 }
 
 void Desktop::drop(const std::string& path) {
-  dialogs_->guard([this, path] { editor_->open(path, true); });
+  if (!path.ends_with(".lua")) return dialogs_->guard([this, path] { editor_->open(path, true); });
+  if (editor_->document) editor_->script_watch.add(*editor_, path);
+  else editor_->tell(NoticeKind::warning, "A link script belongs to a scene: open the scene first, then drop the script again.");
 }
 
 void Desktop::ask_to_quit() {
@@ -72,7 +74,7 @@ void Desktop::ask_to_quit() {
 
 void Desktop::offer_recovery() {
   std::vector<std::string> unreadable;
-  dialogs_->offer_recovery(Journal::find(editor_->registry, &unreadable));
+  dialogs_->offer_recovery(Journal::find(editor_->program, &unreadable));
   for (const std::string& text : unreadable) editor_->tell(NoticeKind::warning, text);
 }
 
@@ -87,6 +89,8 @@ void Desktop::watch_journal() {
 void Desktop::frame(double now) {
   Editor& editor = *editor_;
   editor.now = now;
+  editor.begin_frame();
+  editor.script_watch.poll(editor);
   if (editor.document) editor.moment = editor.document->session().moment();
   else editor.moment = nullptr;
   const ImVec2 size = ImGui::GetIO().DisplaySize;

@@ -22,7 +22,7 @@ class Desktop {
   Editor& editor() { return *editor_; }
   /// What the window is called: the scene, and a mark where it has unsaved changes.
   std::string title();
-  /// Files that were dropped onto the window.
+  /// A file that was dropped onto the window: a scene is opened, a link script (.lua) is taken into the open scene.
   void drop(const std::string& path);
   /// The person wants to close the window; asks first where something would be lost.
   void ask_to_quit();

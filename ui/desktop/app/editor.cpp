@@ -87,7 +87,7 @@ bool Editor::open(const std::string& wanted, bool plays) {
   const auto absolute = std::filesystem::absolute(wanted, error);
   const std::string path = error ? wanted : absolute.lexically_normal().string();
   std::vector<Problem> found;
-  auto fresh = Document::open(registry, path, kTickThreads, found);
+  auto fresh = Document::open(program, path, kTickThreads, found);
   list_problems(path, std::move(found));
   if (!fresh) {
     tell(NoticeKind::error, "This scene could not be opened; the problems list says why.");
@@ -105,6 +105,21 @@ void Editor::take(std::unique_ptr<Document> fresh) {
   moment = document->session().moment();
   picks = {};
   panels = nullptr;
+  script_watch.clear();
+}
+
+const Registry& Editor::types() const {
+  if (!document) return program;
+  const Scripts& scripts = scene().scripts;
+  if (!scripts.texts().empty() && (held_.empty() || &held_.back().types(program) != &scripts.types(program)))
+    held_.push_back(scripts);
+  return scripts.types(program);
+}
+
+void Editor::begin_frame() {
+  held_before_ = std::move(held_);
+  held_.clear();
+  (void)types();
 }
 
 }  // namespace bl::desktop

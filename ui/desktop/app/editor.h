@@ -10,6 +10,7 @@
 
 #include "ui/desktop/app/document.h"
 #include "ui/desktop/app/person_settings.h"
+#include "ui/desktop/app/script_watch.h"
 #include "ui/desktop/app/theme.h"
 
 namespace bl::desktop {
@@ -46,9 +47,9 @@ std::string fresh_key(const std::string& wish, const std::function<bool(const st
 
 class Editor {
  public:
-  Editor(const Registry& all_types, PersonSettings& somebody) : registry(all_types), person(somebody) {}
+  Editor(const Registry& all_types, PersonSettings& somebody) : program(all_types), person(somebody) {}
 
-  const Registry& registry;
+  const Registry& program;  ///< the types that need no scene
   PersonSettings& person;
   Theme theme;
   Picks picks;
@@ -64,12 +65,15 @@ class Editor {
   Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
+  ScriptWatch script_watch;             ///< files that link kinds of this scene are read from
   std::shared_ptr<PanelMemory> panels;  ///< what inspector, lists and charts remember of this document
   std::uint64_t bytes_sent = 0;         ///< to the graphics processor, since the window opened
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
   const Scene& scene() const { return document->scene(); }
   const State& state() const { return *moment->state; }
+  /// The types of the program and the kinds of the scene's scripts. Pointers into it stay good until the frame after the next.
+  const Registry& types() const;
   /// Index of the node in the state; state().nodes.size() where no tick has seen it yet.
   std::uint32_t index_of(const std::string& node) const { return state().plan->node_index(node); }
   /// Name, or id where there is none.
@@ -94,6 +98,12 @@ class Editor {
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
   bool open(const std::string& path, bool plays = false);
   void take(std::unique_ptr<Document> fresh);
+  /// At the beginning of a frame: lets go of scripts that nobody can hold pointers into any more.
+  void begin_frame();
+
+ private:
+  // Panels keep pointers into types() until they hear of a change; scripts that were replaced live on until then.
+  mutable std::vector<Scripts> held_, held_before_;
 };
 
 }  // namespace bl::desktop

@@ -17,6 +17,11 @@ int main(int count, char** arguments) {
   app.add_option("--frame-times", options.times, "Writes the time of every frame at the end, as CSV in milliseconds.")
       ->type_name("FILE");
   app.add_option("--seconds", options.seconds, "Closes the window after so many seconds.")->type_name("S");
+  app.add_option("--plugins", options.plugins,
+                 "Folder of plugins: link kinds and typifications as shared libraries; as often as needed.")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : 2; }

@@ -1,5 +1,6 @@
 // GLFW, ImGui's backends and the loop: one frame at the display's rate, whatever the simulation does.
 #include "ui/desktop/app/window.h"
+#include "ui/cli/plugin_choice.h"
 
 #include <chrono>
 #include <cstdio>
@@ -188,6 +189,7 @@ void write_times(const std::string& path, const FrameTimes& times) {
 }  // namespace
 
 int run_window(const WindowOptions& options) {
+  cli::load_chosen_plugins(options.plugins);
   PersonSettings person = read_person_settings(person_folder().empty() ? "" : person_folder() + "/desktop.json");
   Window window;
   if (!window.open(person)) return kBadInput;

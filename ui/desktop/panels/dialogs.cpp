@@ -86,6 +86,11 @@ void Dialogs::ask_open() {
   });
 }
 
+void Dialogs::ask_script() {
+  chooser_.open(FileChooser::Purpose::open_file, "Add a link script", {".lua"}, folder_of(*editor_));
+  chosen_ = [this](const std::string& path) { editor_->script_watch.add(*editor_, path); };
+}
+
 void Dialogs::ask_save_as(std::function<void()> then) {
   const std::string path = editor_->document->path();
   chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"},
@@ -168,7 +173,7 @@ void Dialogs::offer_recovery(std::vector<Journal::Remains> remains) {
 
 Dialogs::Recovered Dialogs::recover(const Journal::Remains& remains) {
   std::vector<Problem> problems;
-  auto document = Document::recover(editor_->registry, remains, kTickThreads, problems);
+  auto document = Document::recover(editor_->program, remains, kTickThreads, problems);
   editor_->list_problems(remains.path, std::move(problems));
   if (!document) {
     editor_->tell(NoticeKind::error, "The journal's scene could not be opened; the problems list says why. The journal is kept.");

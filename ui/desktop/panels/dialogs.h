@@ -20,6 +20,7 @@ class Dialogs {
   void ask_save_as(std::function<void()> then = {});
   void ask_report();
   void ask_log();
+  void ask_script();
   void show_new_scene();
   void show_palette();
   void show_keys();

@@ -36,6 +36,7 @@ void add_file_actions(std::vector<Action>& list) {
   };
   file("New from boundary and programme ...", {GLFW_KEY_N, true}, nullptr, [](Editor& e) { e.dialogs->show_new_scene(); });
   file("Open ...", {GLFW_KEY_O, true}, nullptr, [](Editor& e) { e.dialogs->ask_open(); });
+  file("Add link script ...", {}, has_document, [](Editor& e) { e.dialogs->ask_script(); });
   file("Save", {GLFW_KEY_S, true}, has_document, [](Editor& e) { e.dialogs->save(); });
   file("Save as ...", {GLFW_KEY_S, true, true}, has_document, [](Editor& e) { e.dialogs->ask_save_as(); });
   file("Back to the saved scene", {}, has_file, back_to_saved);

@@ -18,8 +18,8 @@ constexpr const char *kNode = "expression", *kLink = "map_value";
 
 bool can_be_driven(const Editor& editor, const PortDefinition& port) {
   const bool is_choosing = port.rule == CombineRule::blend || port.rule == CombineRule::min || port.rule == CombineRule::max;
-  return port.kind == ValueKind::number && is_choosing && editor.registry.typification(kNode) != nullptr &&
-         editor.registry.link(kLink) != nullptr;
+  return port.kind == ValueKind::number && is_choosing && editor.types().typification(kNode) != nullptr &&
+         editor.types().link(kLink) != nullptr;
 }
 
 // The formula begins as `a`, with the number that stands there now: nothing jumps, and the formula is then changed in its own

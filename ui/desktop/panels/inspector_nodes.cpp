@@ -92,7 +92,7 @@ void draw_computed(Editor& editor, const InspectorView& view, const Typification
   if (refs.empty()) return;
   const std::string path = path_of(type, port);
   const NodeRecord& node = editor.scene().nodes.at(view.nodes().front());
-  const Unit unit = unit_of(editor.registry, node, type, port);
+  const Unit unit = unit_of(editor.types(), node, type, port);
   float width = 0;
   begin_row(editor, path, label_of(port.id), port.doc, facts_of(port, unit), {}, width);
   width += 2 * editor.theme.px(20);
@@ -147,7 +147,7 @@ void draw_add_role(Editor& editor, const InspectorView& view) {
   if (!begin_list(editor, "add role", std::string(icon::kPlus) + "  add a role", width, editor.theme.colours().text_soft)) return;
   filter_field(editor, ImGui::GetContentRegionAvail().x);
   const std::string filter = memory_of(editor).filter;
-  for (const auto& [id, type] : editor.registry.typifications()) {
+  for (const auto& [id, type] : editor.types().typifications()) {
     std::vector<Command> commands;
     for (const std::string& node : view.nodes())
       if (!editor.scene().nodes.at(node).types.contains(id)) commands.push_back(command<Typify>({node, id, {"{}"}}));

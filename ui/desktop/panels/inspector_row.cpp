@@ -80,7 +80,7 @@ bool section(Editor& editor, const std::string& key, const std::string& label, c
   list.AddText(font, font->FontSize, {at.x + theme.px(14), middle - font->FontSize / 2}, c.text, label.c_str());
   if (wants_removal != nullptr) {
     ImGui::SetCursorPos({left + width - theme.px(20), top + theme.px(4)});
-    *wants_removal = sign_button(editor, icon::kClose, "Take this role away", c.text_faint, is_hovered);
+    *wants_removal = sign_button(editor, icon::kClose, "Take this away", c.text_faint, is_hovered);
     note_place(editor, "section/" + key + "/remove");
   }
   ImGui::SetCursorPos({left, top + height + theme.px(8)});

@@ -1,4 +1,5 @@
 // Nothing is chosen: what holds for the whole scene.
+#include <imgui.h>
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
@@ -7,6 +8,27 @@
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
+
+namespace {
+
+// The scripts that the scene carries; the cross takes one away, and its links rest.
+void list_scripts(Editor& editor) {
+  const Scripts scripts = editor.scene().scripts;
+  for (const auto& [name, text] : scripts.texts()) {
+    const auto kind = scripts.kinds().find(name);
+    const LinkDefinition* link = kind == scripts.kinds().end() ? nullptr : editor.types().link(kind->second);
+    bool wants_removal = false;
+    const std::string doc = link != nullptr ? link->doc : scripts.errors().at(name).message;
+    if (section(editor, "script." + name, name + ".lua", doc, &wants_removal)) {
+      ImGui::PushTextWrapPos();
+      ImGui::TextUnformatted(link != nullptr ? ("Link kind: " + link->label + ". " + doc).c_str() : doc.c_str());
+      ImGui::PopTextWrapPos();
+    }
+    if (wants_removal) editor.submit(command<RemoveScript>({name}));
+  }
+}
+
+}  // namespace
 
 void inspect_scene(Editor& editor) {
   const Scene& scene = editor.scene();
@@ -36,6 +58,7 @@ void inspect_scene(Editor& editor) {
       editor.submit(command<SetSetting>({port.id, {write_json_line(value_to_json(fresh, port))}}),
                     change->is_live ? memory.scrub.gesture : 0);
   }
+  list_scripts(editor);
 }
 
 }  // namespace bl::desktop

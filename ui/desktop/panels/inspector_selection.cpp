@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostEntries = 200;
 
 std::string type_label(const Editor& editor, const std::string& id) {
-  const TypificationDefinition* type = editor.registry.typification(id);
+  const TypificationDefinition* type = editor.types().typification(id);
   return type != nullptr ? type->label : id;
 }
 
@@ -163,7 +163,7 @@ std::optional<Change> port_field(Editor& editor, const Subject& subject, float w
   if (begin_list(editor, subject.key, shown, width, subject.is_mixed || chosen.empty() ? c.text_faint : 0)) {
     filter_field(editor, ImGui::GetContentRegionAvail().x);
     const std::string& filter = memory_of(editor).filter;
-    for (const auto& [id, type] : editor.registry.typifications())
+    for (const auto& [id, type] : editor.types().typifications())
       for (const PortDefinition& port : type.ports) {
         const std::string text = id + "." + port.id, name = label(id, port.id);
         if (!is_countable(port.kind)) continue;

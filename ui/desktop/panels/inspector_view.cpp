@@ -33,14 +33,14 @@ Unit unit_of_parameter(const Editor& editor, const LinkDefinition& kind, const L
     const UnitInfo* row = find_unit(*text);
     return row != nullptr ? row->unit : Unit::none;
   }
-  const TypificationDefinition* type = editor.registry.typification(path->typification);
+  const TypificationDefinition* type = editor.types().typification(path->typification);
   const PortDefinition* chosen = type != nullptr ? type->find_port(path->port) : nullptr;
   if (chosen == nullptr) return Unit::none;
   for (const Selection* end : {&link.from, &link.to})
     for (const std::string& id : end->ids)
       if (const auto node = editor.scene().nodes.find(id);
           node != editor.scene().nodes.end() && node->second.types.contains(type->id))
-        return unit_of(editor.registry, node->second, *type, *chosen);
+        return unit_of(editor.types(), node->second, *type, *chosen);
   return chosen->unit;
 }
 
@@ -74,16 +74,16 @@ void InspectorView::merge_nodes(const Editor& editor) {
   for (const auto& [id, values] : first.types) {
     const bool is_shared = std::all_of(nodes_.begin(), nodes_.end(),
                                        [&, &type = id](const std::string& n) { return scene.nodes.at(n).types.contains(type); });
-    const TypificationDefinition* type = editor.registry.typification(id);
+    const TypificationDefinition* type = editor.types().typification(id);
     if (!is_shared || type == nullptr) continue;
     SharedType shared{type, {}};
     for (const PortDefinition& port : type->ports) {
       if (port.is_computed) continue;
-      SharedPort setting = first_of(port, unit_of(editor.registry, first, *type, port), set_value(first, *type, port));
+      SharedPort setting = first_of(port, unit_of(editor.types(), first, *type, port), set_value(first, *type, port));
       std::size_t locked = 0;
       for (const std::string& n : nodes_) {
         const NodeRecord& node = scene.nodes.at(n);
-        add(setting, unit_of(editor.registry, node, *type, port), set_value(node, *type, port));
+        add(setting, unit_of(editor.types(), node, *type, port), set_value(node, *type, port));
         if (node.locked.contains(type->id + "." + port.id)) ++locked;
       }
       setting.is_locked = locked == nodes_.size();
@@ -106,7 +106,7 @@ void InspectorView::merge_links(const Editor& editor) {
     const LinkRecord& link = scene.links.at(l);
     return link.kind == first.kind && link.ghost.empty();
   });
-  kind_ = is_one_kind ? editor.registry.link(first.kind) : nullptr;
+  kind_ = is_one_kind ? editor.types().link(first.kind) : nullptr;
   if (kind_ == nullptr) return;
   for (const PortDefinition& port : kind_->ports) {
     SharedPort shared = first_of(port, unit_of_parameter(editor, *kind_, first, port), parameter_of(first, port));

@@ -76,14 +76,14 @@ void Dialogs::draw_new_scene() {
 }
 
 void Dialogs::make_scene() {
-  const cli::MadeScene made = cli::make_scene(fresh_, editor_->registry);
+  const cli::MadeScene made = cli::make_scene(fresh_, editor_->program);
   told_ = made.notes;
   is_told_error_ = !made.scene;
   for (const auto& [file, error] : made.errors) told_.push_back((file.empty() ? "" : file + ": ") + error.text());
   if (!made.scene) return;
   std::vector<Problem> problems;
-  const std::string text = write_scene(*made.scene, editor_->registry);
-  auto document = Document::from_text(editor_->registry, text, "", kTickThreads, problems);
+  const std::string text = write_scene(*made.scene, editor_->program);
+  auto document = Document::from_text(editor_->program, text, "", kTickThreads, problems);
   if (!document) {
     is_told_error_ = true;
     for (const Problem& problem : problems) told_.push_back(problem.error.text());

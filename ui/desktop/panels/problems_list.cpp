@@ -187,12 +187,13 @@ void ProblemList::add_file(const Editor& editor) {
   for (std::size_t k = 0; k < editor.problems.size(); ++k) {
     const Problem& problem = editor.problems[k];
     const std::string& place = problem.error.place;
+    const bool is_script = place.starts_with("scripts/");
     ProblemItem item{ProblemKind::file,
                      "file/" + std::to_string(k),
                      problem.is_error ? 1 : 0,
                      problem.is_error,
-                     file,
-                     problem.error.text(),
+                     is_script ? place.substr(place.find('/') + 1) + ".lua" : file,
+                     is_script ? problem.error.message : problem.error.text(),
                      {},
                      {},
                      {}};

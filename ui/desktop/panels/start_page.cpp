@@ -48,7 +48,7 @@ bool row(const Theme& theme, const char* sign, const std::string& text, const st
 }  // namespace
 
 void StartPage::draw() {
-  if (!pictures_) pictures_ = std::make_unique<ScenePictures>(editor_->registry, shipped_scenes());
+  if (!pictures_) pictures_ = std::make_unique<ScenePictures>(editor_->program, shipped_scenes());
   const Theme& theme = editor_->theme;
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float margin = theme.px(48), left = theme.px(380);

@@ -34,7 +34,7 @@ std::string first_sentence(const std::string& doc) {
 }
 
 ImU32 colour_of_type(const Board& board, const std::string& id) {
-  const auto& all = board.editor.registry.typifications();
+  const auto& all = board.editor.types().typifications();
   return board.theme().category(static_cast<std::size_t>(std::distance(all.begin(), all.find(id))));
 }
 
@@ -47,7 +47,7 @@ Command new_node(Board& board, const TypificationDefinition& role, const std::st
   node["name"] = role.label + (number == std::string::npos ? "" : " " + id.substr(number + 1));
   Json values = Json::object();
   if (role.id == "smart_volume") {
-    const NewVolume volume = place_volume(board.editor.registry, board.editor.scene());
+    const NewVolume volume = place_volume(board.editor.types(), board.editor.scene());
     node["position"] = Json::array({volume.position.x, volume.position.y, volume.position.z});
     if (volume.demand != 1000) values["demand"] = volume.demand;
   }
@@ -65,12 +65,12 @@ Command new_link(const Board& board, const LinkDefinition& kind, const std::stri
   link.from = from;
   link.to = to;
   link.parameters = std::move(parameters);
-  return command<AddLink>({id, {write_json_line(link_to_json(link, board.editor.registry))}});
+  return command<AddLink>({id, {write_json_line(link_to_json(link, board.editor.types()))}});
 }
 
 void add_node(Board& board, const std::string& type, ImVec2 at) {
   Editor& editor = board.editor;
-  const TypificationDefinition& role = *editor.registry.typification(type);
+  const TypificationDefinition& role = *editor.types().typification(type);
   FreshIds ids(editor);
   const std::string id = ids.of(role.label);
   Json patch = Json::object();
@@ -102,11 +102,11 @@ std::string short_name(const Board& board, const Selection& selection) {
 
 void lay_link(Board& board, const std::string& kind, const Selection& from, const Selection& to) {
   Editor& editor = board.editor;
-  const LinkDefinition& definition = *editor.registry.link(kind);
+  const LinkDefinition& definition = *editor.types().link(kind);
   FreshIds ids(editor);
   const std::string id = ids.of(short_name(board, from).substr(0, 24) + "_" + short_name(board, to).substr(0, 24));
   if (!editor.submit(
-          new_link(board, definition, id, from, to, chosen_ports(editor.registry, editor.scene(), definition, from, to)),
+          new_link(board, definition, id, from, to, chosen_ports(editor.types(), editor.scene(), definition, from, to)),
           editor.new_gesture()))
     return;
   remember(editor, kind);
@@ -115,8 +115,8 @@ void lay_link(Board& board, const std::string& kind, const Selection& from, cons
 
 void add_linked_node(Board& board, const std::string& kind, const std::string& type, const Selection& from, ImVec2 at) {
   Editor& editor = board.editor;
-  const LinkDefinition& definition = *editor.registry.link(kind);
-  const TypificationDefinition& role = *editor.registry.typification(type);
+  const LinkDefinition& definition = *editor.types().link(kind);
+  const TypificationDefinition& role = *editor.types().typification(type);
   FreshIds ids(editor);
   const std::string node = ids.of(role.label);
   const std::string link = ids.of(short_name(board, from).substr(0, 24) + "_" + node.substr(0, 24));
@@ -128,7 +128,7 @@ void add_linked_node(Board& board, const std::string& kind, const std::string& t
   after.nodes[node].types[role.id];
   std::vector<Command> commands{
       new_node(board, role, node, at, patch),
-      new_link(board, definition, link, from, to, chosen_ports(editor.registry, after, definition, from, to))};
+      new_link(board, definition, link, from, to, chosen_ports(editor.types(), after, definition, from, to))};
   add_view_patch(commands, patch);
   if (!editor.submit(commands, editor.new_gesture())) return;
   remember(editor, kind);
@@ -162,13 +162,13 @@ Bundle bundle_of(const Board& board, bool is_back) {
 
 bool does_fit(const Board& board, const LinkDefinition& kind, const Bundle& bundle) {
   for (std::size_t k = 0; k < bundle.from.size(); ++k)
-    if (misfit(board.editor.registry, board.editor.scene(), kind, bundle.from[k], bundle.to[k])) return false;
+    if (misfit(board.editor.types(), board.editor.scene(), kind, bundle.from[k], bundle.to[k])) return false;
   return true;
 }
 
 void lay_bundle(Board& board, const std::string& kind, const Bundle& bundle) {
   Editor& editor = board.editor;
-  const LinkDefinition& definition = *editor.registry.link(kind);
+  const LinkDefinition& definition = *editor.types().link(kind);
   FreshIds ids(editor);
   std::vector<Command> commands;
   std::set<std::string> laid;
@@ -176,7 +176,7 @@ void lay_bundle(Board& board, const std::string& kind, const Bundle& bundle) {
     const std::string id =
         ids.of(short_name(board, bundle.from[k]).substr(0, 24) + "_" + short_name(board, bundle.to[k]).substr(0, 24));
     commands.push_back(new_link(board, definition, id, bundle.from[k], bundle.to[k],
-                                chosen_ports(editor.registry, editor.scene(), definition, bundle.from[k], bundle.to[k])));
+                                chosen_ports(editor.types(), editor.scene(), definition, bundle.from[k], bundle.to[k])));
     laid.insert(id);
   }
   if (!editor.submit(commands, editor.new_gesture())) return;
@@ -190,7 +190,7 @@ void offer_links(const Board& board, Picker& picker) {
   if (count < 2 || count > kMostBundled) return;
   const Editor& editor = board.editor;
   const Bundle forth = bundle_of(board, false), back = bundle_of(board, true);
-  for (const auto& [id, kind] : editor.registry.links()) {
+  for (const auto& [id, kind] : editor.types().links()) {
     const bool fits_forth = does_fit(board, kind, forth);
     if (!fits_forth && !does_fit(board, kind, back)) continue;
     // Whoever has chosen several nodes is likelier to link them than to add another one.
@@ -210,14 +210,14 @@ void open_addition(Board& board, ImVec2 screen) {
   picker.hint = "What do you want to add?";
   picker.empty_text = "Nothing of that name";
   const ImVec2 at = board.camera.to_plane(screen);
-  for (const auto& [id, type] : editor.registry.typifications())
+  for (const auto& [id, type] : editor.types().typifications())
     if (is_role(type))
       picker.choices.push_back({id, type.label, first_sentence(type.doc), "", colour_of_type(board, id),
                                 2 * recency_of(editor, id), "new node", "node"});
   const auto& picks = editor.picks.nodes;
   if (!picks.empty()) {
     const std::string whom = picks.size() == 1 ? editor.name_of(*picks.begin()) : std::to_string(picks.size()) + " chosen nodes";
-    for (const auto& [id, type] : editor.registry.typifications()) {
+    for (const auto& [id, type] : editor.types().typifications()) {
       if (!is_role(type)) continue;
       const bool has_all =
           std::all_of(picks.begin(), picks.end(), [&](const std::string& n) { return !lacks_role(editor.scene(), n, id); });
@@ -247,8 +247,8 @@ void open_link_menu(Board& board, std::size_t from, std::size_t to, ImVec2 scree
   picker.title = text_of(editor, a) + "  \xe2\x86\x92  " + text_of(editor, b);
   picker.hint = "Which link?";
   picker.empty_text = "No kind of that name";
-  for (const auto& [id, kind] : editor.registry.links()) {
-    const auto why = misfit(editor.registry, editor.scene(), kind, a, b);
+  for (const auto& [id, kind] : editor.types().links()) {
+    const auto why = misfit(editor.types(), editor.scene(), kind, a, b);
     picker.choices.push_back({id, kind.label, first_sentence(kind.doc), why ? "Does not fit: " + *why + "." : "",
                               editor.theme.family_of(id).colour, recency_of(editor, id),
                               std::string(editor.theme.family_of(id).label), ""});
@@ -266,9 +266,9 @@ void open_drop_menu(Board& board, std::size_t from, ImVec2 screen) {
   picker.title = "A new node, linked from " + text_of(editor, a);
   picker.hint = "Which link, to what?";
   picker.empty_text = "Nothing that fits";
-  for (const auto& [id, kind] : editor.registry.links())
-    for (const auto& [role, type] : editor.registry.typifications()) {
-      if (!is_role(type) || misfit_with_new(editor.registry, editor.scene(), kind, a, type)) continue;
+  for (const auto& [id, kind] : editor.types().links())
+    for (const auto& [role, type] : editor.types().typifications()) {
+      if (!is_role(type) || misfit_with_new(editor.types(), editor.scene(), kind, a, type)) continue;
       // Every node has a place, but only a volume's is seen: moving a table of numbers about helps nobody.
       const bool is_volume = role == "smart_volume";
       if (!is_volume && knows_places_only(kind, End::to)) continue;

@@ -64,7 +64,7 @@ void move_aside(const Board& board, std::map<std::string, NodeRecord>& copies) {
   std::vector<Vector3*> places;
   for (auto& [id, node] : copies)
     if (Vector3* place = volume_place(node)) places.push_back(place);
-  const TypificationDefinition& base = *board.editor.registry.typification(kBaseNode);
+  const TypificationDefinition& base = *board.editor.types().typification(kBaseNode);
   const PortDefinition& position = base.ports[base.port_index("position")];
   std::vector<Vector3> taken;
   for (const auto& [id, node] : board.editor.scene().nodes)
@@ -83,7 +83,7 @@ void move_aside(const Board& board, std::map<std::string, NodeRecord>& copies) {
 std::vector<Command> settle_references(Pasting& pasting, const std::string& id, NodeRecord& node) {
   std::vector<Command> later;
   for (auto& [type, values] : node.types) {
-    const TypificationDefinition* definition = pasting.board.editor.registry.typification(type);
+    const TypificationDefinition* definition = pasting.board.editor.types().typification(type);
     for (auto value = values.begin(); value != values.end();) {
       auto* selection = std::get_if<Shared<Selection>>(&value->second);
       const PortDefinition* port = definition == nullptr ? nullptr : definition->find_port(value->first);
@@ -112,7 +112,7 @@ Result<void> paste_nodes(Pasting& pasting, const Json& list) {
     if (pasting.new_ids.contains(id)) return Error{ErrorCode::conflict, "nodes/" + id, "two nodes have this id"};
     pasting.new_ids[id] = pasting.ids.of(id);
   }
-  const Registry& registry = pasting.board.editor.registry;
+  const Registry& registry = pasting.board.editor.types();
   std::map<std::string, NodeRecord> nodes;
   for (const Json& item : list) {
     const std::string id = text_in(item, "id");
@@ -136,7 +136,7 @@ Result<void> paste_nodes(Pasting& pasting, const Json& list) {
 }
 
 Result<void> paste_links(Pasting& pasting, const Json& list) {
-  const Registry& registry = pasting.board.editor.registry;
+  const Registry& registry = pasting.board.editor.types();
   for (const Json& item : list) {
     const std::string id = text_in(item, "id");
     if (id.empty()) return Error{ErrorCode::missing, "links", "a link has no id"};
@@ -214,7 +214,7 @@ std::string clip_of_choice(const Board& board) {
     if (found == editor.scene().nodes.end()) continue;
     Json item = Json::object();
     item["id"] = id;
-    item.update(node_to_json(found->second, editor.registry));
+    item.update(node_to_json(found->second, editor.types()));
     if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size())
       item["box"] = place_json(board.model.boxes[k].box.at);
     clip["nodes"].push_back(std::move(item));
@@ -223,7 +223,7 @@ std::string clip_of_choice(const Board& board) {
     if (!link.ghost.empty() || !is_inner(link.from, nodes) || !is_inner(link.to, nodes)) continue;
     Json item = Json::object();
     item["id"] = id;
-    item.update(link_to_json(link, editor.registry));
+    item.update(link_to_json(link, editor.types()));
     if (const auto dots = board.model.view.dots.find(id); dots != board.model.view.dots.end())
       for (const ImVec2& p : dots->second) item["dots"].push_back(place_json(p));
     clip["links"].push_back(std::move(item));

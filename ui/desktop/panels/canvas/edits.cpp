@@ -96,7 +96,7 @@ void reconnect(const Board& board, const std::string& node, const std::set<std::
       link.to.ids = {pairs[k].second};
       if (pairs[k].first == pairs[k].second) continue;
       commands.push_back(command<AddLink>(
-          {ids.of(pairs[k].first + "_" + pairs[k].second), {write_json_line(link_to_json(link, board.editor.registry))}}));
+          {ids.of(pairs[k].first + "_" + pairs[k].second), {write_json_line(link_to_json(link, board.editor.types()))}}));
     }
   }
 }
@@ -147,7 +147,7 @@ std::set<std::string> links_heard(const Board& board) {
   const Editor& editor = board.editor;
   const auto& nodes = editor.picks.nodes;
   const auto reaches = [&](const Selection& end) {
-    const std::vector<std::string> members = resolve(editor.scene(), editor.registry, end);
+    const std::vector<std::string> members = resolve(editor.scene(), editor.types(), end);
     return std::any_of(members.begin(), members.end(), [&](const std::string& id) { return nodes.contains(id); });
   };
   for (const auto& [id, link] : editor.scene().links)
@@ -273,8 +273,7 @@ void move_links(Board& board, std::size_t from, std::size_t to) {
     Selection a = board.model.selection_of(line.from), b = board.model.selection_of(line.to);
     if (line.from == from) a = target;
     if (line.to == from) b = target;
-    if (const auto why = misfit(editor.registry, editor.scene(), *line.definition, a, b))
-      refused = line.label + " stays: " + *why;
+    if (const auto why = misfit(editor.types(), editor.scene(), *line.definition, a, b)) refused = line.label + " stays: " + *why;
     else commands.push_back(command<SetLinkEnds>({line.id, a, b})), ++count;
   }
   if (!commands.empty()) editor.submit(commands, editor.new_gesture());

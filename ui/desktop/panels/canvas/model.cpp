@@ -61,7 +61,7 @@ std::string key_of(const Selection& selection) {
 
 std::string text_of(const Editor& editor, const Selection& selection) {
   if (selection.is_query()) {
-    const TypificationDefinition* type = editor.registry.typification(selection.typification);
+    const TypificationDefinition* type = editor.types().typification(selection.typification);
     const std::string label = type != nullptr ? type->label : selection.typification;
     if (selection.tag.empty()) return "all " + label + "s";
     return (label.empty() ? "" : label + "s ") + "#" + selection.tag;
@@ -113,7 +113,7 @@ void Model::make_boxes(const Editor& editor) {
     NodeBox& box = boxes.emplace_back();
     box.id = id;
     box.name = node.name.empty() ? id : node.name;
-    box.sections = sections_of(editor.registry, node);
+    box.sections = sections_of(editor.types(), node);
     box.is_collapsed = view.collapsed.contains(id);
     box.is_hidden = view.hidden.contains(id);
     box.box.size = {kBoxWidth, box.is_collapsed ? kHeadHeight : height_of(box.sections)};
@@ -158,7 +158,7 @@ std::size_t Model::anchor_of(const Editor& editor, const Selection& selection) {
   pill.key = key;
   pill.selection = selection;
   pill.label = text_of(editor, selection);
-  for (const std::string& id : resolve(editor.scene(), editor.registry, selection))
+  for (const std::string& id : resolve(editor.scene(), editor.types(), selection))
     if (const std::size_t box = find_box(id); box < boxes.size()) pill.members.push_back(box);
   if (selection.is_query()) pill.label += "  ·  " + std::to_string(pill.members.size());
   const float letters =
@@ -185,7 +185,7 @@ void Model::make_lines(const Editor& editor) {
     Line& line = lines.emplace_back();
     line.id = id;
     line.kind = link.kind;
-    line.definition = link.ghost.empty() ? editor.registry.link(link.kind) : nullptr;
+    line.definition = link.ghost.empty() ? editor.types().link(link.kind) : nullptr;
     line.label = line.definition != nullptr ? line.definition->label : link.kind + " (unknown here)";
     line.from = a;
     line.to = b;

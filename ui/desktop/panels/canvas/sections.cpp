@@ -146,7 +146,7 @@ std::string text_of(const Editor& editor, const NodeBox& box, const Section& sec
   Unit unit = definition.unit;
   if (!definition.unit_from.empty())
     if (const auto node = editor.scene().nodes.find(box.id); node != editor.scene().nodes.end())
-      unit = unit_of(editor.registry, node->second, *section.type, definition);
+      unit = unit_of(editor.types(), node->second, *section.type, definition);
   const bool is_whole = definition.kind == ValueKind::integer || unit == Unit::count;
   if (is_whole && as_number(*value) == std::round(as_number(*value))) return report::grouped(as_number(*value));
   return report::quantity(as_number(*value), unit);

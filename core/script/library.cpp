@@ -1,0 +1,275 @@
+// The library: chosen functions of Lua's own, and replacements for those that are slow, unstable or show addresses.
+#include "core/script/library.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+
+#include <lua.hpp>
+
+#include "core/base/hash.h"
+#include "core/base/random.h"
+
+namespace bl {
+
+namespace {
+
+// Places in Lua's registry, by address.
+char globals_key, point_key;
+
+// Written in Lua, so that the instructions of all of it are counted. Why each stands here:
+//   pairs      walks in sorted order: Lua's own follows hashes that differ from run to run;
+//   sort       is stable: Lua's own takes its pivots from the clock;
+//   insert, remove, concat, unpack: Lua's own run through a whole table within one instruction;
+//   tostring, format: never show an address.
+// Patterns (find, match, gmatch, gsub) can run for ever within one instruction, and are left out, as is rep.
+constexpr char kLibrary[] = R"lua(
+local raw = ...
+local type, tostring, error, select, unpack, byte, format = raw.type, raw.tostring, raw.error, raw.select, raw.unpack, raw.byte, raw.format
+
+local function plain_less(a, b) return a < b end
+
+local function merge(list, low, middle, high, less, spare)
+  for i = low, high do spare[i] = list[i] end
+  local left, right = low, middle + 1
+  for i = low, high do
+    if right > high or (left <= middle and not less(spare[right], spare[left])) then
+      list[i] = spare[left]
+      left = left + 1
+    else
+      list[i] = spare[right]
+      right = right + 1
+    end
+  end
+end
+
+local function sort_part(list, low, high, less, spare)
+  if low >= high then return end
+  local middle = (low + high) // 2
+  sort_part(list, low, middle, less, spare)
+  sort_part(list, middle + 1, high, less, spare)
+  merge(list, low, middle, high, less, spare)
+end
+
+local function sort(list, less) sort_part(list, 1, #list, less or plain_less, {}) end
+
+local function key_less(a, b)
+  local first, second = type(a), type(b)
+  if first ~= second then return first < second end
+  if first == "boolean" then return not a and b end
+  return a < b
+end
+
+local function pairs(list)
+  local keys = {}
+  for key in raw.next, list do
+    local kind = type(key)
+    if kind ~= "number" and kind ~= "string" and kind ~= "boolean" then
+      error("pairs needs keys that are numbers, texts or truth values", 2)
+    end
+    keys[#keys + 1] = key
+  end
+  sort(keys, key_less)
+  local at = 0
+  return function()
+    at = at + 1
+    local key = keys[at]
+    if key ~= nil then return key, list[key] end
+  end
+end
+
+local function safe_tostring(value)
+  local kind = type(value)
+  if kind == "number" or kind == "string" or kind == "boolean" or kind == "nil" then return tostring(value) end
+  return kind
+end
+
+local function safe_format(pattern, ...)
+  for i = 1, #pattern - 1 do
+    if byte(pattern, i) == 37 and byte(pattern, i + 1) == 112 then error("format knows no %p", 2) end
+  end
+  for i = 1, select("#", ...) do
+    local kind = type((select(i, ...)))
+    if kind ~= "number" and kind ~= "string" and kind ~= "boolean" then error("format takes numbers and texts", 2) end
+  end
+  return format(pattern, ...)
+end
+
+local lists = {sort = sort}
+function lists.insert(list, at, value)
+  local count = #list
+  if value == nil then at, value = count + 1, at end
+  if at < 1 or at > count + 1 then error("insert: there is no place " .. tostring(at), 2) end
+  for i = count, at, -1 do list[i + 1] = list[i] end
+  list[at] = value
+end
+function lists.remove(list, at)
+  local count = #list
+  at = at or count
+  local value = list[at]
+  if at < 1 or at > count then return nil end
+  for i = at, count do list[i] = list[i + 1] end
+  return value
+end
+function lists.concat(list, between)
+  local text = ""
+  for i = 1, #list do text = text .. (i > 1 and between or "") .. list[i] end
+  return text
+end
+function lists.unpack(list, from, to)
+  from, to = from or 1, to or #list
+  if to - from >= 100 then error("unpack gives at most 100 values", 2) end
+  return unpack(list, from, to)
+end
+
+local methods, meta = {}, {__metatable = false}
+meta.__index = methods
+local function point(x, y, z) return raw.setmetatable({x = x or 0, y = y or 0, z = z or 0}, meta) end
+function meta.__add(a, b) return point(a.x + b.x, a.y + b.y, a.z + b.z) end
+function meta.__sub(a, b) return point(a.x - b.x, a.y - b.y, a.z - b.z) end
+function meta.__unm(a) return point(-a.x, -a.y, -a.z) end
+function meta.__mul(a, b)
+  if type(a) == "number" then return point(a * b.x, a * b.y, a * b.z) end
+  return point(a.x * b, a.y * b, a.z * b)
+end
+function meta.__div(a, b) return point(a.x / b, a.y / b, a.z / b) end
+function meta.__eq(a, b) return a.x == b.x and a.y == b.y and a.z == b.z end
+function methods.dot(a, b) return a.x * b.x + a.y * b.y + a.z * b.z end
+function methods.length(a) return raw.sqrt(a.x * a.x + a.y * a.y + a.z * a.z) end
+
+return meta, {pairs = pairs, tostring = safe_tostring, point = point}, lists, {format = safe_format}
+)lua";
+
+// random(...): a number from 0 to below 1 that follows from the arguments alone: ids, tick.index, counters.
+int random_of(lua_State* lua) {
+  Hash hash;
+  const int count = lua_gettop(lua);
+  for (int i = 1; i <= count; ++i) switch (lua_type(lua, i)) {
+      case LUA_TNUMBER: hash.add(lua_tonumber(lua, i)); break;
+      case LUA_TBOOLEAN: hash.add(std::uint64_t{lua_toboolean(lua, i) != 0 ? 2u : 1u}); break;
+      case LUA_TSTRING: {
+        std::size_t length = 0;
+        const char* text = lua_tolstring(lua, i, &length);
+        hash.add(std::string_view(text, length));
+        break;
+      }
+      default: return luaL_error(lua, "random takes numbers, texts and truth values: what the number shall follow from");
+    }
+  if (count == 0)
+    return luaL_error(lua, "random needs to know what the number shall follow from, such as random(ends.id, tick.index)");
+  lua_pushnumber(lua, Random(hash.value()).uniform());
+  return 1;
+}
+
+int refuse_change(lua_State* lua) { return luaL_error(lua, "the library cannot be changed"); }
+
+// The functions of `names` out of the table at `from` into that at `to`; positive indices.
+void take(lua_State* lua, int from, int to, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    lua_getfield(lua, from, name);
+    lua_setfield(lua, to, name);
+  }
+}
+
+// All entries of the table on top go into the one at `to`; pops it.
+void pour(lua_State* lua, int to) {
+  lua_pushnil(lua);
+  while (lua_next(lua, -2) != 0) {
+    lua_pushvalue(lua, -2);
+    lua_insert(lua, -2);
+    lua_settable(lua, to);
+  }
+  lua_pop(lua, 1);
+}
+
+// Replaces the table on top by an empty one that shows it and refuses changes.
+void shield(lua_State* lua) {
+  lua_newtable(lua);
+  lua_createtable(lua, 0, 3);
+  lua_pushvalue(lua, -3);
+  lua_setfield(lua, -2, "__index");
+  lua_pushcfunction(lua, refuse_change);
+  lua_setfield(lua, -2, "__newindex");
+  lua_pushboolean(lua, 0);
+  lua_setfield(lua, -2, "__metatable");
+  lua_setmetatable(lua, -2);
+  lua_remove(lua, -2);
+}
+
+// Pushes what the Lua part of the library is made from.
+void push_raw(lua_State* lua, int base, int text, int list, int math) {
+  lua_newtable(lua);
+  const int raw = lua_gettop(lua);
+  take(lua, base, raw, {"type", "tostring", "error", "select", "next", "setmetatable"});
+  take(lua, list, raw, {"unpack"});
+  take(lua, text, raw, {"byte", "format"});
+  take(lua, math, raw, {"sqrt"});
+}
+
+}  // namespace
+
+int open_library(lua_State* lua) {
+  luaL_requiref(lua, "_G", luaopen_base, 0);        // 1
+  luaL_requiref(lua, "string", luaopen_string, 0);  // 2
+  luaL_requiref(lua, "table", luaopen_table, 0);    // 3
+  luaL_requiref(lua, "math", luaopen_math, 0);      // 4
+  lua_createtable(lua, 0, 24);                      // 5: globals
+  lua_newtable(lua);                                // 6: string
+  lua_newtable(lua);                                // 7: table
+  lua_newtable(lua);                                // 8: math
+  take(lua, 1, 5, {"assert", "error", "ipairs", "select", "tonumber", "type"});
+  take(lua, 2, 6, {"byte", "char", "len", "lower", "reverse", "sub", "upper"});
+  take(lua, 4, 8,
+       {"abs", "acos", "asin",       "atan",       "ceil", "cos", "deg", "exp",  "floor",     "fmod", "huge", "log", "max",
+        "min", "modf", "maxinteger", "mininteger", "pi",   "rad", "sin", "sqrt", "tointeger", "tan",  "type", "ult"});
+  if (luaL_loadbufferx(lua, kLibrary, sizeof kLibrary - 1, "=(library)", "t") != LUA_OK) return lua_error(lua);
+  push_raw(lua, 1, 2, 3, 4);
+  lua_call(lua, 1, 4);
+  pour(lua, 6);
+  pour(lua, 7);
+  pour(lua, 5);
+  lua_rawsetp(lua, LUA_REGISTRYINDEX, &point_key);
+  lua_pushcfunction(lua, random_of);
+  lua_setfield(lua, 5, "random");
+  // ("text"):upper() looks into the chosen functions, too.
+  lua_pushliteral(lua, "");
+  lua_createtable(lua, 0, 2);
+  lua_pushvalue(lua, 6);
+  lua_setfield(lua, -2, "__index");
+  lua_setmetatable(lua, -2);
+  lua_settop(lua, 8);
+  for (const char* name : {"math", "table", "string"}) {
+    shield(lua);
+    lua_setfield(lua, 5, name);
+  }
+  lua_createtable(lua, 0, 2);
+  lua_pushvalue(lua, 5);
+  lua_setfield(lua, -2, "__index");
+  lua_pushboolean(lua, 0);
+  lua_setfield(lua, -2, "__metatable");
+  lua_rawsetp(lua, LUA_REGISTRYINDEX, &globals_key);
+  // What was opened and not chosen is not kept within reach.
+  lua_pushnil(lua);
+  lua_setfield(lua, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  return 0;
+}
+
+void push_globals(lua_State* lua) {
+  lua_newtable(lua);
+  lua_rawgetp(lua, LUA_REGISTRYINDEX, &globals_key);
+  lua_setmetatable(lua, -2);
+}
+
+void push_point(lua_State* lua, double x, double y, double z) {
+  lua_createtable(lua, 0, 3);
+  lua_pushnumber(lua, x);
+  lua_setfield(lua, -2, "x");
+  lua_pushnumber(lua, y);
+  lua_setfield(lua, -2, "y");
+  lua_pushnumber(lua, z);
+  lua_setfield(lua, -2, "z");
+  lua_rawgetp(lua, LUA_REGISTRYINDEX, &point_key);
+  lua_setmetatable(lua, -2);
+}
+
+}  // namespace bl

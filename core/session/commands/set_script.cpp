@@ -1,0 +1,39 @@
+// Adds a link kind written in Lua to the scene, or gives it a new text.
+#include "core/base/text.h"
+#include "core/session/support.h"
+
+namespace bl {
+
+void SetScript::declare(CommandBuilder<SetScript>& c) {
+  c.id("set_script")
+      .label("Set script")
+      .doc(
+          "Adds a link kind that is written in Lua, or gives it a new text. A text that cannot be read is refused, and the old "
+          "one "
+          "stays in force.");
+  c.argument(&In::id, "id").required().doc("The name of the script: that of its file without .lua.");
+  c.argument(&In::text, "text").required().doc("The whole text.");
+  c.argument(&In::even_if_broken, "even_if_broken")
+      .doc("When on, a text that cannot be read is kept all the same, and links of its kind rest; undo needs it.");
+}
+
+Inverse SetScript::apply(SceneEdit& edit, const In& in) {
+  const std::string place = "scripts/" + in.id;
+  if (!is_identifier(in.id))
+    return Error{ErrorCode::wrong_kind, place, "`" + in.id.substr(0, 80) + "` is no name: use 1 to 64 of a-z 0-9 _ - . #"};
+  const Scripts before = edit.scene().scripts;
+  auto texts = before.texts();
+  texts[in.id] = in.text;
+  const Scripts after = Scripts::read(std::move(texts), edit.program());
+  if (!in.even_if_broken)
+    for (const auto& [name, error] : after.errors())
+      if (name == in.id || !before.errors().contains(name)) return error.within("scripts/" + name);
+  const auto old = before.texts().find(in.id);
+  std::vector back{old == before.texts().end() ? command<RemoveScript>({in.id})
+                                               : command<SetScript>({in.id, old->second, before.errors().contains(in.id)})};
+  return exchange_scripts(edit, after, std::move(back));
+}
+
+}  // namespace bl
+
+BL_COMMAND(set_script, SetScript)

@@ -1,0 +1,34 @@
+// Types from shared libraries: found in folders, refused where they were built for another program, added to the registry.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/define/registry.h"
+
+namespace bl {
+
+/// What came of one file.
+struct PluginReport {
+  std::string file;
+  std::vector<std::string> types;  ///< ids that it added
+  std::optional<Error> error;      ///< why it was refused; then it added nothing
+};
+
+/// The ABI text of this program; a plugin must carry the same.
+const char* plugin_abi();
+/// The ABI text in a library, read from its bytes: no code of a library of another program is ever run.
+Result<std::string> read_plugin_abi(const std::string& file);
+/// Adds the types of one library. Refused as a whole where the ABI is another one or an id is taken.
+PluginReport load_plugin(Registry& registry, const std::string& file);
+/// All .so files of a folder, in ascending name.
+std::vector<PluginReport> load_plugins(Registry& registry, const std::string& folder);
+
+/// Folders that full_registry() looks into besides those of the variable BEHAVIOURLINKS_PLUGINS (separated by `:`). To be said
+/// before the registry is asked for the first time.
+void use_plugins(std::vector<std::string> folders);
+/// What came of all plugins of full_registry().
+const std::vector<PluginReport>& plugin_reports();
+
+}  // namespace bl

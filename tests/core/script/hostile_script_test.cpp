@@ -1,0 +1,140 @@
+// Scripts that run for ever, take all memory, fail, or answer rubbish: each is stopped and named with file and line.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "core/script/link_script.h"
+#include "tests/links/link_case.h"
+
+namespace bl {
+namespace {
+
+struct Hostile {
+  const char* name;
+  std::string text;
+  const char* said;  // the beginning of what is said, and some of its words after a `|`
+};
+
+std::string body(const std::string& lines) {
+  return "return {id = 'bad', doc = 'Bad.',\nreads = {here = {at = 'from', port = 'node.position'}},\n"
+         "proposes = {move = {at = 'from', port = 'node.position'}},\nevaluate = function(params, ends, tick)\n" +
+         lines + "\nend}\n";
+}
+
+std::string declaring(const std::string& reads) {
+  return "return {id = 'bad', doc = 'Bad.',\nreads = {" + reads +
+         "},\nproposes = {move = {at = 'from', port = 'node.position'}},\nevaluate = function() return {} end}\n";
+}
+
+std::vector<Hostile> hostile_scripts() {
+  const std::string big = "local t = {} for i = 1, 5000 do t[i] = '' end\n";
+  return {
+      {"for ever", body("while true do end"), "bad.lua:5: |500000 instructions"},
+      {"for ever without a loop", body("local function f() return f() end return f()"), "bad.lua:5: |instructions"},
+      {"for ever at the start", "while true do end", "bad.lua:1: |instructions"},
+      {"pcall loop", body("while true do pcall(function() while true do end end) end"), "bad.lua:5: |nil value (global 'pcall')"},
+      {"table bomb", body("local t = {}\nwhile true do t[#t + 1] = {} end"), "bad.lua:6: |table or the depth of its calls"},
+      {"array bomb", body("local t = {}\nfor i = 1, 1e9 do t[i] = i end"), "bad.lua:6: |table or the depth of its calls"},
+      {"string bomb", body("local s = 'x'\nwhile true do s = s .. s end"), "bad.lua:6: |text grew"},
+      {"string heap", body("local t, s = {}, ('x')\nfor i = 1, 11 do s = s .. s end\nfor i = 1, 1e9 do t[i % 3000] = s .. i end"),
+       "bad.lua:7: |MiB of memory"},
+      {"deep recursion", body("local function f(n) return 1 + f(n + 1) end\nreturn f(1)"), "bad.lua:5: |depth of its calls"},
+      {"growing arguments", body("local function f(...) return f(1, ...) end\nreturn f()"), "bad.lua:5: |stopped"},
+      {"sort of nonsense",
+       body("local t = {}\nfor i = 1, 3000 do t[i] = i end\nwhile true do table.sort(t, function() return true end) end"),
+       "bad.lua:7: |instructions"},
+      {"insert in front", body("local t = {}\nfor i = 1, 1e9 do table.insert(t, 1, i) end"), "bad.lua:6: |instructions"},
+      {"concat of nothing", body(big + "while true do table.concat(t) end"), "bad.lua:6: |instructions"},
+      {"unpack of nothing", body("while true do table.unpack({}, 1, 90) end"), "bad.lua:5: |"},
+      {"unpack of much", body("return table.unpack({}, 1, 1e8)"), "bad.lua:4: |100 values"},
+      {"comparing long texts",
+       body("local s = 'x'\nfor i = 1, 11 do s = s .. s end\nlocal r = s:reverse()\nwhile true do local _ = s < r end"),
+       "bad.lua:8: |instructions"},
+      {"a pattern", body("return string.find('aaaa', '.-.-.-.-b')"), "bad.lua:5: |nil value (field 'find')"},
+      {"a pattern of a text", body("return ('aaaa'):find('b')"), "bad.lua:5: |nil value (method 'find')"},
+      {"rep", body("return ('x'):rep(1e9)"), "bad.lua:5: |nil value (method 'rep')"},
+      {"files", body("return io.open('/etc/passwd')"), "bad.lua:5: |nil value (global 'io')"},
+      {"an error", body("error('no way')"), "bad.lua:5: |no way"},
+      {"an error that is a table", body("error({})"), "bad.lua:5: |no text"},
+      {"an error that is no UTF-8", body("error('no \\xff way')"), "bad.lua:5: |no ? way"},
+      {"a failed assertion", body("assert(1 > 2, 'smaller')"), "bad.lua:5: |smaller"},
+      {"an error in the library", body("\ntable.sort({1, 'x'})\n"), "bad.lua:6: |compare"},
+      {"index of nil", body("return {move = ends.there.x}"), "bad.lua:5: |nil value (field 'there')"},
+      {"arithmetic on a text", body("return {move = 'a' + 1}"), "bad.lua:5: |arithmetic"},
+      {"no answer", body(""), "bad.lua:4: |must return a table"},
+      {"a number as answer", body("return 3"), "bad.lua:4: |must return a table"},
+      {"wrong kind", body("return {move = 3}"), "bad.lua:4: |`move` needs a point"},
+      {"half a point", body("return {move = {x = 1, y = 2}}"), "bad.lua:4: |z is no number"},
+      {"NaN", body("return {move = point(0 / 0, 0, 0)}"), "bad.lua:4: |finite"},
+      {"infinity", body("return {move = point(math.huge, 0, 0)}"), "bad.lua:4: |finite"},
+      {"undeclared answer", body("return {mvoe = point()}"), "bad.lua:4: |`mvoe`, which `proposes` does not declare"},
+      {"nameless answer", body("return {point()}"), "bad.lua:4: |without a name"},
+      {"bytecode", "\x1bLua\x54", "bad.lua: |binary"},
+      {"no Lua", "return {id = 'bad',\n\nthis is no Lua", "bad.lua:3: |"},
+      {"a reserved word", declaring("here = {end = 'from', port = 'node.position'}"), "bad.lua:2: |near 'end'"},
+      {"nothing", "", "bad.lua:1: |must return a table"},
+      {"a number", "return 3", "bad.lua:1: |must return a table"},
+      {"no UTF-8", "return '\xff'", "bad.lua: |UTF-8"},
+      {"unknown typification", declaring("here = {at = 'from', port = 'smart_volum.volume'}"),
+       "bad.lua:2: |did you mean `smart_volume`"},
+      {"unknown port", declaring("here = {at = 'from', port = 'smart_volume.volum'}"), "bad.lua:2: |did you mean `volume`"},
+      {"unknown unit", declaring("here = {at = 'from', port = 'smart_volume.volume', unit = 'furlong'}"),
+       "bad.lua:2: |unknown unit `furlong`"},
+      {"unit that is no SI unit", declaring("here = {at = 'from', port = 'node.position', unit = 'km'}"),
+       "bad.lua:2: |values come in `m`"},
+      {"wrong unit", declaring("here = {at = 'from', port = 'smart_volume.volume', unit = 'm'}"), "bad.lua:2: |in cubic metres"},
+      {"unknown end", declaring("here = {at = 'left', port = 'node.position'}"), "bad.lua:2: |\"from\" or \"to\""},
+      {"unknown field", declaring("here = {at = 'from', prot = 'node.position'}"), "bad.lua:2: |did you mean `port`"},
+      {"taken id", "return {id = 'ratio', doc = 'x', proposes = {}, evaluate = function() end}", "bad.lua:1: |already"},
+      {"no id", "return {doc = 'x'}", "bad.lua:1: |`id` of the script is missing"},
+      {"computed port",
+       "return {id = 'bad', doc = 'x',\nproposes = {v = {at = 'to', port = 'smart_volume.volume'}}, evaluate = function() end}",
+       "bad.lua:2: |cannot be changed by links"},
+      {"default out of range",
+       "return {id = 'bad', doc = 'x',\nparams = {{id = 'size', default = 5, max = 3, doc = 'x'}},\nproposes = {}, evaluate = 3}",
+       "bad.lua:2: |at most 3"},
+      {"too long a script", "return '" + std::string(300000, 'x') + "'", "bad.lua: |longer than 256 KiB"},
+      {"a deep table in the text", "return " + std::string(1000, '{') + std::string(1000, '}'), "bad.lua: |C stack overflow"},
+  };
+}
+
+std::string said_by(const std::string& text) {
+  auto kind = read_link_script("bad", text, full_registry());
+  if (!kind) return kind.error().text();
+  LinkCase link(*kind);
+  return link.from("node.position", Vector3{1, 2, 3}).run();
+}
+
+// BL_SENTENCES=FILE writes the table with the times.
+TEST(HostileScript, IsStoppedAndNamed) {
+  std::FILE* table = nullptr;
+  if (const char* path = std::getenv("BL_SENTENCES")) table = std::fopen(path, "w");
+  for (const Hostile& hostile : hostile_scripts()) {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::string said = said_by(hostile.text);
+    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    const std::string wanted = hostile.said, start = wanted.substr(0, wanted.find('|')),
+                      words = wanted.substr(wanted.find('|') + 1);
+    EXPECT_TRUE(said.starts_with(start)) << hostile.name << ": " << said;
+    EXPECT_NE(said.find(words), std::string::npos) << hostile.name << ": " << said;
+    EXPECT_EQ(said, said_by(hostile.text)) << hostile.name;
+    if (table != nullptr) std::fprintf(table, "| %s | %.2f | %s |\n", hostile.name, ms, said.c_str());
+  }
+  if (table != nullptr) std::fclose(table);
+}
+
+// Evaluations after a stopped one are as if nothing had been.
+TEST(HostileScript, LeavesNothingBehind) {
+  const auto kind =
+      read_link_script("bad", body("if ends.here.x > 1 then while true do end end\nreturn {move = ends.here}"), full_registry());
+  ASSERT_TRUE(kind.ok());
+  LinkCase link(*kind);
+  EXPECT_NE(link.from("node.position", Vector3{2, 0, 0}).run(), "");
+  EXPECT_EQ(link.from("node.position", Vector3{1, 0, 0}).run(), "");
+  expect_near(link.move(End::from), {1, 0, 0});
+}
+
+}  // namespace
+}  // namespace bl

@@ -1,0 +1,35 @@
+// Lua files that people gave to the open scene: read again whenever they are saved, while the scene runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace bl::desktop {
+
+class Editor;
+
+class ScriptWatch {
+ public:
+  /// Puts the file's text into the scene as a link kind, and watches the file from now on, even where it cannot be read yet.
+  void add(Editor& editor, const std::string& path);
+  /// Looks for files that were saved since, a few times a second of the window's clock.
+  void poll(Editor& editor);
+  /// Forgets all files, with the scene they belonged to.
+  void clear() { files_.clear(); }
+  std::size_t size() const { return files_.size(); }
+
+ private:
+  struct File {
+    std::string path;
+    std::filesystem::file_time_type written{};
+    std::uintmax_t size = 0;
+  };
+  void take(Editor& editor, const std::string& name, const File& file);
+
+  std::map<std::string, File> files_;  ///< by the name of the script
+  double next_look_ = 0;
+};
+
+}  // namespace bl::desktop
