@@ -11,7 +11,8 @@ namespace {
 constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "nodes": [
   {"id": "a", "position": [1, 2, 3], "tags": ["x"], "types": {"smart_volume": {"demand": 900}, "strange": {"deep": [1, {"k": null}]}}, "locked": ["node.position"]},
   {"id": "b", "types": {"smart_volume": {}}},
-  {"id": "c", "types": {"statistics": {"nodes": ["a", "b"]}}}],
+  {"id": "c", "types": {"statistics": {"nodes": ["a", "b"]}}},
+  {"id": "d", "types": {"sensor": {"reading": 5, "reading_tick": 3, "reading_problem": "noise"}}}],
   "links": [
   {"id": "l", "kind": "keep_distance", "from": "a", "to": "b"},
   {"id": "m", "kind": "keep_distance", "from": "b", "to": ["a", "c"], "strength": 0.5},
@@ -38,6 +39,9 @@ std::vector<Command> every_command() {
       command<EnableLink>({"l", false}),
       command<MuteLink>({"l", true}),
       command<SetSetting>({"tolerance", {"0.02"}}),
+      command<Receive>({"d", 21.5, "noon", "", 12}),
+      command<Receive>({"d", 0, "", "`x` is no number", 12}),
+      command<NoteConnection>({"d", "nobody is there"}),
       command<SetView>({{R"({"boxes": {"a": [1, 2], "b": null}})"}}),
       command<Batch>(
           {{R"([{"command": "rename_node", "arguments": {"id": "a", "name": "B"}}, {"command": "remove_node", "arguments": {"id": "b"}}])"}})};

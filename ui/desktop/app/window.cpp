@@ -20,6 +20,7 @@
 #include "ui/desktop/app/desktop.h"
 #include "ui/desktop/app/input_queue.h"
 #include "ui/desktop/app/journal.h"
+#include "ui/desktop/app/live_scene.h"
 #include "ui/desktop/view/gl_renderer.h"
 
 namespace bl::desktop {
@@ -162,6 +163,7 @@ int run_window(const WindowOptions& options) {
     Desktop desktop(full_registry(), person, *renderer);
     Editor& editor = desktop.editor();
     Hands hands{desktop, {}};
+    LiveScene live(options.is_live);
     listen(window.handle(), hands);
     bool is_dark = person.is_dark;
     float scale = 0;
@@ -193,6 +195,7 @@ int run_window(const WindowOptions& options) {
       hands.input.hand_over(ImGui::GetIO());
       ImGui::NewFrame();
       desktop.frame(begin);
+      live.frame(editor);
       ImGui::Render();
       int width = 0, height = 0;
       glfwGetFramebufferSize(window.handle(), &width, &height);
