@@ -22,6 +22,8 @@ struct RunOptions {
   int threads = 1;
   std::string log, report, json, save;
   std::vector<std::string> set, scripts;
+  bool is_live = false;  ///< connects to sensors and actuators, and ticks in real time until it is stopped
+  double rate = 0;       ///< ticks per second of a live run; 0: as the sensors say
 };
 int run_command(const RunOptions& options);
 

@@ -57,6 +57,13 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->expected(1)
       ->take_all();
   add_threads(c, o.threads);
+  auto* live = c.add_flag("--live", o.is_live,
+                          "Connects to the sensors and actuators of the scene, and ticks in real time until Ctrl-C or --ticks. "
+                          "Without it, recorded tables are played, and nothing is connected to.");
+  c.add_option("--rate", o.rate, "Ticks per second of a live run. Default: as the tick length of its sensors says.")
+      ->type_name("R")
+      ->needs(live)
+      ->check(CLI::Range(0.001, 1000.0));
   c.add_option("--log", o.log, "Writes the log of commands and hashes, for `replay`.")->type_name("FILE");
   c.add_option("--report", o.report, "Writes report.html, volumes.csv and volumes.obj into a folder.")->type_name("DIR");
   c.add_option("--json", o.json, "Writes all figures as JSON, lengths in m, areas in m2, volumes in m3.")->type_name("FILE");

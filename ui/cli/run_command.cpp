@@ -1,6 +1,7 @@
 // `run`: ticks a scene until it settles, and says what came of it.
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
+#include "ui/cli/live_run.h"
 #include "ui/cli/report/report.h"
 #include "ui/cli/run_output.h"
 #include "ui/cli/scene_loading.h"
@@ -27,7 +29,7 @@ constexpr long long kTicksPerCheck = 60;
 
 class Run {
  public:
-  explicit Run(const RunOptions& options) : options_(options) {}
+  explicit Run(const RunOptions& options) : options_(options), live_(options.scene, options.is_live, options.rate) {}
 
   int execute() {
     if (!start()) return kBadInput;
@@ -112,20 +114,25 @@ class Run {
   }
 
   void tick_until_done() {
-    const bool is_settling = options_.ticks < 0;
-    const long long most = is_settling ? options_.max_ticks : options_.ticks;
+    const bool is_settling = options_.ticks < 0 && !options_.is_live;
+    const long long most = is_settling           ? options_.max_ticks
+                           : options_.ticks >= 0 ? options_.ticks
+                                                 : std::numeric_limits<long long>::max();
     SettleWatch watch;
     Progress progress;
     if (is_settling && session_->state()->is_settled() && options_.set.empty()) return;
     for (long long done = 0; done < most && !is_interrupted(); ++done) {
       before_ = session_->state();
+      live_.before_tick(*session_);
       session_->tick();
+      live_.after_tick(*session_);
       const std::shared_ptr<const State> state = session_->state();
       record(*state);
       if (state->tick % kTicksPerCheck == 0) log_.write(log_line(LogCheck{state->tick, hex_digits(state->hash), false}));
       if (progress.is_due())
         progress.show("tick " + std::to_string(state->tick) + ", largest error " + fixed(100 * state->largest_residual, 2) +
                       " %, largest move " + fixed(state->largest_move, 3) + " m");
+      live_.wait(*session_);
       if (!is_settling) continue;
       if (state->is_settled() || watch.is_hopeless(*state)) return;
     }
@@ -161,11 +168,13 @@ class Run {
     if (!options_.report.empty())
       is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, *state);
+    live_.sum_up();
     print_line(coloured(last_line, state->is_settled() ? Colour::green : Colour::red));
     return is_saved;
   }
 
   const RunOptions& options_;
+  LiveRun live_;
   std::unique_ptr<Session> session_;
   std::shared_ptr<const State> before_;
   LogWriter log_;

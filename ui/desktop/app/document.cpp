@@ -97,8 +97,12 @@ Result<void> Document::save(const std::string& path) {
 bool Document::is_unsaved() {
   const std::size_t size = session_->log().size();
   if (!saved_) return true;
+  const auto is_persons = [](const LogEntry& entry) { return entry.author == LiveSession::kAuthor; };
+  const auto fresh = session_->log().begin() + static_cast<std::ptrdiff_t>(std::min(compared_size_, size));
+  const bool is_compared = compared_size_ != 0 && std::none_of(fresh, session_->log().end(), is_persons);
   if (size == compared_size_) return is_unsaved_;
   compared_size_ = size;
+  if (is_compared) return is_unsaved_;
   // Undone changes leave nothing to save: what counts is what people have said, not that it ran on.
   is_unsaved_ = !(*saved_ == scene());
   return is_unsaved_;
@@ -124,6 +128,7 @@ const std::vector<HistoryStep>& Document::history() {
   const auto& log = session_->log();
   for (; history_size_ < log.size(); ++history_size_) {
     const LogEntry& entry = log[history_size_];
+    if (entry.author != LiveSession::kAuthor) continue;  // readings of sensors are nobody's steps
     const std::int64_t shown = entry.undoes != 0 ? entry.undoes : entry.redoes != 0 ? entry.redoes : entry.gesture;
     auto step = std::find_if(history_.begin(), history_.end(), [&](const HistoryStep& s) { return s.gesture == shown; });
     if (entry.undoes != 0 || entry.redoes != 0) {
@@ -152,7 +157,8 @@ const std::vector<HistoryStep>& Document::history() {
 
 void Document::abandon(std::int64_t gesture) {
   const auto& log = session_->log();
-  if (gesture == 0 || log.empty() || log.back().gesture != gesture || log.back().undoes != 0) return;
+  const auto last = std::find_if(log.rbegin(), log.rend(), [](const LogEntry& e) { return e.author == LiveSession::kAuthor; });
+  if (gesture == 0 || last == log.rend() || last->gesture != gesture || last->undoes != 0) return;
   abandoned_.insert(gesture);
   // The ticks have seen it, so that the log keeps it and what takes it back; the history does not.
   (void)session_->undo();

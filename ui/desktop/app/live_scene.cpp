@@ -1,0 +1,31 @@
+// Serves each tick once; a frame between two ticks has nothing to do.
+#include "ui/desktop/app/live_scene.h"
+
+#include <filesystem>
+
+namespace bl::desktop {
+
+void LiveScene::frame(Editor& editor) {
+  if (editor.document.get() != document_) {
+    document_ = editor.document.get();
+    connections_.reset();
+    tick_ = -1;
+    if (document_ != nullptr)
+      connections_ = std::make_unique<Connections>(
+          LiveOptions{std::filesystem::path(document_->path()).parent_path().string(), is_live_, {}});
+  }
+  if (!connections_ || !editor.moment || !editor.moment->is_playing || editor.moment->state->tick == tick_) return;
+  tick_ = editor.moment->state->tick;
+  LiveSession& session = editor.document->session();
+  connections_->follow(session.scene());
+  for (const Report& report : connections_->take(tick_)) {
+    LogEntry entry;
+    entry.gesture = session.new_gesture();
+    entry.author = report.author;
+    entry.command = report.command;
+    if (auto done = session.replay(std::move(entry)); !done) editor.tell(NoticeKind::warning, done.error().text());
+  }
+  connections_->send(*editor.moment->state);
+}
+
+}  // namespace bl::desktop
