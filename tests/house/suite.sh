@@ -71,6 +71,15 @@ run_fuzzers() {
         printf '0{"cases": [{"boundary": {"planes": [[-1,0,0,0],[0,-1,0,0],[0,0,-1,0],[1,1,1,9]]}, "sites": [[1,2,3]], "weights": [1e1]}]}' >"$corpus/cells"
         printf '7x,y,z,weight,demand,demand_min,demand_max,group,name\n1,2,3,4,5,,,a,b\n2;3\n' >"$corpus/table"
         ;;
+      osm)
+        printf '<osm version="0.6"><node id="1" lat="60" lon="25"/><node id="2" lat="60" lon="25.001"/><node id="3" lat="60.001" lon="25.001"/><way id="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/><tag k="height" v="12,5 m"/></way><way id="2"><nd ref="1"/><nd ref="3"/><tag k="highway" v="primary"/><tag k="oneway" v="-1"/></way><relation id="3"><member type="way" ref="1" role="outer"/><tag k="type" v="multipolygon"/><tag k="building" v="yes"/></relation></osm>' >"$corpus/xml"
+        ;;
+      cityjson)
+        printf '{"type":"CityJSON","version":"2.0","vertices":[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,5],[9,0,5],[9,9,5],[0,9,5]],"CityObjects":{"a":{"type":"Building","attributes":{"measuredHeight":5},"geometry":[{"type":"Solid","lod":"1.2","boundaries":[[[[0,3,2,1]],[[4,5,6,7]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}]}}}' >"$corpus/solid"
+        ;;
+      geojson)
+        printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"height":"12","use":"shop"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0]],[[2,2],[4,2],[4,4],[2,2]]]}},{"type":"Feature","properties":{"highway":"primary"},"geometry":{"type":"LineString","coordinates":[[0,0],[5,5]]}},{"type":"Feature","properties":{"v":1},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >"$corpus/features"
+        ;;
     esac
     if "$root/build/fuzz/$fuzzer" -max_total_time="$1" -timeout=25 -rss_limit_mb=4096 -print_final_stats=1 \
       -artifact_prefix="$finds/$name-" "$corpus" >"$log" 2>&1 </dev/null; then

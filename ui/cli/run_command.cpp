@@ -74,16 +74,22 @@ class Run {
     auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options_.threads);
     if (!session) return fail(options_.scene, session.error());
     session_ = std::move(*session);
-    if (!options_.log.empty()) {
-      if (auto opened = log_.open(options_.log); !opened) return fail(options_.log, opened.error());
-      log_.write(log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr)));
-      session_->on_entry([this](const LogEntry& entry) { log_.write(log_line(entry, full_registry())); });
-    }
+    // The log of an earlier run is replaced only once it is sure that there is another.
+    std::string lines = log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr));
+    session_->on_entry([&lines](const LogEntry& entry) { lines += log_line(entry, full_registry()); });
     for (const std::string& argument : options_.set) {
       auto command = set_command(session_->scene(), full_registry(), argument);
       if (!command) return fail("", command.error());
       if (auto done = session_->submit(*command, "command line"); !done) return fail("--set " + argument, done.error());
     }
+    session_->on_entry({});
+    return options_.log.empty() || begin_log(lines);
+  }
+
+  bool begin_log(const std::string& lines) {
+    if (auto opened = log_.open(options_.log); !opened) return fail(options_.log, opened.error());
+    log_.write(lines);
+    session_->on_entry([this](const LogEntry& entry) { log_.write(log_line(entry, full_registry())); });
     return true;
   }
 

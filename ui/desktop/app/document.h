@@ -23,6 +23,9 @@ struct HistoryStep {
   std::size_t entries = 0;  ///< commands in it
 };
 
+/// Ticks on one thread: the other cores are the window's.
+inline constexpr int kTickThreads = 1;
+
 class Document {
  public:
   /// Reads a scene; warnings and errors both come back in `problems`. Nothing where there are errors.

@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kNoticeSeconds = 5;
 constexpr std::size_t kMostNotices = 4;
-// Ticks on one thread: the other cores are the window's.
-constexpr int kThreads = 1;
 
 // That there is nothing is no error; that it does not fit any more is one, and says so itself.
 void tell_why(Editor& editor, const Error& error, const char* nothing) {
@@ -78,14 +76,19 @@ void Editor::tell(NoticeKind kind, std::string text) {
   if (notices.size() > kMostNotices) notices.erase(notices.begin());
 }
 
+void Editor::list_problems(std::string file, std::vector<Problem> found) {
+  problem_file = std::move(file);
+  problems = std::move(found);
+  ++problems_revision;
+}
+
 bool Editor::open(const std::string& wanted, bool plays) {
   std::error_code error;
   const auto absolute = std::filesystem::absolute(wanted, error);
   const std::string path = error ? wanted : absolute.lexically_normal().string();
   std::vector<Problem> found;
-  auto fresh = Document::open(registry, path, kThreads, found);
-  problems = std::move(found);
-  problem_file = path;
+  auto fresh = Document::open(registry, path, kTickThreads, found);
+  list_problems(path, std::move(found));
   if (!fresh) {
     tell(NoticeKind::error, "This scene could not be opened; the problems list says why.");
     return false;

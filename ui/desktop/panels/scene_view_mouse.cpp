@@ -104,12 +104,9 @@ void SceneView::take_keys() {
 }
 
 void SceneView::take_mouse() {
-  const ImGuiIO& io = ImGui::GetIO();
-  const ImVec2 moved{io.MousePos.x - mouse_before_.x, io.MousePos.y - mouse_before_.y};
-  mouse_before_ = io.MousePos;
   take_wheel();
   if (drag_ == Drag::orbit || drag_ == Drag::pan || drag_ == Drag::zoom) {
-    if (ImGui::IsMouseDown(drag_button_)) navigate(moved);
+    if (ImGui::IsMouseDown(drag_button_)) navigate(ImGui::GetIO().MouseDelta);  // none while the pointer is nowhere
     else drag_ = Drag::none;
   } else if (is_hovered_ && drag_ == Drag::none && !(move_ && !move_->is_by_key)) {
     const Drag begun = drag_of_preset(drag_button_);
@@ -197,8 +194,9 @@ void SceneView::select_box() {
   const Box box{std::min(pressed_at_.x, io.MousePos.x) - at_.x, std::min(pressed_at_.y, io.MousePos.y) - at_.y,
                 std::max(pressed_at_.x, io.MousePos.x) - at_.x, std::max(pressed_at_.y, io.MousePos.y) - at_.y};
   const bool touches = io.MousePos.x < pressed_at_.x;
+  const Sight sight{choices_.camera, width(), height(), choices_.section, shows("marks")};
   if (!io.KeyShift && !io.KeyCtrl) editor_->picks.clear();
-  for (const std::uint32_t node : pick_box(box, touches, *facts_, choices_.camera, width(), height())) {
+  for (const std::uint32_t node : pick_box(box, touches, *facts_, sight)) {
     std::set<std::string>& chosen = editor_->picks.nodes;
     if (!io.KeyCtrl || chosen.erase(id_of(node)) == 0) chosen.insert(id_of(node));
   }
@@ -210,15 +208,19 @@ void SceneView::point_at() {
   hit_ = pick(ray_at(mouse), *facts_, choices_.section);
   std::string found = hit_ ? id_of(hit_->node) : "";
   double nearest = kMarkReach * editor_->theme.scale();
-  for (const MarkFacts& mark : facts_->marks) {
-    const Seen at = seen(place_of(mark.node));
+  const auto try_mark = [&](std::uint32_t node, const std::string& id) {
+    const Seen at = seen(place_of(node));
     const ImVec2 p = on_screen(at);
     const double far = std::hypot(p.x - mouse.x, p.y - mouse.y);
-    if (!at.is_in_front || far > nearest || !shows("marks")) continue;
+    if (!at.is_in_front || far > nearest) return;
     nearest = far;
-    found = mark.id;
-  }
-  if (found != pointed_at_) pointed_since_ = editor_->now;
+    found = id;
+  };
+  if (shows("marks"))
+    for (const MarkFacts& mark : facts_->marks) try_mark(mark.node, mark.id);
+  // As they are drawn: a volume without a shape has its mark whatever the layers say.
+  for (const VolumeFacts& volume : facts_->volumes)
+    if (!volume.cell) try_mark(volume.node, volume.id);
   pointed_at_ = found;
   if (!found.empty()) editor_->picks.hovered_node = found;
   if (!found.empty() || !shows("links")) return;

@@ -24,8 +24,6 @@ struct VolumeFacts {
   bool is_ball = false;  ///< the shape is not known, only its radius
 
   double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
-  /// Where its label and links are tied to.
-  const Point3& anchor() const { return position; }
 };
 
 /// A node without a volume, as a small mark.

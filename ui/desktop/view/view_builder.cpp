@@ -10,19 +10,19 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr std::array<Layer, 13> kLayers = {{{"boundary", "Boundary", true},
-                                            {"storeys", "Storey lines", true},
-                                            {"edges", "Edges", true},
-                                            {"shadows", "Shadows", true},
-                                            {"grid", "Ground and grid", true},
-                                            {"labels", "Labels", true},
-                                            {"marks", "Nodes without a volume", true},
-                                            {"card", "Card of the nearest node", true},
-                                            {"links", "Links", false},
-                                            {"weights", "Weights as circles", false},
-                                            {"neighbours", "Neighbours (Delaunay edges)", false},
-                                            {"cells", "Cells before the shrink-wrap", false},
-                                            {"pulls", "Pulls on places", false}}};
+constexpr std::array<Layer, kLayerCount> kLayers = {{{"boundary", "Boundary", true},
+                                                     {"storeys", "Storey lines", true},
+                                                     {"edges", "Edges", true},
+                                                     {"shadows", "Shadows", true},
+                                                     {"grid", "Ground and grid", true},
+                                                     {"labels", "Labels", true},
+                                                     {"marks", "Nodes without a volume", true},
+                                                     {"card", "Card of the nearest node", true},
+                                                     {"links", "Links", false},
+                                                     {"weights", "Weights as circles", false},
+                                                     {"neighbours", "Neighbours (Delaunay edges)", false},
+                                                     {"cells", "Cells before the shrink-wrap", false},
+                                                     {"pulls", "Pulls on places", false}}};
 
 constexpr Colour kPlaster = 0xffd8dde0u;
 constexpr int kCircleParts = 64;
@@ -74,7 +74,6 @@ void Builder::add_frame() {
   scene.sun = Vector3{-0.42, -0.62, 0.66} / norm({-0.42, -0.62, 0.66});
   const Colour ink = is_dark ? 0xff1a1512u : 0xff3a322cu;
   scene.colours = {.sky = c.sky,
-                   .horizon = c.sky,
                    .ground = is_dark ? mixed(c.ground, 0xffffffffu, 0.06f) : mixed(c.sky, 0xffffffffu, 0.45f),
                    .grid = is_dark ? mixed(c.ground, 0xffffffffu, 0.17f) : mixed(c.sky, c.ground, 0.85f),
                    .edge = ink,

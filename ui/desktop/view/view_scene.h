@@ -15,7 +15,7 @@ using Colour = std::uint32_t;
 
 /// A volume: its coarse cell, which the renderer divides and wraps onto the ball that the cell's wrap names.
 struct ViewVolume {
-  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, failing = 8 };
+  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4 };
   std::uint32_t node = 0;  ///< index in the state, for picking
   MeshPointer cell;        ///< never empty, always with a wrap
   Colour colour = 0;
@@ -49,7 +49,7 @@ struct ViewSection {
 };
 
 struct ViewColours {
-  Colour sky = 0, horizon = 0, ground = 0, grid = 0, edge = 0, chosen = 0, hovered = 0, cut = 0;
+  Colour sky = 0, ground = 0, grid = 0, edge = 0, chosen = 0, hovered = 0, cut = 0;
   bool is_dark = true;
   bool operator==(const ViewColours&) const = default;
 };

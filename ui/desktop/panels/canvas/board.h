@@ -136,7 +136,7 @@ struct Board {
   bool has_space_panned = false;
   std::string find_text;
   std::function<void(Board&)> after_frame;  ///< what has to wait until nothing is being walked over
-  const Document* document = nullptr;
+  std::uint64_t document = 0;  ///< whose board it is
 
   const Theme& theme() const { return editor.theme; }
   bool is_hidden(const Line& line) const { return hidden_families.contains(line.family.label); }

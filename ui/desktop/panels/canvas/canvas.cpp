@@ -23,8 +23,8 @@ namespace {
 
 // Another scene: nothing of the last one is left behind.
 void follow_document(Board& board) {
-  if (board.document == board.editor.document.get()) return;
-  board.document = board.editor.document.get();
+  if (board.document == board.editor.document->id()) return;
+  board.document = board.editor.document->id();
   board.is_reset = true;
   board.drag = {};
   board.edit = {};

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ui/cli/report/report_model.h"
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/link_paths.h"
 #include "ui/desktop/panels/canvas/sections.h"
@@ -307,10 +308,8 @@ void Model::find_indices(const Editor& editor) {
     }
   }
   for (Line& line : lines) {
-    const auto found = std::lower_bound(plan.links.begin(), plan.links.end(), line.id,
-                                        [](const LinkPlan& l, const std::string& key) { return l.id < key; });
-    line.in_state =
-        found != plan.links.end() && found->id == line.id ? static_cast<std::uint32_t>(found - plan.links.begin()) : kNoIndex;
+    const std::size_t at = report::link_index(plan, line.id);
+    line.in_state = at < plan.links.size() ? static_cast<std::uint32_t>(at) : kNoIndex;
   }
 }
 
