@@ -97,6 +97,8 @@ void declare_compare(CLI::App& app, CompareOptions& o) {
       "What one scene has and the other has not is told too. Amounts are added up over all nodes, shares and rates averaged.\n\n"
       "Example:\n  behaviourlinks compare scenes/start/quarter.json other.json --report difference.html\n\n"
       "Exit codes: 0 compared; 2 bad input; 130 stopped by Ctrl-C.");
+}
+
 void declare_script(CLI::App& app, ScriptOptions& o) {
   CLI::App& c = *app.add_subcommand("script", "Puts link kinds written in Lua into a scene, lists them, takes them out.");
   c.add_option("scene", o.scene, "The scene file.")->type_name("SCENE")->required();

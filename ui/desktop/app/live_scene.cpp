@@ -6,13 +6,14 @@
 namespace bl::desktop {
 
 void LiveScene::frame(Editor& editor) {
-  if (editor.document.get() != document_) {
-    document_ = editor.document.get();
+  const std::uint64_t number = editor.document ? editor.document->id() : 0;
+  if (number != document_) {
+    document_ = number;
     connections_.reset();
     tick_ = -1;
-    if (document_ != nullptr)
+    if (number != 0)
       connections_ = std::make_unique<Connections>(
-          LiveOptions{std::filesystem::path(document_->path()).parent_path().string(), is_live_, {}});
+          LiveOptions{std::filesystem::path(editor.document->path()).parent_path().string(), is_live_, {}});
   }
   if (!connections_ || !editor.moment || !editor.moment->is_playing || editor.moment->state->tick == tick_) return;
   tick_ = editor.moment->state->tick;

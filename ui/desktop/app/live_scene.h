@@ -17,7 +17,7 @@ class LiveScene {
 
  private:
   bool is_live_;
-  const Document* document_ = nullptr;  // only compared
+  std::uint64_t document_ = 0;  // its number; 0: none
   std::unique_ptr<Connections> connections_;
   std::int64_t tick_ = -1;  // the last one that was served
 };

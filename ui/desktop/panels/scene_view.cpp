@@ -61,7 +61,7 @@ void SceneView::draw_overlay() {
   draw_labels();
   draw_gizmo();
   draw_scale_and_north();
-  draw_legend(editor_->is_beamer);
+  draw_legends(editor_->is_beamer);
   if (drag_ == Drag::box) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const Colours& c = editor_->theme.colours();

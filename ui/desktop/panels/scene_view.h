@@ -111,7 +111,9 @@ class SceneView {
   void draw_labels();
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
-  void draw_legend(bool is_large);
+  std::string street_under(const ImVec2& mouse) const;
+  void draw_legends(bool is_large);
+  ImVec2 draw_legend(const Legend& legend, const ImVec2& corner, bool is_large);
   void draw_hint(const std::string& text);
   void draw_tools();
   void draw_layers_popup();

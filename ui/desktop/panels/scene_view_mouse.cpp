@@ -33,7 +33,7 @@ Ray SceneView::ray_at(ImVec2 mouse) const { return choices_.camera.ray(mouse.x -
 // What the mouse is over: a volume, the ground, or the plane through the target that faces the eye.
 Point3 SceneView::place_under(ImVec2 mouse) const {
   const Ray ray = ray_at(mouse);
-  if (const auto hit = pick(ray, *facts_, choices_.section)) return hit->place;
+  if (const auto hit = pick(ray, *facts_, choices_.section, shows("buildings"))) return hit->place;
   const auto on_ground = meet_plane(ray, {0, 0, facts_->ground}, {0, 0, 1});
   if (on_ground && distance(*on_ground, facts_->centre) < 6 * facts_->radius) return *on_ground;
   const auto facing = meet_plane(ray, choices_.camera.target, choices_.camera.forward());
@@ -202,10 +202,24 @@ void SceneView::select_box() {
   }
 }
 
+std::string SceneView::street_under(const ImVec2& mouse) const {
+  double reach = kLinkReach * editor_->theme.scale();
+  std::string found;
+  for (const StreetFacts& street : facts_->urban.streets) {
+    const Seen a = seen(place_of(street.start)), b = seen(place_of(street.end));
+    if (!a.is_in_front || !b.is_in_front) continue;
+    const double far = distance_to_segment(mouse, on_screen(a), on_screen(b));
+    if (far >= reach) continue;
+    reach = far;
+    found = street.id;
+  }
+  return found;
+}
+
 void SceneView::point_at() {
   if (!is_hovered_ || (drag_ != Drag::none && drag_ != Drag::pressed)) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  hit_ = pick(ray_at(mouse), *facts_, choices_.section);
+  hit_ = pick(ray_at(mouse), *facts_, choices_.section, shows("buildings"));
   std::string found = hit_ ? id_of(hit_->node) : "";
   double nearest = kMarkReach * editor_->theme.scale();
   const auto try_mark = [&](std::uint32_t node, const std::string& id) {
@@ -221,6 +235,7 @@ void SceneView::point_at() {
   // As they are drawn: a volume without a shape has its mark whatever the layers say.
   for (const VolumeFacts& volume : facts_->volumes)
     if (!volume.cell) try_mark(volume.node, volume.id);
+  if (found.empty() && shows("streets")) found = street_under(mouse);
   pointed_at_ = found;
   if (!found.empty()) editor_->picks.hovered_node = found;
   if (!found.empty() || !shows("links")) return;

@@ -76,13 +76,16 @@ std::optional<double> meet(const Ray& ray, const Mesh& cell, const ViewSection& 
   return {};
 }
 
-std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section) {
+std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section, bool with_bodies) {
   std::optional<Hit> nearest;
-  for (const VolumeFacts& volume : facts.volumes) {
-    if (!volume.cell) continue;
-    const auto at = meet(ray, *volume.cell, section);
-    if (at && (!nearest || *at < nearest->distance)) nearest = Hit{volume.node, *at, ray.origin + *at * ray.direction};
-  }
+  const auto take = [&](std::uint32_t node, const Mesh& cell) {
+    const auto at = meet(ray, cell, section);
+    if (at && (!nearest || *at < nearest->distance)) nearest = Hit{node, *at, ray.origin + *at * ray.direction};
+  };
+  for (const VolumeFacts& volume : facts.volumes)
+    if (volume.cell) take(volume.node, *volume.cell);
+  for (const BodyFacts& body : facts.urban.bodies)
+    if (with_bodies) take(body.node, *body.cell);
   return nearest;
 }
 

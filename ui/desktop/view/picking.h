@@ -18,7 +18,8 @@ struct Hit {
 
 /// Where a line of sight first meets a volume: its cell inside its ball, on the shown side of the section.
 std::optional<double> meet(const Ray& ray, const Mesh& cell, const ViewSection& section);
-std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section);
+/// `with_bodies`: are the buildings around seen?
+std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section, bool with_bodies);
 
 /// A rectangle in the picture [pixels].
 struct Box {

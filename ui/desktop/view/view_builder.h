@@ -18,7 +18,7 @@ struct Layer {
   const char *id, *label;
   bool is_on_at_first;
 };
-inline constexpr std::size_t kLayerCount = 13;
+inline constexpr std::size_t kLayerCount = 20;
 std::span<const Layer> layers();
 /// As the person has it, or as it is at first.
 bool is_on(const PersonSettings& person, const std::string& layer);
