@@ -251,17 +251,18 @@ class District {
     for (std::size_t s = 0; s < streets_.size(); ++s) {
       const DistrictStreet& street = streets_[s];
       if (!street.is_open || out_.streets[s].length <= 0) continue;
-      const double walk = out_.streets[s].length / settings_.walking_speed;
       const std::string start = junction_name(street.start), end = junction_name(street.end);
-      links.push_back({street.id + ":forth", start, end, walk, 0, 0, 1, 0, 0, true});
-      links.push_back({street.id + ":back", end, start, walk, 0, 0, 1, 0, 0, true});
+      links.push_back({street.id + ":forth", start, end, 0, 0, 0, 1, out_.streets[s].length, 0, true});
+      links.push_back({street.id + ":back", end, start, 0, 0, 0, 1, out_.streets[s].length, 0, true});
     }
-    for (std::uint32_t l = 0; l < network_->link_count(); ++l)
-      if (!network_->is_through(network_->from(l)) || !network_->is_through(network_->to(l))) links.push_back(network_->link(l));
+    for (std::uint32_t l = 0; l < network_->link_count(); ++l) {
+      if (network_->is_through(network_->from(l)) && network_->is_through(network_->to(l))) continue;
+      links.push_back(network_->link(l));
+      links.back().length = links.back().free_time * settings_.walking_speed;
+    }
     const auto walks = TrafficNetwork::make(std::move(nodes), std::move(links));
     if (!walks) return walks.error();
-    std::vector<double> walking;
-    for (std::uint32_t l = 0; l < walks->link_count(); ++l) walking.push_back(walks->cost(l, 0));
+    const std::vector<double> walking = walking_costs(*walks, settings_.walking_speed);
     for (std::size_t z = 0; z < zones_.size(); ++z)
       if (zones_[z].wants_reach) read_reach_of(z, *walks, walking);
     return {};

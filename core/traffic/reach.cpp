@@ -8,12 +8,6 @@
 
 namespace bl {
 
-std::vector<double> driving_costs(const TrafficNetwork& network, std::span<const double> flows) {
-  std::vector<double> costs;
-  for (std::uint32_t l = 0; l < network.link_count(); ++l) costs.push_back(network.cost(l, flows[l]));
-  return costs;
-}
-
 std::vector<double> walking_costs(const TrafficNetwork& network, double speed) {
   std::vector<double> costs;
   for (std::uint32_t l = 0; l < network.link_count(); ++l) costs.push_back(network.link(l).length / speed);

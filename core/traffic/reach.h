@@ -9,8 +9,7 @@
 
 namespace bl {
 
-/// What a way costs on each link: of a drive at the flows given, or of a walk at one speed along the lengths [m, m/s].
-std::vector<double> driving_costs(const TrafficNetwork& network, std::span<const double> flows);
+/// What a walk costs on each link: at one speed along its length [m, m/s].
 std::vector<double> walking_costs(const TrafficNetwork& network, double speed);
 
 /// Least costs from a node to all nodes; kUnreached where no open way leads.

@@ -13,6 +13,7 @@
 #include "core/exchange/tntp.h"
 #include "core/file/file_io.h"
 #include "core/traffic/equilibrium.h"
+#include "core/traffic/reach.h"
 #include "ui/cli/bench_tools.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
@@ -58,7 +59,7 @@ class AssignRun {
   explicit AssignRun(const AssignOptions& options) : o_(options) {}
 
   int execute() {
-    if (!read() || !read_edits()) return kBadInput;
+    if (!read() || !read_edits() || !read_questions()) return kBadInput;
     catch_interrupts();
     bool is_met = false;
     const auto found = settle("equilibrium", *network_, is_met);
@@ -74,7 +75,11 @@ class AssignRun {
       tell_lost(equilibrium);
       json["after_edit"] = figures_json(equilibrium);
     }
+    for (const auto& [from, to] : routes_) json["routes"].push_back(tell_routes(equilibrium, from, to));
+    for (const auto& [from, limit] : reach_) json["reach"].push_back(tell_reach(equilibrium, from, limit));
     json["links"] = links_json(equilibrium);
+    if (places_)
+      for (const TntpPlaces::Entry& place : places_->entries) json["nodes"][place.node] = {{"x", place.x}, {"y", place.y}};
     if (!o_.json.empty())
       if (auto written = write_file(o_.json, write_json(json) + "\n"); !written) {
         print_error(o_.json, written.error());
@@ -88,7 +93,8 @@ class AssignRun {
     const auto net = load(o_.net, read_tntp_network);
     const auto trips = load(o_.trips, read_tntp_trips);
     if (!o_.flows.empty()) flows_ = load(o_.flows, read_tntp_flows);
-    if (!net || !trips || (!o_.flows.empty() && !flows_)) return false;
+    if (!o_.nodes.empty()) places_ = load(o_.nodes, read_tntp_places);
+    if (!net || !trips || (!o_.flows.empty() && !flows_) || (!o_.nodes.empty() && !places_)) return false;
     const CostFactors factors{o_.toll_factor >= 0 ? o_.toll_factor : net->factors.toll,
                               o_.distance_factor >= 0 ? o_.distance_factor : net->factors.distance};
     auto made = TrafficNetwork::make(net->nodes, net->links, factors);
@@ -138,6 +144,69 @@ class AssignRun {
       edits_.push_back({*link, -1});
     }
     return true;
+  }
+
+  std::optional<std::uint32_t> node_named(const std::string& name, const char* option) const {
+    const std::uint32_t node = network_->node_index(name);
+    if (node != kNoTrafficIndex) return node;
+    print_error("", {ErrorCode::not_found, option, "there is no node `" + name + "` in the network"});
+    return std::nullopt;
+  }
+
+  bool read_questions() {
+    for (const std::string& text : o_.routes) {
+      const std::size_t dash = text.find('-');
+      const auto from = node_named(text.substr(0, dash), "--routes");
+      const auto to = node_named(dash == std::string::npos ? "" : text.substr(dash + 1), "--routes");
+      if (!from || !to) return false;
+      routes_.emplace_back(*from, *to);
+    }
+    for (const std::string& text : o_.reach) {
+      const std::size_t equals = text.find('=');
+      const auto limit = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
+      if (!limit || !(*limit > 0)) {
+        print_error("", {ErrorCode::parse, "--reach", "expects NODE=LIMIT with a limit above 0, found `" + text + "`"});
+        return false;
+      }
+      const auto node = node_named(text.substr(0, equals), "--reach");
+      if (!node) return false;
+      reach_.emplace_back(*node, *limit);
+    }
+    return true;
+  }
+
+  Json tell_routes(const Equilibrium& equilibrium, std::uint32_t from, std::uint32_t to) const {
+    const auto routes = equilibrium.routes(from, to);
+    print_line();
+    print_line(coloured("from " + network_->node(from).id + " to " + network_->node(to).id, Colour::bold) +
+               (routes.empty() ? ": no trips" : ""));
+    Json json = Json::array();
+    TextTable table({{"trips", true}, {"cost", true}, {"by"}});
+    for (const Route& route : routes) {
+      std::string nodes = network_->node(from).id;
+      for (const std::uint32_t link : route.links) nodes += " " + network_->node(network_->to(link)).id;
+      json.push_back({{"trips", route.trips}, {"cost", route.cost}, {"nodes", nodes}});
+      table.add({fixed(route.trips, 2), fixed(route.cost, 4), nodes});
+    }
+    if (!routes.empty()) table.print();
+    return {{"from", network_->node(from).id}, {"to", network_->node(to).id}, {"used", std::move(json)}};
+  }
+
+  Json tell_reach(const Equilibrium& equilibrium, std::uint32_t from, double limit) const {
+    const std::vector<double> at = travel_costs(equilibrium.network(), from, equilibrium.costs());
+    Json nodes = Json::object(), links = Json::array();
+    for (std::uint32_t n = 0; n < at.size(); ++n)
+      if (at[n] <= limit) nodes[network_->node(n).id] = at[n];
+    double whole = 0;
+    for (const ReachedLink& reached : reached_links(equilibrium.network(), from, at, equilibrium.costs(), limit)) {
+      links.push_back({{"link", network_->link(reached.link).id}, {"share", reached.share}});
+      whole += reached.share == 1 ? 1 : 0;
+    }
+    print_line();
+    print_line(coloured("from " + network_->node(from).id + " within " + shortest(limit), Colour::bold) + ": " +
+               counted(nodes.size(), "node") + ", " + counted(static_cast<std::size_t>(whole), "link") + " whole and " +
+               std::to_string(links.size() - static_cast<std::size_t>(whole)) + " in part");
+    return {{"from", network_->node(from).id}, {"limit", limit}, {"nodes", std::move(nodes)}, {"links", std::move(links)}};
   }
 
   // Iterates until the gap is reached; `gaps` gets one entry for each iteration.
@@ -274,7 +343,10 @@ class AssignRun {
   std::optional<TrafficNetwork> network_;
   std::vector<TripDemand> demands_;
   std::optional<TntpFlows> flows_;
+  std::optional<TntpPlaces> places_;
   std::vector<Edit> edits_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> routes_;  // from and to
+  std::vector<std::pair<std::uint32_t, double>> reach_;          // from and limit
 };
 
 }  // namespace

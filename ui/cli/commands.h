@@ -93,12 +93,13 @@ struct FitFileOptions {
 int fit_command(const FitFileOptions& options);
 
 struct AssignOptions {
-  std::string net, trips, flows, json;
+  std::string net, trips, flows, nodes, json;
   double gap = 1e-6;
-  int iterations = 1000;                                       ///< at most
-  double toll_factor = -1, distance_factor = -1;               ///< below 0: what the file says, or 0
-  std::vector<std::string> edit_capacity, close;               ///< LINK=VALUE, LINK: applied to the equilibrium found
-  int repeat = 1;                                              ///< of the measured parts; medians are told
+  int iterations = 1000;                          ///< at most
+  double toll_factor = -1, distance_factor = -1;  ///< below 0: what the file says, or 0
+  std::vector<std::string> edit_capacity, close;  ///< LINK=VALUE, LINK: applied to the equilibrium found
+  std::vector<std::string> routes, reach;         ///< FROM-TO, NODE=LIMIT: told of the last equilibrium
+  int repeat = 1;                                 ///< of the measured parts; medians are told
 };
 int assign_command(const AssignOptions& options);
 

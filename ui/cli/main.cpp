@@ -303,10 +303,21 @@ void declare_assign(CLI::App& app, AssignOptions& o) {
       ->type_name("LINK")
       ->expected(1)
       ->take_all();
+  c.add_option("--routes", o.routes, "Lists the ways that the trips from one zone to another use, as often as needed.")
+      ->type_name("FROM-TO")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--reach", o.reach, "Says how far one gets from a node at these flows within a cost, as often as needed.")
+      ->type_name("NODE=LIMIT")
+      ->expected(1)
+      ->take_all();
   c.add_option("--repeat", o.repeat, "Measures so often and tells the median time. Default: 1.")
       ->type_name("R")
       ->check(CLI::Range(1, 100000));
-  c.add_option("--json", o.json, "Writes figures, and flow and cost of each link.")->type_name("OUT");
+  auto* json = c.add_option("--json", o.json, "Writes figures, and flow and cost of each link.")->type_name("OUT");
+  c.add_option("--nodes", o.nodes, "Adds the places of the nodes to --json, for maps: `..._node.tntp`.")
+      ->type_name("FILE")
+      ->needs(json);
   c.footer(
       "A link is named by its nodes, 3-12; others between the same two are 3-12#2 and so on. Times, flows and lengths have the\n"
       "units of the files. The gap is the share of the total cost that vanished if all took today's shortest way.\n\n"

@@ -24,9 +24,9 @@ TEST(Reach, WalkingAndDrivingTimesFromAPlace) {
   EXPECT_EQ(walk[0], 0);
   EXPECT_DOUBLE_EQ(walk[2], 160);
   EXPECT_EQ(walk[3], kUnreached);
-  std::vector<double> flows(network.link_count(), 0);
-  flows[network.link_index("ab")] = 100;
-  EXPECT_DOUBLE_EQ(travel_costs(network, 0, driving_costs(network, flows))[2], 21.5);
+  std::vector<double> drive(network.link_count(), 10);
+  drive[network.link_index("ab")] = network.cost(network.link_index("ab"), 100);
+  EXPECT_DOUBLE_EQ(travel_costs(network, 0, drive)[2], 21.5);
 }
 
 TEST(Reach, AnIsochroneEndsWithinALink) {

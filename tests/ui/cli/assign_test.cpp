@@ -46,6 +46,29 @@ TEST(Assign, EditsTollsAndLostTrips) {
   EXPECT_EQ(outcome.code, 0) << "one street: nobody has a choice";
 }
 
+TEST(Assign, TellsRoutesAndReach) {
+  const Workplace place;
+  place.write("n.tntp", kNet);
+  place.write("t.tntp", kTrips);
+  place.write("p.tntp", "Node\tX\tY\t;\n1\t-3.5\t2\t;\n");
+  const Outcome outcome = place.run({"assign", "n.tntp", "t.tntp", "--gap", "1e-10", "--routes", "1-2", "--routes", "2-1",
+                                     "--reach", "1=46", "--json", "o.json", "--nodes", "p.tntp"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json json = place.json("o.json");
+  EXPECT_EQ(json["nodes"]["1"]["x"], -3.5);
+  ASSERT_EQ(json["routes"][0]["used"].size(), 3u);
+  for (const auto& route : json["routes"][0]["used"]) EXPECT_NEAR(route["cost"].get<double>(), 92, 1e-4);
+  EXPECT_EQ(json["routes"][1]["used"].size(), 0u);
+  // 40 to node 3; 6 more are half of the bridge's 12; 46 of the 52 to node 4, and of those from 3 to 2.
+  EXPECT_EQ(json["reach"][0]["nodes"].size(), 2u);
+  ASSERT_EQ(json["reach"][0]["links"].size(), 4u);
+  EXPECT_NEAR(json["reach"][0]["links"][1]["share"].get<double>(), 46.0 / 52, 1e-4);
+  EXPECT_NEAR(json["reach"][0]["links"][3]["share"].get<double>(), 0.5, 1e-4);
+  EXPECT_NE(outcome.out.find("from 1 within 46: 2 nodes, 1 link whole and 3 in part"), std::string::npos) << outcome.out;
+  EXPECT_NE(place.run({"assign", "n.tntp", "t.tntp", "--routes", "1"}).err.find("there is no node ``"), std::string::npos);
+  EXPECT_NE(place.run({"assign", "n.tntp", "t.tntp", "--reach", "1"}).err.find("expects NODE=LIMIT"), std::string::npos);
+}
+
 TEST(Assign, BadInputHasItsPlace) {
   const Workplace place;
   place.write("n.tntp", kNet);
