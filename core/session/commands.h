@@ -79,6 +79,7 @@ struct AddLink {
   struct In {
     std::string id;
     JsonText link;
+    bool is_resting = false;
   };
   static void declare(CommandBuilder<AddLink>& c);
   static Inverse apply(SceneEdit& edit, const In& in);

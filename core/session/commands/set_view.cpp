@@ -62,8 +62,9 @@ std::string text_of(const Json& view) { return view.empty() ? std::string() : wr
 
 void SetView::declare(CommandBuilder<SetView>& c) {
   c.keeps_logic();
-  c.id("set_view").label("Arrange").doc(
-      "Changes the layout of the canvas, frames, comments, or cameras. Nothing that is computed depends on it.");
+  c.id("set_view")
+      .label("Arrange")
+      .doc("Changes the layout of the canvas, frames, comments, or cameras. Nothing that is computed depends on it.");
   c.argument(&In::changes, "changes")
       .required()
       .doc("A JSON object that is merged into the view: objects merge, null removes, everything else replaces.");
