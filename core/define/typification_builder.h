@@ -84,7 +84,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   }
 
   /// An output that the next evaluation sees again: the own, saved state of a typification. Out and In hold the same struct of
-  /// such members, `kept` and `last`. Only for typifications with sets, which are evaluated in every tick.
+  /// such members, `kept` and `last`. A typification with memory is evaluated in every tick, whether its settings change or not.
   template <class Memory, class M>
   PortBuilder<M> memory(Memory Out::*kept, Memory In::*last, M Memory::*member, std::string id) {
     PortBuilder<M> builder = add_port(definition_->ports, member, std::move(id));

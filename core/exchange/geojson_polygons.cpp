@@ -59,6 +59,8 @@ class Reader {
   Result<void> read_feature(const Json& object, const std::string& place, const std::string& crs);
   Result<void> read_geometry(const Json& object, const std::string& place, GeoFeature& feature);
   Result<void> read_polygon(const Json& coordinates, const std::string& place, GeoFeature& feature);
+  Result<void> read_places(const Json& coordinates, const std::string& place, const std::string& type, GeoFeature& feature);
+  Result<std::vector<std::array<double, 2>>> read_positions(const Json& list, const std::string& place);
   Result<std::array<double, 2>> read_position(const Json& position, const std::string& place);
 
   GeoDocument document_;
@@ -155,16 +157,49 @@ Result<void> Reader::read_geometry(const Json& object, const std::string& place,
     }
     return {};
   }
-  if (type != "Polygon" && type != "MultiPolygon") return {};
   const Json* coordinates = member(object, "coordinates");
   const std::string coordinates_place = join(place, "coordinates");
   if (coordinates == nullptr || !coordinates->is_array())
     return Error{ErrorCode::missing, coordinates_place,
                  "A " + type + " needs an array `coordinates`; it is missing or no array."};
+  if (type != "Polygon" && type != "MultiPolygon") return read_places(*coordinates, coordinates_place, type, feature);
   if (type == "Polygon") return read_polygon(*coordinates, coordinates_place, feature);
   for (std::size_t i = 0; i < coordinates->size(); ++i)
     if (auto done = read_polygon((*coordinates)[i], join(coordinates_place, i), feature); !done) return done;
   return {};
+}
+
+Result<void> Reader::read_places(const Json& coordinates, const std::string& place, const std::string& type, GeoFeature& feature) {
+  if (type == "Point") {
+    if (coordinates.empty()) return {};  // RFC 7946: an empty one is like none
+    auto position = read_position(coordinates, place);
+    if (!position) return position.error();
+    feature.points.push_back({place, *position});
+  } else if (type == "MultiPoint") {
+    auto positions = read_positions(coordinates, place);
+    if (!positions) return positions.error();
+    for (std::size_t i = 0; i < positions->size(); ++i) feature.points.push_back({join(place, i), (*positions)[i]});
+  } else {
+    const bool is_one = type == "LineString";
+    for (std::size_t i = 0; i < (is_one ? 1 : coordinates.size()); ++i) {
+      const std::string line_place = is_one ? place : join(place, i);
+      auto positions = read_positions(is_one ? coordinates : coordinates[i], line_place);
+      if (!positions) return positions.error();
+      feature.lines.push_back({line_place, std::move(*positions)});
+    }
+  }
+  return {};
+}
+
+Result<std::vector<std::array<double, 2>>> Reader::read_positions(const Json& list, const std::string& place) {
+  if (!list.is_array()) return Error{ErrorCode::parse, place, "A line must be an array of positions [x, y]."};
+  std::vector<std::array<double, 2>> positions;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    auto position = read_position(list[i], join(place, i));
+    if (!position) return position.error();
+    positions.push_back(*position);
+  }
+  return positions;
 }
 
 Result<void> Reader::read_polygon(const Json& coordinates, const std::string& place, GeoFeature& feature) {

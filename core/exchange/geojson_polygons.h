@@ -1,4 +1,4 @@
-// Reads the polygons of a GeoJSON text with their properties and coordinate reference system, and judges none of them.
+// Reads the polygons, lines and points of a GeoJSON text with their properties and CRS, and judges none of them.
 #pragma once
 
 #include <array>
@@ -17,12 +17,26 @@ struct GeoPolygon {
   std::vector<std::vector<std::array<double, 2>>> rings;
 };
 
+/// One line as written, x (longitude) first.
+struct GeoLine {
+  std::string place;
+  std::vector<std::array<double, 2>> points;
+};
+
+/// One point as written.
+struct GeoPoint {
+  std::string place;
+  std::array<double, 2> position{};
+};
+
 /// One feature; a bare geometry counts as a feature without properties.
 struct GeoFeature {
   std::string place;                                            ///< "features/3", or empty for a bare feature or geometry
   std::string crs;                                              ///< tidy name; "OGC:CRS84" where the text says nothing
   std::vector<std::pair<std::string, std::string>> properties;  ///< plain values as text, in the order of the JSON library
-  std::vector<GeoPolygon> polygons;                             ///< none for points and lines
+  std::vector<GeoPolygon> polygons;
+  std::vector<GeoLine> lines;
+  std::vector<GeoPoint> points;
 };
 
 struct GeoDocument {
@@ -30,8 +44,7 @@ struct GeoDocument {
   std::vector<std::string> notes;
 };
 
-/// Understands FeatureCollection, Feature, Polygon, MultiPolygon and GeometryCollection (RFC 7946) and the older `crs`
-/// member of the 2008 format. Points and lines become features without polygons.
+/// Understands FeatureCollection, Feature, all geometries of RFC 7946 and the older `crs` member of the 2008 format.
 Result<GeoDocument> read_geojson_polygons(std::string_view text);
 
 }  // namespace bl

@@ -32,10 +32,12 @@ struct LocalFrame::Transforms {
   PJ_CONTEXT* context = nullptr;
   PJ* to_degrees = nullptr;  // CRS → longitude, latitude [deg]; null where the CRS is that already
   PJ* to_metres = nullptr;   // longitude, latitude [rad] → own projection; null where the CRS is kept
+  PJ* to_target = nullptr;   // longitude, latitude [deg] → CRS of a scene; null where there is none, or it is the file's
 
   ~Transforms() {
     proj_destroy(to_degrees);
     proj_destroy(to_metres);
+    proj_destroy(to_target);
     proj_context_destroy(context);
   }
   // x = longitude, y = latitude [deg]; infinite where PROJ has no answer.
@@ -52,8 +54,15 @@ struct LocalFrame::Transforms {
     return proj_trans(to_degrees, PJ_INV, proj_coord(radian.xy.x / kDegree, radian.xy.y / kDegree, 0, 0));
   }
   Result<void> open(const std::string& crs, const std::string& database);
+  void start();
   void note_area_of_use(const std::string& crs, const PJ_COORD& middle, std::vector<std::string>& notes) const;
 };
+
+void LocalFrame::Transforms::start() {
+  context = proj_context_create();
+  proj_log_level(context, PJ_LOG_NONE);
+  proj_context_set_enable_network(context, 0);
+}
 
 // Prepares `to_degrees`; the EPSG definitions come from proj.db, which may be missing.
 Result<void> LocalFrame::Transforms::open(const std::string& crs, const std::string& database) {
@@ -117,9 +126,7 @@ void LocalFrame::keep_crs(const std::string& crs, double x, double y, double nor
 Result<LocalFrame> LocalFrame::make(const std::string& crs, double x, double y, const std::string& database) {
   LocalFrame frame;
   Transforms& transforms = *frame.transforms_;
-  transforms.context = proj_context_create();
-  proj_log_level(transforms.context, PJ_LOG_NONE);
-  proj_context_set_enable_network(transforms.context, 0);
+  transforms.start();
   const bool degrees = is_longitude_latitude(crs);
   if (!degrees) {
     if (auto opened = transforms.open(crs, database); !opened) return opened.error();
@@ -154,10 +161,52 @@ Result<LocalFrame> LocalFrame::make(const std::string& crs, double x, double y, 
   return frame;
 }
 
+Result<LocalFrame> LocalFrame::into(const std::string& crs, const GeoReference& target, const std::string& database) {
+  LocalFrame frame;
+  Transforms& transforms = *frame.transforms_;
+  frame.reference_ = target;
+  transforms.start();
+  if (crs == target.crs) return frame;  // a plain shift
+  if (!is_longitude_latitude(crs)) {
+    if (auto opened = transforms.open(crs, database); !opened) return opened.error();
+  }
+  if (target.crs.starts_with("+proj=")) {
+    transforms.to_metres = proj_create(transforms.context, target.crs.c_str());
+    if (transforms.to_metres != nullptr) return frame;
+  } else if (auto known = LocalFrame::make(target.crs, target.origin_x, target.origin_y, database); !known) {
+    return known.error();
+  } else if (PJ* raw = proj_create_crs_to_crs(transforms.context, "OGC:CRS84", target.crs.c_str(), nullptr)) {
+    transforms.to_target = proj_normalize_for_visualization(transforms.context, raw);
+    proj_destroy(raw);
+    if (transforms.to_target != nullptr) return frame;
+  }
+  return Error{ErrorCode::parse, "coordinate_system",
+               "The coordinate system of the scene, `" + target.crs + "`, is not understood: set it anew, or import into a scene without one."};
+}
+
 Point3 LocalFrame::to_local(double x, double y) const {
+  if (transforms_->to_target != nullptr) {
+    const PJ_COORD there = proj_trans(transforms_->to_target, PJ_FWD, transforms_->degrees(x, y));
+    return {there.xy.x - reference_.origin_x, there.xy.y - reference_.origin_y, 0};
+  }
   if (transforms_->to_metres == nullptr) return {x - reference_.origin_x, y - reference_.origin_y, 0};
   const PJ_COORD point = transforms_->metres(transforms_->degrees(x, y));
-  return {point.xy.x, point.xy.y, 0};
+  return {point.xy.x - reference_.origin_x, point.xy.y - reference_.origin_y, 0};
+}
+
+Point3 LocalFrame::from_local(double x, double y) const {
+  const double there_x = x + reference_.origin_x, there_y = y + reference_.origin_y;
+  PJ_COORD degree;
+  if (transforms_->to_target != nullptr) {
+    degree = proj_trans(transforms_->to_target, PJ_INV, proj_coord(there_x, there_y, 0, 0));
+  } else if (transforms_->to_metres != nullptr) {
+    const PJ_COORD radian = proj_trans(transforms_->to_metres, PJ_INV, proj_coord(there_x, there_y, 0, 0));
+    degree = proj_coord(radian.xy.x / kDegree, radian.xy.y / kDegree, 0, 0);
+  } else {
+    return {there_x, there_y, 0};
+  }
+  if (transforms_->to_degrees != nullptr) degree = proj_trans(transforms_->to_degrees, PJ_INV, degree);
+  return {degree.xy.x, degree.xy.y, 0};
 }
 
 std::string tidy_crs_name(std::string_view name) {
@@ -173,6 +222,25 @@ std::string tidy_crs_name(std::string_view name) {
   if (!has_code || !epsg) return std::string(name);
   const std::string code = upper.substr(digits);
   return code == "4326" ? "OGC:CRS84" : "EPSG:" + code;
+}
+
+std::string horizontal_crs(const std::string& crs, const std::string& database) {
+  PJ_CONTEXT* context = proj_context_create();
+  proj_log_level(context, PJ_LOG_NONE);
+  proj_context_set_enable_network(context, 0);
+  if (!database.empty()) proj_context_set_database_path(context, database.c_str(), nullptr, nullptr);
+  std::string name = crs;
+  PJ* whole = crs.empty() ? nullptr : proj_create(context, crs.c_str());
+  if (whole != nullptr && proj_get_type(whole) == PJ_TYPE_COMPOUND_CRS) {
+    PJ* part = proj_crs_get_sub_crs(context, whole, 0);
+    const char* authority = part ? proj_get_id_auth_name(part, 0) : nullptr;
+    const char* code = part ? proj_get_id_code(part, 0) : nullptr;
+    if (authority != nullptr && code != nullptr) name = tidy_crs_name(std::string(authority) + ":" + code);
+    proj_destroy(part);
+  }
+  proj_destroy(whole);
+  proj_context_destroy(context);
+  return name;
 }
 
 bool is_longitude_latitude(std::string_view crs) { return crs == "OGC:CRS84"; }

@@ -26,6 +26,9 @@ std::string tidy_crs_name(std::string_view name);
 /// Does the tidy name mean WGS84 longitude and latitude in degrees?
 bool is_longitude_latitude(std::string_view crs);
 
+/// The part in plan of a CRS with heights: "EPSG:28992" of "EPSG:7415"; any other name as it is.
+std::string horizontal_crs(const std::string& crs, const std::string& database = "");
+
 /// The way from the coordinates of a CRS into the local frame of a site.
 /// A CRS whose units are metres on the ground (within a part in a thousand, not mirrored, see README) is kept and only
 /// shifted by whole metres; any other one goes through longitude and latitude into a transverse Mercator projection of
@@ -35,6 +38,8 @@ class LocalFrame {
   /// `x`, `y`: middle of the site in `crs`, east or longitude first. `database`: path of PROJ's proj.db; empty: PROJ finds its
   /// own.
   static Result<LocalFrame> make(const std::string& crs, double x, double y, const std::string& database = "");
+  /// The way from `crs` into a frame that exists already: that of a scene.
+  static Result<LocalFrame> into(const std::string& crs, const GeoReference& target, const std::string& database = "");
   LocalFrame(LocalFrame&&) noexcept;
   LocalFrame& operator=(LocalFrame&&) noexcept;
   ~LocalFrame();
@@ -44,6 +49,8 @@ class LocalFrame {
   const std::vector<std::string>& notes() const { return notes_; }
   /// A point of the CRS in local metres; not finite where the projection has no answer.
   Point3 to_local(double x, double y) const;
+  /// The way back: local metres as a point of the CRS, in x and y.
+  Point3 from_local(double x, double y) const;
 
  private:
   struct Transforms;

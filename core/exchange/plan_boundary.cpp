@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "core/base/text.h"
+#include "core/exchange/context_shape.h"
 #include "core/exchange/geojson_polygons.h"
 
 namespace bl {
 
 namespace {
 
-constexpr double kSamePoint = 1e-3;     // [m] closer points are one: surveys and rounded files know no less
-constexpr double kSpikeWidth = 1e-6;    // [m] narrower ones are lines but for rounding
 constexpr double kConvexDepth = 1e-3;   // [m] a point so little inside the hull does not make a plan non-convex
 constexpr double kSmallestArea = 1e-2;  // [m²] less is no site but a line or a wrong CRS
 constexpr double kLargestExtent = 1e5;  // [m] more is a region or a wrong CRS
@@ -146,32 +145,10 @@ Result<void> check_degrees(const RawRing& ring, const std::string& place) {
   return {};
 }
 
-// Where the line runs out to a point and back over itself, that point encloses nothing: it is dropped. Returns how many were.
-std::size_t drop_spikes(Ring& ring) {
-  std::size_t dropped = 0, steady = 0;  // corners in a row that are sound
-  for (std::size_t i = 0; ring.size() > 3 && steady < ring.size();) {
-    const std::size_t count = ring.size(), before = (i + count - 1) % count, after = (i + 1) % count;
-    const Vector3 in = ring[i] - ring[before], out = ring[after] - ring[i];
-    const double shorter = std::min(norm(in), norm(out)), longer = std::max(norm(in), norm(out));
-    const bool spike = shorter < kSamePoint || (dot(in, out) < 0 && std::abs(in.x * out.y - in.y * out.x) < kSpikeWidth * longer);
-    if (!spike) {
-      i = after;
-      ++steady;
-      continue;
-    }
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
-    ++dropped;
-    steady = 0;
-    i = (i + ring.size() - 1) % ring.size();  // the corner before it has changed
-  }
-  return dropped;
-}
-
 // Local points without the closing point and without repeated ones, in the wanted direction.
 Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, bool counter_clockwise, const std::string& place,
                         std::vector<std::string>& notes) {
   Ring ring;
-  std::size_t repeated = 0;
   const bool closed = raw.size() > 1 && raw.front() == raw.back();
   if (!closed) notes.push_back("The ring " + place + " does not end where it starts; it was closed.");
   for (std::size_t i = 0; i + (closed ? 1 : 0) < raw.size(); ++i) {
@@ -179,16 +156,13 @@ Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, bool counte
     if (!is_finite(point))
       return Error{ErrorCode::not_finite, place + "/" + std::to_string(i),
                    point_text(raw[i][0], raw[i][1]) + " cannot be brought into metres. Check the CRS and this point."};
-    if (!ring.empty() && distance(ring.back(), point) < kSamePoint) ++repeated;
-    else ring.push_back(point);
+    ring.push_back(point);
   }
-  while (ring.size() > 1 && distance(ring.front(), ring.back()) < kSamePoint) {
-    ring.pop_back();
-    ++repeated;
-  }
-  if (repeated > 0) notes.push_back("In the ring " + place + ", " + std::to_string(repeated) + " repeated points were dropped.");
-  if (const std::size_t spikes = drop_spikes(ring); spikes > 0)
-    notes.push_back("In the ring " + place + ", " + std::to_string(spikes) + " spikes without width were cut off.");
+  const RingCleaning cleaning = clean_corners(ring);
+  if (cleaning.repeated > 0)
+    notes.push_back("In the ring " + place + ", " + std::to_string(cleaning.repeated) + " repeated points were dropped.");
+  if (cleaning.spikes > 0)
+    notes.push_back("In the ring " + place + ", " + std::to_string(cleaning.spikes) + " spikes without width were cut off.");
   if (ring.size() < 3)
     return Error{ErrorCode::geometry, place,
                  "A ring needs at least 3 different points; this one has " + std::to_string(ring.size()) + "."};

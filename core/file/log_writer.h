@@ -20,6 +20,8 @@ class LogWriter {
   bool is_open() const { return file_ != nullptr; }
   /// Writes and hands over to the system at once. The first failure is kept; nothing is written after it.
   void write(std::string_view lines);
+  /// Why lines are missing; empty where none are.
+  const std::string& failure() const { return failure_; }
   Result<void> close();
 
  private:

@@ -14,6 +14,11 @@ bool same_inputs(const TypificationDefinition& definition, const std::vector<Val
   return true;
 }
 
+// Whose own outputs are among its inputs, as those of a filter or a clock: it has to be asked in every tick.
+bool keeps_memory(const TypificationDefinition& definition) {
+  return std::any_of(definition.ports.begin(), definition.ports.end(), [](const PortDefinition& port) { return !!port.recall; });
+}
+
 }  // namespace
 
 std::string place_of(const State& state, std::size_t n, std::size_t t) {
@@ -43,7 +48,9 @@ void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool) {
         const TypificationDefinition& definition = *next.plan->nodes[n].types[t].definition;
         TypeState& state = next.nodes[n].types[t];
         if (!definition.evaluate || !definition.sets.empty()) continue;
-        if (state.is_evaluated && same_inputs(definition, state.values, frozen.nodes[n].types[t].values)) continue;
+        if (state.is_evaluated && !keeps_memory(definition) &&
+            same_inputs(definition, state.values, frozen.nodes[n].types[t].values))
+          continue;
         std::vector<Value> values = state.values;
         auto done = definition.evaluate(values, {}, Tick{.index = next.tick});
         accept_values(definition, state, std::move(values), std::move(done), place_of(next, n, t));

@@ -3,7 +3,9 @@
 # shellcheck disable=SC2154
 
 # What the thread sanitizer is run on: everything that starts threads.
-tsan_tests='[Tt]hread|[Tt]ick|[Pp]arallel|[Ll]aw'
+tsan_tests='[Tt]hread|[Tt]ick|[Pp]arallel|[Ll]aw|[Aa]nalysis'
+# The programs that hold them; the window is left out, because it is half of all code and one of its classes has a thread.
+tsan_programs='base_tests geometry_tests graph_tests script_tests session_tests live_tests laws_tests'
 short_fuzzing=20    # seconds for each fuzzer within ./bl test
 
 passed=0
@@ -37,9 +39,11 @@ run_ctest() {
   return "$code"
 }
 
-# checked PRESET CTEST ARGUMENTS...: builds a preset and runs its tests; a build that fails counts as one failed test.
+# checked PRESET CTEST ARGUMENTS...: builds a preset ($programs of it, or all) and runs its tests; a build that fails counts as one
+# failed test.
 checked() {
-  if build "$1" ON; then run_ctest "$@"; else failed=$((failed + 1)); fi
+  # shellcheck disable=SC2086
+  if build "$1" ON ${programs:-}; then run_ctest "$@"; else failed=$((failed + 1)); fi
 }
 
 # The programs that the fuzz build makes, as paths inside its folder.
@@ -71,6 +75,15 @@ run_fuzzers() {
         printf '0{"cases": [{"boundary": {"planes": [[-1,0,0,0],[0,-1,0,0],[0,0,-1,0],[1,1,1,9]]}, "sites": [[1,2,3]], "weights": [1e1]}]}' >"$corpus/cells"
         printf '7x,y,z,weight,demand,demand_min,demand_max,group,name\n1,2,3,4,5,,,a,b\n2;3\n' >"$corpus/table"
         ;;
+      osm)
+        printf '<osm version="0.6"><node id="1" lat="60" lon="25"/><node id="2" lat="60" lon="25.001"/><node id="3" lat="60.001" lon="25.001"/><way id="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/><tag k="height" v="12,5 m"/></way><way id="2"><nd ref="1"/><nd ref="3"/><tag k="highway" v="primary"/><tag k="oneway" v="-1"/></way><relation id="3"><member type="way" ref="1" role="outer"/><tag k="type" v="multipolygon"/><tag k="building" v="yes"/></relation></osm>' >"$corpus/xml"
+        ;;
+      cityjson)
+        printf '{"type":"CityJSON","version":"2.0","vertices":[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,5],[9,0,5],[9,9,5],[0,9,5]],"CityObjects":{"a":{"type":"Building","attributes":{"measuredHeight":5},"geometry":[{"type":"Solid","lod":"1.2","boundaries":[[[[0,3,2,1]],[[4,5,6,7]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}]}}}' >"$corpus/solid"
+        ;;
+      geojson)
+        printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"height":"12","use":"shop"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0]],[[2,2],[4,2],[4,4],[2,2]]]}},{"type":"Feature","properties":{"highway":"primary"},"geometry":{"type":"LineString","coordinates":[[0,0],[5,5]]}},{"type":"Feature","properties":{"v":1},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >"$corpus/features"
+        ;;
     esac
     if "$root/build/fuzz/$fuzzer" -max_total_time="$1" -timeout=25 -rss_limit_mb=4096 -print_final_stats=1 \
       -artifact_prefix="$finds/$name-" "$corpus" >"$log" 2>&1 </dev/null; then
@@ -94,7 +107,8 @@ run_suite() {
     heading 'Address and undefined behaviour sanitizers'
     ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
     export ASAN_OPTIONS UBSAN_OPTIONS
-    checked asan
+    # With what the fuzzers need besides, so that one build serves both: compiling is most of the time.
+    checked fuzz
     step_time 'Sanitizers'
 
     heading 'Thread sanitizer'
@@ -104,8 +118,9 @@ run_suite() {
       build_prefix='setarch -R'
     TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
     export TSAN_OPTIONS
+    programs=$tsan_programs build_window=OFF
     checked tsan -R "$tsan_tests"
-    build_prefix=
+    programs='' build_window='' build_prefix=''
     step_time 'Thread sanitizer'
 
     heading "Fuzzers, $short_fuzzing s each"

@@ -15,7 +15,8 @@ constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "sc
   {"id": "sketch", "lines": ["return 3 4"]}], "nodes": [
   {"id": "a", "position": [1, 2, 3], "tags": ["x"], "types": {"smart_volume": {"demand": 900}, "strange": {"deep": [1, {"k": null}]}}, "locked": ["node.position"]},
   {"id": "b", "types": {"smart_volume": {}}},
-  {"id": "c", "types": {"statistics": {"nodes": ["a", "b"]}}}],
+  {"id": "c", "types": {"statistics": {"nodes": ["a", "b"]}}},
+  {"id": "d", "types": {"sensor": {"reading": 5, "reading_tick": 3, "reading_problem": "noise"}}}],
   "links": [
   {"id": "l", "kind": "keep_distance", "from": "a", "to": "b"},
   {"id": "m", "kind": "keep_distance", "from": "b", "to": ["a", "c"], "strength": 0.5},
@@ -58,6 +59,9 @@ std::vector<Command> every_command() {
       command<SetScript>({"fresh", mover("second_mover", "3"), false}),
       command<RemoveScript>({"mover"}),
       command<RemoveScript>({"sketch"}),
+      command<Receive>({"d", 21.5, "noon", "", 12}),
+      command<Receive>({"d", 0, "", "`x` is no number", 12}),
+      command<NoteConnection>({"d", "nobody is there"}),
       command<SetView>({{R"({"boxes": {"a": [1, 2], "b": null}})"}}),
       command<Batch>(
           {{R"([{"command": "rename_node", "arguments": {"id": "a", "name": "B"}}, {"command": "remove_node", "arguments": {"id": "b"}}])"}})};

@@ -73,10 +73,10 @@ Axis axis_of(std::span<const ChartPanel> panels, Pick pick, double also) {
 }
 
 std::string mark_text(double value) {
-  const double power = std::round(std::log10(value));
   if (value >= 0.0099) return report::grouped(value, value >= 0.99 ? 0 : value >= 0.099 ? 1 : 2);
   static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = "10⁻";
+  const double power = std::floor(std::log10(value) + 1e-9), leading = std::round(value / std::pow(10.0, power));
+  std::string text = (leading == 1 ? "" : std::to_string(static_cast<int>(leading)) + "·") + "10⁻";
   for (const char digit : std::to_string(static_cast<int>(-power))) text += kDigits[digit - '0'];
   return text;
 }

@@ -74,7 +74,10 @@ std::optional<Json> all_cases(const SiteCases& input, const CellsOptions& option
   Json results = Json::array();
   for (std::size_t i = 0; i < input.cases.size() && !is_interrupted(); ++i) {
     auto result = solved(input.cases[i], options.with_complex, pool);
-    if (!result) print_error(options.input, result.error());
+    if (!result) {
+      progress.clear();
+      print_error(options.input, result.error());
+    }
     is_all_well &= result.ok();
     if (result) results.push_back(std::move(*result));
     progress.show("case " + std::to_string(i + 1) + " of " + std::to_string(input.cases.size()));

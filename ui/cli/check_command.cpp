@@ -63,14 +63,12 @@ Checked check_file(const std::string& file, bool is_writing) {
   checked.nodes = reading.scene.nodes.size();
   checked.links = reading.scene.links.size();
   if (!reading.is_usable()) return checked;
-  if (is_writing) {
-    const std::string canonical = write_scene(reading.scene, full_registry(), reading.state ? &*reading.state : nullptr);
-    if (canonical != *text) {
-      if (auto written = write_file(file, canonical); !written) checked.problems.push_back({true, written.error()});
-      else checked.is_rewritten = true;
-    }
-  }
   try_out(reading, checked.problems);
+  if (!is_writing || checked.errors() > 0) return checked;
+  const std::string canonical = write_scene(reading.scene, full_registry(), reading.state ? &*reading.state : nullptr);
+  if (canonical == *text) return checked;
+  if (auto written = write_file(file, canonical); !written) checked.problems.push_back({true, written.error()});
+  else checked.is_rewritten = true;
   return checked;
 }
 
@@ -103,9 +101,10 @@ int check_command(const CheckOptions& options) {
     const std::string prefix = options.scenes.size() > 1 ? file + ": " : "";
     is_all_well &= errors == 0;
     if (errors > 0) {
-      print_line(
-          coloured(prefix + "not ok: " + counted(errors, "error") + (warnings > 0 ? ", " + counted(warnings, "warning") : ""),
-                   Colour::red));
+      print_line(coloured(prefix + "not ok: " + counted(errors, "error") +
+                              (warnings > 0 ? ", " + counted(warnings, "warning") : "") +
+                              (options.is_writing ? "; not rewritten" : ""),
+                          Colour::red));
       continue;
     }
     print_line(coloured(prefix + "ok: " +

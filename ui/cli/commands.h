@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "ui/cli/context_import.h"
 #include "ui/cli/scene_making.h"
 
 namespace bl::cli {
 
-/// Exit codes: all went well; the input is bad; what was asked for cannot be had; stopped by Ctrl-C.
-inline constexpr int kDone = 0, kBadInput = 2, kNotMet = 3, kInterrupted = 130;
+/// Exit codes: all went well; the input is bad; what was asked for cannot be had. What an interrupt ends with is in interrupt.h.
+inline constexpr int kDone = 0, kBadInput = 2, kNotMet = 3;
 
 struct RunOptions {
   std::string scene;
@@ -21,6 +22,8 @@ struct RunOptions {
   int threads = 1;
   std::string log, report, json, save;
   std::vector<std::string> set, scripts;
+  bool is_live = false;  ///< connects to sensors and actuators, and ticks in real time until it is stopped
+  double rate = 0;       ///< ticks per second of a live run; 0: as the sensors say
 };
 int run_command(const RunOptions& options);
 
@@ -43,7 +46,18 @@ struct ReplayOptions {
 };
 int replay_command(const ReplayOptions& options);
 
+struct CompareOptions {
+  std::string first, second;
+  long long ticks = -1;        ///< -1: until settled
+  long long max_ticks = 2000;  ///< of a run until settled
+  int threads = 1;
+  std::string report;
+};
+int compare_command(const CompareOptions& options);
+
 int new_command(const NewOptions& options);
+
+int import_command(const ImportOptions& options);
 
 struct OpenOptions {
   std::vector<std::string> arguments;  ///< as the window's own program takes them
@@ -77,6 +91,17 @@ struct FitFileOptions {
   int steps = 200;  ///< at most so many evaluations of the diagram
 };
 int fit_command(const FitFileOptions& options);
+
+struct AssignOptions {
+  std::string net, trips, flows, nodes, json;
+  double gap = 1e-6;
+  int iterations = 1000;                          ///< at most
+  double toll_factor = -1, distance_factor = -1;  ///< below 0: what the file says, or 0
+  std::vector<std::string> edit_capacity, close;  ///< LINK=VALUE, LINK: applied to the equilibrium found
+  std::vector<std::string> routes, reach;         ///< FROM-TO, NODE=LIMIT: told of the last equilibrium
+  int repeat = 1;                                 ///< of the measured parts; medians are told
+};
+int assign_command(const AssignOptions& options);
 
 struct BenchOptions {
   std::vector<std::string> scenes;

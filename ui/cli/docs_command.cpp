@@ -92,7 +92,7 @@ int docs_command(const DocsOptions& options) {
   const auto page = page_of(options.type);
   if (!page) {
     complain("there is no type `" + options.type + "`" + did_you_mean(options.type, all_ids()) +
-             " `behaviourlinks docs --list` names all.");
+             "; `behaviourlinks docs --list` names all.");
     return kBadInput;
   }
   print_line(*page);

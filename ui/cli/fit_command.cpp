@@ -111,7 +111,10 @@ class FitRun {
           input.is_list ? "case " + std::to_string(i + 1) + " of " + std::to_string(input.cases.size()) + ", " : "";
       auto fit =
           is_interrupted() ? Result<VolumeFit>(not_begun(input.cases[i].problem)) : fit_one(input.cases[i], label, progress);
-      if (!fit) print_error(options_.input, fit.error().within(input.cases[i].place));
+      if (!fit) {
+        progress.clear();
+        print_error(options_.input, fit.error().within(input.cases[i].place));
+      }
       is_all_well &= fit.ok();
       if (fit) fits_.push_back(std::move(*fit));
     }

@@ -57,6 +57,13 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->expected(1)
       ->take_all();
   add_threads(c, o.threads);
+  auto* live = c.add_flag("--live", o.is_live,
+                          "Connects to the sensors and actuators of the scene, and ticks in real time until Ctrl-C or --ticks. "
+                          "Without it, recorded tables are played, and nothing is connected to.");
+  c.add_option("--rate", o.rate, "Ticks per second of a live run. Default: as the tick length of its sensors says.")
+      ->type_name("R")
+      ->needs(live)
+      ->check(CLI::Range(0.001, 1000.0));
   c.add_option("--log", o.log, "Writes the log of commands and hashes, for `replay`.")->type_name("FILE");
   c.add_option("--report", o.report, "Writes report.html, volumes.csv and volumes.obj into a folder.")->type_name("DIR");
   c.add_option("--json", o.json, "Writes all figures as JSON, lengths in m, areas in m2, volumes in m3.")->type_name("FILE");
@@ -72,6 +79,24 @@ void declare_open(CLI::App& app) {
   c.footer(
       "What follows is handed on: SCENE (without one, the start page opens), --paused, and more that\n"
       "`behaviourlinks-desktop --help` lists.\n\nExample:\n  behaviourlinks open scenes/start/quarter.json");
+}
+
+void declare_compare(CLI::App& app, CompareOptions& o) {
+  CLI::App& c = *app.add_subcommand("compare", "Runs two scenes and tells every indicator that differs between them.");
+  c.add_option("first", o.first, "The scene that is compared with.")->type_name("SCENE_A")->required();
+  c.add_option("second", o.second, "The scene that is compared.")->type_name("SCENE_B")->required();
+  c.add_option("--ticks", o.ticks, "Runs both for so many ticks, settled or not; 0 compares them as they were saved.")
+      ->type_name("N")
+      ->check(CLI::Range(0ll, 1000000000ll));
+  c.add_option("--max-ticks", o.max_ticks, "Gives up settling after so many ticks. Default: 2000.")
+      ->type_name("N")
+      ->check(CLI::Range(1ll, 1000000000ll));
+  add_threads(c, o.threads);
+  c.add_option("--report", o.report, "Writes a page with both drawings, bars and every number.")->type_name("FILE");
+  c.footer(
+      "What one scene has and the other has not is told too. Amounts are added up over all nodes, shares and rates averaged.\n\n"
+      "Example:\n  behaviourlinks compare scenes/start/quarter.json other.json --report difference.html\n\n"
+      "Exit codes: 0 compared; 2 bad input; 130 stopped by Ctrl-C.");
 }
 
 void declare_script(CLI::App& app, ScriptOptions& o) {
@@ -113,6 +138,45 @@ void declare_new(CLI::App& app, NewOptions& o) {
   c.add_option("--margin", o.margin, "How far inside the boundary the positions stay, in m. Default: 1.")->type_name("METRES");
   c.add_option("--seed", o.seed, "Seed of the first positions. Default: 1.")->type_name("N");
   c.footer("Example:\n  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json");
+}
+
+void declare_import(CLI::App& app, ImportOptions& o) {
+  CLI::App& c = *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
+  c.add_option("files", o.files, "OSM (.osm, .osm.gz, .pbf), CityJSON (.json, .jsonl), GeoJSON, ASCII grid (.asc), GeoTIFF, CSV with coordinates.")
+      ->type_name("FILE")
+      ->required();
+  c.add_option("--into", o.into, "The scene that is added to. Default: an empty one.")->type_name("SCENE");
+  c.add_option("--out", o.out, "The scene file to write.")->type_name("SCENE")->required();
+  c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
+  c.add_option("--as", o.kind, "What the features or the grid are, where the file does not say: building, street, plot, area, terrain, layer.")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"building", "street", "plot", "area", "terrain", "layer"}));
+  c.add_option("--crs", o.context.crs, "CRS of the files in place of what they say, such as EPSG:28992.")->type_name("CRS");
+  c.add_option("--origin", o.origin, "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
+      ->type_name("X,Y");
+  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m.")->type_name("METRES");
+  c.add_option("--property", o.properties, "Names a property that is called otherwise, as often as needed: height=H_MAX.")
+      ->type_name("OURS=THEIRS")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--value", o.value, "Of a data layer: the column or property with the values.")->type_name("NAME");
+  c.add_option("--unit", o.unit, "Of a data layer: the unit of the values, such as dB.")->type_name("UNIT");
+  c.add_option("--source", o.source, "Who made the data, for the nodes that keep it. Default: the name of the file.")->type_name("TEXT");
+  c.add_option("--licence", o.licence, "What may be done with the data, for the nodes that keep it.")->type_name("TEXT");
+  c.add_option("--storey-height", o.context.storey_height, "Height of storeys where only their number is known, in m. Default: 3.2.")
+      ->type_name("METRES");
+  c.add_option("--default-height", o.context.default_height, "Height of buildings that nothing is known about, in m. Default: 9.6.")
+      ->type_name("METRES");
+  c.add_option("--neighbours", o.context.neighbour_distance, "How near buildings are whose heights are taken over, in m. Default: 100.")
+      ->type_name("METRES");
+  c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")->type_name("LEVEL");
+  c.add_flag("--extruded", o.is_extruded, "Makes buildings from outline and height even where the file has solids.");
+  c.add_flag("--all-streets", o.takes_all_streets, "Takes footpaths, cycleways and steps as well, not only streets for cars.");
+  c.add_option("--report", o.report, "Writes what became of every single element as CSV.")->type_name("FILE");
+  c.footer(
+      "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
+      "--report import.csv\n\nHeights that are not in the file are assumed, and marked as such. Exit codes: 0 imported; 2 bad input, "
+      "nothing written.");
 }
 
 void declare_check(CLI::App& app, CheckOptions& o) {
@@ -212,6 +276,55 @@ void declare_fit(CLI::App& app, FitFileOptions& o) {
       "with everything written.");
 }
 
+void declare_assign(CLI::App& app, AssignOptions& o) {
+  CLI::App& c =
+      *app.add_subcommand("assign", "Spreads trips over a road network so that nobody gains by another way (TNTP files).");
+  c.add_option("net", o.net, "The network, `..._net.tntp`.")->type_name("NET")->required();
+  c.add_option("trips", o.trips, "The trips between its zones, `..._trips.tntp`.")->type_name("TRIPS")->required();
+  c.add_option("--gap", o.gap, "Relative gap to reach. Default: 1e-6.")->type_name("G")->check(CLI::Range(0.0, 1.0));
+  c.add_option("--iterations", o.iterations, "Gives up after so many iterations. Default: 1000.")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000000));
+  c.add_option("--toll-factor", o.toll_factor,
+               "What a unit of toll counts in units of time. Default: what the network says, or 0.")
+      ->type_name("F")
+      ->check(CLI::NonNegativeNumber);
+  c.add_option("--distance-factor", o.distance_factor,
+               "What a unit of length counts in units of time. Default: what the network says, or 0.")
+      ->type_name("F")
+      ->check(CLI::NonNegativeNumber);
+  c.add_option("--flows", o.flows, "Compares the flows with those of a file, `..._flow.tntp`.")->type_name("FILE");
+  c.add_option("--edit-capacity", o.edit_capacity,
+               "Then changes the capacity of a link, as often as needed, and finds the new equilibrium from the old one.")
+      ->type_name("LINK=VALUE")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--close", o.close, "Then closes a link, as often as needed, and goes on in the same way.")
+      ->type_name("LINK")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--routes", o.routes, "Lists the ways that the trips from one zone to another use, as often as needed.")
+      ->type_name("FROM-TO")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--reach", o.reach, "Says how far one gets from a node at these flows within a cost, as often as needed.")
+      ->type_name("NODE=LIMIT")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--repeat", o.repeat, "Measures so often and tells the median time. Default: 1.")
+      ->type_name("R")
+      ->check(CLI::Range(1, 100000));
+  auto* json = c.add_option("--json", o.json, "Writes figures, and flow and cost of each link.")->type_name("OUT");
+  c.add_option("--nodes", o.nodes, "Adds the places of the nodes to --json, for maps: `..._node.tntp`.")
+      ->type_name("FILE")
+      ->needs(json);
+  c.footer(
+      "A link is named by its nodes, 3-12; others between the same two are 3-12#2 and so on. Times, flows and lengths have the\n"
+      "units of the files. The gap is the share of the total cost that vanished if all took today's shortest way.\n\n"
+      "Example:\n  behaviourlinks assign city_net.tntp city_trips.tntp --gap 1e-4 --edit-capacity 3-12=9000\n\n"
+      "Exit codes: 0 the gap is reached; 2 bad input; 3 it is not; 130 stopped by Ctrl-C.");
+}
+
 void declare_bench(CLI::App& app, BenchOptions& o) {
   CLI::App& c = *app.add_subcommand("bench", "Measures ticks per second and where the time goes.");
   c.add_option("scenes", o.scenes, "Scenes to measure.")->type_name("SCENE");
@@ -231,7 +344,7 @@ void declare_bench(CLI::App& app, BenchOptions& o) {
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "study"}))
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "study"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")
@@ -261,23 +374,29 @@ int run_program(int count, char** arguments) {
   ScriptOptions script;
   OpenOptions window;
   NewOptions fresh;
+  ImportOptions import;
   CheckOptions check;
   ReplayOptions replay;
+  CompareOptions compare;
   DocsOptions docs;
   SchemaOptions schema;
   CellsOptions cells;
   FitFileOptions fit;
+  AssignOptions assign;
   BenchOptions bench;
   declare_run(app, run);
   declare_open(app);
   declare_script(app, script);
   declare_new(app, fresh);
+  declare_import(app, import);
   declare_check(app, check);
   declare_papers(app, docs, schema);
   declare_replay(app, replay);
+  declare_compare(app, compare);
   declare_bench(app, bench);
   declare_cells(app, cells);
   declare_fit(app, fit);
+  declare_assign(app, assign);
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
   if (count > 1 && arguments[1][0] != '-' && std::find(names.begin(), names.end(), arguments[1]) == names.end()) {
@@ -303,13 +422,16 @@ int run_program(int count, char** arguments) {
     return open_command(window);
   }
   if (app.got_subcommand("new")) return new_command(fresh);
+  if (app.got_subcommand("import")) return import_command(import);
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand("docs")) return docs_command(docs);
   if (app.got_subcommand("schema")) return schema_command(schema);
   if (app.got_subcommand("replay")) return replay_command(replay);
+  if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("bench")) return bench_command(bench);
   if (app.got_subcommand("cells")) return cells_command(cells);
   if (app.got_subcommand("fit")) return fit_command(fit);
+  if (app.got_subcommand("assign")) return assign_command(assign);
   std::fputs(app.help().c_str(), stdout);
   return kDone;
 }

@@ -1,6 +1,7 @@
 // `run`: ticks a scene until it settles, and says what came of it.
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
+#include "ui/cli/live_run.h"
 #include "ui/cli/report/report.h"
 #include "ui/cli/run_output.h"
 #include "ui/cli/scene_loading.h"
@@ -27,7 +29,7 @@ constexpr long long kTicksPerCheck = 60;
 
 class Run {
  public:
-  explicit Run(const RunOptions& options) : options_(options) {}
+  explicit Run(const RunOptions& options) : options_(options), live_(options.scene, options.is_live, options.rate) {}
 
   int execute() {
     if (!start()) return kBadInput;
@@ -75,11 +77,9 @@ class Run {
     auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options_.threads);
     if (!session) return fail(options_.scene, session.error());
     session_ = std::move(*session);
-    if (!options_.log.empty()) {
-      if (auto opened = log_.open(options_.log); !opened) return fail(options_.log, opened.error());
-      log_.write(log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr)));
-      session_->on_entry([this](const LogEntry& entry) { log_.write(log_line(entry, full_registry())); });
-    }
+    // The log of an earlier run is replaced only once it is sure that there is another.
+    std::string lines = log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr));
+    session_->on_entry([&lines](const LogEntry& entry) { lines += log_line(entry, full_registry()); });
     for (const std::string& file : options_.scripts) {
       auto command = script_command(file);
       if (!command) return fail(file, command.error());
@@ -91,6 +91,14 @@ class Run {
       if (!command) return fail("", command.error());
       if (auto done = session_->submit(*command, "command line"); !done) return fail("--set " + argument, done.error());
     }
+    session_->on_entry({});
+    return options_.log.empty() || begin_log(lines);
+  }
+
+  bool begin_log(const std::string& lines) {
+    if (auto opened = log_.open(options_.log); !opened) return fail(options_.log, opened.error());
+    log_.write(lines);
+    session_->on_entry([this](const LogEntry& entry) { log_.write(log_line(entry, full_registry())); });
     return true;
   }
 
@@ -106,20 +114,25 @@ class Run {
   }
 
   void tick_until_done() {
-    const bool is_settling = options_.ticks < 0;
-    const long long most = is_settling ? options_.max_ticks : options_.ticks;
+    const bool is_settling = options_.ticks < 0 && !options_.is_live;
+    const long long most = is_settling           ? options_.max_ticks
+                           : options_.ticks >= 0 ? options_.ticks
+                                                 : std::numeric_limits<long long>::max();
     SettleWatch watch;
     Progress progress;
     if (is_settling && session_->state()->is_settled() && options_.set.empty()) return;
     for (long long done = 0; done < most && !is_interrupted(); ++done) {
       before_ = session_->state();
+      live_.before_tick(*session_);
       session_->tick();
+      live_.after_tick(*session_);
       const std::shared_ptr<const State> state = session_->state();
       record(*state);
       if (state->tick % kTicksPerCheck == 0) log_.write(log_line(LogCheck{state->tick, hex_digits(state->hash), false}));
       if (progress.is_due())
         progress.show("tick " + std::to_string(state->tick) + ", largest error " + fixed(100 * state->largest_residual, 2) +
                       " %, largest move " + fixed(state->largest_move, 3) + " m");
+      live_.wait(*session_);
       if (!is_settling) continue;
       if (state->is_settled() || watch.is_hopeless(*state)) return;
     }
@@ -155,11 +168,13 @@ class Run {
     if (!options_.report.empty())
       is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, *state);
+    live_.sum_up();
     print_line(coloured(last_line, state->is_settled() ? Colour::green : Colour::red));
     return is_saved;
   }
 
   const RunOptions& options_;
+  LiveRun live_;
   std::unique_ptr<Session> session_;
   std::shared_ptr<const State> before_;
   LogWriter log_;

@@ -92,7 +92,8 @@ void print_tensions(const Survey& survey) {
   }
   table.print();
   if (survey.tensions.size() > kShownTensions)
-    print_line("... and " + counted(survey.tensions.size() - kShownTensions, "smaller conflict") + "; --json has them all.");
+    print_line("... and " + counted(survey.tensions.size() - kShownTensions, "smaller conflict") +
+               "; --json has all above 0.001.");
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Reads what people type after --set.
 #include "ui/cli/set_argument.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
@@ -23,10 +25,12 @@ Unit unit_at(const Scene& scene, const Registry& registry, const std::string& no
 Result<std::string> value_text(const PortDefinition& port, Unit unit, const std::string& text, const std::string& place) {
   const bool is_number = port.kind == ValueKind::number || port.kind == ValueKind::integer;
   if (is_number)
-    if (const auto quantity = parse_quantity(text, unit))
-      return port.kind == ValueKind::integer && *quantity == static_cast<double>(static_cast<long long>(*quantity))
-                 ? std::to_string(static_cast<long long>(*quantity))
-                 : shortest(*quantity);
+    if (const auto quantity = parse_quantity(text, unit)) {
+      // Beyond that a number has no place for halves, and soon none in an integer.
+      const bool is_whole = std::abs(*quantity) < 9e15 && std::floor(*quantity) == *quantity;
+      return port.kind == ValueKind::integer && is_whole ? std::to_string(static_cast<long long>(*quantity))
+                                                         : shortest(*quantity);
+    }
   if (auto json = parse_json(text); json && !(holds_text(port.kind) && !json->is_string() && !json->is_null()))
     return write_json_line(*json);
   if (holds_text(port.kind)) return write_json_line(Json(text));

@@ -102,6 +102,8 @@ BenchTables bench_drag(const SolverBench& bench);
 BenchTables bench_growth(const SolverBench& bench);
 /// The cell complex kept live while one site changes.
 BenchTables bench_complex(const SolverBench& bench);
+/// Rays to the sun among casters, against a loop over all triangles.
+BenchTables bench_rays(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 

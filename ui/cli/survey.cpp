@@ -106,7 +106,6 @@ std::vector<TensionRow> tensions_of(const State& state) {
     for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t)
       for (std::uint16_t p = 0; p < state.nodes[n].types[t].tension.size(); ++p) {
         const double tension = state.nodes[n].types[t].tension[p];
-        // Rounding alone leaves traces below a millionth of any unit; they are no conflict.
         if (!(tension > 1e-3)) continue;  // a millimetre, a litre: nothing that anybody feels
         const PortRef ref{n, t, p};
         const std::string unit(info(state.plan->port(ref).unit).pretty);

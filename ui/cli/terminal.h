@@ -28,7 +28,6 @@ class TextTable {
   void add(std::vector<std::string> row, Colour colour = Colour::plain) { rows_.push_back({std::move(row), colour}); }
   /// A line between what stands above and below.
   void rule() { rows_.push_back({}); }
-  bool is_empty() const { return rows_.empty(); }
   void print() const;
 
  private:

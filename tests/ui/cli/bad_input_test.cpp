@@ -112,6 +112,18 @@ TEST(BadInput, UnknownTypesAreKept) {
   EXPECT_EQ(place.text("s.json"), once);
 }
 
+TEST(BadInput, CheckRewritesSoundFilesAlone) {
+  const Workplace place;
+  // It can be read, but a plan that crosses itself only shows when the scene runs.
+  const std::string text =
+      scene_text(volume_text("a", "[2, 2, 5]"), "", R"({"form": "plan", "plan": [[0, 0, 0], [9, 9, 0], [9, 0, 0], [0, 9, 0]]})");
+  place.write("s.json", text);
+  const Outcome outcome = place.run({"check", "s.json", "--write"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(place.text("s.json"), text);
+  EXPECT_TRUE(outcome.last_line().ends_with("; not rewritten")) << outcome.last_line();
+}
+
 TEST(BadInput, FilesThatCannotBeRead) {
   const Workplace place;
   std::filesystem::create_directory(place.path("folder"));

@@ -7,8 +7,7 @@ namespace bl::test {
 
 namespace {
 
-const std::vector<std::string> kCommands = {"run",    "open",   "script", "new",   "check", "docs",
-                                            "schema", "replay", "bench",  "cells", "fit"};
+const std::vector<std::string> kCommands = {"run", "open", "new", "check", "docs", "schema", "replay", "bench", "cells", "fit", "assign", "import", "script", "compare"};
 
 TEST(Help, AloneIsAnOverview) {
   const Workplace place;
@@ -59,7 +58,8 @@ TEST(Docs, ListsAndExplainsTypes) {
   EXPECT_NE(page.out.find("storey_height"), std::string::npos);
   const Outcome typo = place.run({"docs", "smart_volum"});
   EXPECT_EQ(typo.code, 2);
-  EXPECT_NE(typo.err.find("did you mean `smart_volume`?"), std::string::npos) << typo.err;
+  EXPECT_NE(typo.err.find("did you mean `smart_volume`?; `behaviourlinks docs --list`"), std::string::npos) << typo.err;
+  EXPECT_NE(place.run({"docs", "zzz"}).err.find("no type `zzz`; `behaviourlinks docs --list`"), std::string::npos);
   EXPECT_EQ(place.run({"docs", "--out", "pages"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(place.path("pages/nodes/smart_volume.md")));
   EXPECT_TRUE(std::filesystem::exists(place.path("pages/links/demand.md")));

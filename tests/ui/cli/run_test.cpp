@@ -79,6 +79,14 @@ TEST(Run, LogIsReplayed) {
   EXPECT_NE(cut.err.find("the last line is incomplete"), std::string::npos) << cut.err;
 }
 
+TEST(Run, WhatCannotBeSetLeavesTheLogOfAnEarlierRun) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  place.write("old.log", "an earlier run\n");
+  EXPECT_EQ(place.run({"run", "s.json", "--log", "old.log", "--set", "site/boundry.height=3"}).code, 2);
+  EXPECT_EQ(place.text("old.log"), "an earlier run\n");
+}
+
 TEST(Run, SetTakesQuantitiesAndSaysWhatItCannotTake) {
   const Workplace place;
   place.write("s.json", moving_scene());
@@ -94,6 +102,7 @@ TEST(Run, SetTakesQuantitiesAndSaysWhatItCannotTake) {
                                        {"easd/smart_volume.demand=5", "did you mean `east`?"},
                                        {"east.demand=5", "NODE/TYPIFICATION.PORT=VALUE"},
                                        {"east/smart_volume.demand=-5", "between 0 and"},
+                                       {"solver/smart_volumes_solver.steps=1e300", "1e+300"},
                                        {"east/smart_volume.volume=5", "computed"}}) {
     const Outcome outcome = set(argument);
     EXPECT_EQ(outcome.code, 2) << argument;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/ui/cli/program.h"
+#include "ui/cli/bench_chart.h"
 
 namespace bl::test {
 
@@ -32,18 +33,24 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
       EXPECT_EQ(row["fit_hash"].get<std::string>().size(), 16u) << row;
       continue;
     }
+    if (kind == "rays") { EXPECT_EQ(row["differing_rays"], 0) << row; }
     EXPECT_EQ(row["hash"].get<std::string>().size(), 16u) << row;
     EXPECT_NE(outcome.out.find(row["hash"].get<std::string>()), std::string::npos) << row;
     if (!row.contains("threads")) continue;
-    const std::string work = kind + row.value("balls", "") + row["sites"].dump() + row["fill_percent"].dump();
+    const std::string work = kind + row.value("balls", "") + row["sites"].dump() + std::to_string(row.value("fill_percent", 0.0));
     hashes[work].insert(row["hash"].get<std::string>());
     threads[work].insert(row["threads"].get<int>());
   }
-  EXPECT_EQ(
-      kinds,
-      (std::map<std::string, int>{
-          {"diagram", 2}, {"wrapped", 4}, {"fit", 5}, {"seeds", 5}, {"drag", 8}, {"growth", 1}, {"complex", 2}, {"study", 3}}));
-  EXPECT_EQ(hashes.size(), 7u);
+  EXPECT_EQ(kinds, (std::map<std::string, int>{{"diagram", 2},
+                                               {"wrapped", 4},
+                                               {"fit", 5},
+                                               {"seeds", 5},
+                                               {"drag", 8},
+                                               {"growth", 1},
+                                               {"complex", 2},
+                                               {"rays", 2},
+                                               {"study", 3}}));
+  EXPECT_EQ(hashes.size(), 8u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
   for (const auto& [work, found] : threads) EXPECT_EQ(found, (std::set<int>{1, 2})) << work;
 }
@@ -75,6 +82,16 @@ TEST(SolverBench, ChartsAreWholeDrawings) {
   EXPECT_TRUE(growth.starts_with("<svg ")) << growth.substr(0, 80);
   EXPECT_NE(growth.find("</svg>"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(place.path("charts/feedback_newton.svg")));
+}
+
+TEST(SolverBench, SmallMarksOfAChartAreWhatTheySay) {
+  cli::Chart chart{"small", "", "", {{"panel", "sites", {{"line", "#000", "", {{10, 0.001}, {20, 0.002}, {50, 0.005}}}}, 0, ""}}};
+  const std::string svg = cli::draw_chart(chart);
+  for (const char* mark : {">10⁻³<", ">2·10⁻³<", ">5·10⁻³<"}) {
+    const std::size_t first = svg.find(mark);
+    ASSERT_NE(first, std::string::npos) << mark << " in " << svg;
+    EXPECT_EQ(svg.find(mark, first + 1), std::string::npos) << mark << " stands at two places";
+  }
 }
 
 TEST(SolverBench, ItsOptionsWantTheSolver) {

@@ -1,4 +1,5 @@
 // Dialogs by keyboard alone: palette, new scene, and the question before something is lost.
+#include <filesystem>
 #include <set>
 
 #include <GLFW/glfw3.h>
@@ -8,9 +9,42 @@
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/app/fuzzy.h"
+#include "ui/desktop/app/journal.h"
+#include "ui/desktop/panels/dialogs.h"
+#include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
 namespace {
+
+bool is_asking() { return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel); }
+
+void save_as(NullDesktop& desktop, const std::string& name) {
+  desktop.key(GLFW_KEY_S, true, true);
+  desktop.frames(3);
+  desktop.key(GLFW_KEY_A, true);
+  desktop.type(::testing::TempDir() + name);
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(3);
+  if (is_asking()) desktop.key(GLFW_KEY_ENTER);  // an earlier run has left a file of this name
+  desktop.frames(3);
+}
+
+// What a window has left that is gone: a scene, and one change to it.
+std::vector<Journal::Remains> remains_of(const std::string& scene, const Command& change) {
+  const std::string folder = person_folder() + "/journals";
+  std::filesystem::create_directories(folder);
+  const std::string text = log_header(scene) + log_line(LogEntry{1, 0, 1, "somebody", change}, full_registry());
+  EXPECT_TRUE(write_file(folder + "/2147483646-7.journal", text));
+  return Journal::find(full_registry());
+}
+
+// The walk of keys starts at the first button; a step to the left, where nothing is, makes it be seen.
+void press_first_button(NullDesktop& desktop) {
+  desktop.frames(3);
+  desktop.key(GLFW_KEY_LEFT);
+  desktop.key(GLFW_KEY_SPACE);
+  desktop.frames(3);
+}
 
 TEST(Dialogs, PaletteRunsWhatIsTyped) {
   NullDesktop desktop("scenes/start/quarter.json");
@@ -83,6 +117,16 @@ TEST(Dialogs, AFileThatCannotBeWrittenLeavesTheDialogWithItsName) {
   EXPECT_FALSE(ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
 }
 
+TEST(Dialogs, NothingOfAClosedSceneIsKept) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  desktop.ticks(2);
+  desktop.key(GLFW_KEY_W, true);
+  desktop.frames(2);
+  ASSERT_FALSE(desktop.editor().document);
+  EXPECT_EQ(desktop.editor().view->facts(), nullptr);
+  EXPECT_EQ(desktop.editor().panels, nullptr);
+}
+
 TEST(Dialogs, QuittingWithUnsavedChangesAsks) {
   NullDesktop desktop("scenes/start/quarter.json");
   ASSERT_TRUE(desktop.editor().submit(command<RenameNode>({"library", "Reading room"})));
@@ -93,6 +137,88 @@ TEST(Dialogs, QuittingWithUnsavedChangesAsks) {
   desktop.editor().undo();
   desktop.key(GLFW_KEY_Q, true);
   EXPECT_TRUE(desktop.editor().wants_quit);
+}
+
+// What a question was asked for is forgotten with the question.
+TEST(Dialogs, CancellingAQuestionCancelsWhatItWasAskedFor) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  ASSERT_TRUE(desktop.editor().submit(command<RenameNode>({"library", "Reading room"})));
+  desktop.key(GLFW_KEY_W, true);
+  desktop.frames(2);
+  ASSERT_TRUE(is_asking());
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.frames(2);
+  ASSERT_FALSE(is_asking());
+  save_as(desktop, "kept_open.json");
+  ASSERT_TRUE(desktop.editor().document) << "saving closed the scene that nobody wanted closed any more";
+  EXPECT_EQ(desktop.editor().document->name(), "kept_open.json");
+}
+
+TEST(Dialogs, CancellingTheFileOfAQuestionCancelsWhatItWasAskedFor) {
+  NullDesktop desktop;
+  std::vector<Problem> problems;
+  const std::string scene = read_file(BL_SOURCE_DIR "/scenes/start/quarter.json").value();
+  desktop.editor().take(Document::from_text(full_registry(), scene, "", 1, problems));
+  desktop.frames(2);
+  desktop.key(GLFW_KEY_W, true);
+  desktop.frames(2);
+  desktop.key(GLFW_KEY_ENTER);  // Save: there is no file yet, so one is asked for
+  desktop.frames(3);
+  ASSERT_TRUE(desktop.editor().dialogs->is_choosing_file());
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.frames(3);
+  ASSERT_FALSE(desktop.editor().dialogs->is_choosing_file());
+  save_as(desktop, "kept_open_too.json");
+  EXPECT_TRUE(desktop.editor().document);
+  // Where the file is chosen at once, the scene is saved and then closed.
+  ASSERT_TRUE(desktop.editor().submit(command<RenameNode>({"library", "Reading room"})));
+  desktop.key(GLFW_KEY_W, true);
+  desktop.frames(2);
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(3);
+  EXPECT_FALSE(desktop.editor().document);
+}
+
+TEST(Dialogs, OneDialogOpensAnother) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  desktop.key(GLFW_KEY_K, true);
+  desktop.frames(3);
+  desktop.type("keys and gestures");
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(3);
+  EXPECT_TRUE(is_asking()) << "the list of keys, from the palette";
+  desktop.key(GLFW_KEY_ESCAPE);
+  desktop.frames(3);
+  ASSERT_FALSE(is_asking());
+}
+
+TEST(Dialogs, AJournalThatCannotBeRecoveredStays) {
+  NullDesktop desktop;
+  auto remains = remains_of(R"({"format": "behaviourlinks", "version": 999})", command<RenameNode>({"library", "Reading room"}));
+  ASSERT_EQ(remains.size(), 1u);
+  const std::string path = remains.front().path;
+  desktop.editor().dialogs->offer_recovery(std::move(remains));
+  press_first_button(desktop);
+  EXPECT_FALSE(desktop.editor().document);
+  ASSERT_FALSE(desktop.editor().notices.empty()) << "it was not tried";
+  EXPECT_TRUE(std::filesystem::exists(path)) << "the only copy is gone";
+  EXPECT_TRUE(is_asking()) << "it can still be discarded";
+  Journal::discard({path, "", {}});
+}
+
+TEST(Dialogs, AJournalThatWasRecoveredInPartStays) {
+  const std::string scene = read_file(BL_SOURCE_DIR "/scenes/start/quarter.json").value();
+  for (const bool is_whole : {false, true}) {
+    NullDesktop desktop;
+    auto remains = remains_of(scene, command<RenameNode>({is_whole ? "library" : "nobody", "Reading room"}));
+    ASSERT_EQ(remains.size(), 1u);
+    const std::string path = remains.front().path;
+    desktop.editor().dialogs->offer_recovery(std::move(remains));
+    press_first_button(desktop);
+    ASSERT_TRUE(desktop.editor().document);
+    EXPECT_EQ(std::filesystem::exists(path), !is_whole);
+    Journal::discard({path, "", {}});
+  }
 }
 
 // A key that means two things at one place and time is a trap.

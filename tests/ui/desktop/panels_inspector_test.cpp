@@ -1,5 +1,7 @@
 // The inspector, driven by keys and mouse on the null renderer.
 #include "tests/ui/desktop/panels_support.h"
+#include "ui/desktop/panels/inspector_quantity.h"
+#include "ui/desktop/panels/inspector_value.h"
 
 namespace bl::desktop {
 namespace {
@@ -137,6 +139,100 @@ TEST(Inspector, SeveralNodesAreEditedInOneStep) {
   EXPECT_EQ(desktop.number("hotel", "smart_volume", "demand"), 5000);
   while (desktop.steps() > 0) desktop.editor().undo();
   EXPECT_EQ(desktop.scene_text(), before);
+}
+
+TEST(Inspector, AFactorThatOneOfSeveralNodesCannotTakeLeavesItAlone) {
+  PanelDesktop desktop(kQuarter);
+  ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"cafe", {"node.position"}, {"[0, 1, 2]"}})));
+  ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"hotel", {"node.position"}, {"[10, 1, 2]"}})));
+  desktop.editor().picks.nodes = {"cafe", "hotel"};
+  desktop.frames(2);
+  desktop.type_into("node.position/x", "*1e308");  // ten times that is no number any more
+  EXPECT_EQ(std::get<Vector3>(desktop.setting("cafe", "node", "position")), (Vector3{0, 1, 2}));
+  EXPECT_EQ(std::get<Vector3>(desktop.setting("hotel", "node", "position")), (Vector3{10, 1, 2}));
+}
+
+TEST(Inspector, ASlowHandMovesSeveralWholeNumbers) {
+  NullDesktop desktop("scenes/nodes/smart_volume.json");  // its own inspector is not drawn below
+  PortDefinition port;
+  port.kind = ValueKind::integer;
+  port.soft_minimum = 0;
+  port.soft_maximum = 20;  // a tenth for each pixel
+  const Subject subject{"count", &port, Unit::count, std::int64_t{3}, true, false, false};
+  std::int64_t few = 3, many = 7;
+  const auto frame = [&] {
+    ImGui::NewFrame();
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::Begin("fields");
+    if (const auto change = number_field(desktop.editor(), subject, 200)) {
+      few = std::get<std::int64_t>(change->make(few));
+      many = std::get<std::int64_t>(change->make(many));
+    }
+    ImGui::End();
+    ImGui::Render();
+  };
+  frame();
+  frame();
+  const ImVec4 place = memory_of(desktop.editor()).places.at("count");
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = {(place.x + place.z) / 2, (place.y + place.w) / 2};
+  frame();
+  frame();
+  io.MouseDown[0] = true;
+  frame();
+  for (int k = 0; k < 60; ++k) {
+    io.MousePos.x += 1;
+    frame();
+  }
+  EXPECT_GE(few, 8);
+  EXPECT_LE(few, 9) << "sixty pixels are six";
+  EXPECT_EQ(many, few + 4) << "they stay as far apart as they were";
+}
+
+TEST(Inspector, FieldsThatGoUnderTheHandDoNotHoldItStill) {
+  PanelDesktop desktop(kQuarter);
+  Editor& editor = desktop.editor();
+  for (const bool is_typing : {false, true}) {
+    ASSERT_TRUE(editor.submit(command<AddNode>({"passing", {R"({"types": {"smart_volume": {}}})"}})));
+    desktop.choose("passing");
+    const ImVec2 at = desktop.middle("smart_volume.demand");
+    if (is_typing) {
+      desktop.press_on("smart_volume.demand");
+      desktop.frames(3);
+      desktop.type("4");
+    } else {
+      desktop.move_to(at);
+      desktop.press();
+      desktop.move_to({at.x + 20, at.y});
+      editor.undo();
+    }
+    editor.undo();
+    ASSERT_FALSE(editor.scene().nodes.contains("passing"));
+    desktop.frames(2);
+    desktop.release();
+    desktop.choose("library");
+    EXPECT_TRUE(desktop.has("smart_volume.demand")) << is_typing;
+    EXPECT_EQ(memory_of(editor).shown.nodes, std::set<std::string>{"library"}) << is_typing;
+  }
+}
+
+TEST(Quantities, ManyPartsAreNotDeep) {
+  std::string sum = "1";
+  for (int k = 1; k < 200; ++k) sum += k % 2 != 0 ? "+(1)" : "+1";
+  EXPECT_EQ(typed_number(sum, Unit::none, 0).value(), 200);
+  EXPECT_FALSE(typed_number(std::string(200, '(') + "1" + std::string(200, ')'), Unit::none, 0).ok());
+}
+
+TEST(Quantities, RatesAreByTheHourHoweverTheyComeAbout) {
+  const auto rate = [](const char* text) { return typed_number(text, Unit::per_hour, 0).value(); };
+  EXPECT_DOUBLE_EQ(rate("600"), 600);
+  EXPECT_DOUBLE_EQ(rate("600 1/h"), 600);
+  EXPECT_DOUBLE_EQ(rate("2 * 600 1/h / 3"), 400);
+  EXPECT_DOUBLE_EQ(rate("600 / (1 h)"), 600);
+  EXPECT_DOUBLE_EQ(rate("1 / (6 s) + 20 1/h"), 620);
+  EXPECT_DOUBLE_EQ(rate("10 m/s / (5 m)"), 7200);
+  EXPECT_DOUBLE_EQ(typed_number("600 1/h * 2 h", Unit::count, 0).value(), 1200);
+  EXPECT_DOUBLE_EQ(typed_number("1 / (600 1/h)", Unit::second, 0).value(), 6);
 }
 
 TEST(Inspector, ResetAndLock) {

@@ -1,4 +1,5 @@
 // Problems, history and statistics, on the null renderer.
+#include "core/file/file_io.h"
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/problems_list.h"
@@ -111,6 +112,34 @@ TEST(Problems, OfAFileThatCannotBeOpenedAreListedBesideTheOldScene) {
   ASSERT_FALSE(listed.empty());
   EXPECT_TRUE(listed.front().is_error);
   EXPECT_EQ(listed.front().subject, "panels_garbage.json");
+}
+
+TEST(Problems, OfAFileThatIsTriedAgainAreThoseOfNow) {
+  ListDesktop desktop(kQuarter);
+  const std::string path = ::testing::TempDir() + "panels_twice.json";
+  ASSERT_TRUE(write_file(path, R"({"format": "behaviourlinks", "version": 999})"));
+  EXPECT_FALSE(desktop.editor().open(path));
+  desktop.frames(2);
+  const auto first = desktop.of(ProblemKind::file);
+  ASSERT_EQ(first.size(), 1u);
+  ASSERT_TRUE(write_file(path, R"({"type": "FeatureCollection"})"));
+  EXPECT_FALSE(desktop.editor().open(path));
+  desktop.frames(2);
+  const auto second = desktop.of(ProblemKind::file);
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_NE(second.front().text, first.front().text);
+}
+
+// Its solver has named a node that is no volume: the solver fails for it, and the list says so once.
+TEST(Problems, ASolverWhoseMemberLacksAPortIsListedOnce) {
+  ListDesktop desktop(kQuarter);
+  ASSERT_TRUE(
+      desktop.editor().submit(command<SetPort>({"solver", {"smart_volumes_solver.members"}, {R"(["library", "programme"])"}})));
+  desktop.ticks(2);
+  const auto failing = desktop.of(ProblemKind::failing);
+  std::size_t of_solver = 0;
+  for (const ProblemItem& item : failing) of_solver += item.nodes == std::vector<std::string>{"solver"} ? 1 : 0;
+  EXPECT_EQ(of_solver, 1u);
 }
 
 TEST(Problems, RowsKeepTheirPlacesWhileASettledSceneTicks) {

@@ -9,6 +9,7 @@
 #include "core/geometry/site_domain.h"
 #include "tests/ui/desktop/offscreen_gl.h"
 #include "ui/desktop/view/gl_renderer.h"
+#include "ui/desktop/view/gl_tools.h"
 #include "ui/desktop/view/scene_facts.h"
 
 namespace bl::desktop {
@@ -80,6 +81,17 @@ std::vector<PowerSite> some_sites(double width, double height, std::size_t count
     sites.push_back({{x, y, z}, radius * radius});
   }
   return sites;
+}
+
+TEST_F(ViewGpu, ATargetThatCannotBeMadeIsNone) {
+  GlTarget target({{GL_RGBA8, GL_NEAREST}}, 0);
+  ASSERT_TRUE(target.resize(16, 16));
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_FALSE(target.resize(1 << 20, 1 << 20)) << "asked for the same size again, it is no better, time " << k;
+    EXPECT_EQ(target.width(), 0);
+  }
+  while (glGetError() != GL_NO_ERROR) {}
+  EXPECT_TRUE(target.resize(16, 16));
 }
 
 TEST_F(ViewGpu, WrapsAsTheProcessorDoes) {

@@ -1,4 +1,6 @@
 // The 3D view as people use it, without a window: choosing, moving, kept views, layers, beamer mode.
+#include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include <GLFW/glfw3.h>
@@ -266,6 +268,128 @@ TEST_F(ViewPanel, EveryColourChoiceHasALegend) {
   // Remembered from another scene.
   EXPECT_EQ(colour_volumes(*facts, "no.such_port", editor().theme).legend.title,
             colour_volumes(*facts, "use", editor().theme).legend.title);
+}
+
+TEST_F(ViewPanel, VolumesWithoutAShapeAreChosenByTheirMarks) {
+  NullDesktop fresh("scenes/start/quarter.json");  // before its first tick no volume has a cell
+  fresh.move_to(empty_place());
+  fresh.key(GLFW_KEY_1);
+  fresh.frames(30);
+  Editor& e = fresh.editor();
+  ASSERT_EQ(e.view->facts()->volume_of(e.index_of("theatre"))->cell, nullptr);
+  const Seen at = e.view->place_in_window(e.view->facts()->volume_of(e.index_of("theatre"))->position);
+  const ImVec2 spot{static_cast<float>(at.x), static_cast<float>(at.y)};
+  for (const bool are_marks_on : {true, false}) {
+    set_layer(e.person, "marks", are_marks_on);
+    fresh.move_to(empty_place());
+    fresh.frames(30);
+    fresh.move_to(spot);
+    EXPECT_EQ(e.view->pointed_at(), "theatre") << are_marks_on;
+    fresh.click(spot);
+    EXPECT_EQ(e.picks.nodes, std::set<std::string>{"theatre"}) << are_marks_on;
+    e.picks.clear();
+  }
+}
+
+TEST_F(ViewPanel, BoxesTakeWhatIsSeenAlone) {
+  const auto facts = read_facts(editor().moment->state, nullptr);
+  const Camera from_above = editor().view->camera();
+  const Box all{-1e6, -1e6, 1e6, 1e6};
+  const auto nodes = [&](const ViewSection& section) {
+    return pick_box(all, true, *facts, {from_above, 600, 600, section, false});
+  };
+  const auto found = [&](const ViewSection& section, bool with_marks) {
+    return pick_box(all, true, *facts, {from_above, 600, 600, section, with_marks}).size();
+  };
+  EXPECT_EQ(found({}, true), facts->volumes.size() + facts->marks.size());
+  EXPECT_EQ(found({}, false), facts->volumes.size()) << "the layer of marks is off";
+  const ViewSection below_ground{true, {0, 0, 1}, facts->ground - 5};
+  EXPECT_EQ(found(below_ground, false), 0u) << "all of it is cut away";
+  for (const VolumeFacts& volume : facts->volumes) {
+    const auto rest = nodes({true, {0, 0, 1}, volume.bottom + 0.5 * volume.height});
+    EXPECT_TRUE(std::binary_search(rest.begin(), rest.end(), volume.node)) << volume.id << " is cut through, and still there";
+  }
+}
+
+TEST_F(ViewPanel, ADragThatLeavesTheWindowKeepsTheCamera) {
+  const Camera before = editor().view->camera();
+  const ImVec2 at = empty_place();
+  desktop.move_to(at);
+  desktop.hold(false, true);  // Shift makes it a pan
+  desktop.press(1);
+  ImGui::GetIO().MousePos = {at.x - 10, at.y};
+  desktop.frames(1);
+  EXPECT_GT(distance(editor().view->camera().target, before.target), 0.01) << "it is no drag";
+  ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};  // what the backend says where the pointer is nowhere
+  desktop.frames(2);
+  EXPECT_LT(distance(editor().view->camera().target, before.target), before.distance);
+  ImGui::GetIO().MousePos = {at.x - 20, at.y};
+  desktop.frames(1);
+  desktop.release(1);
+  desktop.hold(false, false);
+  const Camera& now = editor().view->camera();
+  EXPECT_TRUE(is_finite(now.target));
+  EXPECT_LT(distance(now.target, before.target), before.distance);
+}
+
+TEST_F(ViewPanel, AnotherSceneIsSeenAfresh) {
+  // A new document often lies where the old one lay in memory.
+  for (int k = 0; k < 4; ++k) {
+    if (!editor().view->section().is_on) editor().view->toggle_section();
+    desktop.frames(1);
+    ASSERT_TRUE(editor().view->section().is_on);
+    editor().document.reset();
+    editor().moment.reset();
+    ASSERT_TRUE(editor().open(BL_SOURCE_DIR "/scenes/nodes/smart_volume.json"));
+    desktop.frames(1);
+    EXPECT_FALSE(editor().view->section().is_on) << "the cut of the scene before, time " << k;
+  }
+}
+
+TEST_F(ViewPanel, AMoveBeganWithFreshNodesMovesWhatIsChosen) {
+  desktop.click(spot_of("theatre"));
+  const Point3 start = place("theatre");
+  desktop.move_to(empty_place());
+  // The frame of the key is also the first that shows a node whose id comes before all others.
+  ASSERT_TRUE(editor().submit(command<AddNode>({"aaa", {R"({"position": [5, 5, 5]})"}})));
+  desktop.key(GLFW_KEY_G);
+  ASSERT_TRUE(editor().view->is_moving());
+  desktop.key(GLFW_KEY_X);
+  desktop.type("2");
+  desktop.key(GLFW_KEY_ENTER);
+  EXPECT_NEAR(set_place("theatre").x, start.x + 2, 1e-3);
+  EXPECT_NEAR(set_place("theatre").y, start.y, 1e-3);
+}
+
+TEST_F(ViewPanel, TheGizmoStandsInTheMiddleOfWhatCanMove) {
+  ASSERT_TRUE(editor().submit(command<LockPort>({"housing-2", {"node.position"}})));
+  desktop.ticks(1);
+  editor().picks.nodes = {"theatre", "housing-2"};
+  desktop.frames(30);
+  const Point3 start = place("theatre");
+  const ImVec2 middle = spot_of("theatre"), arm{middle.x + 60, middle.y};
+  desktop.drag(arm, {arm.x + 50, arm.y + 30});
+  const Point3 now = set_place("theatre");
+  EXPECT_GT(now.x, start.x + 1);
+  EXPECT_NEAR(now.y, start.y, 1e-3);
+}
+
+TEST_F(ViewPanel, ALengthThatIsNoneCanBeMended) {
+  desktop.click(spot_of("theatre"));
+  const Point3 start = place("theatre");
+  desktop.move_to(empty_place());
+  desktop.key(GLFW_KEY_G);
+  desktop.key(GLFW_KEY_Y);
+  desktop.type("5x");
+  desktop.key(GLFW_KEY_ENTER);
+  EXPECT_TRUE(editor().view->is_moving()) << "nobody has said that five metres are meant";
+  ASSERT_FALSE(editor().notices.empty());
+  EXPECT_NE(editor().notices.back().text.find("no length"), std::string::npos);
+  desktop.key(GLFW_KEY_BACKSPACE);
+  desktop.type("0");
+  desktop.key(GLFW_KEY_ENTER);
+  EXPECT_FALSE(editor().view->is_moving());
+  EXPECT_NEAR(set_place("theatre").y, start.y + 50, 1e-3);
 }
 
 TEST(ViewPicking, MeetsTheBallInsideTheCellOnly) {

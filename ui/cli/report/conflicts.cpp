@@ -138,8 +138,10 @@ void read_problems(const State& state, ReportModel& model) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
     if (error) add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});
   }
+  // What has kept a node from running is its own error already.
   for (const SetPlan& set : plan.sets)
-    if (set.error) add({"node " + name_at(state, set.node), set.error->text(), plan.nodes[set.node].id, "", false});
+    if (set.error && !state.nodes[set.node].types[set.type].error)
+      add({"node " + name_at(state, set.node), set.error->text(), plan.nodes[set.node].id, "", false});
 }
 
 }  // namespace bl::report

@@ -148,6 +148,12 @@ void add_totals(ReportModel& model) {
 
 }  // namespace
 
+std::size_t link_index(const Plan& plan, std::string_view id) {
+  const auto found = std::lower_bound(plan.links.begin(), plan.links.end(), id,
+                                      [](const LinkPlan& link, std::string_view key) { return link.id < key; });
+  return static_cast<std::size_t>((found != plan.links.end() && found->id == id ? found : plan.links.end()) - plan.links.begin());
+}
+
 double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback) {
   const auto ref = state.plan->find(node, PortPath{type, port, ""});
   if (!ref) return fallback;

@@ -111,6 +111,8 @@ ConflictRow conflict_row(const State& state, const TensePort& tense);
 /// "wants 7 200 m³, strength 0.5": what a link says, without its name.
 std::string voice_text(const State& state, const Voice& voice);
 
+/// Index of a link in the plan, or plan.links.size().
+std::size_t link_index(const Plan& plan, std::string_view id);
 /// Values by name; a fallback where the node has no such port or it holds another kind.
 double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback = 0);
 std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port);

@@ -72,7 +72,19 @@ void Desktop::ask_to_quit() {
   dialogs_->guard([this] { editor_->wants_quit = true; });
 }
 
-void Desktop::offer_recovery() { dialogs_->offer_recovery(Journal::find(editor_->program)); }
+void Desktop::offer_recovery() {
+  std::vector<std::string> unreadable;
+  dialogs_->offer_recovery(Journal::find(editor_->program, &unreadable));
+  for (const std::string& text : unreadable) editor_->tell(NoticeKind::warning, text);
+}
+
+// Each reason once: people who go on working with a full disk know it.
+void Desktop::watch_journal() {
+  const std::string problem = editor_->document->journal_problem();
+  if (problem != told_problem_ && !problem.empty())
+    editor_->tell(NoticeKind::warning, "What you do is not safe from a crash until it is saved: " + problem);
+  told_problem_ = problem;
+}
 
 void Desktop::frame(double now) {
   Editor& editor = *editor_;
@@ -98,6 +110,7 @@ void Desktop::frame(double now) {
   }
   if (editor.document) {
     start_page_->leave();
+    watch_journal();
     watch_run(editor);
     draw_workspace(top);
   } else {
@@ -133,7 +146,7 @@ void Desktop::draw_workspace(float top) {
                            ? std::min({theme.px(person.bottom_height), kMostOfBottom * (size.y - y), (size.y - y) - kLeastPane})
                            : 0;
   const float middle_width = size.x - side - (side > 0 ? gap : 0), middle_height = size.y - y - bottom - (bottom > 0 ? gap : 0);
-  const float left = std::clamp(person.canvas_share * middle_width, kLeastPane, middle_width - kLeastPane);
+  const float left = std::clamp(person.canvas_share * middle_width, kLeastPane, std::max(kLeastPane, middle_width - kLeastPane));
   pane("canvas", {0, y}, {left, middle_height}, c.canvas, {0, 0}, [&] { canvas_->draw({left, middle_height}); });
   const ImVec2 view_size{middle_width - left - gap, middle_height};
   pane("view", {left + gap, y}, view_size, c.sky, {0, 0}, [&] { view_->draw(view_size); });

@@ -32,6 +32,7 @@ class Desktop {
  private:
   void draw_workspace(float top);
   void draw_notices();
+  void watch_journal();
 
   std::unique_ptr<Editor> editor_;
   std::unique_ptr<Canvas> canvas_;
@@ -40,6 +41,7 @@ class Desktop {
   std::unique_ptr<StartPage> start_page_;
   Renderer* renderer_;
   Area was_area_ = Area::canvas;
+  std::string told_problem_;  ///< of the journal, as people know it
 };
 
 }  // namespace bl::desktop

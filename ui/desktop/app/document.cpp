@@ -13,6 +13,11 @@
 
 namespace bl::desktop {
 
+Document::Document(const Registry& registry, std::string path) : registry_(&registry), path_(std::move(path)) {
+  static std::uint64_t made = 0;
+  id_ = ++made;
+}
+
 std::unique_ptr<Document> Document::open(const Registry& registry, const std::string& path, int threads,
                                          std::vector<Problem>& problems) {
   auto text = read_file(path);
@@ -20,9 +25,7 @@ std::unique_ptr<Document> Document::open(const Registry& registry, const std::st
     problems.push_back({true, text.error()});
     return nullptr;
   }
-  auto document = from_text(registry, *text, path, threads, problems);
-  if (document) document->saved_text_ = *text;
-  return document;
+  return from_text(registry, *text, path, threads, problems);
 }
 
 std::unique_ptr<Document> Document::from_text(const Registry& registry, const std::string& text, const std::string& path,
@@ -38,7 +41,7 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   std::unique_ptr<Document> document(new Document(registry, path));
   document->session_ = std::move(*session);
   document->log_start_ = write_scene(reading.scene, registry, reading.state ? &*reading.state : nullptr);
-  if (!path.empty()) document->saved_text_ = document->log_start_;  // without a file there is nothing that holds it
+  if (!path.empty()) document->saved_ = std::move(reading.scene);  // without a file there is nothing that holds it
   document->begin_journal();
   return document;
 }
@@ -50,20 +53,25 @@ std::unique_ptr<Document> Document::recover(const Registry& registry, const Jour
   for (const LogEntry& entry : remains.log.entries)
     if (auto done = document->session_->replay(entry); !done)
       problems.push_back({false, done.error().within("journal entry " + std::to_string(entry.seq))});
-  document->saved_text_.clear();  // whatever the file holds, it does not hold this
+  document->saved_.reset();  // whatever the file holds, it does not hold this
   return document;
 }
 
 // Every entry goes to the disk at once; after a rewind the log starts again from the state that was returned to.
 void Document::begin_journal() {
-  (void)journal_.begin(path_, log_start_);  // without a folder to keep it in there is no journal; everything else works
+  (void)journal_.begin(path_, log_start_);  // without it everything else works; journal_problem() tells people
   session_->on_entry([this](const LogEntry& entry) { journal_.add(entry, *registry_); });
   session_->on_rewind([this] {
-    const SavedState state = bl::save(*session_->moment()->state);
-    log_start_ = write_scene(scene(), *registry_, &state);
-    log_begin_ = session_->log().size();
-    (void)journal_.begin(path_, log_start_);
+    const SavedState state = bl::save(*session_->take_on_changes());
+    begin_log(write_scene(scene(), *registry_, &state));
   });
+}
+
+// From here on the log starts from this scene, and so does what a crash would leave.
+void Document::begin_log(const std::string& scene_text) {
+  log_start_ = scene_text;
+  log_begin_ = session_->log().size();
+  (void)journal_.begin(path_, log_start_);
 }
 
 std::string Document::name() const {
@@ -71,28 +79,32 @@ std::string Document::name() const {
 }
 
 Result<void> Document::save(const std::string& path) {
-  const SavedState state = bl::save(*session_->moment()->state);
+  const SavedState state = bl::save(*session_->take_on_changes());
   const bool has_run = state.tick > 0;
   const std::string text = write_scene(scene(), *registry_, has_run ? &state : nullptr);
-  if (auto written = write_file(path, text); !written) return written;
-  path_ = path;
-  saved_text_ = text;
-  is_unsaved_ = false;
-  compared_size_ = session_->log().size();
-  log_start_ = text;
-  log_begin_ = compared_size_;
-  (void)journal_.begin(path_, log_start_);
-  return {};
+  const auto written = write_file(path, text);
+  if (written) {
+    path_ = path;
+    saved_ = scene();
+    is_unsaved_ = false;
+    compared_size_ = session_->log().size();
+  }
+  // Also where the file cannot be written: the simulation has taken on what was said, which no tick of the old log has.
+  begin_log(text);
+  return written;
 }
 
 bool Document::is_unsaved() {
   const std::size_t size = session_->log().size();
-  if (saved_text_.empty()) return true;
+  if (!saved_) return true;
+  const auto is_persons = [](const LogEntry& entry) { return entry.author == LiveSession::kAuthor; };
+  const auto fresh = session_->log().begin() + static_cast<std::ptrdiff_t>(std::min(compared_size_, size));
+  const bool is_compared = compared_size_ != 0 && std::none_of(fresh, session_->log().end(), is_persons);
   if (size == compared_size_) return is_unsaved_;
   compared_size_ = size;
+  if (is_compared) return is_unsaved_;
   // Undone changes leave nothing to save: what counts is what people have said, not that it ran on.
-  const SceneReading saved = read_scene(saved_text_, *registry_);
-  is_unsaved_ = !(saved.scene == scene());
+  is_unsaved_ = !(*saved_ == scene());
   return is_unsaved_;
 }
 
@@ -100,7 +112,8 @@ Result<void> Document::save_log(const std::string& path) const {
   std::string text = log_header(log_start_);
   const auto& log = session_->log();
   for (std::size_t i = log_begin_; i < log.size(); ++i) text += log_line(log[i], *registry_);
-  const State& state = *session_->moment()->state;
+  // A replay compares before it applies what was said in that tick: as the tick itself has left it.
+  const State& state = *session_->moment()->ticked;
   text += log_line(LogCheck{state.tick, hex_digits(state.hash), true});
   return write_file(path, text);
 }
@@ -115,6 +128,7 @@ const std::vector<HistoryStep>& Document::history() {
   const auto& log = session_->log();
   for (; history_size_ < log.size(); ++history_size_) {
     const LogEntry& entry = log[history_size_];
+    if (entry.author != LiveSession::kAuthor) continue;  // readings of sensors are nobody's steps
     const std::int64_t shown = entry.undoes != 0 ? entry.undoes : entry.redoes != 0 ? entry.redoes : entry.gesture;
     auto step = std::find_if(history_.begin(), history_.end(), [&](const HistoryStep& s) { return s.gesture == shown; });
     if (entry.undoes != 0 || entry.redoes != 0) {
@@ -143,7 +157,8 @@ const std::vector<HistoryStep>& Document::history() {
 
 void Document::abandon(std::int64_t gesture) {
   const auto& log = session_->log();
-  if (gesture == 0 || log.empty() || log.back().gesture != gesture || log.back().undoes != 0) return;
+  const auto last = std::find_if(log.rbegin(), log.rend(), [](const LogEntry& e) { return e.author == LiveSession::kAuthor; });
+  if (gesture == 0 || last == log.rend() || last->gesture != gesture || last->undoes != 0) return;
   abandoned_.insert(gesture);
   // The ticks have seen it, so that the log keeps it and what takes it back; the history does not.
   (void)session_->undo();

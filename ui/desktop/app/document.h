@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct HistoryStep {
   std::size_t entries = 0;  ///< commands in it
 };
 
+/// Ticks on one thread: the other cores are the window's.
+inline constexpr int kTickThreads = 1;
+
 class Document {
  public:
   /// Reads a scene; warnings and errors both come back in `problems`. Nothing where there are errors.
@@ -34,6 +38,8 @@ class Document {
   static std::unique_ptr<Document> recover(const Registry& registry, const Journal::Remains& remains, int threads,
                                            std::vector<Problem>& problems);
 
+  /// No other document that this window has opened has it: an address can come again.
+  std::uint64_t id() const { return id_; }
   LiveSession& session() { return *session_; }
   const Scene& scene() const { return session_->scene(); }
   const std::string& path() const { return path_; }
@@ -42,6 +48,8 @@ class Document {
 
   /// Writes the scene (with the running state, so that it opens as it was left) and takes on the path.
   Result<void> save(const std::string& path);
+  /// Why a crash would lose what has not been saved; empty where it would not.
+  std::string journal_problem() const { return journal_.problem(); }
   /// Is there anything that the file does not have? Looked at again only after changes.
   bool is_unsaved();
   /// Writes the log from the start, or from the last rewind on, for `replay`.
@@ -61,12 +69,15 @@ class Document {
   Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
 
  private:
-  Document(const Registry& registry, std::string path) : registry_(&registry), path_(std::move(path)) {}
+  Document(const Registry& registry, std::string path);
   void begin_journal();
+  void begin_log(const std::string& scene_text);
 
+  std::uint64_t id_;
   const Registry* registry_;
-  std::string path_, saved_text_, log_start_;
-  std::size_t log_begin_ = 0;  ///< first entry of the log that belongs to `log_start_`
+  std::string path_, log_start_;
+  std::optional<Scene> saved_;  ///< what the file holds; none where there is none, or something else
+  std::size_t log_begin_ = 0;   ///< first entry of the log that belongs to `log_start_`
   std::unique_ptr<LiveSession> session_;
   Journal journal_;
   std::vector<HistoryStep> history_;

@@ -15,10 +15,20 @@ namespace {
 
 constexpr double kNoticeSeconds = 5;
 constexpr std::size_t kMostNotices = 4;
-// Ticks on one thread: the other cores are the window's.
-constexpr int kThreads = 1;
+
+// That there is nothing is no error; that it does not fit any more is one, and says so itself.
+void tell_why(Editor& editor, const Error& error, const char* nothing) {
+  const bool is_nothing = error.code == ErrorCode::not_found && error.place.empty();
+  editor.tell(is_nothing ? NoticeKind::told : NoticeKind::error, is_nothing ? nothing : error.text());
+}
 
 }  // namespace
+
+std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken) {
+  std::string key = wish;
+  for (int k = 2; is_taken(key); ++k) key = wish + "-" + std::to_string(k);
+  return key;
+}
 
 std::string Editor::name_of(const std::string& node) const {
   const auto found = scene().nodes.find(node);
@@ -38,22 +48,19 @@ bool Editor::arrange(const std::string& json_patch, std::int64_t gesture) {
 
 void Editor::undo() {
   if (!document) return;
-  if (auto done = document->session().undo(); !done) tell(NoticeKind::told, "Nothing to undo.");
+  if (auto done = document->session().undo(); !done) tell_why(*this, done.error(), "Nothing to undo.");
 }
 
 void Editor::redo() {
   if (!document) return;
   // What was abandoned lies below all that was undone since: where the history has nothing undone, there is only that.
   if (!document->has_redo()) return tell(NoticeKind::told, "Nothing to redo.");
-  if (auto done = document->session().redo(); !done) tell(NoticeKind::told, "Nothing to redo.");
+  if (auto done = document->session().redo(); !done) tell_why(*this, done.error(), "Nothing to redo.");
 }
 
 std::string Editor::fresh_id(const std::string& wish) const {
-  const std::string base = to_identifier(wish);
-  auto is_taken = [&](const std::string& id) { return scene().nodes.contains(id) || scene().links.contains(id); };
-  if (!is_taken(base)) return base;
-  for (int k = 2;; ++k)
-    if (const std::string id = base + "-" + std::to_string(k); !is_taken(id)) return id;
+  return fresh_key(to_identifier(wish),
+                   [&](const std::string& id) { return scene().nodes.contains(id) || scene().links.contains(id); });
 }
 
 void Editor::point_at(Area where) {
@@ -69,14 +76,19 @@ void Editor::tell(NoticeKind kind, std::string text) {
   if (notices.size() > kMostNotices) notices.erase(notices.begin());
 }
 
+void Editor::list_problems(std::string file, std::vector<Problem> found) {
+  problem_file = std::move(file);
+  problems = std::move(found);
+  ++problems_revision;
+}
+
 bool Editor::open(const std::string& wanted, bool plays) {
   std::error_code error;
   const auto absolute = std::filesystem::absolute(wanted, error);
   const std::string path = error ? wanted : absolute.lexically_normal().string();
   std::vector<Problem> found;
-  auto fresh = Document::open(program, path, kThreads, found);
-  problems = std::move(found);
-  problem_file = path;
+  auto fresh = Document::open(program, path, kTickThreads, found);
+  list_problems(path, std::move(found));
   if (!fresh) {
     tell(NoticeKind::error, "This scene could not be opened; the problems list says why.");
     return false;

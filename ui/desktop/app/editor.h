@@ -42,6 +42,9 @@ struct Notice {
   double until = 0;  ///< on the window's clock [s]
 };
 
+/// The wish, or the first of wish-2, wish-3 and so on that is not taken.
+std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken);
+
 class Editor {
  public:
   Editor(const Registry& all_types, PersonSettings& somebody) : program(all_types), person(somebody) {}
@@ -51,8 +54,9 @@ class Editor {
   Theme theme;
   Picks picks;
   std::unique_ptr<Document> document;    ///< none: the start page
-  std::vector<Problem> problems;         ///< of the last file that was opened, or tried
+  std::vector<Problem> problems;         ///< of the last file that was opened, or tried: set by `list_problems`
   std::string problem_file;              ///< that file
+  std::uint64_t problems_revision = 0;   ///< another one for each list
   std::shared_ptr<const Moment> moment;  ///< taken once for each frame; none without a document
   Canvas* canvas = nullptr;              ///< for actions that concern it
   SceneView* view = nullptr;             ///< the same
@@ -89,6 +93,8 @@ class Editor {
   /// The mouse is over this area. One that rests there does not take the keys away from another.
   void point_at(Area where);
   void tell(NoticeKind kind, std::string text);
+  /// What is wrong with a file, in place of what was wrong with the last one.
+  void list_problems(std::string file, std::vector<Problem> found);
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
   bool open(const std::string& path, bool plays = false);
   void take(std::unique_ptr<Document> fresh);

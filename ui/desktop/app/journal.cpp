@@ -6,8 +6,11 @@
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <set>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "core/file/file_io.h"
@@ -20,6 +23,7 @@ namespace files = std::filesystem;
 
 constexpr const char* kEnding = ".journal";
 constexpr const char* kPathEnding = ".scene_path";
+constexpr const char* kUnreadable = ".unreadable";
 
 std::string journal_folder() {
   const std::string folder = person_folder();
@@ -35,6 +39,36 @@ void remove_both(const std::string& path) {
   std::error_code ignored;
   files::remove(path, ignored);
   files::remove(path + kPathEnding, ignored);
+}
+
+// Journals that this process writes. Process numbers come back, after a restart and in containers, so that a file with our own
+// number can be what another window has left.
+std::set<std::string>& written_here() {
+  static std::set<std::string> paths;
+  return paths;
+}
+
+// A new empty file; never one that is there already.
+Result<std::string> fresh_file(const std::string& folder) {
+  for (int count = 1;; ++count) {
+    std::string path = folder + "/" + std::to_string(getpid()) + "-" + std::to_string(count) + kEnding;
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0 && errno == EEXIST) continue;
+    if (file < 0) return Error{ErrorCode::io, path, std::string("cannot be written: ") + std::strerror(errno)};
+    close(file);
+    return path;
+  }
+}
+
+// Out of the way of the next search; where it lies then.
+std::string put_aside(const std::string& path) {
+  std::error_code error;
+  std::string aside = path + kUnreadable;
+  for (int count = 2; files::exists(aside, error); ++count) aside = path + kUnreadable + "-" + std::to_string(count);
+  files::rename(path, aside, error);
+  if (error) return path;
+  files::rename(path + kPathEnding, aside + kPathEnding, error);  // it may never have been written
+  return aside;
 }
 
 }  // namespace
@@ -53,30 +87,55 @@ std::string person_folder() {
 }
 
 Result<void> Journal::begin(const std::string& scene_path, const std::string& scene_text) {
-  end();
-  const std::string folder = journal_folder();
-  if (folder.empty()) return Error{ErrorCode::io, "journal", "there is no folder to keep a journal in: set HOME"};
-  static int count = 0;
-  const std::string path = folder + "/" + std::to_string(getpid()) + "-" + std::to_string(++count) + kEnding;
-  if (auto written = write_file(path + kPathEnding, scene_path); !written) return written;
-  if (auto opened = writer_.open(path); !opened) return opened;
-  path_ = path;
-  writer_.write(log_header(scene_text));
-  return {};
+  const auto start = [&]() -> Result<void> {
+    const std::string folder = journal_folder();
+    if (folder.empty()) return Error{ErrorCode::io, "journal", "there is no folder to keep a journal in: set HOME"};
+    const auto path = fresh_file(folder);
+    if (!path) return path.error();
+    auto writer = std::make_unique<LogWriter>();
+    auto done = write_file(*path + kPathEnding, scene_path);
+    if (done) done = writer->open(*path);
+    if (done) writer->write(log_header(scene_text));
+    if (done && !writer->failure().empty()) done = Error{ErrorCode::io, *path, writer->failure()};
+    if (!done) {
+      (void)writer->close();
+      remove_both(*path);
+      return done;
+    }
+    end();
+    writer_ = std::move(writer);
+    path_ = *path;
+    last_tick_ = 0;
+    written_here().insert(path_);
+    return {};
+  };
+  auto done = start();
+  problem_ = done ? std::string() : done.error().text();
+  return done;
 }
 
 void Journal::add(const LogEntry& entry, const Registry& registry) {
-  if (!path_.empty()) writer_.write(log_line(entry, registry));
+  if (!writer_) return;
+  // Where a rewind could not begin a new journal, ticks go back; recovery does not look at them, but wants them in order.
+  LogEntry ordered = entry;
+  last_tick_ = ordered.tick = std::max(entry.tick, last_tick_);
+  writer_->write(log_line(ordered, registry));
+}
+
+std::string Journal::problem() const {
+  return !problem_.empty() || !writer_ || writer_->failure().empty() ? problem_ : path_ + ": " + writer_->failure();
 }
 
 void Journal::end() {
-  if (path_.empty()) return;
-  (void)writer_.close();  // a journal that could not be written is no loss any more
+  if (!writer_) return;
+  (void)writer_->close();  // a journal that could not be written is no loss any more
+  writer_ = nullptr;
   remove_both(path_);
+  written_here().erase(path_);
   path_.clear();
 }
 
-std::vector<Journal::Remains> Journal::find(const Registry& registry) {
+std::vector<Journal::Remains> Journal::find(const Registry& registry, std::vector<std::string>* unreadable) {
   std::vector<Remains> found;
   const std::string folder = journal_folder();
   if (folder.empty()) return found;
@@ -89,11 +148,19 @@ std::vector<Journal::Remains> Journal::find(const Registry& registry) {
     const std::string name = files::path(path).filename().string();
     long process = 0;
     std::from_chars(name.data(), name.data() + name.size(), process);
-    if (is_running(process)) continue;
+    if (process == getpid() ? written_here().contains(path) : is_running(process)) continue;
     auto text = read_file(path);
+    // Cut off within its first line, there is no entry in it yet.
+    const bool is_begun = !text || text->find('\n') != std::string::npos;
     auto log = text ? read_log(*text, registry) : Result<LogFile>(text.error());
-    if (!log || log->entries.empty()) {
+    if (!is_begun || (log && log->entries.empty())) {
       remove_both(path);
+      continue;
+    }
+    if (!log) {
+      const std::string aside = put_aside(path);
+      if (unreadable != nullptr)
+        unreadable->push_back("What a window has left cannot be read (" + log.error().text() + "). It is kept as " + aside + ".");
       continue;
     }
     const auto scene_path = read_file(path + kPathEnding);

@@ -1,6 +1,8 @@
 // The log of an open scene on the disk, line by line, so that a crash loses nothing.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,26 +18,29 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// Starts a new log in the person's own folder, in place of the one before; `scene_path` may be empty.
+  /// Starts a new log in the person's own folder, in place of the one before; `scene_path` may be empty. Where it cannot be
+  /// started, the one before goes on, because it still leads to the same scene.
   Result<void> begin(const std::string& scene_path, const std::string& scene_text);
   void add(const LogEntry& entry, const Registry& registry);
   /// The scene is safe elsewhere, or given up on purpose: nothing is left to recover.
   void end();
-  /// Where it is being written; empty where it could not be.
-  const std::string& path() const { return path_; }
+  /// Why a crash would lose something now; empty where it would not.
+  std::string problem() const;
 
   /// What a window that did not end well has left.
   struct Remains {
     std::string path, scene_path;
     LogFile log;
   };
-  /// Journals whose window is gone and that hold changes; others of dead windows are cleared away.
-  static std::vector<Remains> find(const Registry& registry);
+  /// Journals whose window is gone and that hold changes; empty ones of dead windows are cleared away. Those that cannot be read
+  /// are kept under another name; `unreadable` then says of each why, and where it is.
+  static std::vector<Remains> find(const Registry& registry, std::vector<std::string>* unreadable = nullptr);
   static void discard(const Remains& remains);
 
  private:
-  LogWriter writer_;
-  std::string path_;
+  std::unique_ptr<LogWriter> writer_;  // none where there is no journal
+  std::string path_, problem_;
+  std::int64_t last_tick_ = 0;
 };
 
 /// The person's folder for journals, settings and pictures, made where it is missing: XDG_STATE_HOME or ~/.local/state.

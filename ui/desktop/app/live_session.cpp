@@ -9,6 +9,8 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -33,18 +35,24 @@ struct LiveSession::Shared {
 
   std::mutex mutex;
   std::condition_variable wake, done;
-  // Behind the mutex. People's thread changes the ledger, and so locks only to change it; the ticking thread only reads it.
+  // Behind the mutex. Scene and log of the ledger are changed by people's thread alone, which therefore reads them without a
+  // lock and locks to change them; the ticking thread locks to read them, and to take the list of what has changed.
   Ledger& ledger;
   std::shared_ptr<const Moment> published;
   std::int64_t next_tick = 0;  // the tick whose links read what people say now
   int steps_due = 0;
+  int holds = 0;  // people's thread waits for the pause between two ticks; no tick begins meanwhile
   std::int64_t rewind_by = 0;
   bool is_playing = false, is_ending = false, is_ticking = false;
   double wanted_rate = 20;
   std::size_t shown_entries = 0;         // of the log: what they have said is in what is published
   std::shared_ptr<const State> preview;  // the last tick's state with what people have changed since; none where they have not
-  // Of the ticking thread alone.
+  std::string failure;                   // of the last tick; a tick that goes well ends it
+  // Of whoever has set `is_ticking`; else behind the mutex too.
   Simulation simulation;
+  std::optional<Scene> pending;  // what people have said that the simulation has not taken yet
+  std::set<std::pair<std::string, std::string>> pending_placed;
+  // Of the ticking thread alone.
   std::deque<std::shared_ptr<const State>> past;
   double tick_seconds = 0, rate = 0;
   Clock::time_point last_tick{};
@@ -55,13 +63,17 @@ struct LiveSession::Shared {
   void go_back(std::int64_t ticks);
   bool is_news() const { return !is_playing && steps_due == 0 && shown_entries != ledger.log().size(); }
   void show_changes(std::unique_lock<std::mutex>& lock);
-  void publish(const std::string& failure);
+  void gather_changes();
+  void take_on_changes();
+  void wait_between_ticks(std::unique_lock<std::mutex>& lock);
+  void publish();
 };
 
-// Call with the mutex held.
-void LiveSession::Shared::publish(const std::string& failure) {
+// The next five are called with the mutex held, and not while a tick is computed.
+void LiveSession::Shared::publish() {
   auto moment = std::make_shared<Moment>();
-  moment->state = preview ? preview : simulation.state();
+  moment->ticked = simulation.state();
+  moment->state = preview ? preview : moment->ticked;
   moment->is_playing = is_playing;
   moment->wanted_rate = wanted_rate;
   moment->tick_seconds = tick_seconds;
@@ -70,6 +82,27 @@ void LiveSession::Shared::publish(const std::string& failure) {
   moment->times = simulation.times();
   moment->failure = failure;
   published = std::move(moment);
+}
+
+// What is taken from the ledger stays pending until a simulation has really taken it on: a tick that fails loses nothing.
+void LiveSession::Shared::gather_changes() {
+  Ledger::Changes changes = ledger.take_changes();
+  pending_placed.merge(changes.placed);
+  if (changes.is_logic_changed) pending = ledger.scene();
+}
+
+void LiveSession::Shared::take_on_changes() {
+  if (pending) simulation.set_scene(*pending, pending_placed);
+  pending.reset();
+  pending_placed.clear();
+}
+
+// Returns with the mutex held; until it is given up, no tick begins.
+void LiveSession::Shared::wait_between_ticks(std::unique_lock<std::mutex>& lock) {
+  ++holds;
+  done.wait(lock, [this] { return !is_ticking; });
+  --holds;
+  wake.notify_all();
 }
 
 void LiveSession::Shared::go_back(std::int64_t ticks) {
@@ -84,45 +117,42 @@ void LiveSession::Shared::go_back(std::int64_t ticks) {
 // itself waits for that tick, so that a replay of the log meets the same states.
 void LiveSession::Shared::show_changes(std::unique_lock<std::mutex>& lock) {
   const std::size_t entries = ledger.log().size();
-  const Ledger::Changes changes = ledger.changes();
-  if (changes.is_logic_changed) {
-    const Scene scene = ledger.scene();
+  gather_changes();
+  if (pending) {
     is_ticking = true;
     lock.unlock();
     std::shared_ptr<const State> seen;
     try {
-      seen = simulation.with_scene(scene, changes.placed);
+      seen = simulation.with_scene(*pending, pending_placed);
     } catch (const std::exception&) {
       // The next tick will say so.
     }
     lock.lock();
     is_ticking = false;
     preview = std::move(seen);
-    publish("");
+    publish();
   }
   shown_entries = entries;
 }
 
 // One tick; the lock is given up while it computes. Whether it went well.
 bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
-  const Ledger::Changes changes = ledger.take_changes();
-  std::optional<Scene> scene;
-  if (changes.is_logic_changed) scene = ledger.scene();
+  gather_changes();
   shown_entries = ledger.log().size();
   is_ticking = true;
   next_tick = simulation.state()->tick + 1;
-  std::string failure;
+  std::string trouble;
   lock.unlock();
   const Clock::time_point begin = Clock::now();
   try {
-    if (scene) simulation.set_scene(*scene, changes.placed);
+    take_on_changes();
     past.push_back(simulation.state());
     if (past.size() > kKeptStates) past.pop_front();
     simulation.step();
   } catch (const std::bad_alloc&) {
-    failure = "memory ran out in a tick; the last good state is kept, and the clock is stopped";
+    trouble = "memory ran out in a tick; the last good state is kept, and the clock is stopped";
   } catch (const std::exception& exception) {
-    failure = std::string("a tick failed (") + exception.what() + "); the last good state is kept, and the clock is stopped";
+    trouble = std::string("a tick failed (") + exception.what() + "); the last good state is kept, and the clock is stopped";
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   tick_seconds = tick_seconds == 0 ? seconds : tick_seconds + kSmoothing * (seconds - tick_seconds);
@@ -133,11 +163,14 @@ bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   is_ticking = false;
   preview = nullptr;
   next_tick = simulation.state()->tick;
+  failure = std::move(trouble);
   if (!failure.empty()) {
     is_playing = false;
     steps_due = 0;
+    // The entries of a log are in the order of their ticks, also where the tick that some were made for never came.
+    if (!ledger.log().empty()) next_tick = std::max(next_tick, std::min(ledger.log().back().tick, next_tick + 1));
   }
-  publish(failure);
+  publish();
   return failure.empty();
 }
 
@@ -145,18 +178,26 @@ void LiveSession::Shared::run() {
   std::unique_lock lock(mutex);
   Clock::time_point due = Clock::now();
   while (!is_ending) {
+    if (holds > 0) {
+      done.notify_all();
+      wake.wait(lock);
+      continue;
+    }
     if (rewind_by > 0) {
       go_back(std::exchange(rewind_by, 0));
       preview = nullptr;
       shown_entries = 0;
       next_tick = simulation.state()->tick;
-      publish("");
+      publish();
+      done.notify_all();
     }
+    // A clock that has been set to go faster does not wait as long as it was to wait before.
+    const auto step = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / wanted_rate));
+    due = std::min(due, last_tick + step);
     const bool is_due = steps_due > 0 || (is_playing && Clock::now() >= due);
     if (is_due) {
       // A late tick is not made up for: the clock goes on from now, so that ticks never queue behind themselves.
-      due = std::max(Clock::now(),
-                     due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / wanted_rate)));
+      due = std::max(Clock::now(), due + step);
       if (steps_due > 0) --steps_due;
       tick(lock);
       done.notify_all();
@@ -184,7 +225,7 @@ Result<std::unique_ptr<LiveSession>> LiveSession::start(const Registry& registry
   if (state != nullptr)
     if (auto restored = shared.simulation.restore_state(*state); !restored) return restored.error();
   shared.next_tick = shared.simulation.state()->tick;
-  shared.publish("");
+  shared.publish();
   shared.thread = std::thread([&shared] { shared.run(); });
   return session;
 }
@@ -233,7 +274,7 @@ void LiveSession::play(bool is_playing) {
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->is_playing = is_playing;
-    if (!shared_->is_ticking) shared_->publish("");
+    if (!shared_->is_ticking) shared_->publish();
   }
   shared_->wake.notify_all();
 }
@@ -242,7 +283,7 @@ void LiveSession::set_rate(double ticks_per_second) {
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->wanted_rate = std::clamp(ticks_per_second, 0.1, 1000.0);
-    if (!shared_->is_ticking) shared_->publish("");
+    if (!shared_->is_ticking) shared_->publish();
   }
   shared_->wake.notify_all();
 }
@@ -257,19 +298,31 @@ void LiveSession::step(int ticks) {
 
 void LiveSession::rewind(std::int64_t ticks) {
   {
-    const std::lock_guard lock(shared_->mutex);
+    std::unique_lock lock(shared_->mutex);
     shared_->rewind_by += std::max<std::int64_t>(0, ticks);
+    shared_->wake.notify_all();
+    // A clock that is late ticks on without a pause: only the going back itself is waited for.
+    shared_->done.wait(lock, [this] { return shared_->rewind_by == 0; });
   }
-  shared_->wake.notify_all();
-  settle();
   if (rewound_) rewound_();
+}
+
+std::shared_ptr<const State> LiveSession::take_on_changes() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->wait_between_ticks(lock);
+  shared_->gather_changes();
+  shared_->take_on_changes();
+  shared_->preview = nullptr;
+  shared_->shown_entries = ledger_.log().size();
+  shared_->publish();
+  return shared_->simulation.state();
 }
 
 void LiveSession::settle() {
   std::unique_lock lock(shared_->mutex);
   shared_->wake.notify_all();
-  shared_->done.wait(
-      lock, [this] { return !shared_->is_ticking && shared_->rewind_by == 0 && shared_->steps_due == 0 && !shared_->is_news(); });
+  shared_->done.wait(lock, [this] { return shared_->rewind_by == 0 && shared_->steps_due == 0 && !shared_->is_news(); });
+  shared_->wait_between_ticks(lock);
 }
 
 }  // namespace bl::desktop

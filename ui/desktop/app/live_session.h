@@ -14,7 +14,8 @@ namespace bl::desktop {
 
 /// What the ticking thread has published last. Everything in it stays as it is for as long as somebody holds it.
 struct Moment {
-  std::shared_ptr<const State> state;
+  std::shared_ptr<const State> state;   ///< with what people have changed since the last tick, where the clock stands
+  std::shared_ptr<const State> ticked;  ///< as the last tick has left it
   bool is_playing = false;
   double wanted_rate = 0;   ///< ticks per second that were asked for
   double tick_seconds = 0;  ///< what a tick takes, smoothed [s]
@@ -55,7 +56,10 @@ class LiveSession {
   /// Goes back to a tick that is still kept, or to the oldest that is; the scene stays as it is. `on_rewind` hears of it.
   void rewind(std::int64_t ticks);
   void on_rewind(std::function<void()> listener) { rewound_ = std::move(listener); }
-  /// Waits until no tick is due or running; for tests and for saving.
+  /// Gives the simulation what people have said, as the next tick would, and returns its state: with scene(), the two are one
+  /// and the same moment. Waits for the end of a tick that is under way, also where the clock is late.
+  std::shared_ptr<const State> take_on_changes();
+  /// Waits until all steps are done, what people have said is shown, and no tick is under way; for tests.
   void settle();
 
   /// Who signs the commands.

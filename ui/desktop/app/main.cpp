@@ -13,6 +13,7 @@ int main(int count, char** arguments) {
   bool is_paused = false;
   app.add_option("scene", options.scene, "The scene file. Without one, the start page opens.")->type_name("SCENE");
   app.add_flag("--paused", is_paused, "Opens with the clock stopped.");
+  app.add_flag("--live", options.is_live, "Connects to the sensors and actuators of the scene.");
   app.add_option("--pictures", options.pictures, "Folder for the pictures that F12 takes.")->type_name("DIR");
   app.add_option("--frame-times", options.times, "Writes the time of every frame at the end, as CSV in milliseconds.")
       ->type_name("FILE");

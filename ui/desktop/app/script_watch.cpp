@@ -42,13 +42,15 @@ void ScriptWatch::poll(Editor& editor) {
 
 void ScriptWatch::take(Editor& editor, const std::string& name, const File& file) {
   const std::string place = "scripts/" + name;
-  std::erase_if(editor.problems, [&](const Problem& problem) { return problem.error.place == place; });
+  std::vector<Problem> problems = editor.problems;
+  std::erase_if(problems, [&](const Problem& problem) { return problem.error.place == place; });
   const auto& texts = editor.scene().scripts.texts();
   const bool was_there = texts.contains(name);
   const auto command = cli::script_command(file.path);
   const auto done = command ? editor.document->submit({*command}) : Result<void>(command.error());
+  if (!done) problems.push_back({true, {done.error().code, place, done.error().message}});
+  if (problems.size() != editor.problems.size() || !done) editor.list_problems(editor.problem_file, std::move(problems));
   if (!done) {
-    editor.problems.push_back({true, {done.error().code, place, done.error().message}});
     return editor.tell(NoticeKind::error, done.error().message + (was_there ? " The old version stays in force." : ""));
   }
   const std::string& id = editor.scene().scripts.kinds().at(name);

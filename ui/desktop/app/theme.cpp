@@ -142,13 +142,10 @@ ImFont* Theme::canvas_font(float pixels) const {
   return fonts_.canvas.back();
 }
 
-void Theme::apply(bool is_dark, float scale) {
-  is_dark_ = is_dark;
-  scale_ = std::clamp(scale, 1.0f, 2.0f);
-  colours_ = is_dark ? kDark : kLight;
-  const Colours& c = colours_;
-  ImGuiStyle& style = ImGui::GetStyle();
-  style = ImGuiStyle();
+namespace {
+
+// In points, at scale 1.
+void set_measures(ImGuiStyle& style) {
   style.WindowPadding = {12, 10};
   style.FramePadding = {8, 5};
   style.ItemSpacing = {8, 6};
@@ -166,7 +163,9 @@ void Theme::apply(bool is_dark, float scale) {
   style.ChildBorderSize = 0;
   style.PopupBorderSize = 1;
   style.FrameBorderSize = 1;
-  style.ScaleAllSizes(scale_);
+}
+
+void set_colours(ImGuiStyle& style, const Colours& c) {
   auto set = [&](ImGuiCol index, ImU32 colour) { style.Colors[index] = vec(colour); };
   set(ImGuiCol_Text, c.text);
   set(ImGuiCol_TextDisabled, c.text_faint);
@@ -211,6 +210,19 @@ void Theme::apply(bool is_dark, float scale) {
   set(ImGuiCol_DragDropTarget, c.accent);
   set(ImGuiCol_NavHighlight, c.accent);
   set(ImGuiCol_ModalWindowDimBg, faded(rgb(0x000000), 0.45f));
+}
+
+}  // namespace
+
+void Theme::apply(bool is_dark, float scale) {
+  is_dark_ = is_dark;
+  scale_ = std::clamp(scale, 1.0f, 2.0f);
+  colours_ = is_dark ? kDark : kLight;
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  set_measures(style);
+  style.ScaleAllSizes(scale_);
+  set_colours(style, colours_);
 }
 
 Family Theme::family_of(std::string_view link_kind) const {

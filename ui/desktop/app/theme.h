@@ -71,11 +71,11 @@ ImU32 mixed(ImU32 a, ImU32 b, float share);
 namespace icon {
 inline constexpr const char *kPlay = "\xef\x81\x8b", *kPause = "\xef\x81\x8c", *kStep = "\xef\x81\x91", *kRewind = "\xef\x81\x8a",
                             *kSearch = "\xef\x80\x82", *kWarning = "\xef\x81\xb1", *kError = "\xef\x81\x97",
-                            *kLock = "\xef\x80\xa3", *kUnlock = "\xef\x82\x9c", *kEye = "\xef\x81\xae", *kHidden = "\xef\x81\xb0", *kUndo = "\xef\x83\xa2",
-                            *kRedo = "\xef\x80\x9e", *kFolder = "\xef\x81\xbb", *kFile = "\xef\x80\x96", *kSave = "\xef\x83\x87",
-                            *kClose = "\xef\x80\x8d", *kCheck = "\xef\x80\x8c", *kMuted = "\xef\x80\xa6", *kLink = "\xef\x83\x81",
-                            *kCube = "\xef\x86\xb2", *kClock = "\xef\x80\x97", *kBalance = "\xef\x89\x8e",
-                            *kPlus = "\xef\x81\xa7", *kReset = "\xef\x80\xa1", *kUp = "\xef\x81\xa2", *kHome = "\xef\x80\x95";
+                            *kLock = "\xef\x80\xa3", *kUnlock = "\xef\x82\x9c", *kEye = "\xef\x81\xae", *kHidden = "\xef\x81\xb0",
+                            *kFolder = "\xef\x81\xbb", *kFile = "\xef\x80\x96", *kClose = "\xef\x80\x8d",
+                            *kCheck = "\xef\x80\x8c", *kMuted = "\xef\x80\xa6", *kLink = "\xef\x83\x81", *kCube = "\xef\x86\xb2",
+                            *kClock = "\xef\x80\x97", *kBalance = "\xef\x89\x8e", *kPlus = "\xef\x81\xa7",
+                            *kReset = "\xef\x80\xa1", *kUp = "\xef\x81\xa2", *kHome = "\xef\x80\x95";
 }  // namespace icon
 
 }  // namespace bl::desktop

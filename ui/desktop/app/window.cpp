@@ -21,6 +21,7 @@
 #include "ui/desktop/app/desktop.h"
 #include "ui/desktop/app/input_queue.h"
 #include "ui/desktop/app/journal.h"
+#include "ui/desktop/app/live_scene.h"
 #include "ui/desktop/view/gl_renderer.h"
 
 namespace bl::desktop {
@@ -36,7 +37,9 @@ struct FrameTimes {
 };
 
 // Writes what the window shows as a numbered PNG; where to, or why not, becomes a notice.
-void take_picture(Editor& editor, const std::string& wanted_folder, int width, int height) {
+void take_picture(Editor& editor, const std::string& wanted_folder, GLFWwindow* window) {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(window, &width, &height);
   const std::string folder = !wanted_folder.empty() ? wanted_folder : person_folder() + "/pictures";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -139,6 +142,44 @@ void listen(GLFWwindow* window, Hands& hands) {
   });
 }
 
+// Fonts and colours as the person has chosen them, made anew only where that has changed.
+class Look {
+ public:
+  void follow(Editor& editor) {
+    const PersonSettings& person = editor.person;
+    if (scale_ == person.scale && is_dark_ == person.is_dark) return;
+    if (scale_ != person.scale) {
+      if (const std::string note = editor.theme.load_fonts(person.scale); !note.empty()) editor.tell(NoticeKind::warning, note);
+      // The first letters go to the graphics processor with all else; later ones take their place.
+      if (scale_ != 0) ImGui_ImplOpenGL3_DestroyFontsTexture(), ImGui_ImplOpenGL3_CreateFontsTexture();
+    }
+    editor.theme.apply(person.is_dark, person.scale);
+    scale_ = person.scale;
+    is_dark_ = person.is_dark;
+  }
+
+ private:
+  bool is_dark_ = false;
+  float scale_ = 0;  // none yet
+};
+
+// From what people have done since the last frame to the picture behind the screen.
+void draw_frame(GLFWwindow* window, Hands& hands, double begin) {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  hands.input.hand_over(ImGui::GetIO());
+  ImGui::NewFrame();
+  hands.desktop.frame(begin);
+  ImGui::Render();
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(window, &width, &height);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width, height);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
 void write_times(const std::string& path, const FrameTimes& times) {
   if (path.empty()) return;
   std::string text = "frame_ms\n";
@@ -164,9 +205,9 @@ int run_window(const WindowOptions& options) {
     Desktop desktop(full_registry(), person, *renderer);
     Editor& editor = desktop.editor();
     Hands hands{desktop, {}};
+    LiveScene live(options.is_live);
     listen(window.handle(), hands);
-    bool is_dark = person.is_dark;
-    float scale = 0;
+    Look look;
     if (!options.scene.empty()) editor.open(options.scene, options.is_playing);
     desktop.offer_recovery();
     std::string title;
@@ -179,32 +220,11 @@ int run_window(const WindowOptions& options) {
       }
       const double begin = glfwGetTime();
       if (options.seconds > 0 && begin > options.seconds) break;
-      if (scale != person.scale || is_dark != person.is_dark) {
-        if (scale != person.scale) {
-          if (const std::string note = editor.theme.load_fonts(person.scale); !note.empty())
-            editor.tell(NoticeKind::warning, note);
-          // The first letters go to the graphics processor with all else; later ones take their place.
-          if (scale != 0) ImGui_ImplOpenGL3_DestroyFontsTexture(), ImGui_ImplOpenGL3_CreateFontsTexture();
-        }
-        editor.theme.apply(person.is_dark, person.scale);
-        scale = person.scale;
-        is_dark = person.is_dark;
-      }
-      ImGui_ImplOpenGL3_NewFrame();
-      ImGui_ImplGlfw_NewFrame();
-      hands.input.hand_over(ImGui::GetIO());
-      ImGui::NewFrame();
-      desktop.frame(begin);
-      ImGui::Render();
-      int width = 0, height = 0;
-      glfwGetFramebufferSize(window.handle(), &width, &height);
-      glBindFramebuffer(GL_FRAMEBUFFER, 0);
-      glViewport(0, 0, width, height);
-      glClearColor(0, 0, 0, 1);
-      glClear(GL_COLOR_BUFFER_BIT);
-      ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+      look.follow(editor);
+      draw_frame(window.handle(), hands, begin);
+      live.frame(editor);
       if (!options.times.empty()) times.milliseconds.push_back(1000 * (glfwGetTime() - begin));
-      if (editor.wants_picture) take_picture(editor, options.pictures, width, height);
+      if (editor.wants_picture) take_picture(editor, options.pictures, window.handle());
       editor.wants_picture = false;
       glfwSwapBuffers(window.handle());
       if (std::string now_title = desktop.title(); now_title != title) {

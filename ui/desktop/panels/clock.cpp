@@ -1,9 +1,10 @@
 // The clock: play, pause, one tick, rewind and speed, and whether the simulation keeps up with it.
 #include <algorithm>
-#include <cstdio>
 
 #include <GLFW/glfw3.h>
 
+#include "core/base/text.h"
+#include "ui/cli/report/figures.h"
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/panels/panels.h"
 
@@ -47,31 +48,35 @@ bool tool_button(Editor& editor, const char* sign, const char* hint, bool is_on 
   return is_hit;
 }
 
+std::string distance_text(double metres) {
+  return metres < 1 ? report::readable(1000 * metres) + "\xC2\xA0mm" : report::quantity(metres, Unit::metre);
+}
+
 // What the simulation is doing, in one sentence with a colour.
 void draw_standing(Editor& editor) {
   const Moment& moment = *editor.moment;
   const State& state = *moment.state;
   const Colours& c = editor.theme.colours();
-  char text[160];
+  std::string text;
   ImU32 colour = c.text_soft;
   if (!moment.failure.empty()) {
     colour = c.bad;
-    std::snprintf(text, sizeof text, "%s  %s", icon::kError, moment.failure.c_str());
+    text = std::string(icon::kError) + "  " + moment.failure;
   } else if (moment.is_behind()) {
     colour = c.warning;
-    std::snprintf(text, sizeof text, "%s  behind: %.1f of %.0f ticks/s, %.0f ms each", icon::kClock, moment.rate,
-                  moment.wanted_rate, 1000 * moment.tick_seconds);
+    text = std::string(icon::kClock) + "  behind: " + fixed(moment.rate, 1) + " of " + fixed(moment.wanted_rate, 0) +
+           " ticks/s, " + fixed(1000 * moment.tick_seconds, 0) + " ms each";
   } else if (state.is_settled()) {
     colour = c.good;
-    std::snprintf(text, sizeof text, "%s  settled, worst error %.2f %%", icon::kCheck, 100 * state.largest_residual);
+    text = std::string(icon::kCheck) + "  settled, worst error " + fixed(100 * state.largest_residual, 2) + " %";
   } else if (state.tick > 0) {
-    std::snprintf(text, sizeof text, "negotiating: worst error %.2f %%, moves up to %.3g mm a tick", 100 * state.largest_residual,
-                  1000 * state.largest_move);
+    text = "negotiating: worst error " + fixed(100 * state.largest_residual, 2) + " %, moves up to " +
+           distance_text(state.largest_move) + " a tick";
   } else {
-    std::snprintf(text, sizeof text, "press P to let the links and the solver run");
+    text = "press P to let the links and the solver run";
   }
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
 }
 

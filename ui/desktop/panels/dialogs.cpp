@@ -13,8 +13,6 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr int kThreads = 1;
-
 std::string folder_of(const Editor& editor) {
   return editor.document && !editor.document->path().empty() ? editor.document->path() : ".";
 }
@@ -56,23 +54,29 @@ bool Dialogs::begin(const char* title, float width, float height) {
   if (ImGui::BeginPopupModal(title, &stays, ImGuiWindowFlags_NoSavedSettings)) {
     const bool is_escaped = !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
     if (stays && !is_escaped) return true;
+    then_ = nullptr;
     close();
     ImGui::EndPopup();
     return false;
   }
-  if (!is_fresh_) kind_ = Kind::none;
+  if (!is_fresh_) kind_ = Kind::none, then_ = nullptr;
   return false;
 }
 
 void Dialogs::draw() {
+  const Kind drawn = kind_;
   if (kind_ == Kind::palette) draw_palette();
   else if (kind_ == Kind::keys) draw_keys();
   else if (kind_ == Kind::fresh) draw_new_scene();
   else if (kind_ == Kind::unsaved) draw_unsaved();
   else if (kind_ == Kind::recovery) draw_recovery();
-  is_fresh_ = false;
+  // What one dialog has opened in its place comes in the next frame, and is fresh then.
+  if (kind_ == drawn) is_fresh_ = false;
   if (kind_ == Kind::fresh) return;  // its chooser is drawn inside it
-  if (const auto path = chooser_.draw(*editor_)) chosen_(*path);
+  if (const auto path = chooser_.draw(*editor_)) {
+    const auto chosen = chosen_;  // may open the chooser for something else
+    chosen(*path);
+  }
 }
 
 void Dialogs::ask_open() {
@@ -87,30 +91,24 @@ void Dialogs::ask_script() {
   chosen_ = [this](const std::string& path) { editor_->script_watch.add(*editor_, path); };
 }
 
-void Dialogs::ask_save_as() {
+void Dialogs::ask_save_as(std::function<void()> then) {
   const std::string path = editor_->document->path();
   chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"},
                 path.empty() ? file_name_of(editor_->state().plan->settings.title) : path);
-  chosen_ = [this](const std::string& chosen) {
+  chosen_ = [this, then = std::move(then)](const std::string& chosen) {
     if (auto saved = editor_->document->save(chosen); !saved) return chooser_.complain(saved.error().text());
     editor_->person.remember(editor_->person.recent, chosen);
     editor_->tell(NoticeKind::told, "Saved " + chosen + ".");
-    if (auto then = std::exchange(then_, nullptr)) then();
+    if (then) then();
   };
 }
 
-bool Dialogs::save() {
+void Dialogs::save(std::function<void()> then) {
   Document& document = *editor_->document;
-  if (document.path().empty()) {
-    ask_save_as();
-    return false;
-  }
-  if (auto saved = document.save(document.path()); !saved) {
-    editor_->tell(NoticeKind::error, saved.error().text());
-    return false;
-  }
+  if (document.path().empty()) return ask_save_as(std::move(then));
+  if (auto saved = document.save(document.path()); !saved) return editor_->tell(NoticeKind::error, saved.error().text());
   editor_->tell(NoticeKind::told, "Saved " + document.name() + ".");
-  return true;
+  if (then) then();
 }
 
 void Dialogs::ask_report() {
@@ -153,8 +151,7 @@ void Dialogs::draw_unsaved() {
   const bool is_entered = !ImGui::IsWindowAppearing() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
   if (chief_button(theme, "Save", size) || is_entered) {
     close();
-    if (save())
-      if (auto then = std::exchange(then_, nullptr)) then();
+    save(std::exchange(then_, nullptr));
   }
   ImGui::SameLine();
   if (ImGui::Button("Discard", size)) {
@@ -172,6 +169,23 @@ void Dialogs::draw_unsaved() {
 void Dialogs::offer_recovery(std::vector<Journal::Remains> remains) {
   remains_ = std::move(remains);
   if (!remains_.empty()) show(Kind::recovery);
+}
+
+Dialogs::Recovered Dialogs::recover(const Journal::Remains& remains) {
+  std::vector<Problem> problems;
+  auto document = Document::recover(editor_->program, remains, kTickThreads, problems);
+  editor_->list_problems(remains.path, std::move(problems));
+  if (!document) {
+    editor_->tell(NoticeKind::error, "The journal's scene could not be opened; the problems list says why. The journal is kept.");
+    return Recovered::nothing;
+  }
+  editor_->take(std::move(document));
+  if (editor_->problems.empty()) {
+    editor_->tell(NoticeKind::told, "Recovered. Save it to keep it.");
+    return Recovered::all;
+  }
+  editor_->tell(NoticeKind::warning, "Recovered as far as it goes: the problems list says what is amiss. The journal is kept.");
+  return Recovered::in_part;
 }
 
 void Dialogs::draw_recovery() {
@@ -193,17 +207,10 @@ void Dialogs::draw_recovery() {
                 one.log.entries.size());
     ImGui::PopID();
     if (!recovers && !discards) continue;
-    if (recovers) {
-      editor_->problems.clear();
-      editor_->problem_file = one.path;
-      if (auto document = Document::recover(editor_->program, one, kThreads, editor_->problems)) {
-        editor_->take(std::move(document));
-        editor_->tell(NoticeKind::told, "Recovered. Save it to keep it.");
-      } else {
-        editor_->tell(NoticeKind::error, "The journal's scene could not be opened; the problems list says why.");
-      }
-    }
-    Journal::discard(one);
+    const Recovered result = recovers ? recover(one) : Recovered::all;
+    if (result == Recovered::nothing) break;
+    // The journal is the only copy of what could not be recovered from it.
+    if (result == Recovered::all) Journal::discard(one);
     remains_.erase(remains_.begin() + static_cast<std::ptrdiff_t>(k));
     if (remains_.empty() || recovers) close();
     break;

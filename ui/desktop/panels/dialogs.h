@@ -17,7 +17,7 @@ class Dialogs {
   void draw();
 
   void ask_open();
-  void ask_save_as();
+  void ask_save_as(std::function<void()> then = {});
   void ask_report();
   void ask_log();
   void ask_script();
@@ -26,14 +26,15 @@ class Dialogs {
   void show_keys();
   /// Journals of windows that did not end well: offered once, at the start.
   void offer_recovery(std::vector<Journal::Remains> remains);
-  /// Saves to the document's file, or asks for one. Whether it was saved at once.
-  bool save();
+  /// Saves to the document's file, or asks for one; `then` follows once it is saved, and never where people think better of it.
+  void save(std::function<void()> then = {});
   /// Does `then` at once, or after people have said what becomes of unsaved changes.
   void guard(std::function<void()> then);
   bool is_choosing_file() const { return chooser_.is_open(); }
 
  private:
   enum class Kind { none, palette, keys, fresh, unsaved, recovery };
+  enum class Recovered { nothing, in_part, all };
   void show(Kind kind);
   bool begin(const char* title, float width, float height);
   void close();
@@ -43,6 +44,7 @@ class Dialogs {
   void draw_file_field(const char* label, std::string& path, std::vector<std::string> endings);
   void draw_unsaved();
   void draw_recovery();
+  Recovered recover(const Journal::Remains& remains);
   void make_scene();
 
   Editor* editor_;
@@ -50,7 +52,7 @@ class Dialogs {
   bool is_fresh_ = false;
   FileChooser chooser_;
   std::function<void(const std::string&)> chosen_;
-  std::function<void()> then_;
+  std::function<void()> then_;  ///< what the question about unsaved changes was asked for; gone with the question
   std::string query_;
   int marked_ = 0;
   cli::NewOptions fresh_;

@@ -3,6 +3,7 @@
 
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/panels/dialogs.h"
+#include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
 
@@ -13,7 +14,9 @@ void close_document(Editor& editor) {
     editor.document.reset();
     editor.moment.reset();
     editor.picks = {};
-    editor.problems.clear();
+    editor.panels.reset();
+    editor.view->forget();
+    editor.list_problems("", {});
   });
 }
 

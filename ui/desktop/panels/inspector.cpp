@@ -5,6 +5,19 @@
 
 namespace bl::desktop {
 
+namespace {
+
+// A field can go while a hand is on it, by an undo: what is shown must not stand still for it for ever.
+void forget_gone_fields(PanelMemory& memory) {
+  const auto is_drawn = [&](const std::string& key) {
+    return memory.places_frame == ImGui::GetFrameCount() && memory.places.contains(key);
+  };
+  if (!memory.scrub.key.empty() && !is_drawn(memory.scrub.key) && !ImGui::IsMouseDown(0)) memory.scrub = {};
+  if (!memory.typing.key.empty() && !is_drawn(memory.typing.key)) memory.typing = {};
+}
+
+}  // namespace
+
 void draw_inspector(Editor& editor) {
   PanelMemory& memory = memory_of(editor);
   if (!memory.view) memory.view = std::make_unique<InspectorView>();
@@ -28,6 +41,7 @@ void draw_inspector(Editor& editor) {
   if (view.nodes().empty() && view.links().empty()) inspect_scene(editor);
   ImGui::EndChild();
   ImGui::PopStyleVar();
+  forget_gone_fields(memory);
 }
 
 }  // namespace bl::desktop

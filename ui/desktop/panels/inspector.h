@@ -68,7 +68,7 @@ class InspectorView {
   std::vector<SharedPort> parameters_;
   std::shared_ptr<const State> state_;
   std::map<PortRef, report::ConflictRow> pulls_;
-  const Plan* touched_plan_ = nullptr;
+  std::shared_ptr<const Plan> touched_plan_;  ///< held, so that no other plan can have its address
   std::string touched_node_;
   std::vector<std::size_t> touching_;
 };

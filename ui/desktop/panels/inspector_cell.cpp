@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <imgui_stdlib.h>
+
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
@@ -14,15 +16,6 @@ namespace {
 constexpr float kScrubThreshold = 3;
 constexpr int kFramesToFocus = 8;
 constexpr std::size_t kLongText = 60;
-
-int grow(ImGuiInputTextCallbackData* data) {
-  if (data->EventFlag == ImGuiInputTextFlags_CallbackResize) {
-    auto* text = static_cast<std::string*>(data->UserData);
-    text->resize(static_cast<std::size_t>(data->BufTextLen));
-    data->Buf = text->data();
-  }
-  return 0;
-}
 
 void end_typing(PanelMemory& memory) { memory.typing = {}; }
 
@@ -35,15 +28,12 @@ void begin_typing(PanelMemory& memory, const std::string& key, const std::string
 bool type_into(PanelMemory& memory, float width, bool is_long) {
   Typing& typing = memory.typing;
   if (std::exchange(typing.wants_focus, false)) ImGui::SetKeyboardFocusHere();
-  const auto flags = ImGuiInputTextFlags_CallbackResize;
   if (is_long) {
     const ImVec2 size{width, ImGui::GetTextLineHeight() * 6 + 2 * ImGui::GetStyle().FramePadding.y};
-    ImGui::InputTextMultiline("##typing", typing.text.data(), typing.text.capacity() + 1, size,
-                              flags | ImGuiInputTextFlags_CtrlEnterForNewLine, grow, &typing.text);
+    ImGui::InputTextMultiline("##typing", &typing.text, size, ImGuiInputTextFlags_CtrlEnterForNewLine);
   } else {
     ImGui::SetNextItemWidth(width);
-    ImGui::InputText("##typing", typing.text.data(), typing.text.capacity() + 1, flags | ImGuiInputTextFlags_AutoSelectAll, grow,
-                     &typing.text);
+    ImGui::InputText("##typing", &typing.text, ImGuiInputTextFlags_AutoSelectAll);
   }
   if (ImGui::IsItemActive()) typing.was_active = true;
   // ImGui would hand the only input its own focus back on Tab; here Tab means the next field.

@@ -37,7 +37,7 @@ void filter_field(Editor& editor, float width);
 bool passes_filter(const std::string& filter, const std::string& text);
 
 /// A switch with two states; whether it was switched.
-bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mixed, bool is_fixed = false);
+bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mixed);
 /// A field that opens a list; true while the list is open (then ImGui::EndPopup has to follow).
 bool begin_list(Editor& editor, const std::string& key, const std::string& shown, float width, ImU32 colour = 0);
 /// An entry of such a list: label, and a quieter line below it.

@@ -32,11 +32,9 @@ std::string movers(const State& state, const report::ConflictRow& row) {
   std::vector<std::string> names;
   for (const std::string& id : row.links) {
     if (id.empty()) continue;
-    const auto& links = state.plan->links;
-    const auto plan =
-        std::lower_bound(links.begin(), links.end(), id, [](const LinkPlan& l, const std::string& x) { return l.id < x; });
-    const bool is_known = plan != links.end() && plan->id == id && plan->definition != nullptr;
-    std::string name = id + (is_known ? " (" + plan->definition->label + ")" : "");
+    const std::size_t at = report::link_index(*state.plan, id);
+    const LinkDefinition* kind = at < state.plan->links.size() ? state.plan->links[at].definition : nullptr;
+    std::string name = id + (kind != nullptr ? " (" + kind->label + ")" : "");
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
   }
   std::string text;

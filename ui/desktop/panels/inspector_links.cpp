@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::size_t kMostVoices = 40;
 
-std::size_t index_of(const Plan& plan, const std::string& link) {
-  const auto found = std::lower_bound(plan.links.begin(), plan.links.end(), link,
-                                      [](const LinkPlan& l, const std::string& id) { return l.id < id; });
-  return found != plan.links.end() && found->id == link ? static_cast<std::size_t>(found - plan.links.begin())
-                                                        : plan.links.size();
-}
-
 // Would the link find its ports at an end that names these nodes?
 bool has_ports(const Editor& editor, const LinkDefinition& kind, End end, const Selection& selection) {
   const auto fits = [&](const std::string& type) {
@@ -51,7 +44,7 @@ void draw_ends(Editor& editor, const InspectorView& view) {
   if (view.links().size() != 1 || view.kind() == nullptr) return;
   const std::string& id = view.links().front();
   const LinkRecord link = editor.scene().links.at(id);
-  const std::size_t at = index_of(*editor.state().plan, id);
+  const std::size_t at = report::link_index(*editor.state().plan, id);
   float width = 0;
   for (const End end : {End::from, End::to}) {
     const bool is_from = end == End::from;
@@ -177,7 +170,7 @@ void draw_parameters(Editor& editor, const InspectorView& view) {
 void draw_voices(Editor& editor, const std::string& id) {
   const State& state = editor.state();
   const Colours& c = editor.theme.colours();
-  const std::size_t at = index_of(*state.plan, id);
+  const std::size_t at = report::link_index(*state.plan, id);
   if (at >= state.links.size()) return;
   const auto& error = state.links[at].error ? state.links[at].error : state.plan->links[at].error;
   if (error) small_text(editor, std::string(icon::kError) + "  " + error->text(), c.bad);

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
 
@@ -12,13 +15,6 @@ namespace {
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
-}
-
-int keep_size(ImGuiInputTextCallbackData* data) {
-  auto* text = static_cast<std::string*>(data->UserData);
-  text->resize(static_cast<std::size_t>(data->BufTextLen));
-  data->Buf = text->data();
-  return 0;
 }
 
 }  // namespace
@@ -35,18 +31,17 @@ void filter_field(Editor& editor, float width) {
   }
   ImGui::SetNextItemWidth(width);
   const std::string hint = std::string(icon::kSearch) + "  search";
-  ImGui::InputTextWithHint("##filter", hint.c_str(), memory.filter.data(), memory.filter.capacity() + 1,
-                           ImGuiInputTextFlags_CallbackResize, keep_size, &memory.filter);
+  ImGui::InputTextWithHint("##filter", hint.c_str(), &memory.filter);
   note_place(editor, "filter");
 }
 
-bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mixed, bool is_fixed) {
+bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mixed) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushID(key.c_str());
   const float height = ImGui::GetFrameHeight(), width = theme.px(30), knob = theme.px(7);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool is_pressed = press_area("##switch", {theme.px(80), height}) && !is_fixed;
+  const bool is_pressed = press_area("##switch", {theme.px(80), height});
   note_place(editor, key);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float top = at.y + (height - theme.px(18)) / 2, bottom = top + theme.px(18), middle = (top + bottom) / 2;

@@ -29,6 +29,21 @@ std::string words_of(const Dimension& dimension) {
   return "of a unit that is not known here";
 }
 
+// Rates are counted by the hour and times in seconds: only as long as nothing turns one into the other.
+constexpr double kSecondsPerHour = 3600;
+double in_seconds(const Quantity& q) {
+  return q.dimension == info(Unit::per_hour).dimension ? q.value / kSecondsPerHour : q.value;
+}
+
+Quantity product_of(const Quantity& a, const Quantity& b, int sign) {
+  Quantity result{0, combined(a.dimension, b.dimension, sign), a.is_plain && b.is_plain};
+  const bool is_scaled = result.dimension == a.dimension || (sign > 0 && result.dimension == b.dimension);
+  const double x = is_scaled ? a.value : in_seconds(a), y = is_scaled ? b.value : in_seconds(b);
+  result.value = sign > 0 ? x * y : x / y;
+  if (!is_scaled && result.dimension == info(Unit::per_hour).dimension) result.value *= kSecondsPerHour;
+  return result;
+}
+
 class Calculator {
  public:
   explicit Calculator(std::string_view text) : text_(text) {}
@@ -42,6 +57,15 @@ class Calculator {
   }
 
  private:
+  // How deep brackets and signs are nested: one thing beside another is no deeper.
+  struct Level {
+    explicit Level(int& counted) : depth(counted) { ++depth; }
+    ~Level() { --depth; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+    int& depth;
+  };
+
   void skip() {
     while (at_ < text_.size() && (text_[at_] == ' ' || is_narrow_space(at_))) at_ += text_[at_] == ' ' ? 1 : 3;
   }
@@ -84,15 +108,14 @@ class Calculator {
       if (!is_times && !is_over) break;
       auto right = factor();
       if (!right) return right;
-      left->value = is_times ? left->value * right->value : left->value / right->value;
-      left->dimension = combined(left->dimension, right->dimension, is_times ? 1 : -1);
-      left->is_plain = left->is_plain && right->is_plain;
+      *left = product_of(*left, *right, is_times ? 1 : -1);
     }
     return left;
   }
 
   Result<Quantity> factor() {
-    if (++depth_ > 64) return Error{ErrorCode::parse, "", "there are too many brackets"};
+    const Level level(depth_);
+    if (depth_ > 64) return Error{ErrorCode::parse, "", "there are too many brackets"};
     if (takes('-')) {
       auto inner = factor();
       if (inner) inner->value = -inner->value;
@@ -223,14 +246,6 @@ std::string shown_number(double value, Unit unit) {
 std::string typed_form(double value, Unit unit) {
   const std::string symbol(info(unit).symbol);
   return shortest(value) + (symbol.empty() || info(unit).pretty.empty() ? "" : " " + symbol);
-}
-
-std::string label_of(std::string_view id) {
-  std::string text(id);
-  for (char& c : text)
-    if (c == '_') c = ' ';
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
 }
 
 std::string unit_in_words(Unit unit) {

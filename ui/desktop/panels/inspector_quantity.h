@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/base/unit.h"
 #include "core/define/definition.h"
+#include "ui/desktop/view/labels.h"
 
 namespace bl::desktop {
 
@@ -20,8 +21,6 @@ bool is_relative(std::string_view text);
 std::string shown_number(double value, Unit unit);
 /// The same for a field to type into: "7200 m3".
 std::string typed_form(double value, Unit unit);
-/// "storey_height" as "Storey height".
-std::string label_of(std::string_view id);
 /// A quantity of this unit in words: "a volume in cubic metres (m³)".
 std::string unit_in_words(Unit unit);
 /// Doc, unit, default and range of a port, for the card beside it.

@@ -67,14 +67,24 @@ std::optional<Change> scrubbed_change(Editor& editor, const Subject& subject, co
   Scrub& scrub = memory_of(editor).scrub;
   const PortDefinition& port = *subject.port;
   const double now = as_number(subject.value), worth = worth_of_pixel(port, now, width);
-  if (event.has_scrub_begun) scrub.exact = now;
+  if (event.has_scrub_begun) {
+    scrub.exact = subject.is_mixed ? 0 : now;
+    scrub.is_by = subject.is_mixed;
+  }
   const ImGuiIO& io = ImGui::GetIO();
   const double fineness = io.KeyShift ? 0.1 : io.KeyCtrl ? 10 : 1;
   const double step = event.scrubbed * worth;
   const auto limited = [&port](double value) { return std::clamp(value, port.hard_minimum, port.hard_maximum); };
-  if (subject.is_mixed) {
-    if (step == 0) return std::nullopt;
-    return Change{[&port, limited, step](const Value& old) { return as_kind(port, limited(as_number(old) + step)); }, true};
+  if (scrub.is_by) {
+    double by = step;
+    if (port.kind == ValueKind::integer) {
+      // Parts of a whole are kept until they come to one; rounded away in each frame, a slow hand would move nothing.
+      scrub.exact += step;
+      by = std::trunc(scrub.exact);
+      scrub.exact -= by;
+    }
+    if (by == 0) return std::nullopt;
+    return Change{[&port, limited, by](const Value& old) { return as_kind(port, limited(as_number(old) + by)); }, true};
   }
   scrub.exact = limited(scrub.exact + step);
   const double number = limited(at_most_nine_digits(rounded(scrub.exact, worth * fineness)));
@@ -205,8 +215,10 @@ std::optional<Change> point_field(Editor& editor, const Subject& subject, float 
     const bool is_live = moved->is_live;
     change = Change{[=](const Value& old) {
                       Vector3 v = std::get<Vector3>(old);
-                      if (is_same) v.*member = typed_number(text, unit, v.*member).value();
-                      else if (is_mixed && is_live) v.*member += by;
+                      if (is_same) {
+                        // What fits one node may come to no number for another, which then stays where it is.
+                        if (const auto typed = typed_number(text, unit, v.*member)) v.*member = *typed;
+                      } else if (is_mixed && is_live) v.*member += by;
                       else v.*member = target;
                       return Value(v);
                     },

@@ -119,8 +119,8 @@ void InspectorView::merge_links(const Editor& editor) {
 }
 
 const std::vector<std::size_t>& InspectorView::touching(const State& state) {
-  if (touched_plan_ == state.plan.get() && touched_node_ == nodes_.front()) return touching_;
-  touched_plan_ = state.plan.get();
+  if (touched_plan_ == state.plan && touched_node_ == nodes_.front()) return touching_;
+  touched_plan_ = state.plan;
   touched_node_ = nodes_.front();
   touching_.clear();
   const std::uint32_t node = state.plan->node_index(touched_node_);

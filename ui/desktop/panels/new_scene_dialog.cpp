@@ -81,15 +81,16 @@ void Dialogs::make_scene() {
   is_told_error_ = !made.scene;
   for (const auto& [file, error] : made.errors) told_.push_back((file.empty() ? "" : file + ": ") + error.text());
   if (!made.scene) return;
-  editor_->problems.clear();
-  editor_->problem_file.clear();
-  auto document = Document::from_text(editor_->program, write_scene(*made.scene, editor_->program), "", 1, editor_->problems);
+  std::vector<Problem> problems;
+  const std::string text = write_scene(*made.scene, editor_->program);
+  auto document = Document::from_text(editor_->program, text, "", kTickThreads, problems);
   if (!document) {
     is_told_error_ = true;
-    for (const Problem& problem : editor_->problems) told_.push_back(problem.error.text());
-    return;
+    for (const Problem& problem : problems) told_.push_back(problem.error.text());
+    return editor_->list_problems("", std::move(problems));
   }
-  for (const std::string& note : made.notes) editor_->problems.push_back({false, {ErrorCode::missing, "import", note}});
+  for (const std::string& note : made.notes) problems.push_back({false, {ErrorCode::missing, "import", note}});
+  editor_->list_problems("", std::move(problems));
   editor_->take(std::move(document));
   editor_->document->session().play(true);
   told_.push_back("done");

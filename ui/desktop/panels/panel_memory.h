@@ -29,8 +29,9 @@ struct Scrub {
   std::string key;
   bool has_moved = false;
   std::int64_t gesture = 0;
-  double exact = 0;           ///< where the drag has come to, before rounding
+  double exact = 0;           ///< where the drag has come to, before rounding; of several integers what is not yet a whole step
   bool is_abandoned = false;  ///< by Esc; the button is still held
+  bool is_by = false;         ///< moves several different values, each by the same
 };
 
 struct PanelMemory {

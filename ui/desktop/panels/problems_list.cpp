@@ -168,7 +168,7 @@ void ProblemList::add_idle(const State& state) {
       continue;
     }
     if (link.is_enabled && !link.is_muted) continue;
-    const std::string kind = link.definition != nullptr ? link.definition->label : "unknown kind";
+    const std::string& kind = link.definition->label;
     items_.push_back(
         {ProblemKind::idle,
          link.id,
@@ -211,15 +211,11 @@ void ProblemList::add_file(const Editor& editor) {
 
 void ProblemList::refresh(const Editor& editor, const report::ReportModel& figures) {
   const std::shared_ptr<const State> state = editor.moment ? editor.moment->state : nullptr;
-  std::string file_problems;
-  for (const Problem& problem : editor.problems) file_problems += problem.error.text() + "\n";
-  const bool is_same = state == state_ && file_problems_ == file_problems && file_ == editor.problem_file;
-  if (is_same) return;
+  if (state == state_ && revision_ == editor.problems_revision) return;
   if (state && state->plan.get() != plan_) bands_.clear();
   plan_ = state ? state->plan.get() : nullptr;
   state_ = state;
-  file_problems_ = std::move(file_problems);
-  file_ = editor.problem_file;
+  revision_ = editor.problems_revision;
   items_.clear();
   if (state) {
     add_conflicts(*state);

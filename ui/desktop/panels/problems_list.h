@@ -52,7 +52,7 @@ class ProblemList {
   std::array<std::size_t, kProblemKinds> counts_{};
   std::shared_ptr<const State> state_;
   const Plan* plan_ = nullptr;
-  std::string file_problems_ = "none read yet", file_;
+  std::uint64_t revision_ = static_cast<std::uint64_t>(-1);  ///< of the file's problems
   std::map<PortRef, int> bands_;
   std::map<std::string, bool> short_uses_;
 };

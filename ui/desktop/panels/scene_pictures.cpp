@@ -6,6 +6,7 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <span>
 #include <thread>
 
 #include "core/file/file_io.h"
@@ -117,8 +118,9 @@ ScenePicture picture_of(const State& state) {
     picture.grounds.emplace_back();
     for (const Projected& corner : ground) picture.grounds.back().emplace_back(x_of(corner), y_of(corner));
   }
-  for (const Piece& piece : pieces) {
-    if (picture.triangles.size() >= kMostTriangles) break;
+  // Where there are too many, the farthest go: they are the most covered.
+  const std::size_t first = pieces.size() - std::min(pieces.size(), kMostTriangles);
+  for (const Piece& piece : std::span(pieces).subspan(first)) {
     PictureTriangle triangle{{}, {}, static_cast<float>(piece.shade), piece.colour};
     for (int k = 0; k < 3; ++k) {
       triangle.x[k] = x_of(piece.corners[k]);

@@ -35,8 +35,7 @@ void SceneView::draw(ImVec2 size) {
   choices_.held.clear();
   if (move_)
     for (const auto& [id, start] : move_->starts)
-      if (const std::uint32_t node = editor_->index_of(id); node < facts_->places.size())
-        choices_.held[node] = start + move_->shift;
+      if (const std::uint32_t node = seen_index(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
   colouring_ = colour_volumes(*facts_, colour_choice(), editor_->theme);
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
   const bool has_same_cells = std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
@@ -62,7 +61,7 @@ void SceneView::draw_overlay() {
   draw_labels();
   draw_gizmo();
   draw_scale_and_north();
-  draw_legend(editor_->is_beamer);
+  draw_legends(editor_->is_beamer);
   if (drag_ == Drag::box) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const Colours& c = editor_->theme.colours();
@@ -80,12 +79,18 @@ void SceneView::draw_overlay() {
   else draw_tools();
 }
 
-void SceneView::follow_document() {
-  if (document_ == editor_->document.get()) return;
-  document_ = editor_->document.get();
+void SceneView::forget() {
+  document_ = 0;
   all_facts_ = facts_ = nullptr;
-  hit_.reset();
+  still_volumes_.clear();
   move_.reset();
+}
+
+void SceneView::follow_document() {
+  if (document_ == editor_->document->id()) return;
+  forget();
+  document_ = editor_->document->id();
+  hit_.reset();
   drag_ = Drag::none;
   is_walking_ = false;
   choices_ = ViewChoices{.camera = choices_.camera, .section = {}, .held = {}};

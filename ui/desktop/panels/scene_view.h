@@ -23,6 +23,8 @@ class SceneView {
   SceneView(Editor& editor, Renderer& renderer) : editor_(&editor), renderer_(&renderer) {}
   /// Fills the current pane, of `size` pixels.
   void draw(ImVec2 size);
+  /// There is no document any more: what was read from it goes.
+  void forget();
   /// Moves the camera so that the selection fills the view, or everything where `all` or where nothing is chosen.
   void fit(bool all);
 
@@ -91,6 +93,7 @@ class SceneView {
   void choose(const std::string& node, bool is_node);
 
   // scene_view_move.cpp
+  std::vector<std::string> placed(bool tells);
   std::vector<std::string> movable(bool tells);
   std::optional<Point3> gizmo_centre();
   int handle_at(ImVec2 mouse);
@@ -108,7 +111,9 @@ class SceneView {
   void draw_labels();
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
-  void draw_legend(bool is_large);
+  std::string street_under(const ImVec2& mouse) const;
+  void draw_legends(bool is_large);
+  ImVec2 draw_legend(const Legend& legend, const ImVec2& corner, bool is_large);
   void draw_hint(const std::string& text);
   void draw_tools();
   void draw_layers_popup();
@@ -125,6 +130,8 @@ class SceneView {
   Seen seen(const Point3& point) const { return choices_.camera.project(point, width(), height()); }
   bool shows(const char* layer) const { return is_on(editor_->person, layer); }
   const std::string& id_of(std::uint32_t node) const { return facts_->state->plan->nodes[node].id; }
+  /// In the state that is shown: where actions run, the editor may have a newer one already.
+  std::uint32_t seen_index(const std::string& id) const { return facts_->state->plan->node_index(id); }
   void go_to(const Camera& camera);
   Point3 place_of(std::uint32_t node) const;
 
@@ -135,7 +142,7 @@ class SceneView {
   HiddenNodes hidden_;
   std::set<std::string> left_out_;  ///< of `facts_`
   Colouring colouring_;
-  const Document* document_ = nullptr;
+  std::uint64_t document_ = 0;  ///< whose facts these are
   bool wants_fit_ = true, has_fitted_boundary_ = false;
   Camera from_, to_;
   double change_began_ = -1, last_frame_ = 0;
@@ -151,11 +158,10 @@ class SceneView {
 
   Drag drag_ = Drag::none;
   int drag_button_ = 0;
-  ImVec2 pressed_at_{}, mouse_before_{};
+  ImVec2 pressed_at_{};
   std::string pressed_on_;  ///< a node: pulling moves it, with all that is chosen if it is
   std::optional<Hit> hit_;
   std::string pointed_at_;
-  double pointed_since_ = 0;
   std::optional<Move> move_;
   int hot_handle_ = -1;
 };

@@ -50,9 +50,8 @@ std::vector<std::string> SceneView::pulls_on(std::uint32_t node) const {
       const double size = change != nullptr ? norm(*change) : std::abs(as_number(voice.value));
       if (!(size > (change != nullptr ? kLeastPull : 0))) continue;
       // Changes of the place first: they are what is seen here.
-      const std::string what = change != nullptr
-                                   ? report::quantity(size, port.unit) + " a tick"
-                                   : label_of_use(port.id) + " " + report::quantity(as_number(voice.value), port.unit);
+      const std::string what = change != nullptr ? report::quantity(size, port.unit) + " a tick"
+                                                 : label_of(port.id) + " " + report::quantity(as_number(voice.value), port.unit);
       found.emplace_back(change != nullptr ? 1e12 + size : size * voice.strength,
                          state.plan->links[l].definition->label + ": " + what);
     }

@@ -33,7 +33,7 @@ Ray SceneView::ray_at(ImVec2 mouse) const { return choices_.camera.ray(mouse.x -
 // What the mouse is over: a volume, the ground, or the plane through the target that faces the eye.
 Point3 SceneView::place_under(ImVec2 mouse) const {
   const Ray ray = ray_at(mouse);
-  if (const auto hit = pick(ray, *facts_, choices_.section)) return hit->place;
+  if (const auto hit = pick(ray, *facts_, choices_.section, shows("buildings"))) return hit->place;
   const auto on_ground = meet_plane(ray, {0, 0, facts_->ground}, {0, 0, 1});
   if (on_ground && distance(*on_ground, facts_->centre) < 6 * facts_->radius) return *on_ground;
   const auto facing = meet_plane(ray, choices_.camera.target, choices_.camera.forward());
@@ -104,12 +104,9 @@ void SceneView::take_keys() {
 }
 
 void SceneView::take_mouse() {
-  const ImGuiIO& io = ImGui::GetIO();
-  const ImVec2 moved{io.MousePos.x - mouse_before_.x, io.MousePos.y - mouse_before_.y};
-  mouse_before_ = io.MousePos;
   take_wheel();
   if (drag_ == Drag::orbit || drag_ == Drag::pan || drag_ == Drag::zoom) {
-    if (ImGui::IsMouseDown(drag_button_)) navigate(moved);
+    if (ImGui::IsMouseDown(drag_button_)) navigate(ImGui::GetIO().MouseDelta);  // none while the pointer is nowhere
     else drag_ = Drag::none;
   } else if (is_hovered_ && drag_ == Drag::none && !(move_ && !move_->is_by_key)) {
     const Drag begun = drag_of_preset(drag_button_);
@@ -197,28 +194,48 @@ void SceneView::select_box() {
   const Box box{std::min(pressed_at_.x, io.MousePos.x) - at_.x, std::min(pressed_at_.y, io.MousePos.y) - at_.y,
                 std::max(pressed_at_.x, io.MousePos.x) - at_.x, std::max(pressed_at_.y, io.MousePos.y) - at_.y};
   const bool touches = io.MousePos.x < pressed_at_.x;
+  const Sight sight{choices_.camera, width(), height(), choices_.section, shows("marks")};
   if (!io.KeyShift && !io.KeyCtrl) editor_->picks.clear();
-  for (const std::uint32_t node : pick_box(box, touches, *facts_, choices_.camera, width(), height())) {
+  for (const std::uint32_t node : pick_box(box, touches, *facts_, sight)) {
     std::set<std::string>& chosen = editor_->picks.nodes;
     if (!io.KeyCtrl || chosen.erase(id_of(node)) == 0) chosen.insert(id_of(node));
   }
 }
 
+std::string SceneView::street_under(const ImVec2& mouse) const {
+  double reach = kLinkReach * editor_->theme.scale();
+  std::string found;
+  for (const StreetFacts& street : facts_->urban.streets) {
+    const Seen a = seen(place_of(street.start)), b = seen(place_of(street.end));
+    if (!a.is_in_front || !b.is_in_front) continue;
+    const double far = distance_to_segment(mouse, on_screen(a), on_screen(b));
+    if (far >= reach) continue;
+    reach = far;
+    found = street.id;
+  }
+  return found;
+}
+
 void SceneView::point_at() {
   if (!is_hovered_ || (drag_ != Drag::none && drag_ != Drag::pressed)) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  hit_ = pick(ray_at(mouse), *facts_, choices_.section);
+  hit_ = pick(ray_at(mouse), *facts_, choices_.section, shows("buildings"));
   std::string found = hit_ ? id_of(hit_->node) : "";
   double nearest = kMarkReach * editor_->theme.scale();
-  for (const MarkFacts& mark : facts_->marks) {
-    const Seen at = seen(place_of(mark.node));
+  const auto try_mark = [&](std::uint32_t node, const std::string& id) {
+    const Seen at = seen(place_of(node));
     const ImVec2 p = on_screen(at);
     const double far = std::hypot(p.x - mouse.x, p.y - mouse.y);
-    if (!at.is_in_front || far > nearest || !shows("marks")) continue;
+    if (!at.is_in_front || far > nearest) return;
     nearest = far;
-    found = mark.id;
-  }
-  if (found != pointed_at_) pointed_since_ = editor_->now;
+    found = id;
+  };
+  if (shows("marks"))
+    for (const MarkFacts& mark : facts_->marks) try_mark(mark.node, mark.id);
+  // As they are drawn: a volume without a shape has its mark whatever the layers say.
+  for (const VolumeFacts& volume : facts_->volumes)
+    if (!volume.cell) try_mark(volume.node, volume.id);
+  if (found.empty() && shows("streets")) found = street_under(mouse);
   pointed_at_ = found;
   if (!found.empty()) editor_->picks.hovered_node = found;
   if (!found.empty() || !shows("links")) return;

@@ -28,6 +28,12 @@ std::string json_of(const Point3& p) {
 
 double cross_of(ImVec2 a, ImVec2 b, ImVec2 p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
+// What is being typed, as far as it is a length [m].
+std::optional<double> typed_length(const std::string& text) {
+  const auto metres = parse_quantity(text, Unit::metre);
+  return metres && std::isfinite(*metres) ? metres : std::nullopt;
+}
+
 bool is_in_quad(const std::array<ImVec2, 4>& q, ImVec2 p) {
   int left = 0, right = 0;
   for (std::size_t i = 0; i < 4; ++i) (cross_of(q[i], q[(i + 1) % 4], p) > 0 ? left : right)++;
@@ -43,44 +49,45 @@ std::array<Point3, 4> plane_corners(const Point3& centre, int k, double unit) {
 
 }  // namespace
 
-// Chosen nodes whose place is not locked. A locked one says so.
-std::vector<std::string> SceneView::movable(bool tells) {
+// Chosen nodes that stand somewhere in the picture.
+std::vector<std::string> SceneView::placed(bool tells) {
   std::vector<std::string> ids;
   for (const std::string& id : editor_->picks.nodes) {
     const auto found = editor_->scene().nodes.find(id);
-    if (found == editor_->scene().nodes.end() || editor_->index_of(id) >= facts_->places.size()) continue;
+    if (found == editor_->scene().nodes.end() || seen_index(id) >= facts_->places.size()) continue;
     if (left_out_.contains(id)) {
       if (tells) editor_->tell(NoticeKind::told, editor_->name_of(id) + " is hidden from 3D: Shift+H shows it again.");
       continue;
     }
     // A boundary stands where its corners are, whatever its node's place.
-    if (found->second.types.contains("boundary")) continue;
-    if (!found->second.locked.contains("node.position")) {
-      ids.push_back(id);
-    } else if (tells) {
-      editor_->tell(NoticeKind::warning, std::string(icon::kLock) + "  " + editor_->name_of(id) +
-                                             " is locked in its place. Unlock its position in the inspector to move it.");
-    }
+    if (!found->second.types.contains("boundary")) ids.push_back(id);
   }
   return ids;
 }
 
+// Those whose place is not locked. A locked one says so.
+std::vector<std::string> SceneView::movable(bool tells) {
+  std::vector<std::string> ids = placed(tells);
+  std::erase_if(ids, [&](const std::string& id) {
+    const bool is_locked = editor_->scene().nodes.at(id).locked.contains("node.position");
+    if (is_locked && tells)
+      editor_->tell(NoticeKind::warning, std::string(icon::kLock) + "  " + editor_->name_of(id) +
+                                             " is locked in its place. Unlock its position in the inspector to move it.");
+    return is_locked;
+  });
+  return ids;
+}
+
+// Where a move takes hold. What is locked has a gizmo too, so that a hand that tries it is told.
 std::optional<Point3> SceneView::gizmo_centre() {
   if (editor_->is_beamer || is_walking_) return {};
   if (move_) return move_->anchor + move_->shift;
-  Point3 sum;
-  double count = 0;
-  for (const std::string& id : editor_->picks.nodes) {
-    const std::uint32_t node = editor_->index_of(id);
-    const auto found = editor_->scene().nodes.find(id);
-    if (node >= facts_->places.size() || found == editor_->scene().nodes.end() || found->second.types.contains("boundary") ||
-        left_out_.contains(id))
-      continue;
-    sum += facts_->places[node];
-    count += 1;
-  }
-  if (count == 0) return {};
-  return sum / count;
+  std::vector<std::string> ids = movable(false);
+  if (ids.empty()) ids = placed(false);
+  if (ids.empty()) return {};
+  Point3 centre;
+  for (const std::string& id : ids) centre += facts_->places[seen_index(id)] / static_cast<double>(ids.size());
+  return centre;
 }
 
 int SceneView::handle_at(ImVec2 mouse) {
@@ -124,7 +131,7 @@ void SceneView::begin_move(int handle, bool is_by_key) {
   move.handle = handle;
   move.is_by_key = is_by_key;
   for (const std::string& id : ids) {
-    move.starts[id] = facts_->places[editor_->index_of(id)];
+    move.starts[id] = facts_->places[seen_index(id)];
     move.anchor += move.starts[id] / static_cast<double>(ids.size());
   }
   move.gesture = editor_->new_gesture();
@@ -189,15 +196,11 @@ void SceneView::take_typed() {
     if ((is_number || is_unit) && move.typed.size() < 24) move.typed += letter == ',' ? '.' : static_cast<char>(letter);
   }
   if (ImGui::IsKeyPressed(GLFW_KEY_BACKSPACE) && !move.typed.empty()) move.typed.pop_back();
-  if (!move.typed.empty()) {
-    if (const auto metres = parse_quantity(move.typed, Unit::metre); metres && std::isfinite(*metres)) {
-      const Vector3 along = axis(move.handle < 3 ? move.handle : 0);
-      if (distance(move.shift, *metres * along) > 5e-4) {
-        move.shift = *metres * along;
-        if (move.handle >= 3) move.handle = 0;
-        apply_move();
-      }
-    }
+  // A length goes along one axis.
+  if (!move.typed.empty() && move.handle >= 3) move.handle = 0;
+  if (const auto metres = typed_length(move.typed); metres && distance(move.shift, *metres * axis(move.handle)) > 5e-4) {
+    move.shift = *metres * axis(move.handle);
+    apply_move();
   }
   if (ImGui::IsKeyPressed(GLFW_KEY_ENTER, false) || ImGui::IsKeyPressed(GLFW_KEY_KP_ENTER, false)) end_move(true);
 }
@@ -212,8 +215,9 @@ void SceneView::apply_move() {
 void SceneView::end_move(bool is_kept) {
   if (!move_) return;
   const std::int64_t abandoned = !is_kept && move_->has_submitted ? move_->gesture : 0;
-  if (is_kept && !move_->typed.empty() && !parse_quantity(move_->typed, Unit::metre))
-    editor_->tell(NoticeKind::warning, "`" + move_->typed + "` is no length: type a number, and a unit such as m or cm.");
+  // What was read before the slip is not what is meant: it can be mended, or taken back.
+  if (is_kept && !move_->typed.empty() && !typed_length(move_->typed))
+    return editor_->tell(NoticeKind::warning, "`" + move_->typed + "` is no length: type a number, and a unit such as m or cm.");
   move_.reset();
   drag_ = Drag::none;
   if (abandoned != 0) editor_->document->abandon(abandoned);

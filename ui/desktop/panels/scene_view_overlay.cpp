@@ -6,6 +6,7 @@
 
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/scene_view.h"
+#include "ui/desktop/view/urban_picture.h"
 
 namespace bl::desktop {
 
@@ -83,7 +84,7 @@ Seen SceneView::visible_anchor(std::uint32_t node, const Seen& middle) const {
   const Point3 p = volume->position;
   const double top = volume->height > 0 ? volume->bottom + 0.93 * volume->height : p.z;
   for (const Seen& at : {middle, seen({p.x, p.y, top})}) {
-    const auto front = pick(choices_.camera.ray(at.x, at.y, width(), height()), *facts_, choices_.section);
+    const auto front = pick(choices_.camera.ray(at.x, at.y, width(), height()), *facts_, choices_.section, shows("buildings"));
     if (front && front->node == node) return at;
   }
   Seen nowhere = middle;
@@ -180,20 +181,37 @@ void SceneView::draw_scale_and_north() {
                text.c_str());
 }
 
-void SceneView::draw_legend(bool is_large) {
+// Along the bottom from the left; what finds no room there stands above.
+void SceneView::draw_legends(bool is_large) {
+  std::vector<Legend> legends = urban_legends(*facts_, editor_->theme, [this](const char* layer) { return shows(layer); });
+  legends.insert(legends.begin(), colouring_.legend);
+  const float margin = editor_->theme.px(is_large ? 28 : 14), right = at_.x + width() - editor_->theme.px(is_large ? 300 : 190);
+  ImVec2 corner{at_.x + margin, at_.y + height() - margin};
+  float tallest = 0;
+  for (const Legend& legend : legends) {
+    if (legend.rows.empty() && legend.ramp.empty()) continue;
+    if (corner.x > at_.x + margin && corner.x > right) {
+      corner = {at_.x + margin, corner.y - tallest - margin};
+      tallest = 0;
+    }
+    const ImVec2 size = draw_legend(legend, corner, is_large);
+    corner.x += size.x + 2 * margin;
+    tallest = std::max(tallest, size.y);
+  }
+}
+
+// With its lower left corner there; returns its size.
+ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool is_large) {
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
-  const Legend& legend = colouring_.legend;
-  if (legend.rows.empty() && legend.ramp.empty()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = is_large ? theme.fonts().body : theme.fonts().small;
   const float line = font->FontSize * 1.35f, swatch = font->FontSize * 0.8f;
-  const float margin = theme.px(is_large ? 28 : 14), room = height() - 2 * margin - theme.px(60);
+  const float room = corner.y - at_.y - theme.px(is_large ? 88 : 74);
   const std::size_t most = static_cast<std::size_t>(std::max(1.0f, room / line - 2));
   const std::size_t rows = std::min(legend.rows.size(), most);
-  const float x = at_.x + margin;
-  float y = at_.y + height() - margin -
-            line * (legend.ramp.empty() ? static_cast<float>(rows + (rows < legend.rows.size() ? 1 : 0)) : 2.4f);
+  const float x = corner.x;
+  float y = corner.y - line * (legend.ramp.empty() ? static_cast<float>(rows + (rows < legend.rows.size() ? 1 : 0)) : 2.4f);
   float widest = legend.ramp.empty() ? 0 : theme.px(is_large ? 300 : 190);
   const auto count_width = [&](const std::string& text, float before) {
     widest = std::max(widest, before + font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str()).x);
@@ -202,8 +220,8 @@ void SceneView::draw_legend(bool is_large) {
   for (std::size_t k = 0; k < rows; ++k) count_width(legend.rows[k].label, swatch * 1.6f);
   // Volumes may stand behind it.
   const float pad = theme.px(7);
-  list.AddRectFilled({x - pad, y - line - pad}, {x + widest + pad, at_.y + height() - margin + pad}, faded(c.sky, 0.72f),
-                     theme.px(5));
+  const ImVec2 size{widest + pad, corner.y - y + line + pad};
+  list.AddRectFilled({x - pad, y - line - pad}, {x + widest + pad, corner.y + pad}, faded(c.sky, 0.72f), theme.px(5));
   list.AddText(theme.fonts().strong, font->FontSize, {x, y - line}, c.text, legend.title.c_str());
   for (std::size_t k = 0; k < rows; ++k, y += line) {
     const float top = y + (line - swatch) / 2 - font->FontSize * 0.14f;
@@ -213,7 +231,7 @@ void SceneView::draw_legend(bool is_large) {
   if (rows < legend.rows.size())
     list.AddText(font, font->FontSize, {x + swatch * 1.6f, y}, c.text_faint,
                  ("and " + std::to_string(legend.rows.size() - rows) + " more").c_str());
-  if (legend.ramp.empty()) return;
+  if (legend.ramp.empty()) return size;
   const float length = theme.px(is_large ? 300 : 190), step = length / static_cast<float>(legend.ramp.size() - 1);
   for (std::size_t k = 0; k + 1 < legend.ramp.size(); ++k) {
     const float left = x + step * static_cast<float>(k);
@@ -227,6 +245,7 @@ void SceneView::draw_legend(bool is_large) {
   put(legend.low, 0);
   put(legend.middle, 0.5f);
   put(legend.high, 1);
+  return size;
 }
 
 // What keys do just now, across the top where nothing else lies.

@@ -114,7 +114,7 @@ void add_layer_actions(std::vector<Action>& list) {
                   [](Editor& e) { set_layer(e.person, layers()[index].id, !is_on(e.person, layers()[index].id)); },
                   false,
                   [](const Editor& e) { return is_on(e.person, layers()[index].id); }});
-  if constexpr (index + 1 < 13) add_layer_actions<index + 1>(list);
+  if constexpr (index + 1 < kLayerCount) add_layer_actions<index + 1>(list);
 }
 
 template <int percent>

@@ -109,14 +109,6 @@ Colour colour_of_use(const Theme& theme, std::size_t number) {
   return number == kNoUse ? mixed(c.text_faint, c.text_soft, 0.6f) : theme.category(number);
 }
 
-std::string label_of_use(const std::string& use) {
-  if (use.empty()) return "No use";
-  std::string label = use;
-  std::replace(label.begin(), label.end(), '_', ' ');
-  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  return label;
-}
-
 std::vector<ColourChoice> colour_choices(const SceneFacts& facts) {
   std::vector<ColourChoice> choices = {
       {"use", "Use"}, {"error", "Volume against demand"}, {"tension", "Tension on its place"}, {"fill", "Fill of the demand"}};
@@ -127,7 +119,7 @@ std::vector<ColourChoice> colour_choices(const SceneFacts& facts) {
       if (type.definition->id == kBaseNode || !seen.insert(type.definition).second) continue;
       for (const PortDefinition& port : type.definition->ports) {
         if (!is_numeric(port) || port.id.starts_with("last_")) continue;
-        ports.push_back({type.definition->id + "." + port.id, type.definition->label + ": " + label_of_use(port.id)});
+        ports.push_back({type.definition->id + "." + port.id, type.definition->label + ": " + label_of(port.id)});
       }
     }
   std::sort(ports.begin(), ports.end(), [](const ColourChoice& a, const ColourChoice& b) { return a.label < b.label; });

@@ -8,6 +8,7 @@
 #include "core/define/registry.h"
 #include "core/graph/scene.h"
 #include "ui/desktop/app/theme.h"
+#include "ui/desktop/view/labels.h"
 #include "ui/desktop/view/scene_facts.h"
 
 namespace bl::desktop {
@@ -50,8 +51,5 @@ struct Colouring {
   Legend legend;
 };
 Colouring colour_volumes(const SceneFacts& facts, const std::string& choice, const Theme& theme);
-
-/// What people call a use: without underscores, with a capital; "no use" where there is none.
-std::string label_of_use(const std::string& use);
 
 }  // namespace bl::desktop

@@ -164,8 +164,7 @@ std::uintptr_t GlRenderer::draw(const ViewScene& scene, int width, int height) {
 // Where the sun reaches, and what stands how high: both are drawn coarser than the picture, because both are soft.
 void GlRenderer::draw_maps(const ViewScene& scene) {
   const int size = is_software_ ? 1024 : 2048, depth = std::clamp(depth_ - 1, 0, 2);
-  if (!shadow_.resize(size, size) || !heights_.resize(kHeightMap, kHeightMap) || !blurred_.resize(kHeightMap, kHeightMap))
-    return;
+  if (!shadow_.resize(size, size) || !heights_.resize(kHeightMap, kHeightMap) || !blurred_.resize(kHeightMap, kHeightMap)) return;
   sun_matrix_ = box_matrix(scene, scene.sun, scene.radius);
   map_matrix_ = box_matrix(scene, {0, 0, 1}, 1.3 * scene.radius);
   shadow_.bind();
@@ -211,7 +210,7 @@ void GlRenderer::set_light(const GlProgram& program, const ViewScene& scene) con
   program.set("shadow_map", 2);
   program.set("height_map", 3);
   program.set("heights", static_cast<float>(scene.ground - scene.origin.z), static_cast<float>(0.5 * scene.radius));
-  const bool has_maps = scene.layers.shadows && shadow_.width() > 0;
+  const bool has_maps = scene.layers.shadows && shadow_.width() > 0 && blurred_.width() > 0 && heights_.width() > 0;
   program.set("shadow_strength", has_maps ? 0.85f : 0.0f);
   program.set("shadow_texel", 1.0f / static_cast<float>(std::max(1, shadow_.width())));
   program.set("light_gain", scene.colours.is_dark ? 0.92f : 1.0f);
@@ -266,7 +265,6 @@ void GlRenderer::draw_ground(const ViewScene& scene) {
   program.set("grid", static_cast<float>(scene.grid));
   program.set("grid_origin", static_cast<float>(-std::fmod(scene.origin.x, 10 * scene.grid)),
               static_cast<float>(-std::fmod(scene.origin.y, 10 * scene.grid)));
-  program.set("with_grid", 1.0f);
   program.set_colour("ground_colour", scene.colours.ground);
   program.set_colour("sky_colour", scene.colours.sky);
   program.set_colour("grid_colour", scene.colours.grid);

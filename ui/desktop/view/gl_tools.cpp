@@ -110,6 +110,7 @@ void GlTarget::clear() {
   if (frame_ != 0) glDeleteFramebuffers(1, &frame_);
   textures_.clear();
   frame_ = depth_ = 0;
+  width_ = height_ = 0;
 }
 
 bool GlTarget::resize(int width, int height) {
@@ -148,7 +149,10 @@ bool GlTarget::resize(int width, int height) {
       glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     }
   }
-  return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return true;
+  // Nothing is left that looks as if one could draw into it.
+  clear();
+  return false;
 }
 
 void GlTarget::bind() const {

@@ -54,7 +54,6 @@ class GlBuffer {
   bool reserve(std::size_t bytes, GLenum usage = GL_DYNAMIC_DRAW);
   void write(std::size_t offset, const void* data, std::size_t bytes, Traffic& traffic);
   GLuint id() const { return id_; }
-  std::size_t size() const { return size_; }
 
  private:
   GLuint id_ = 0;

@@ -35,6 +35,14 @@ int crossing(const Ray& ray, const Point3& a, const Point3& b, const Point3& c, 
   return across < 0 ? 1 : -1;
 }
 
+// Is all of it on the hidden side? Its shape is inside the ball and inside the cell.
+bool is_cut_away(const Mesh& cell, const ViewSection& section) {
+  if (!section.is_on) return false;
+  if (dot(section.normal, cell.wrap->ball_centre) - cell.wrap->radius > section.offset) return true;
+  return std::all_of(cell.vertices.begin(), cell.vertices.end(),
+                     [&](const Point3& vertex) { return dot(section.normal, vertex) > section.offset; });
+}
+
 }  // namespace
 
 std::optional<double> meet(const Ray& ray, const Mesh& cell, const ViewSection& section) {
@@ -68,23 +76,25 @@ std::optional<double> meet(const Ray& ray, const Mesh& cell, const ViewSection& 
   return {};
 }
 
-std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section) {
+std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section, bool with_bodies) {
   std::optional<Hit> nearest;
-  for (const VolumeFacts& volume : facts.volumes) {
-    if (!volume.cell) continue;
-    const auto at = meet(ray, *volume.cell, section);
-    if (at && (!nearest || *at < nearest->distance)) nearest = Hit{volume.node, *at, ray.origin + *at * ray.direction};
-  }
+  const auto take = [&](std::uint32_t node, const Mesh& cell) {
+    const auto at = meet(ray, cell, section);
+    if (at && (!nearest || *at < nearest->distance)) nearest = Hit{node, *at, ray.origin + *at * ray.direction};
+  };
+  for (const VolumeFacts& volume : facts.volumes)
+    if (volume.cell) take(volume.node, *volume.cell);
+  for (const BodyFacts& body : facts.urban.bodies)
+    if (with_bodies) take(body.node, *body.cell);
   return nearest;
 }
 
-std::vector<std::uint32_t> pick_box(const Box& box, bool touches, const SceneFacts& facts, const Camera& camera, double width,
-                                    double height) {
+std::vector<std::uint32_t> pick_box(const Box& box, bool touches, const SceneFacts& facts, const Sight& sight) {
   std::vector<std::uint32_t> found;
   const auto take = [&](std::uint32_t node, const Point3& centre, double radius) {
-    const Seen seen = camera.project(centre, width, height);
+    const Seen seen = sight.camera.project(centre, sight.width, sight.height);
     if (!seen.is_in_front) return;
-    const double reach = radius / std::max(1e-9, camera.metres_per_pixel(centre, height));
+    const double reach = radius / std::max(1e-9, sight.camera.metres_per_pixel(centre, sight.height));
     const double x = std::clamp(seen.x, box.left, box.right), y = std::clamp(seen.y, box.top, box.bottom);
     const bool is_touched = std::hypot(seen.x - x, seen.y - y) <= reach;
     const bool is_held = box.holds(seen.x - reach, seen.y - reach) && box.holds(seen.x + reach, seen.y + reach);
@@ -95,13 +105,15 @@ std::vector<std::uint32_t> pick_box(const Box& box, bool touches, const SceneFac
       take(volume.node, volume.position, 0);
       continue;
     }
+    if (is_cut_away(*volume.cell, sight.section)) continue;
     // The shape is inside both the ball and the cell's own extent: the smaller of the two speaks for it.
     const Point3& centre = volume.cell->wrap->ball_centre;
     double far = 0;
     for (const Point3& vertex : volume.cell->vertices) far = std::max(far, distance(vertex, centre));
     take(volume.node, centre, 0.9 * std::min(far, volume.cell->wrap->radius));
   }
-  for (const MarkFacts& mark : facts.marks) take(mark.node, mark.position, 0);
+  if (sight.with_marks)
+    for (const MarkFacts& mark : facts.marks) take(mark.node, mark.position, 0);
   std::sort(found.begin(), found.end());
   return found;
 }

@@ -18,16 +18,23 @@ struct Hit {
 
 /// Where a line of sight first meets a volume: its cell inside its ball, on the shown side of the section.
 std::optional<double> meet(const Ray& ray, const Mesh& cell, const ViewSection& section);
-std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section);
+/// `with_bodies`: are the buildings around seen?
+std::optional<Hit> pick(const Ray& ray, const SceneFacts& facts, const ViewSection& section, bool with_bodies);
 
 /// A rectangle in the picture [pixels].
 struct Box {
   double left = 0, top = 0, right = 0, bottom = 0;
   bool holds(double x, double y) const { return x >= left && x <= right && y >= top && y <= bottom; }
 };
+/// What of a scene a picture shows.
+struct Sight {
+  const Camera& camera;
+  double width = 0, height = 0;  ///< [pixels]
+  ViewSection section;
+  bool with_marks = true;
+};
 /// Nodes whose drawn shape the box holds wholly, or touches at least.
-std::vector<std::uint32_t> pick_box(const Box& box, bool touches, const SceneFacts& facts, const Camera& camera, double width,
-                                    double height);
+std::vector<std::uint32_t> pick_box(const Box& box, bool touches, const SceneFacts& facts, const Sight& sight);
 
 /// The point of a line through `through` along `axis` that is nearest to the line of sight; nothing where they are parallel.
 std::optional<Point3> nearest_on_axis(const Ray& ray, const Point3& through, const Vector3& axis);

@@ -50,6 +50,29 @@ VolumeFacts read_volume(const State& state, std::uint32_t node) {
   return facts;
 }
 
+// What is drawn as itself needs no mark.
+bool has_own_picture(const State& state, std::uint32_t node) {
+  return report::has_type(state, node, "street") || report::has_type(state, node, "existing_building");
+}
+
+// Streets and buildings have their places where they are drawn, whatever their nodes' positions say.
+void read_surroundings(const State& state, const SceneFacts* last, SceneFacts& facts) {
+  facts.urban = read_urban(state, last == nullptr ? nullptr : &last->urban);
+  facts.reach = facts.radius;
+  const auto reach_to = [&](const Point3& p) {
+    if (is_finite(p)) facts.reach = std::clamp(distance(p, facts.centre), facts.reach, 1e6);
+  };
+  for (const StreetFacts& street : facts.urban.streets) {
+    facts.places[street.node] = 0.5 * (facts.places[street.start] + facts.places[street.end]);
+    reach_to(facts.places[street.start]);
+    reach_to(facts.places[street.end]);
+  }
+  for (const BodyFacts& body : facts.urban.bodies) {
+    facts.places[body.node] = body.cell->wrap->ball_centre;
+    for (const Point3& vertex : body.mesh->vertices) reach_to(vertex);
+  }
+}
+
 // The role that a mark shows: the first that is more than being a node.
 std::string role_of(const NodePlan& node) {
   for (const TypePlan& type : node.types)
@@ -159,7 +182,7 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
         volume.cell = before->cell;
       uses.insert(volume.use);
       facts->volumes.push_back(std::move(volume));
-    } else if (!report::has_type(state, n, "boundary")) {
+    } else if (!report::has_type(state, n, "boundary") && !has_own_picture(state, n)) {
       facts->marks.push_back(
           {n, state.plan->nodes[n].id, report::name_at(state, n), role_of(state.plan->nodes[n]), facts->places.back()});
     }
@@ -169,6 +192,7 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   read_pulls(state, *facts);
   read_neighbours(state, *facts);
   read_extent(last, *facts);
+  read_surroundings(state, last, *facts);
   facts->state = std::move(given);
   return facts;
 }
@@ -181,6 +205,13 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   std::erase_if(rest->marks, is_gone);
   std::erase_if(rest->boundaries, is_gone);
   std::erase_if(rest->pulls, is_gone);
+  std::erase_if(rest->urban.streets, is_gone);
+  std::erase_if(rest->urban.bodies, is_gone);
+  std::erase_if(rest->urban.sun_maps, is_gone);
+  std::erase_if(rest->urban.layers, is_gone);
+  std::erase_if(rest->urban.plots, is_gone);
+  std::erase_if(rest->urban.shadows, is_gone);
+  std::erase_if(rest->urban.grounds, [&](const auto& ground) { return is_hidden(ground.first); });
   std::erase_if(rest->links, [&](const LinkFacts& link) { return is_hidden(link.from) || is_hidden(link.to); });
   std::erase_if(rest->neighbours, [&](const auto& pair) { return is_hidden(pair.first) || is_hidden(pair.second); });
   return rest;

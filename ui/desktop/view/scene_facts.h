@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/graph/state.h"
+#include "ui/desktop/view/urban_facts.h"
 #include "ui/desktop/view/view_scene.h"
 
 namespace bl::desktop {
@@ -24,8 +25,6 @@ struct VolumeFacts {
   bool is_ball = false;  ///< the shape is not known, only its radius
 
   double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
-  /// Where its label and links are tied to.
-  const Point3& anchor() const { return position; }
 };
 
 /// A node without a volume, as a small mark.
@@ -66,8 +65,10 @@ struct SceneFacts {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;  ///< nodes that share a face, the lower first
   std::vector<std::string> uses;                                    ///< ascending
   std::vector<Point3> places;                                       ///< of all nodes; of a boundary the middle of its ground
+  UrbanFacts urban;                                                 ///< what stands and runs around them
   Point3 centre;                                                    ///< of volumes and boundaries [m]
   double radius = 50, ground = 0;                                   ///< [m]
+  double reach = 50;                                                ///< [m] from the centre to the farthest surroundings
 
   const VolumeFacts* volume_of(std::uint32_t node) const;
 };

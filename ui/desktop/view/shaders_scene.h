@@ -19,7 +19,7 @@ void main() {
 inline constexpr const char* kGroundFragment = R"(
 uniform vec4 plot, ground_colour, sky_colour, grid_colour;
 uniform vec2 grid_origin;
-uniform float grid, with_grid;
+uniform float grid;
 in vec3 world;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint label;
@@ -34,8 +34,7 @@ float ruled(float distance) {
 void main() {
   label = 0u;
   float far = length(world.xy - plot.xy) / plot.z;
-  vec3 shown = ground_colour.rgb;
-  if (with_grid > 0.5) shown = mix(shown, grid_colour.rgb, 0.5 * ruled(grid) + 0.5 * ruled(5.0 * grid));
+  vec3 shown = mix(ground_colour.rgb, grid_colour.rgb, 0.5 * ruled(grid) + 0.5 * ruled(5.0 * grid));
   if (shadow_strength > 0.0) {
     float direct = sunlight(world, vec3(0.0, 0.0, 1.0));
     float near = surroundings(world).y;

@@ -216,7 +216,11 @@ void main() {
     shown = mix(shown, edge_colour.rgb, 0.34 * room * line(near, 0.35 * pixel) * (1.0 - 0.6 * faint));
     shown *= 1.0 - 0.05 * room * fract(level);
   }
-  if (with_edges > 0.5) {
+  if ((flags & 32) != 0) {
+    float stripe = abs(fract((world.x + world.y + world.z) / 2.4) - 0.5);
+    shown = mix(shown, edge_colour.rgb, 0.22 * smoothstep(0.30, 0.36, stripe));
+  }
+  if (with_edges > 0.5 && (flags & 16) == 0) {
     float rim = centre_weight / max(fwidth(centre_weight), 1e-6);
     float crease = abs(reach - ball.w) / max(fwidth(reach), 1e-6);
     float edge = is_round ? 0.0 : line(rim, 0.55 * pixel);

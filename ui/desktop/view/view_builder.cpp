@@ -6,23 +6,32 @@
 #include <cmath>
 #include <numbers>
 
+#include "ui/desktop/view/urban_picture.h"
+
 namespace bl::desktop {
 
 namespace {
 
-constexpr std::array<Layer, 13> kLayers = {{{"boundary", "Boundary", true},
-                                            {"storeys", "Storey lines", true},
-                                            {"edges", "Edges", true},
-                                            {"shadows", "Shadows", true},
-                                            {"grid", "Ground and grid", true},
-                                            {"labels", "Labels", true},
-                                            {"marks", "Nodes without a volume", true},
-                                            {"card", "Card of the nearest node", true},
-                                            {"links", "Links", false},
-                                            {"weights", "Weights as circles", false},
-                                            {"neighbours", "Neighbours (Delaunay edges)", false},
-                                            {"cells", "Cells before the shrink-wrap", false},
-                                            {"pulls", "Pulls on places", false}}};
+constexpr std::array<Layer, kLayerCount> kLayers = {{{"boundary", "Boundary", true},
+                                                     {"storeys", "Storey lines", true},
+                                                     {"edges", "Edges", true},
+                                                     {"shadows", "Shadows", true},
+                                                     {"grid", "Ground and grid", true},
+                                                     {"labels", "Labels", true},
+                                                     {"marks", "Nodes without a volume", true},
+                                                     {"card", "Card of the nearest node", true},
+                                                     {"links", "Links", false},
+                                                     {"weights", "Weights as circles", false},
+                                                     {"neighbours", "Neighbours (Delaunay edges)", false},
+                                                     {"cells", "Cells before the shrink-wrap", false},
+                                                     {"pulls", "Pulls on places", false},
+                                                     {"streets", "Streets and their load", true},
+                                                     {"buildings", "Existing buildings", true},
+                                                     {"terrain", "Terrain", true},
+                                                     {"plots", "Plots", true},
+                                                     {"sun_maps", "Sun maps", true},
+                                                     {"shadow_outlines", "Shadows on the ground, as outlines", false},
+                                                     {"data", "Data layers", true}}};
 
 constexpr Colour kPlaster = 0xffd8dde0u;
 constexpr int kCircleParts = 64;
@@ -65,7 +74,7 @@ void Builder::add_frame() {
   scene.camera = choices.camera;
   scene.section = choices.section;
   scene.centre = facts.centre;
-  scene.radius = facts.radius;
+  scene.radius = facts.reach;
   scene.ground = facts.ground;
   // Whole kilometres, so that nothing is sent again when the scene's middle moves a little.
   scene.origin = {1000 * std::round(facts.centre.x / 1000), 1000 * std::round(facts.centre.y / 1000), 0};
@@ -74,7 +83,6 @@ void Builder::add_frame() {
   scene.sun = Vector3{-0.42, -0.62, 0.66} / norm({-0.42, -0.62, 0.66});
   const Colour ink = is_dark ? 0xff1a1512u : 0xff3a322cu;
   scene.colours = {.sky = c.sky,
-                   .horizon = c.sky,
                    .ground = is_dark ? mixed(c.ground, 0xffffffffu, 0.06f) : mixed(c.sky, 0xffffffffu, 0.45f),
                    .grid = is_dark ? mixed(c.ground, 0xffffffffu, 0.17f) : mixed(c.sky, c.ground, 0.85f),
                    .edge = ink,
@@ -222,6 +230,8 @@ ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const 
   builder.add_neighbours();
   builder.add_cells();
   builder.add_pulls();
+  add_urban(
+      facts, picks, theme, [&](const char* layer) { return is_on(person, layer); }, builder.scene);
   return std::move(builder.scene);
 }
 

@@ -18,6 +18,7 @@ struct Layer {
   const char *id, *label;
   bool is_on_at_first;
 };
+inline constexpr std::size_t kLayerCount = 20;
 std::span<const Layer> layers();
 /// As the person has it, or as it is at first.
 bool is_on(const PersonSettings& person, const std::string& layer);
@@ -30,7 +31,6 @@ struct ViewChoices {
   std::map<std::uint32_t, Point3> held;  ///< nodes in somebody's hand: where the hand has them
 };
 
-/// `is_pointed` of links: drawn whatever the layers say.
 ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const ViewChoices& choices, const Picks& picks,
                      const PersonSettings& person, const Theme& theme);
 

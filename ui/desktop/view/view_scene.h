@@ -15,7 +15,8 @@ using Colour = std::uint32_t;
 
 /// A volume: its coarse cell, which the renderer divides and wraps onto the ball that the cell's wrap names.
 struct ViewVolume {
-  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, failing = 8 };
+  /// plain: no edges and storeys of its own; hatched: its height is assumed.
+  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, plain = 16, hatched = 32 };
   std::uint32_t node = 0;  ///< index in the state, for picking
   MeshPointer cell;        ///< never empty, always with a wrap
   Colour colour = 0;
@@ -49,7 +50,7 @@ struct ViewSection {
 };
 
 struct ViewColours {
-  Colour sky = 0, horizon = 0, ground = 0, grid = 0, edge = 0, chosen = 0, hovered = 0, cut = 0;
+  Colour sky = 0, ground = 0, grid = 0, edge = 0, chosen = 0, hovered = 0, cut = 0;
   bool is_dark = true;
   bool operator==(const ViewColours&) const = default;
 };

@@ -231,7 +231,7 @@ void open_addition(Board& board, ImVec2 screen) {
   picker.choices.push_back(
       {"comment", "Comment", "A note on the canvas.", "", board.theme().colours().warning, 3000, "text note", "comment"});
   picker.taken = [at](Board& b, const Choice& choice) {
-    if (choice.extra == "comment") add_comment(b);
+    if (choice.extra == "comment") add_comment(b, at);
     else if (choice.extra == "role") add_role(b, choice.id);
     else if (choice.extra.starts_with("link")) lay_bundle(b, choice.id, bundle_of(b, choice.extra == "link back"));
     else add_node(b, choice.id, at);

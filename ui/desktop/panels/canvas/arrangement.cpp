@@ -32,12 +32,6 @@ void put(Board& board, const std::vector<std::pair<std::size_t, ImVec2>>& places
   if (!commands.empty()) submit_as(board, commands, verb + " " + report::counted(places.size(), "node"));
 }
 
-std::string fresh_key(const std::string& base, const std::function<bool(const std::string&)>& is_taken) {
-  std::string key = base;
-  for (int k = 2; is_taken(key); ++k) key = base + "-" + std::to_string(k);
-  return key;
-}
-
 }  // namespace
 
 std::optional<Box> box_of_choice(const Board& board) {
@@ -234,22 +228,22 @@ void frame_chosen(Board& board) {
   if (!in.empty()) patch["frames"][id]["in"] = in;
   drop_emptied_frames(board, patch);
   if (!board.editor.arrange(write_json_line(patch), board.editor.new_gesture())) return;
-  board.model.update(board.editor);
+  update_now(board);
   board.picked_frames = {id};
   begin_edit(board, Thing::frame, id);
 }
 
-void add_comment(Board& board) {
+void add_comment(Board& board, ImVec2 at) {
   const ViewData& view = board.model.view;
   const std::string id = fresh_key("comment", [&](const std::string& key) { return view.comments.contains(key); });
   Json patch = Json::object();
   Json& comment = patch["comments"][id];
-  comment["at"] = place_json(board.cursor());
+  comment["at"] = place_json(at);
   comment["size"] = place_json({220, 70});
   comment["text"] = "";
   join_entered(board, patch, "comments", id);
   if (!board.editor.arrange(write_json_line(patch), board.editor.new_gesture())) return;
-  board.model.update(board.editor);
+  update_now(board);
   board.picked_comments = {id};
   begin_edit(board, Thing::comment, id);
 }
@@ -296,7 +290,7 @@ std::optional<Box> box_of_edit(const Board& board) {
   }
   Box box;
   if (!board.model.frame_box(edit.id, box)) return std::nullopt;
-  return Box{box.at, {std::max(box.size.x, 160.0f), 26}};
+  return Box{box.at, {std::max(box.size.x, 160.0f), kFrameHead}};
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ void lay_out_chosen(Board& board);
 void frame_chosen(Board& board);
 /// Makes a change of the view remove the frames as well that it leaves without content: nobody could see or reach them.
 void drop_emptied_frames(const Board& board, Json& patch);
-/// A comment at the cursor, ready to be written.
-void add_comment(Board& board);
+/// A comment at a place in the plane, ready to be written.
+void add_comment(Board& board, ImVec2 at);
 /// Opens the editing of a name or text in its place.
 void begin_edit(Board& board, Thing thing, const std::string& id);
 void draw_inline_edit(Board& board);

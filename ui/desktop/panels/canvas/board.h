@@ -34,6 +34,13 @@ enum class Thing {
   crumb,
   card_cross
 };
+/// A box or a pill, inside or at its edge.
+inline bool is_body(Thing thing) {
+  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge;
+}
+/// Whatever a link can be laid to.
+inline bool takes_links(Thing thing) { return is_body(thing) || thing == Thing::door; }
+
 struct Hit {
   Thing thing = Thing::nothing;
   std::string id;         ///< of the node, link, comment or frame; the family of a chip
@@ -58,6 +65,7 @@ struct Drag {
   std::set<std::string> base_comments, base_frames;
   std::size_t revision = 0;          ///< of the model; a scene that changes meanwhile ends the drag
   std::vector<ImVec2> swipe;         ///< of a cut
+  std::set<std::string> cut;         ///< links that it crosses
   std::vector<std::size_t> anchors;  ///< that move
   std::vector<std::string> comments;
   std::vector<std::pair<std::string, std::size_t>> dots;
@@ -111,7 +119,7 @@ struct Board {
   InlineEdit edit;
   Hit hovered;
   double hovered_since = 0;
-  std::set<std::string> hidden_families;  ///< the person's own, not the scene's
+  std::set<std::string, std::less<>> hidden_families;  ///< the person's own, not the scene's
   std::set<std::string> picked_comments, picked_frames;
   std::vector<std::string> choice_order;             ///< chosen nodes, the first that was chosen first
   std::vector<std::string> pinned;                   ///< nodes whose cards stay
@@ -128,10 +136,10 @@ struct Board {
   bool has_space_panned = false;
   std::string find_text;
   std::function<void(Board&)> after_frame;  ///< what has to wait until nothing is being walked over
-  const Document* document = nullptr;
+  std::uint64_t document = 0;  ///< whose board it is
 
   const Theme& theme() const { return editor.theme; }
-  bool is_hidden(const Line& line) const { return hidden_families.contains(std::string(line.family.label)); }
+  bool is_hidden(const Line& line) const { return hidden_families.contains(line.family.label); }
   /// Where the cursor is, in the plane, or where the menu was opened that acts; the middle of the pane where it is elsewhere.
   ImVec2 cursor() const;
 };

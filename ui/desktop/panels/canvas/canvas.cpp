@@ -23,8 +23,8 @@ namespace {
 
 // Another scene: nothing of the last one is left behind.
 void follow_document(Board& board) {
-  if (board.document == board.editor.document.get()) return;
-  board.document = board.editor.document.get();
+  if (board.document == board.editor.document->id()) return;
+  board.document = board.editor.document->id();
   board.is_reset = true;
   board.drag = {};
   board.edit = {};
@@ -47,6 +47,11 @@ void forget_gone(Board& board) {
   std::erase_if(board.picked_comments, [&](const std::string& id) { return !view.comments.contains(id); });
   std::erase_if(board.picked_frames, [&](const std::string& id) { return !view.frames.contains(id); });
   std::erase_if(board.pinned, [&](const std::string& id) { return !scene.nodes.contains(id); });
+  // What undo, or somebody else, lets speak again is no part of the solo any more.
+  std::erase_if(board.soloed, [&](const std::string& id) {
+    const auto link = scene.links.find(id);
+    return link == scene.links.end() || !link->second.is_muted;
+  });
 }
 
 }  // namespace

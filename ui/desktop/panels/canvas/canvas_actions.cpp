@@ -181,8 +181,9 @@ void add_arrangement_commands(std::vector<Action>& list) {
               {"Canvas", "Collapse", {GLFW_KEY_H}, {}, area, has_nodes, [](Editor& e) { collapse_chosen(board_of(e)); }});
   offer(list, on_node | on_comment | on_frame,
         {"Canvas", "Frame", {GLFW_KEY_G, true}, {}, area, has_choice, [](Editor& e) { frame_chosen(board_of(e)); }});
-  offer(list, on_ground,
-        {"Canvas", "Comment", {GLFW_KEY_C, false, true}, {}, area, has_document, [](Editor& e) { add_comment(board_of(e)); }});
+  offer(list, on_ground, {"Canvas", "Comment", {GLFW_KEY_C, false, true}, {}, area, has_document, [](Editor& e) {
+                            add_comment(board_of(e), board_of(e).cursor());
+                          }});
   begin_group(list, on_node,
               {"Canvas", "Align left", {GLFW_KEY_LEFT, false, false, true}, {}, area, has_several, align<Alignment::left>});
   offer(list, on_node,
@@ -270,47 +271,17 @@ void add_sight_commands(std::vector<Action>& list) {
   list.push_back({"Canvas", "Full size", {GLFW_KEY_0, true}, {}, area, has_document, [](Editor& e) {
                     board_of(e).camera.glide_to_zoom(1);
                   }});
-  begin_group(list, 0,
-              {"Canvas",
-               "Go left",
-               {GLFW_KEY_LEFT},
-               {},
-               area,
-               has_document,
-               [](Editor& e) {
-                 step_choice(board_of(e), {-1, 0});
-               },
-               true});
-  list.push_back({"Canvas",
-                  "Go right",
-                  {GLFW_KEY_RIGHT},
-                  {},
-                  area,
-                  has_document,
-                  [](Editor& e) {
-                    step_choice(board_of(e), {1, 0});
-                  },
-                  true});
-  list.push_back({"Canvas",
-                  "Go up",
-                  {GLFW_KEY_UP},
-                  {},
-                  area,
-                  has_document,
-                  [](Editor& e) {
-                    step_choice(board_of(e), {0, -1});
-                  },
-                  true});
-  list.push_back({"Canvas",
-                  "Go down",
-                  {GLFW_KEY_DOWN},
-                  {},
-                  area,
-                  has_document,
-                  [](Editor& e) {
-                    step_choice(board_of(e), {0, 1});
-                  },
-                  true});
+}
+
+// The arrows go from node to node.
+void add_walking_commands(std::vector<Action>& list) {
+  const auto walk = [](const char* label, int key, void (*run)(Editor&)) {
+    return Action{"Canvas", label, {key}, {}, Area::canvas, has_document, run, true};
+  };
+  begin_group(list, 0, walk("Go left", GLFW_KEY_LEFT, [](Editor& e) { step_choice(board_of(e), {-1, 0}); }));
+  list.push_back(walk("Go right", GLFW_KEY_RIGHT, [](Editor& e) { step_choice(board_of(e), {1, 0}); }));
+  list.push_back(walk("Go up", GLFW_KEY_UP, [](Editor& e) { step_choice(board_of(e), {0, -1}); }));
+  list.push_back(walk("Go down", GLFW_KEY_DOWN, [](Editor& e) { step_choice(board_of(e), {0, 1}); }));
 }
 
 }  // namespace
@@ -319,6 +290,7 @@ void add_canvas_actions(std::vector<Action>& list) {
   add_edit_commands(list);
   add_arrangement_commands(list);
   add_sight_commands(list);
+  add_walking_commands(list);
 }
 
 }  // namespace bl::desktop

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/define/codec.h"
 #include "core/file/scene_file.h"
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
@@ -23,8 +24,6 @@ bool is_inner(const Selection& end, const std::set<std::string>& nodes) {
          std::all_of(end.ids.begin(), end.ids.end(), [&](const std::string& id) { return nodes.contains(id); });
 }
 
-Json corner_json(ImVec2 at) { return place_json(at); }
-
 // One node or link of a clip, without its id: what the readers of files expect.
 Json without(Json json, std::initializer_list<const char*> keys) {
   for (const char* key : keys) json.erase(key);
@@ -42,20 +41,6 @@ struct Pasting {
   std::size_t lost = 0;  // references to nodes that are not here
 };
 
-std::optional<ImVec2> corner_of(const Json& item, const char* key) {
-  const auto found = item.find(key);
-  if (found == item.end() || !found->is_array() || found->size() != 2 || !(*found)[0].is_number() || !(*found)[1].is_number())
-    return std::nullopt;
-  const ImVec2 at{(*found)[0].get<float>(), (*found)[1].get<float>()};
-  if (!std::isfinite(at.x) || !std::isfinite(at.y)) return std::nullopt;
-  return ImVec2{std::clamp(at.x, -1e5f, 1e5f), std::clamp(at.y, -1e5f, 1e5f)};
-}
-
-std::string text_in(const Json& item, const char* key) {
-  const auto found = item.find(key);
-  return found != item.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
 // Names of copied nodes become those of their copies; names of nodes that are not in this scene go.
 void rename(Pasting& pasting, Selection& selection) {
   std::vector<std::string> ids;
@@ -67,52 +52,86 @@ void rename(Pasting& pasting, Selection& selection) {
   selection.ids = ids;
 }
 
-void move_aside(const Pasting& pasting, NodeRecord& node) {
+// Where a volume has been put; nothing for what takes no room.
+Vector3* volume_place(NodeRecord& node) {
   const auto base = node.types.find(std::string(kBaseNode));
-  if (base == node.types.end() || !node.types.contains("smart_volume")) return;
-  const auto found = base->second.find("position");
-  Vector3 place;
-  if (found != base->second.end())
-    if (const auto* set = std::get_if<Vector3>(&found->second)) place = *set;
-  const auto is_taken = [&](const Vector3& at) {
-    for (const auto& [id, other] : pasting.board.editor.scene().nodes) {
-      const auto values = other.types.find(std::string(kBaseNode));
-      if (values == other.types.end() || !other.types.contains("smart_volume")) continue;
-      const auto position = values->second.find("position");
-      const auto* set = position == values->second.end() ? nullptr : std::get_if<Vector3>(&position->second);
-      if (norm(at - (set != nullptr ? *set : Vector3{})) < kLeastApart) return true;
-    }
-    return false;
+  if (base == node.types.end() || !node.types.contains("smart_volume")) return nullptr;
+  return std::get_if<Vector3>(&base->second.try_emplace("position", Vector3{}).first->second);
+}
+
+// All copies by the same way, so that they lie to each other as their originals do: the least at which none meets a volume.
+void move_aside(const Board& board, std::map<std::string, NodeRecord>& copies) {
+  std::vector<Vector3*> places;
+  for (auto& [id, node] : copies)
+    if (Vector3* place = volume_place(node)) places.push_back(place);
+  const TypificationDefinition& base = *board.editor.types().typification(kBaseNode);
+  const PortDefinition& position = base.ports[base.port_index("position")];
+  std::vector<Vector3> taken;
+  for (const auto& [id, node] : board.editor.scene().nodes)
+    if (node.types.contains("smart_volume"))
+      if (const auto* place = std::get_if<Vector3>(&set_value(node, base, position))) taken.push_back(*place);
+  double aside = 0;
+  const auto is_taken = [&](const Vector3* place) {
+    const Vector3 at{place->x + aside, place->y, place->z};
+    return std::any_of(taken.begin(), taken.end(), [&](const Vector3& other) { return norm(at - other) < kLeastApart; });
   };
-  for (int tries = 0; tries < 100 && is_taken(place); ++tries) place.x += kAside;
-  base->second["position"] = place;
+  for (int tries = 0; tries < 100 && std::any_of(places.begin(), places.end(), is_taken); ++tries) aside += kAside;
+  for (Vector3* place : places) place->x += aside;
+}
+
+// Gives names to what the copies name. What names another copy is said once all copies are there: it is taken out here.
+std::vector<Command> settle_references(Pasting& pasting, const std::string& id, NodeRecord& node) {
+  std::vector<Command> later;
+  for (auto& [type, values] : node.types) {
+    const TypificationDefinition* definition = pasting.board.editor.types().typification(type);
+    for (auto value = values.begin(); value != values.end();) {
+      auto* selection = std::get_if<Shared<Selection>>(&value->second);
+      const PortDefinition* port = definition == nullptr ? nullptr : definition->find_port(value->first);
+      if (selection == nullptr || port == nullptr) {
+        ++value;
+        continue;
+      }
+      Selection renamed = **selection;
+      const bool names_copies = std::any_of(renamed.ids.begin(), renamed.ids.end(),
+                                            [&](const std::string& other) { return pasting.new_ids.contains(other); });
+      rename(pasting, renamed);
+      value->second = Shared<Selection>(std::move(renamed));
+      if (names_copies)
+        later.push_back(command<SetPort>(
+            {pasting.new_ids.at(id), {type + "." + port->id}, {write_json_line(value_to_json(value->second, *port))}}));
+      value = names_copies ? values.erase(value) : std::next(value);
+    }
+  }
+  return later;
 }
 
 Result<void> paste_nodes(Pasting& pasting, const Json& list) {
   for (const Json& item : list) {
     const std::string id = text_in(item, "id");
     if (id.empty()) return Error{ErrorCode::missing, "nodes", "a node has no id"};
+    if (pasting.new_ids.contains(id)) return Error{ErrorCode::conflict, "nodes/" + id, "two nodes have this id"};
     pasting.new_ids[id] = pasting.ids.of(id);
   }
   const Registry& registry = pasting.board.editor.types();
+  std::map<std::string, NodeRecord> nodes;
   for (const Json& item : list) {
     const std::string id = text_in(item, "id");
     auto node = node_from_json(without(item, {"id", "box"}), registry, "nodes/" + id);
     if (!node) return node.error();
-    for (auto& [type, values] : node->types)
-      for (auto& [port, value] : values)
-        if (auto* selection = std::get_if<Shared<Selection>>(&value)) {
-          Selection renamed = **selection;
-          rename(pasting, renamed);
-          value = Shared<Selection>(std::move(renamed));
-        }
-    move_aside(pasting, *node);
+    nodes[id] = std::move(*node);
     const std::string& copy = pasting.new_ids[id];
-    pasting.commands.push_back(command<AddNode>({copy, {write_json_line(node_to_json(*node, registry))}}));
     pasting.nodes.insert(copy);
     join_entered(pasting.board, pasting.patch, "nodes", copy);
-    if (const auto at = corner_of(item, "box")) pasting.patch["boxes"][copy] = corner_json(*at + pasting.shift);
+    if (const auto at = point_in(item, "box")) pasting.patch["boxes"][copy] = place_json(*at + pasting.shift);
   }
+  move_aside(pasting.board, nodes);
+  std::vector<Command> later;
+  for (auto& [id, node] : nodes) {
+    const std::vector<Command> references = settle_references(pasting, id, node);
+    later.insert(later.end(), references.begin(), references.end());
+    pasting.commands.push_back(command<AddNode>({pasting.new_ids[id], {write_json_line(node_to_json(node, registry))}}));
+  }
+  pasting.commands.insert(pasting.commands.end(), later.begin(), later.end());
   return {};
 }
 
@@ -131,10 +150,10 @@ Result<void> paste_links(Pasting& pasting, const Json& list) {
     pasting.commands.push_back(command<AddLink>({copy, {write_json_line(link_to_json(*link, registry))}}));
     if (const auto dots = item.find("dots"); dots != item.end() && dots->is_array())
       for (const Json& dot : *dots)
-        if (const auto at = corner_of(Json::object({{"at", dot}}), "at")) {
+        if (const auto at = point_in(Json::object({{"at", dot}}), "at")) {
           Json& list_of = pasting.patch["dots"][copy];
           if (list_of.is_null()) list_of = Json::array();
-          list_of.push_back(corner_json(*at + pasting.shift));
+          list_of.push_back(place_json(*at + pasting.shift));
         }
   }
   return {};
@@ -142,16 +161,16 @@ Result<void> paste_links(Pasting& pasting, const Json& list) {
 
 void paste_comments(Pasting& pasting, const Json& list, std::set<std::string>& pasted) {
   for (const Json& item : list) {
-    const auto at = corner_of(item, "at");
-    const auto size = corner_of(item, "size");
+    const auto at = point_in(item, "at");
+    const auto size = point_in(item, "size");
     if (!at) continue;
-    std::string id = "comment";
     const auto& known = pasting.board.model.view.comments;
-    for (int k = 2; known.contains(id) || pasted.contains(id); ++k) id = "comment-" + std::to_string(k);
+    const std::string id =
+        fresh_key("comment", [&](const std::string& key) { return known.contains(key) || pasted.contains(key); });
     pasted.insert(id);
     Json& comment = pasting.patch["comments"][id];
-    comment["at"] = corner_json(*at + pasting.shift);
-    comment["size"] = corner_json(size.value_or(ImVec2(220, 70)));
+    comment["at"] = place_json(*at + pasting.shift);
+    comment["size"] = place_json(size.value_or(ImVec2(220, 70)));
     comment["text"] = text_in(item, "text");
     join_entered(pasting.board, pasting.patch, "comments", id);
   }
@@ -170,7 +189,7 @@ std::optional<Box> box_of_clip(const Json& clip) {
   std::optional<Box> all;
   const auto take = [&](const Json& list, const char* key) {
     for (const Json& item : list)
-      if (const auto at = corner_of(item, key)) {
+      if (const auto at = point_in(item, key)) {
         const Box box{*at, {kBoxWidth, 100}};
         all = all ? all->with(box) : box;
       }
@@ -197,7 +216,7 @@ std::string clip_of_choice(const Board& board) {
     item["id"] = id;
     item.update(node_to_json(found->second, editor.types()));
     if (const std::size_t k = board.model.find_box(id); k < board.model.boxes.size())
-      item["box"] = corner_json(board.model.boxes[k].box.at);
+      item["box"] = place_json(board.model.boxes[k].box.at);
     clip["nodes"].push_back(std::move(item));
   }
   for (const auto& [id, link] : editor.scene().links) {
@@ -206,14 +225,14 @@ std::string clip_of_choice(const Board& board) {
     item["id"] = id;
     item.update(link_to_json(link, editor.types()));
     if (const auto dots = board.model.view.dots.find(id); dots != board.model.view.dots.end())
-      for (const ImVec2& p : dots->second) item["dots"].push_back(corner_json(p));
+      for (const ImVec2& p : dots->second) item["dots"].push_back(place_json(p));
     clip["links"].push_back(std::move(item));
   }
   for (const std::string& id : board.picked_comments)
     if (const auto found = board.model.view.comments.find(id); found != board.model.view.comments.end()) {
       const Comment& comment = found->second;
       clip["comments"].push_back(
-          {{"at", corner_json(comment.box.at)}, {"size", corner_json(comment.box.size)}, {"text", comment.text}});
+          {{"at", place_json(comment.box.at)}, {"size", place_json(comment.box.size)}, {"text", comment.text}});
     }
   return write_json(clip, 2);
 }
@@ -243,7 +262,7 @@ bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shi
   if (pasting.commands.empty() || !submit_as(board, pasting.commands, (is_shift ? "Duplicate " : "Paste ") + what)) return false;
   editor.picks.links.clear();
   editor.picks.nodes = pasting.nodes;
-  board.model.update(editor);
+  update_now(board);
   board.picked_comments = comments;
   if (pasting.lost > 0)
     editor.tell(NoticeKind::warning,

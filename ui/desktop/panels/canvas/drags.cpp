@@ -15,12 +15,6 @@ namespace {
 
 constexpr float kTremble = 4, kGuideReach = 6;
 
-// Whatever a link can be laid to.
-bool is_body(Thing thing) {
-  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge ||
-         thing == Thing::door;
-}
-
 // What a press on something that can be moved chooses, as soon as it is pressed.
 void choose_pressed(Board& board) {
   const Drag& drag = board.drag;
@@ -121,6 +115,7 @@ void move_to_shift(Board& board) {
   Drag& drag = board.drag;
   for (std::size_t k = 0; k < drag.anchors.size(); ++k)
     anchor_box(board.model, drag.anchors[k]).at = drag.old_anchors[k].at + drag.shift;
+  board.model.is_view_moved = board.model.is_view_moved || !drag.comments.empty();
   for (std::size_t k = 0; k < drag.comments.size(); ++k)
     board.model.view.comments.at(drag.comments[k]).box.at = drag.old_comments[k].at + drag.shift;
   for (std::size_t k = 0; k < drag.dots.size() && k < drag.old_dots.size(); ++k)
@@ -173,6 +168,21 @@ void go_on_boxing(Board& board) {
   }
 }
 
+// A swipe only grows: each frame looks at its newest stretch alone.
+void go_on_cutting(Board& board, ImVec2 cursor) {
+  Drag& drag = board.drag;
+  if (!drag.swipe.empty() && length(cursor - drag.swipe.back()) * board.camera.factor() <= 2) return;
+  drag.swipe.push_back(cursor);
+  if (drag.swipe.size() < 2) return;
+  const ImVec2 last = drag.swipe[drag.swipe.size() - 2];
+  const Box stretch = box_between(last, cursor).grown(1);
+  for (const Line& line : board.model.lines) {
+    if (board.is_hidden(line) || !line.bounds.grown(1).touches(stretch)) continue;
+    for (std::size_t p = 1; p < line.points.size(); ++p)
+      if (do_cross(last, cursor, line.points[p - 1], line.points[p])) drag.cut.insert(line.id);
+  }
+}
+
 void centre_by_minimap(Board& board) {
   const Box all = board.model.bounds().grown(60);
   const Box& map = board.minimap;
@@ -213,9 +223,7 @@ void go_on_dragging(Board& board) {
       if (ImGui::IsMouseClicked(drag.button)) choose_pressed(board);
       if (drag.is_far) go_on_moving(board);
       break;
-    case Deed::cut:
-      if (drag.swipe.empty() || length(cursor - drag.swipe.back()) * board.camera.factor() > 2) drag.swipe.push_back(cursor);
-      break;
+    case Deed::cut: go_on_cutting(board, cursor); break;
     case Deed::dot:
       if (const std::size_t line = board.model.find_line(drag.grabbed.id); line < board.model.lines.size()) {
         if (drag.old_dots.empty()) drag.old_dots = {board.model.lines[line].dots[drag.grabbed.index]};
@@ -226,6 +234,7 @@ void go_on_dragging(Board& board) {
     case Deed::comment_corner: {
       Box& box = board.model.view.comments.at(drag.grabbed.id).box;
       if (drag.old_comments.empty()) drag.old_comments = {box};
+      board.model.is_view_moved = true;
       const ImVec2 size = drag.old_comments.front().size + (cursor - drag.begin);
       box.size = {std::max(60.0f, std::round(size.x / kGrid) * kGrid), std::max(30.0f, std::round(size.y / kGrid) * kGrid)};
       break;
@@ -295,22 +304,16 @@ void end_move(Board& board) {
 }
 
 void end_cut(Board& board) {
-  std::set<std::string> cut;
-  const auto& swipe = board.drag.swipe;
-  for (const Line& line : board.model.lines) {
-    if (board.is_hidden(line)) continue;
-    for (std::size_t k = 1; k < swipe.size(); ++k)
-      for (std::size_t p = 1; p < line.points.size(); ++p)
-        if (do_cross(swipe[k - 1], swipe[k], line.points[p - 1], line.points[p])) cut.insert(line.id);
-  }
-  if (!cut.empty()) remove_links(board, cut);
+  if (board.drag.cut.empty()) return;
+  remove_links(board, board.drag.cut);
+  board.hovered = {};  // the cursor may rest upon a link that has just gone
 }
 
 void end_link(Board& board) {
   const Drag& drag = board.drag;
   const Hit over = board.hovered;
   const ImVec2 at = ImGui::GetIO().MousePos;
-  if (is_body(over.thing)) {
+  if (takes_links(over.thing)) {
     if (over.index == drag.grabbed.index) return;
     if (drag.deed == Deed::relink) move_links(board, drag.grabbed.index, over.index);
     else open_link_menu(board, drag.grabbed.index, over.index, at);

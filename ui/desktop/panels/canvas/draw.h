@@ -22,6 +22,8 @@ ImU32 colour_of(const Board& board, const Section& section);
 
 /// The colour of a box as a whole: of a volume's use, else of its first role.
 ImU32 tone_of(const Board& board, const NodeBox& box);
+/// Why a link whose kind is known does not run; empty where it does.
+std::string link_error(const Board& board, const Line& line);
 
 void draw_ground(Board& board);
 void draw_frames_and_comments(Board& board);

@@ -6,7 +6,7 @@ namespace bl::desktop::canvas {
 
 namespace {
 
-constexpr float kLeastGrid = 14, kFrameHead = 26;
+constexpr float kLeastGrid = 14;
 
 // Dots at the crossings of a grid that grows coarser as it is looked at from further away.
 void draw_grid(const Board& board, ImDrawList& list) {
@@ -81,9 +81,7 @@ void draw_new_link(Board& board, ImDrawList& list, ImVec2 cursor) {
                    2.2f * board.theme().scale());
   list.AddCircleFilled(screen.back(), 4 * board.theme().scale(), is_moving ? c.warning : c.accent, 12);
   const Hit& over = board.hovered;
-  const bool is_target = over.thing == Thing::node || over.thing == Thing::node_edge || over.thing == Thing::pill ||
-                         over.thing == Thing::pill_edge || over.thing == Thing::door;
-  if (is_target && over.index != drag.grabbed.index) {
+  if (takes_links(over.thing) && over.index != drag.grabbed.index) {
     const Box box = board.camera.to_screen(board.model.anchor(over.index));
     list.AddRect(box.low() - ImVec2(3, 3), box.high() + ImVec2(3, 3), c.accent, 7, 0, 2.5f);
   } else {

@@ -17,15 +17,6 @@ struct Stroke {
   bool is_lit = false;
 };
 
-std::string error_of(const Board& board, const Line& line) {
-  if (line.definition == nullptr) return "kept as it is, not run";
-  if (line.in_state == kNoIndex) return "";
-  const State& state = board.editor.state();
-  const auto& error =
-      state.links[line.in_state].error ? state.links[line.in_state].error : state.plan->links[line.in_state].error;
-  return error ? error->message : "";
-}
-
 bool is_lit(const Board& board, const Line& line) {
   const Picks& picks = board.editor.picks;
   if (picks.links.contains(line.id) || picks.lit_link == line.id) return true;
@@ -44,12 +35,7 @@ Stroke stroke_of(const Board& board, const Line& line) {
   float opacity = !line.is_enabled ? 0.28f : line.is_muted ? 0.6f : 0.82f;
   if (board.editor.picks.links.contains(line.id)) stroke.colour = c.accent, stroke.width *= 1.35f, opacity = 1;
   else if (stroke.is_lit) stroke.width *= 1.3f, opacity = std::min(1.0f, opacity + 0.2f);
-  if (board.drag.deed == Deed::cut && board.drag.swipe.size() > 1) {
-    for (std::size_t k = 1; k < board.drag.swipe.size(); ++k)
-      for (std::size_t p = 1; p < line.points.size(); ++p)
-        if (do_cross(board.drag.swipe[k - 1], board.drag.swipe[k], line.points[p - 1], line.points[p]))
-          stroke.colour = c.bad, opacity = 1;
-  }
+  if (board.drag.cut.contains(line.id)) stroke.colour = c.bad, opacity = 1;
   stroke.colour = faded(stroke.colour, opacity);
   return stroke;
 }
@@ -166,6 +152,14 @@ void draw_line(Board& board, const Line& line, std::vector<ImVec2>& points) {
 
 }  // namespace
 
+std::string link_error(const Board& board, const Line& line) {
+  if (line.in_state == kNoIndex) return "";
+  const State& state = board.editor.state();
+  const auto& running = state.links[line.in_state].error;
+  const auto& error = running ? running : state.plan->links[line.in_state].error;
+  return error ? error->message : "";
+}
+
 bool is_longer_than(const Board& board, const Line& line, float pixels) {
   float left = pixels / board.camera.factor();
   for (std::size_t k = 1; k < line.points.size() && left >= 0; ++k) left -= length(line.points[k] - line.points[k - 1]);
@@ -187,7 +181,8 @@ void draw_line_labels(Board& board) {
     for (const Line& line : board.model.lines) {
       if (!line.bounds.touches(sight) || board.is_hidden(line)) continue;
       const Stroke stroke = stroke_of(board, line);
-      if (stroke.is_lit == lit) draw_labels(board, line, stroke, error_of(board, line));
+      if (stroke.is_lit == lit)
+        draw_labels(board, line, stroke, line.definition == nullptr ? "kept as it is, not run" : link_error(board, line));
     }
 }
 

@@ -19,16 +19,9 @@ constexpr int kMostChipRows = 2;
 constexpr float kMostChipShare = 0.25f;
 constexpr const char* kFamilyList = "canvas families";
 
-std::set<std::string> families_of(const Board& board) {
-  std::set<std::string> families;
-  for (const Line& line : board.model.lines) families.insert(std::string(line.family.label));
-  return families;
-}
-
 ImU32 colour_of_family(const Board& board, const std::string& label) {
-  for (const Line& line : board.model.lines)
-    if (line.family.label == label) return line.family.colour;
-  return board.theme().colours().text_faint;
+  const auto found = board.model.families.find(label);
+  return found == board.model.families.end() ? board.theme().colours().text_faint : found->second;
 }
 
 void switch_family(Board& board, const std::string& label) {
@@ -37,9 +30,9 @@ void switch_family(Board& board, const std::string& label) {
 
 // What the one button says that stands for all switches.
 std::string folded_label(const Board& board) {
-  const auto families = families_of(board);
+  const auto& families = board.model.families;
   const auto hidden = std::count_if(families.begin(), families.end(),
-                                    [&](const std::string& label) { return board.hidden_families.contains(label); });
+                                    [&](const auto& family) { return board.hidden_families.contains(family.first); });
   return hidden == 0 ? "Links" : "Links, " + std::to_string(hidden) + " off";
 }
 
@@ -190,9 +183,7 @@ std::vector<CardRow> rows_of(const Board& board, const NodeBox& box) {
       if (port.kind == ValueKind::mesh || port.kind == ValueKind::table) continue;
       const Value* value = value_of(editor, box, section, p);
       if (value == nullptr || (!port.is_computed && *value == port.default_value)) continue;
-      std::string label = port.id;
-      std::replace(label.begin(), label.end(), '_', ' ');
-      rows.push_back({label, text_of(editor, box, section, p)});
+      rows.push_back({label_of(port), text_of(editor, box, section, p)});
       ++count;
     }
   }
@@ -222,7 +213,9 @@ void draw_pinned_card(Board& board, const NodeBox& box) {
 void draw_link_card(Board& board, const Line& line) {
   const Editor& editor = board.editor;
   const Colours& c = board.theme().colours();
-  const LinkRecord& link = editor.scene().links.at(line.id);
+  const auto found = editor.scene().links.find(line.id);
+  if (found == editor.scene().links.end()) return;  // another panel has just removed it
+  const LinkRecord& link = found->second;
   std::vector<CardRow> rows{{text_of(editor, board.model.selection_of(line.from)) + "  \xe2\x86\x92  " +
                                  text_of(editor, board.model.selection_of(line.to)),
                              ""}};
@@ -237,12 +230,7 @@ void draw_link_card(Board& board, const Line& line) {
   if (const LinkPulse* pulse = board.live.pulse(line.id); pulse != nullptr && !pulse->text.empty())
     rows.push_back({"last change", pulse->text});
   if (line.definition == nullptr) rows.push_back({"This kind is unknown here: kept as it is, not run.", "", c.text_faint});
-  if (line.in_state != kNoIndex) {
-    const State& state = editor.state();
-    const auto& error =
-        state.links[line.in_state].error ? state.links[line.in_state].error : state.plan->links[line.in_state].error;
-    if (error) rows.push_back({error->message, "", c.bad});
-  }
+  if (const std::string error = link_error(board, line); !error.empty()) rows.push_back({error, "", c.bad});
   const ImVec2 at = ImGui::GetIO().MousePos;
   draw_card(board, {at, {8, 8}}, line.label + "  (" + line.id + ")", rows, false);
 }
@@ -253,7 +241,7 @@ void draw_frame_card(Board& board, const std::string& id) {
   if (frame == board.model.view.frames.end() || !board.model.frame_box(id, box)) return;
   std::size_t count = 0;
   for (const NodeBox& node : board.model.boxes) count += board.model.view.holds_node(id, node.id) ? 1 : 0;
-  const Box head = board.camera.to_screen({box.at, {box.size.x, 26}});
+  const Box head = board.camera.to_screen({box.at, {box.size.x, kFrameHead}});
   draw_card(board, {{std::min(ImGui::GetIO().MousePos.x, head.high().x), head.low().y}, {8, head.size.y}},
             frame->second.name.empty() ? "Frame" : frame->second.name,
             {{report::counted(count, "node"), ""}, {"Double-click or I enters, F2 renames", ""}}, false);
@@ -269,7 +257,7 @@ void place_overlays(Board& board) {
   const ImVec2 begin = pane.low() + ImVec2(10 * scale, crumbs + 10 * scale);
   ImVec2 at = begin;
   int rows = 1;
-  for (const std::string& label : families_of(board)) {
+  for (const auto& [label, colour] : board.model.families) {
     const float width = text_width(board, kChipText * scale, label) + 28 * scale;
     const bool is_full = at.x + width > pane.high().x - 10 * scale && at.x > pane.low().x + 11 * scale;
     if (is_full) at = {begin.x, at.y + kChipStep * scale}, ++rows;
@@ -304,9 +292,9 @@ void draw_family_list(Board& board) {
   families.is_open = ImGui::BeginPopup(
       kFamilyList, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   if (!families.is_open) return;
-  for (const std::string& label : families_of(board)) {
+  for (const auto& [label, colour] : board.model.families) {
     bool is_on = !board.hidden_families.contains(label);
-    ImGui::PushStyleColor(ImGuiCol_CheckMark, colour_of_family(board, label));
+    ImGui::PushStyleColor(ImGuiCol_CheckMark, colour);
     if (ImGui::Checkbox(label.c_str(), &is_on)) switch_family(board, label);
     ImGui::PopStyleColor();
     const ImVec2 low = ImGui::GetItemRectMin();
@@ -334,7 +322,7 @@ void draw_cards(Board& board) {
   if ((hit.thing == Thing::node || hit.thing == Thing::node_edge) && !is_pinned && hit.index < board.model.boxes.size())
     draw_card(board, board.camera.to_screen(board.model.boxes[hit.index].box),
               board.model.boxes[hit.index].name + "  (" + hit.id + ")", rows_of(board, board.model.boxes[hit.index]), false);
-  if (hit.thing == Thing::door && hit.index < board.model.anchors()) {
+  if (hit.thing == Thing::door && board.model.is_door(hit.index) && hit.index < board.model.anchors()) {
     const Door& door = board.model.doors[hit.index - board.model.boxes.size() - board.model.pills.size()];
     draw_card(board, board.camera.to_screen(door.box), door.label, {{"Outside of this frame: click to go there", ""}}, false);
   }

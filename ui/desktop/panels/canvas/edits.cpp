@@ -15,9 +15,34 @@ namespace {
 
 constexpr std::size_t kMostReconnections = 32;
 
+// A named set is known by its nodes: without one of them it has another key, and its place goes along; of less than two nodes
+// there is no set.
+void rename_sets(const Board& board, const std::set<std::string>& nodes, const std::set<std::string>& links, Json& patch) {
+  const auto& places = board.model.view.sets;
+  std::set<std::string> going, staying;
+  for (const auto& [id, link] : board.editor.scene().links)
+    for (const Selection* end : {&link.from, &link.to}) {
+      const std::string key = key_of(*end);
+      const auto place = places.find(key);
+      if (place == places.end()) continue;
+      going.insert(key);
+      if (links.contains(id)) continue;
+      Selection left = *end;
+      std::erase_if(left.ids, [&](const std::string& node) { return nodes.contains(node); });
+      if (!left.is_query() && left.ids.size() < 2) continue;
+      const std::string fresh = key_of(left);
+      staying.insert(fresh);
+      if (fresh != key && !places.contains(fresh)) patch["sets"][fresh] = place_json(place->second);
+    }
+  for (const std::string& key : going)
+    if (!staying.contains(key)) patch["sets"][key] = nullptr;
+}
+
 // The view's entries of nodes and links that go.
-Json forgetting(const ViewData& view, const std::set<std::string>& nodes, const std::set<std::string>& links) {
+Json forgetting(const Board& board, const std::set<std::string>& nodes, const std::set<std::string>& links) {
+  const ViewData& view = board.model.view;
   Json patch = Json::object();
+  rename_sets(board, nodes, links, patch);
   for (const std::string& id : nodes) {
     if (view.boxes.contains(id)) patch["boxes"][id] = nullptr;
     if (view.collapsed.contains(id)) patch["collapsed"][id] = nullptr;
@@ -79,12 +104,18 @@ void reconnect(const Board& board, const std::string& node, const std::set<std::
 }  // namespace
 
 std::string FreshIds::of(const std::string& wish) {
-  const std::string base = to_identifier(wish).substr(0, 56);
-  std::string id = base;
-  for (int k = 2; given_.contains(id) || editor_->scene().nodes.contains(id) || editor_->scene().links.contains(id); ++k)
-    id = base + "-" + std::to_string(k);
-  given_.insert(id);
-  return id;
+  const Scene& scene = editor_->scene();
+  return *given_
+              .insert(fresh_key(to_identifier(wish).substr(0, 56),
+                                [&](const std::string& id) {
+                                  return given_.contains(id) || scene.nodes.contains(id) || scene.links.contains(id);
+                                }))
+              .first;
+}
+
+void update_now(Board& board) {
+  board.model.update(board.editor);
+  board.hovered = {};
 }
 
 void add_view_patch(std::vector<Command>& commands, const Json& patch) {
@@ -132,6 +163,27 @@ std::string soloists(const Board& board) {
   return picks.links.size() == 1 ? "\xc2\xb7 " + *picks.links.begin() : report::counted(picks.links.size(), "link");
 }
 
+// Takes a frame away; what is in it, and stays, comes to lie in the nearest frame around it that stays too.
+void dissolve(const Board& board, const std::string& id, const std::set<std::string>& going, Json& patch) {
+  const auto& frames = board.model.view.frames;
+  const auto frame = frames.find(id);
+  if (frame == frames.end()) return;
+  std::string outer = frame->second.in;
+  // Frames in a ring have nothing around them.
+  for (std::size_t steps = 0; board.picked_frames.contains(outer) && frames.contains(outer); ++steps)
+    outer = steps < frames.size() ? frames.at(outer).in : std::string();
+  if (!frames.contains(outer)) outer.clear();
+  for (const auto& [other, inner] : frames)
+    if (inner.in == id && !board.picked_frames.contains(other))
+      patch["frames"][other]["in"] = outer.empty() ? Json() : Json(outer);
+  patch["frames"][id] = nullptr;
+  if (outer.empty()) return;
+  for (const std::string& node : frame->second.nodes)
+    if (!going.contains(node)) patch["frames"][outer]["nodes"][node] = true;
+  for (const std::string& comment : frame->second.comments)
+    if (!board.picked_comments.contains(comment)) patch["frames"][outer]["comments"][comment] = true;
+}
+
 }  // namespace
 
 void remove_chosen(Board& board, bool reconnects) {
@@ -152,20 +204,13 @@ void remove_chosen(Board& board, bool reconnects) {
     };
     if (goes(link.from) || goes(link.to)) links.insert(id);
   }
-  Json patch = forgetting(board.model.view, nodes, links);
+  Json patch = forgetting(board, nodes, links);
   for (const std::string& id : board.picked_comments) {
     patch["comments"][id] = nullptr;
     if (const std::string frame = board.model.view.frame_of_comment(id); !frame.empty())
       patch["frames"][frame]["comments"][id] = nullptr;
   }
-  for (const std::string& id : board.picked_frames) {
-    patch["frames"][id] = nullptr;
-    for (const auto& [other, frame] : board.model.view.frames)
-      if (frame.in == id && !board.picked_frames.contains(other)) {
-        const std::string& outer = board.model.view.frames.at(id).in;
-        patch["frames"][other]["in"] = outer.empty() ? Json() : Json(outer);
-      }
-  }
+  for (const std::string& id : board.picked_frames) dissolve(board, id, nodes, patch);
   drop_emptied_frames(board, patch);
   add_view_patch(commands, patch);
   if (commands.empty()) return editor.tell(NoticeKind::told, "Nothing is chosen that could be removed.");
@@ -175,14 +220,16 @@ void remove_chosen(Board& board, bool reconnects) {
 void remove_links(Board& board, const std::set<std::string>& links) {
   std::vector<Command> commands;
   for (const std::string& id : links) commands.push_back(command<RemoveLink>({id}));
-  add_view_patch(commands, forgetting(board.model.view, {}, links));
+  add_view_patch(commands, forgetting(board, {}, links));
   if (board.editor.submit(commands, board.editor.new_gesture()))
     board.editor.tell(NoticeKind::told, report::counted(links.size(), "link") + " removed.");
 }
 
 void mute_chosen(Board& board) {
-  const std::set<std::string> links = links_of_choice(board);
+  std::set<std::string> links = links_of_choice(board);
   const auto& all = board.editor.scene().links;
+  // Those of unknown kinds are kept as they are; they do not run anyway.
+  std::erase_if(links, [&](const std::string& id) { return !all.at(id).ghost.empty(); });
   if (links.empty()) return board.editor.tell(NoticeKind::told, "Choose links, or nodes with links, to mute them.");
   const bool mutes = std::any_of(links.begin(), links.end(), [&](const std::string& id) { return !all.at(id).is_muted; });
   std::vector<Command> commands;
@@ -205,11 +252,14 @@ void solo_chosen(Board& board) {
   }
   const std::set<std::string> heard = links_heard(board);
   if (heard.empty()) return editor.tell(NoticeKind::told, "Choose links, or nodes with links, to hear them alone.");
+  std::set<std::string> others;
   for (const auto& [id, link] : all)
-    if (!heard.contains(id) && !link.is_muted) commands.push_back(command<MuteLink>({id, true})), board.soloed.insert(id);
+    if (!heard.contains(id) && !link.is_muted && link.ghost.empty())
+      commands.push_back(command<MuteLink>({id, true})), others.insert(id);
   if (commands.empty()) return editor.tell(NoticeKind::told, "No other link speaks.");
-  if (submit_as(board, commands, "Solo " + soloists(board)))
-    editor.tell(NoticeKind::told, report::counted(board.soloed.size(), "other link") + " muted; Q brings them back.");
+  if (!submit_as(board, commands, "Solo " + soloists(board))) return;
+  board.soloed = others;
+  editor.tell(NoticeKind::told, report::counted(others.size(), "other link") + " muted; Q brings them back.");
 }
 
 void move_links(Board& board, std::size_t from, std::size_t to) {

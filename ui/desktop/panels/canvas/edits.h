@@ -38,6 +38,10 @@ class FreshIds {
   std::set<std::string> given_;
 };
 
+/// Brings the model up to a change that was made in the middle of a frame. What was pointed at may be gone, or have another
+/// number.
+void update_now(Board& board);
+
 /// One step under a name of its own, where the commands do not say what was meant.
 bool submit_as(Board& board, const std::vector<Command>& commands, const std::string& label);
 /// A change of the view as one of several commands; nothing where the patch is empty.

@@ -16,9 +16,9 @@ constexpr double kStillMove = 0.002, kStillShare = 1e-3;
 }  // namespace
 
 void Live::update(const Editor& editor, const Model& model) {
-  if (document_ != editor.document.get()) {
+  if (document_ != editor.document->id()) {
     *this = {};
-    document_ = editor.document.get();
+    document_ = editor.document->id();
   }
   if (seen_ == model.state_revision) return;
   seen_ = model.state_revision;

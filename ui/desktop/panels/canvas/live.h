@@ -36,7 +36,7 @@ class Live {
 
   std::map<std::pair<std::string, std::size_t>, Spark> sparks_;
   std::map<std::string, LinkPulse> pulses_;
-  const Document* document_ = nullptr;
+  std::uint64_t document_ = 0;  ///< whose samples these are
   std::size_t seen_ = 0;
   double sampled_at_ = -1;
   std::int64_t tick_ = -1;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ui/cli/report/report_model.h"
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/link_paths.h"
 #include "ui/desktop/panels/canvas/sections.h"
@@ -14,7 +15,7 @@ namespace bl::desktop::canvas {
 
 namespace {
 
-constexpr float kFramePadding = 18, kFrameHead = 26;
+constexpr float kFramePadding = 18;
 constexpr float kLoopRoom = 46;  // above a pill, for links from a set to itself
 constexpr int kDeepestFrame = 32;
 constexpr std::size_t kOneColumn = 7;
@@ -70,7 +71,7 @@ std::string text_of(const Editor& editor, const Selection& selection) {
 }
 
 void Model::update(const Editor& editor) {
-  const Document* document = editor.document.get();
+  const std::uint64_t document = editor.document->id();
   const std::size_t log_size = editor.document->session().log().size();
   const Scene& scene = editor.scene();
   const bool is_other = document != document_ || node_count_ != scene.nodes.size() || log_size < log_size_;
@@ -80,12 +81,15 @@ void Model::update(const Editor& editor) {
     log_size_ = log_size;
     node_count_ = scene.nodes.size();
     narrowed_to_ = entered;
-    if (scene.view != view_text_ || revision == 0) view = read_view(view_text_ = scene.view);
+    if (scene.view != view_text_ || revision == 0 || is_view_moved) view = read_view(view_text_ = scene.view);
+    is_view_moved = false;
     ++revision;
     make_boxes(editor);
     make_lines(editor);
     place(editor);
     narrow();
+    families.clear();
+    for (const Line& line : lines) families.emplace(line.family.label, line.family.colour);
     trace_lines();
     plan_ = nullptr;
     state_ = nullptr;
@@ -100,7 +104,7 @@ void Model::update(const Editor& editor) {
 void Model::forget_places() {
   kept_.clear();
   log_size_ = 0;
-  document_ = nullptr;
+  document_ = 0;
 }
 
 void Model::make_boxes(const Editor& editor) {
@@ -304,10 +308,8 @@ void Model::find_indices(const Editor& editor) {
     }
   }
   for (Line& line : lines) {
-    const auto found = std::lower_bound(plan.links.begin(), plan.links.end(), line.id,
-                                        [](const LinkPlan& l, const std::string& key) { return l.id < key; });
-    line.in_state =
-        found != plan.links.end() && found->id == line.id ? static_cast<std::uint32_t>(found - plan.links.begin()) : kNoIndex;
+    const std::size_t at = report::link_index(plan, line.id);
+    line.in_state = at < plan.links.size() ? static_cast<std::uint32_t>(at) : kNoIndex;
   }
 }
 

@@ -14,7 +14,7 @@ namespace bl::desktop::canvas {
 
 // Measures of boxes, in points at full size.
 inline constexpr float kBoxWidth = 188, kHeadHeight = 28, kSectionHeight = 19, kRowHeight = 17, kBarHeight = 19,
-                       kSparkHeight = 26, kBoxFoot = 6, kGrid = 10, kPillHeight = 26;
+                       kSparkHeight = 26, kBoxFoot = 6, kGrid = 10, kPillHeight = 26, kFrameHead = 26;
 inline constexpr std::uint32_t kNoIndex = 0xffffffffu;
 
 /// One port as a line in a section.
@@ -89,6 +89,7 @@ class Model {
   void update(const Editor& editor);
 
   ViewData view;               ///< of the whole scene
+  bool is_view_moved = false;  ///< a drag has moved comments in it; whatever changes the scene reads it again
   std::string entered;         ///< the frame that alone is shown; empty: all. Takes effect with the next update
   std::vector<NodeBox> boxes;  ///< ascending id
   std::vector<Pill> pills;
@@ -96,9 +97,10 @@ class Model {
   std::vector<Line> lines;             ///< ascending id
   std::vector<NodeBox> outside_boxes;  ///< what the entered frame does not hold; ascending id
   std::vector<Line> outside_lines;
-  std::size_t undrawn = 0;         ///< links of unknown kinds whose ends cannot be read
-  std::size_t revision = 0;        ///< grows with each change of the scene
-  std::size_t state_revision = 0;  ///< grows with each state that is seen, and with each change of the scene
+  std::map<std::string, ImU32, std::less<>> families;  ///< of these lines, with their colours
+  std::size_t undrawn = 0;                             ///< links of unknown kinds whose ends cannot be read
+  std::size_t revision = 0;                            ///< grows with each change of the scene
+  std::size_t state_revision = 0;                      ///< grows with each state that is seen, and with each change of the scene
 
   std::size_t anchors() const { return boxes.size() + pills.size() + doors.size(); }
   const Box& anchor(std::size_t k) const {
@@ -133,7 +135,7 @@ class Model {
   void find_indices(const Editor& editor);
   std::size_t anchor_of(const Editor& editor, const Selection& selection);
 
-  const Document* document_ = nullptr;
+  std::uint64_t document_ = 0;  ///< whose places these are; 0: of none
   std::size_t log_size_ = 0, node_count_ = 0;
   std::string view_text_, narrowed_to_;
   // Held, so that another state or plan never lies at the same address.

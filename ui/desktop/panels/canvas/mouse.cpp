@@ -13,14 +13,10 @@ namespace bl::desktop::canvas {
 
 namespace {
 
-constexpr float kEdgeInside = 5, kEdgeOutside = 8, kLineReach = 6, kDotReach = 8, kFrameHead = 26;
+constexpr float kEdgeInside = 5, kEdgeOutside = 8, kLineReach = 6, kDotReach = 8;
 constexpr double kWheelStep = 1.15;
 // Space held for longer is no key press any more, but a hand on the canvas.
 constexpr double kSpaceSeconds = 0.35;
-
-bool is_body(Thing thing) {
-  return thing == Thing::node || thing == Thing::node_edge || thing == Thing::pill || thing == Thing::pill_edge;
-}
 
 // Boxes and pills, the upper ones first. Edges count on both sides of the outline, the inner part less on small boxes.
 Hit hit_body(const Board& board, ImVec2 at, bool edges_only) {
@@ -225,7 +221,7 @@ void begin_drag(Board& board, int button) {
     drag.deed = hit.thing == Thing::nothing ? Deed::box : Deed::move;
     drag.adds = io.KeyShift;
     drag.toggles = io.KeyCtrl;
-    drag.copies = io.KeyAlt;
+    drag.copies = io.KeyAlt && (hit.thing == Thing::node || hit.thing == Thing::comment);  // as a clip can hold
     drag.leaves = io.KeyShift;
   }
   go_on_dragging(board);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 #include <imgui_stdlib.h>
@@ -41,6 +42,7 @@ void filter(Picker& picker) {
   });
   for (const auto& [score, k] : scored) picker.shown.push_back(k);
   picker.marked = 0;
+  picker.measured_for = -1;
   picker.filtered_for = picker.text;
 }
 
@@ -51,6 +53,14 @@ float room_of(const Theme& theme, float width) { return width - theme.px(kLeft +
 float height_of(const Theme& theme, const Choice& choice, float width) {
   const TwoLines lines = in_two_lines(theme, below_of(choice), room_of(theme, width));
   return theme.px(kRow + (lines.second.empty() ? 0 : kLine));
+}
+
+// Of all shown choices, once for each list and width: breaking thousands of texts into lines takes longer than a frame.
+void measure(Picker& picker, const Theme& theme, float width) {
+  if (picker.measured_for == width) return;
+  picker.heights.clear();
+  for (const std::size_t k : picker.shown) picker.heights.push_back(height_of(theme, picker.choices[k], width));
+  picker.measured_for = width;
 }
 
 // Whatever had to be cut, in full.
@@ -126,21 +136,34 @@ std::size_t draw_list(Board& board, bool has_walked) {
   std::size_t clicked = picker.shown.size();
   // As if it had a scroll bar: with one, lines are no longer than they were measured.
   const float width = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
-  float height = theme.px(4);
-  for (std::size_t place = 0; place < picker.shown.size() && height < theme.px(kMostHeight); ++place)
-    height += height_of(theme, picker.choices[picker.shown[place]], width);
-  height = std::clamp(height, theme.px(kRow + 4), theme.px(kMostHeight));
+  measure(picker, theme, width);
+  const float height = std::clamp(std::accumulate(picker.heights.begin(), picker.heights.end(), theme.px(4)), theme.px(kRow + 4),
+                                  theme.px(kMostHeight));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   ImGui::BeginChild("list", {0, height}, false, ImGuiWindowFlags_NoNav);
   if (picker.shown.empty()) ImGui::TextDisabled("%s", picker.empty_text.c_str());
+  float y = 0, skipped = 0;  // rows that are out of sight are one gap
+  const float low = ImGui::GetScrollY(), high = low + height;
+  const auto leave_gap = [&] {
+    if (skipped > 0) ImGui::Dummy({1, skipped});
+    skipped = 0;
+  };
   for (std::size_t place = 0; place < picker.shown.size(); ++place) {
+    const float row = picker.heights[place], top = std::exchange(y, y + row);
+    const bool is_walked_to = place == picker.marked && has_walked;
+    if (!is_walked_to && (top + row < low || top > high)) {
+      skipped += row;
+      continue;
+    }
+    leave_gap();
     ImGui::PushID(static_cast<int>(place));
     bool is_pointed_at = false;
     if (draw_choice(board, picker.choices[picker.shown[place]], place == picker.marked, is_pointed_at)) clicked = place;
     if (is_pointed_at) mark(board, place);
-    if (place == picker.marked && has_walked) ImGui::SetScrollHereY(0.5f);
+    if (is_walked_to) ImGui::SetScrollHereY(0.5f);
     ImGui::PopID();
   }
+  leave_gap();
   ImGui::EndChild();
   ImGui::PopStyleVar();
   return clicked;

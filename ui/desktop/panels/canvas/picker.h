@@ -32,6 +32,8 @@ struct Picker {
 
   std::string text;
   std::vector<std::size_t> shown;
+  std::vector<float> heights;  ///< of the shown ones, in pixels
+  float measured_for = -1;     ///< the width that they were measured for; less than 0: not yet
   std::size_t marked = 0;
   std::string filtered_for;
 };

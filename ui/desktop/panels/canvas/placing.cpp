@@ -73,9 +73,9 @@ double distance_to_outline(const std::vector<Point3>& plan, double x, double y) 
 
 }  // namespace
 
-NewVolume place_volume(const Registry& registry, const Scene& scene, const std::vector<Point3>& taken) {
+NewVolume place_volume(const Registry& registry, const Scene& scene) {
   NewVolume volume;
-  std::vector<Point3> others = taken;
+  std::vector<Point3> others;
   double demands = 0;
   int count = 0;
   const TypificationDefinition* type = registry.typification("smart_volume");

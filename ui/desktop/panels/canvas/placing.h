@@ -9,7 +9,7 @@ struct NewVolume {
   Point3 position;
   double demand = 1000;  ///< [m³]
 };
-/// For the next SmartVolume of the scene; `taken`: places that others of the same step have.
-NewVolume place_volume(const Registry& registry, const Scene& scene, const std::vector<Point3>& taken = {});
+/// For the next SmartVolume of the scene.
+NewVolume place_volume(const Registry& registry, const Scene& scene);
 
 }  // namespace bl::desktop::canvas

@@ -37,12 +37,6 @@ bool is_shown_in_a_row(const PortDefinition& port) { return port.kind != ValueKi
 
 bool is_number(const PortDefinition& port) { return port.kind == ValueKind::number || port.kind == ValueKind::integer; }
 
-std::string label_of(const PortDefinition& port) {
-  std::string label = port.id;
-  std::replace(label.begin(), label.end(), '_', ' ');
-  return label;
-}
-
 void add_row(Section& section, std::size_t port) {
   const auto& ports = section.type->ports;
   if (port >= ports.size() || section.rows.size() >= kMostRows || !is_shown_in_a_row(ports[port])) return;
@@ -81,6 +75,12 @@ std::string text_of(const Vector3& v) {
 std::string counted(std::size_t count, const char* noun) { return report::counted(count, noun); }
 
 }  // namespace
+
+std::string label_of(const PortDefinition& port) {
+  std::string label = port.id;
+  std::replace(label.begin(), label.end(), '_', ' ');
+  return label;
+}
 
 std::vector<Section> sections_of(const Registry& registry, const NodeRecord& node) {
   std::vector<Section> sections;

@@ -8,6 +8,8 @@ namespace bl::desktop::canvas {
 /// A section for each typification that has something to show, and for each unknown one.
 std::vector<Section> sections_of(const Registry& registry, const NodeRecord& node);
 float height_of(const std::vector<Section>& sections);
+/// "floor area".
+std::string label_of(const PortDefinition& port);
 
 /// The value as the last tick has left it, or as set where no tick has seen the node yet.
 const Value* value_of(const Editor& editor, const NodeBox& box, const Section& section, std::size_t port);

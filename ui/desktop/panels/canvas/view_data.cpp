@@ -2,7 +2,6 @@
 #include "ui/desktop/panels/canvas/view_data.h"
 
 #include <algorithm>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -21,16 +20,11 @@ std::optional<double> number_in(const Json& json) {
   return std::clamp(number, -kFarthest, kFarthest);
 }
 
-std::optional<ImVec2> point_in(const Json& json) {
+std::optional<ImVec2> point_of(const Json& json) {
   if (!json.is_array() || json.size() != 2) return std::nullopt;
   const auto x = number_in(json[0]), y = number_in(json[1]);
   if (!x || !y) return std::nullopt;
   return ImVec2(static_cast<float>(*x), static_cast<float>(*y));
-}
-
-std::string text_in(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 // Calls `take` for each member of the object under `key`, if there is one.
@@ -57,11 +51,9 @@ Frame frame_in(const Json& json) {
 }
 
 std::optional<Comment> comment_in(const Json& json) {
-  const auto at = json.find("at"), size = json.find("size");
-  const auto place = at == json.end() ? std::nullopt : point_in(*at);
+  const auto place = point_in(json, "at");
   if (!place) return std::nullopt;
-  const auto extent = size == json.end() ? std::nullopt : point_in(*size);
-  const ImVec2 wanted = extent.value_or(ImVec2(200, 60));
+  const ImVec2 wanted = point_in(json, "size").value_or(ImVec2(200, 60));
   return Comment{text_in(json, "text"), {*place, {std::clamp(wanted.x, 40.0f, 2000.0f), std::clamp(wanted.y, 20.0f, 2000.0f)}}};
 }
 
@@ -69,7 +61,7 @@ std::vector<ImVec2> dots_in(const Json& json) {
   std::vector<ImVec2> dots;
   if (!json.is_array()) return dots;
   for (const Json& item : json) {
-    const auto p = point_in(item);
+    const auto p = point_of(item);
     if (p && dots.size() < kMostDots) dots.push_back(*p);
   }
   return dots;
@@ -77,15 +69,25 @@ std::vector<ImVec2> dots_in(const Json& json) {
 
 }  // namespace
 
+std::optional<ImVec2> point_in(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found == object.end() ? std::nullopt : point_of(*found);
+}
+
+std::string text_in(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 ViewData read_view(const std::string& text) {
   ViewData view;
   const Json json = text.empty() ? Json() : Json::parse(text, nullptr, false);
   if (!json.is_object()) return view;
   each(json, "boxes", [&](const std::string& id, const Json& place) {
-    if (const auto p = point_in(place)) view.boxes[id] = *p;
+    if (const auto p = point_of(place)) view.boxes[id] = *p;
   });
   each(json, "sets", [&](const std::string& key, const Json& place) {
-    if (const auto p = point_in(place)) view.sets[key] = *p;
+    if (const auto p = point_of(place)) view.sets[key] = *p;
   });
   view.collapsed = names_in(json, "collapsed");
   view.hidden = names_in(json, "hidden");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -47,6 +48,10 @@ struct ViewData {
 
 /// Takes what it understands; whatever else stands in the text is left alone, and never harms.
 ViewData read_view(const std::string& text);
+
+/// What stands under a key of an object: a place within reach, a text; nothing, or no text, where there is something else.
+std::optional<ImVec2> point_in(const Json& object, const char* key);
+std::string text_in(const Json& object, const char* key);
 
 /// A place as the view keeps it.
 Json place_json(ImVec2 p);

@@ -1,0 +1,267 @@
+// CityJSON by nlohmann/json; its exceptions end here.
+#include "core/exchange/cityjson_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/exchange/inflate.h"
+#include "core/exchange/local_frame.h"
+
+namespace bl {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostVertices = 20000000;
+
+const Json* member(const Json& object, const char* name) {
+  if (!object.is_object()) return nullptr;
+  const auto found = object.find(name);
+  return found == object.end() ? nullptr : &*found;
+}
+
+std::string text_of(const Json* value) {
+  if (value == nullptr) return {};
+  if (value->is_string()) return value->get<std::string>();
+  if (value->is_number_float()) return shortest(value->get<double>());
+  if (value->is_number() || value->is_boolean()) return value->dump();
+  return {};
+}
+
+std::vector<std::string> texts_of(const Json* list) {
+  std::vector<std::string> texts;
+  if (list != nullptr && list->is_array())
+    for (const Json& item : *list)
+      if (item.is_string()) texts.push_back(item.get<std::string>());
+  return texts;
+}
+
+struct Transform {
+  std::array<double, 3> scale{1, 1, 1}, translate{0, 0, 0};
+};
+
+Result<Transform> transform_of(const Json& root) {
+  Transform transform;
+  const Json* given = member(root, "transform");
+  if (given == nullptr) return transform;
+  for (const auto& [name, target] : {std::pair{"scale", &transform.scale}, {"translate", &transform.translate}}) {
+    const Json* list = member(*given, name);
+    const bool is_good = list != nullptr && list->is_array() && list->size() == 3 &&
+                         std::all_of(list->begin(), list->end(), [](const Json& n) { return n.is_number(); });
+    if (!is_good) return Error{ErrorCode::parse, std::string("transform/") + name, "Three numbers are needed here."};
+    for (std::size_t i = 0; i < 3; ++i) (*target)[i] = (*list)[i].get<double>();
+  }
+  return transform;
+}
+
+Result<std::vector<Point3>> vertices_of(const Json& root, const Transform& t) {
+  const Json* list = member(root, "vertices");
+  if (list == nullptr || !list->is_array())
+    return Error{ErrorCode::missing, "vertices", "The array `vertices` is missing: is this CityJSON, and is it complete?"};
+  if (list->size() > kMostVertices)
+    return Error{ErrorCode::out_of_range, "vertices", "There are more than " + std::to_string(kMostVertices) + " vertices."};
+  std::vector<Point3> vertices;
+  vertices.reserve(list->size());
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Json& v = (*list)[i];
+    if (!v.is_array() || v.size() != 3 || !v[0].is_number() || !v[1].is_number() || !v[2].is_number())
+      return Error{ErrorCode::parse, "vertices/" + std::to_string(i), "A vertex must be an array of three numbers."};
+    const Point3 p{v[0].get<double>() * t.scale[0] + t.translate[0], v[1].get<double>() * t.scale[1] + t.translate[1],
+                   v[2].get<double>() * t.scale[2] + t.translate[2]};
+    if (!is_finite(p)) return Error{ErrorCode::not_finite, "vertices/" + std::to_string(i), "A vertex must have finite numbers."};
+    vertices.push_back(p);
+  }
+  return vertices;
+}
+
+// Reads boundaries of any depth: a list of lists of rings is a list of surfaces. `values` runs beside it.
+class Boundaries {
+ public:
+  Boundaries(CityGeometry& geometry, std::size_t vertices, const Json* semantics)
+      : geometry_(geometry), vertices_(vertices), semantics_(member(semantics ? *semantics : kNothing, "surfaces")) {}
+
+  // `depth`: lists above the surfaces.
+  void read(const Json& list, const Json* values, int depth) {
+    if (!geometry_.fault.empty()) return;
+    if (!list.is_array()) {
+      geometry_.fault = "its boundaries are not nested as the type of geometry asks";
+      return;
+    }
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Json* value = values != nullptr && values->is_array() && i < values->size() ? &(*values)[i] : nullptr;
+      if (depth > 0) read(list[i], value, depth - 1);
+      else surface(list[i], value);
+    }
+  }
+
+ private:
+  static inline const Json kNothing = Json::object();
+
+  void surface(const Json& rings, const Json* value) {
+    CitySurface surface;
+    if (semantics_ != nullptr && semantics_->is_array() && value != nullptr && value->is_number_unsigned() &&
+        value->get<std::size_t>() < semantics_->size())
+      surface.semantic = text_of(member((*semantics_)[value->get<std::size_t>()], "type"));
+    if (!rings.is_array() || rings.empty()) {
+      geometry_.fault = "a surface without rings";
+      return;
+    }
+    for (const Json& ring : rings) {
+      auto& indices = surface.rings.emplace_back();
+      if (!ring.is_array() || ring.size() < 3) {
+        geometry_.fault = "a ring of fewer than three vertices";
+        return;
+      }
+      for (const Json& index : ring) {
+        if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= vertices_) {
+          geometry_.fault = "an index of a vertex that does not exist";
+          return;
+        }
+        indices.push_back(index.get<std::uint32_t>());
+      }
+    }
+    geometry_.surfaces.push_back(std::move(surface));
+  }
+
+  CityGeometry& geometry_;
+  std::size_t vertices_;
+  const Json* semantics_;
+};
+
+CityGeometry geometry_of(const Json& json, std::size_t vertices) {
+  CityGeometry geometry;
+  geometry.type = text_of(member(json, "type"));
+  geometry.level_of_detail = parse_number(text_of(member(json, "lod"))).value_or(0);
+  const Json* boundaries = member(json, "boundaries");
+  const Json* semantics = member(json, "semantics");
+  const int depth = geometry.type == "MultiSurface" || geometry.type == "CompositeSurface" ? 0
+                    : geometry.type == "Solid"                                             ? 1
+                    : geometry.type == "MultiSolid" || geometry.type == "CompositeSolid"   ? 2
+                                                                                           : -1;
+  if (geometry.type == "GeometryInstance") geometry.fault = "geometry templates are not read";
+  else if (depth < 0) geometry.fault = "geometries of type `" + geometry.type.substr(0, 40) + "` are not read";
+  else if (boundaries == nullptr) geometry.fault = "it has no boundaries";
+  if (!geometry.fault.empty()) return geometry;
+  geometry.solids = depth == 1 ? 1 : depth == 2 && boundaries->is_array() ? boundaries->size() : 0;
+  Boundaries(geometry, vertices, semantics).read(*boundaries, member(semantics ? *semantics : Json::object(), "values"), depth);
+  if (!geometry.fault.empty()) geometry.surfaces.clear();
+  else if (geometry.surfaces.empty()) geometry.fault = "it has no surfaces";
+  return geometry;
+}
+
+class Reader {
+ public:
+  Result<CityModel> read(const std::string& text) {
+    const std::size_t end = text.find_first_of('\n');
+    Json first = Json::parse(text, nullptr, false);
+    if (!first.is_discarded()) {
+      if (auto done = header(first); !done) return done.error();
+      if (auto done = feature(first, ""); !done) return done.error();
+      return std::move(model_);
+    }
+    first = Json::parse(text.substr(0, end), nullptr, false);
+    if (first.is_discarded() || end == std::string::npos) return where_it_breaks(text);
+    if (auto done = header(first); !done) return done.error().within("line 1");
+    if (auto done = sequence(first, text, end); !done) return done.error();
+    return std::move(model_);
+  }
+
+ private:
+  static Error where_it_breaks(const std::string& text) {
+    try {
+      [[maybe_unused]] const Json unused = Json::parse(text);
+    } catch (const Json::parse_error& error) {
+      const std::string_view before =
+          std::string_view(text).substr(0, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size()));
+      const std::size_t last = before.rfind('\n');
+      return {ErrorCode::parse,
+              "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column " +
+                  std::to_string(before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1),
+              "The text is not valid JSON from here on; is the file complete, and is it CityJSON?"};
+    } catch (const Json::exception&) {}
+    return {ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
+  }
+
+  Result<void> header(const Json& root) {
+    if (text_of(member(root, "type")) != "CityJSON")
+      return Error{ErrorCode::parse, "type", "This is JSON but not CityJSON: its member `type` must be `CityJSON`."};
+    model_.version = text_of(member(root, "version"));
+    if (!model_.version.starts_with("1.") && !model_.version.starts_with("2."))
+      return Error{ErrorCode::version, "version",
+                   "Version `" + model_.version.substr(0, 20) + "` of CityJSON is not read: write 1.0, 1.1 or 2.0."};
+    auto transform = transform_of(root);
+    if (!transform) return transform.error();
+    transform_ = *transform;
+    if (const Json* metadata = member(root, "metadata")) model_.crs = text_of(member(*metadata, "referenceSystem"));
+    if (!model_.crs.empty()) model_.crs = tidy_crs_name(model_.crs);
+    if (member(root, "geometry-templates") != nullptr)
+      model_.notes.push_back("The file has geometry templates, which are not read: objects that use them are in the report.");
+    return {};
+  }
+
+  Result<void> sequence(const Json& head, const std::string& text, std::size_t end) {
+    if (member(head, "CityObjects") != nullptr && !head["CityObjects"].empty())
+      if (auto done = feature(head, "line 1"); !done) return done;
+    for (std::size_t line = 2, start = end + 1; start < text.size(); ++line) {
+      const std::size_t stop = std::min(text.find('\n', start), text.size());
+      const std::string_view part = std::string_view(text).substr(start, stop - start);
+      start = stop + 1;
+      if (part.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+      const std::string place = "line " + std::to_string(line);
+      const Json json = Json::parse(part, nullptr, false);
+      if (json.is_discarded()) return Error{ErrorCode::parse, place, "This line is not valid JSON; is the file complete?"};
+      if (text_of(member(json, "type")) != "CityJSONFeature")
+        return Error{ErrorCode::parse, place, "Every line after the first must be a CityJSONFeature."};
+      if (auto done = feature(json, place); !done) return done;
+    }
+    return {};
+  }
+
+  Result<void> feature(const Json& root, const std::string& place) {
+    auto vertices = vertices_of(root, transform_);
+    if (!vertices) return place.empty() ? vertices.error() : vertices.error().within(place);
+    const Json* objects = member(root, "CityObjects");
+    if (objects == nullptr || !objects->is_object())
+      return Error{ErrorCode::missing, place, "The object `CityObjects` is missing: is this CityJSON?"};
+    for (const auto& [id, json] : objects->items()) {
+      CityObject& object = model_.objects.emplace_back();
+      object.id = id;
+      object.place = (place.empty() ? "" : place + "/") + "CityObjects/" + id;
+      object.type = text_of(member(json, "type"));
+      object.parents = texts_of(member(json, "parents"));
+      object.children = texts_of(member(json, "children"));
+      object.vertices = model_.vertices.size();
+      if (const Json* attributes = member(json, "attributes"); attributes != nullptr && attributes->is_object())
+        for (const auto& [name, value] : attributes->items())
+          if (const std::string text = text_of(&value); !text.empty()) object.attributes.emplace_back(name, text);
+      if (const Json* list = member(json, "geometry"); list != nullptr && list->is_array())
+        for (const Json& geometry : *list) object.geometries.push_back(geometry_of(geometry, vertices->size()));
+    }
+    model_.vertices.push_back(std::move(*vertices));
+    return {};
+  }
+
+  CityModel model_;
+  Transform transform_;
+};
+
+}  // namespace
+
+Result<CityModel> read_cityjson(std::string_view bytes) {
+  auto text = unpacked(bytes);
+  if (!text) return text.error();
+  if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);
+  if (text->find_first_not_of(" \t\r\n") == std::string::npos)
+    return Error{ErrorCode::missing, "line 1", "The file is empty: CityJSON is needed."};
+  try {
+    return Reader().read(*text);
+  } catch (const Json::exception&) {
+    return Error{ErrorCode::parse, "", "The text cannot be read as CityJSON: a number or a character in it is out of range."};
+  }
+}
+
+}  // namespace bl

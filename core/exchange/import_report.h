@@ -1,0 +1,49 @@
+// What became of every element of an imported file: taken, repaired or skipped, each with its id and the reason.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace bl {
+
+enum class ImportOutcome { taken, repaired, skipped };
+std::string_view name_of(ImportOutcome outcome);
+
+/// One element, or many of one sort without a story of their own (`count`), such as the untagged nodes of OpenStreetMap.
+struct ImportRow {
+  ImportOutcome outcome = ImportOutcome::taken;
+  std::string kind;    ///< what it is in the file: "way", "Building", "feature"
+  std::string id;      ///< in the file
+  std::string reason;  ///< few different ones, so that they can be counted: "building", "street", "its line is open"
+  std::string detail;  ///< what is special about this element; may be empty
+  std::size_t count = 1;
+};
+
+/// Every element of the file has exactly one row; repaired ones were taken, after something was mended.
+class ImportReport {
+ public:
+  void take(std::string kind, std::string id, std::string reason, std::string detail = "", std::size_t count = 1);
+  void repair(std::string kind, std::string id, std::string reason, std::string detail = "");
+  void skip(std::string kind, std::string id, std::string reason, std::string detail = "", std::size_t count = 1);
+  void add(ImportRow row) { rows_.push_back(std::move(row)); }
+
+  const std::vector<ImportRow>& rows() const { return rows_; }
+  /// Elements of a kind with that outcome; an empty kind means all.
+  std::size_t count(ImportOutcome outcome, std::string_view kind = "") const;
+  std::size_t total(std::string_view kind = "") const;
+  /// Numbers by outcome, kind and reason, in that order.
+  std::map<std::tuple<ImportOutcome, std::string, std::string>, std::size_t> counts() const;
+
+ private:
+  std::vector<ImportRow> rows_;
+};
+
+/// The rows of several files as CSV: file, outcome, kind, id, reason, detail, count.
+std::string import_csv(const std::vector<std::pair<std::string, ImportReport>>& reports);
+
+}  // namespace bl

@@ -1,0 +1,18 @@
+// Unpacks gzip, by zlib, up to a declared size.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+
+namespace bl {
+
+/// Files unpack to no more than this.
+inline constexpr std::size_t kMostUnpacked = std::size_t{1} << 29;
+
+/// The bytes themselves where they are not packed; what a gzip file holds where they are. bzip2, xz and zip are refused.
+Result<std::string> unpacked(std::string_view bytes, std::size_t limit = kMostUnpacked);
+
+}  // namespace bl

@@ -1,0 +1,335 @@
+// Buildings and areas of OpenStreetMap: rings of relations put together from ways, and buildings replaced by their parts.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/base/text.h"
+#include "core/exchange/osm_import.h"
+#include "core/exchange/osm_tags.h"
+#include "core/geometry/polygon_triangles.h"
+
+namespace bl {
+
+namespace {
+
+constexpr double kCovered = 0.9;      // [ratio] of a building: parts that cover less do not replace it
+constexpr double kSameHeight = 0.01;  // [m]
+
+// An outline with its holes, and where its row stands.
+struct Shape {
+  Ring outer;
+  std::vector<Ring> holes;
+  ImportRow* row = nullptr;
+  std::string id, mended;
+  const OsmTags* tags = nullptr;
+};
+
+struct Candidate {
+  ContextBuilding building;
+  ImportRow* row = nullptr;
+  bool is_dropped = false;
+};
+
+void note(std::string& text, const std::string& more) {
+  if (!more.empty()) text += (text.empty() ? "" : ", ") + more;
+}
+
+void settle(ImportRow& row, const std::string& reason, const std::string& mended) {
+  const bool is_repaired = !mended.empty() || row.outcome == ImportOutcome::repaired;
+  std::string detail = row.detail;
+  note(detail, mended);
+  decide(row, is_repaired ? ImportOutcome::repaired : ImportOutcome::taken, reason, detail);
+}
+
+// Ways joined end to end. Each way is used once, in the order of the members.
+struct Joined {
+  std::vector<std::vector<std::int64_t>> rings;
+  std::size_t open = 0;  // chains that do not close
+};
+
+Joined join(std::vector<const OsmWay*> ways) {
+  Joined joined;
+  std::multimap<std::int64_t, std::size_t> ends;
+  std::vector<bool> is_used(ways.size(), false);
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    if (ways[i]->nodes.size() >= 2) {
+      ends.emplace(ways[i]->nodes.front(), i);
+      ends.emplace(ways[i]->nodes.back(), i);
+    }
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (is_used[i] || ways[i]->nodes.size() < 2) continue;
+    is_used[i] = true;
+    std::vector<std::int64_t> chain = ways[i]->nodes;
+    while (chain.front() != chain.back()) {
+      const auto [begin, end] = ends.equal_range(chain.back());
+      const auto next = std::find_if(begin, end, [&](const auto& entry) { return !is_used[entry.second]; });
+      if (next == end) break;
+      is_used[next->second] = true;
+      std::vector<std::int64_t> more = ways[next->second]->nodes;
+      if (more.front() != chain.back()) std::reverse(more.begin(), more.end());
+      chain.insert(chain.end(), more.begin() + 1, more.end());
+    }
+    if (chain.front() == chain.back() && chain.size() > 3) joined.rings.push_back(std::move(chain));
+    else ++joined.open;
+  }
+  return joined;
+}
+
+// A place inside a ring: the centre of the largest of its triangles.
+Point3 place_inside(const Ring& ring) {
+  Point3 best = ring.front();
+  double largest = -1;
+  for (const auto& [a, b, c] : polygon_triangles(std::span(&ring, 1))) {
+    const double area = std::abs(cross(ring[b] - ring[a], ring[c] - ring[a]).z);
+    if (area > largest) largest = area, best = (ring[a] + ring[b] + ring[c]) / 3;
+  }
+  return best;
+}
+
+double ground_area(const ContextBuilding& building) {
+  double area = signed_area(building.outer);
+  for (const Ring& hole : building.holes) area += signed_area(hole);
+  return area;
+}
+
+class Areas {
+ public:
+  explicit Areas(OsmImport& import) : in_(import) {}
+
+  void run() {
+    for (std::size_t i = 0; i < in_.store->relations.size(); ++i) read_relation(in_.store->relations[i], in_.relations[i]);
+    for (const OsmWay& way : in_.store->ways) read_way(way);
+    replace_by_parts();
+    for (Candidate& candidate : wholes_)
+      if (!candidate.is_dropped) in_.context->buildings.push_back(std::move(candidate.building));
+    for (Candidate& candidate : parts_)
+      if (!candidate.is_dropped) in_.context->buildings.push_back(std::move(candidate.building));
+  }
+
+ private:
+  static bool is_area(const OsmTags& tags) { return is_osm_building(tags) || is_osm_part(tags) || !osm_ground(tags).empty(); }
+
+  static std::string word_for(const OsmTags& tags) {
+    return is_osm_building(tags) ? "building" : is_osm_part(tags) ? "building part" : "area of ground";
+  }
+
+  // The ring of a chain of nodes, or an empty one with the reason in `fault`.
+  Ring ring_of(const std::vector<std::int64_t>& nodes, bool counter_clockwise, std::string& mended, std::string& fault) const {
+    std::size_t missing = 0;
+    const std::vector<Point3> places = in_.places(nodes, missing);
+    if (missing > 0) {
+      fault = "corners are not in the file";
+      note(mended, std::to_string(missing) + " of " + std::to_string(nodes.size()) + " nodes are missing");
+      return {};
+    }
+    if (const std::string far = out_of_reach(*in_.options, places); !far.empty()) {
+      fault = far;
+      return {};
+    }
+    SoundRing sound = sound_ring(places, counter_clockwise);
+    fault = sound.fault;
+    note(mended, sound.mended);
+    return std::move(sound.ring);
+  }
+
+  // The tags of a multipolygon: its own, or, as was the custom once, those of its outer ways.
+  const OsmTags* tags_of(const OsmRelation& relation, const std::vector<const OsmWay*>& outer) const {
+    if (is_area(relation.tags)) return &relation.tags;
+    if (relation.tags.size() > 1) return nullptr;
+    for (const OsmWay* way : outer)
+      if (is_area(way->tags)) return &way->tags;
+    return nullptr;
+  }
+
+  void read_relation(const OsmRelation& relation, ImportRow& row) {
+    const std::string& type = tag_of(relation.tags, "type");
+    if (type == "restriction") return;  // the streets' concern
+    if (type != "multipolygon")
+      return decide(row, ImportOutcome::skipped,
+                    type == "building" ? "groups a building and its parts, which are read by themselves"
+                                       : "relations of this type are not read",
+                    "type=" + type);
+    std::vector<const OsmWay*> outer, inner;
+    std::size_t missing = 0;
+    for (const OsmMember& member : relation.members) {
+      if (member.kind != 'w') continue;
+      const OsmWay* way = in_.store->way(member.id);
+      if (way == nullptr) ++missing;
+      else (member.role == "inner" ? inner : outer).push_back(way);
+    }
+    const OsmTags* tags = tags_of(relation, outer);
+    if (tags == nullptr) return decide(row, ImportOutcome::skipped, "no building, street or area of ground");
+    const std::string word = word_for(*tags);
+    std::string mended, fault;
+    if (missing > 0) note(mended, std::to_string(missing) + " member ways are not in the file");
+    const Joined outlines = join(outer), courts = join(inner);
+    if (outlines.open > 0) note(mended, std::to_string(outlines.open) + " open outer rings left out");
+    if (courts.open > 0) note(mended, std::to_string(courts.open) + " open inner rings left out");
+    std::vector<Shape> shapes = shapes_of(outlines, fault, mended);
+    if (shapes.empty()) {
+      if (fault.empty()) fault = "its outer ring is open";
+      return decide(row, ImportOutcome::skipped, word + ": " + fault, mended);
+    }
+    deal_courts(courts, shapes, mended);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      shapes[i].id = "r" + std::to_string(relation.id) + (shapes.size() > 1 ? "/" + std::to_string(i + 1) : "");
+      shapes[i].row = &row;
+      shapes[i].tags = tags;
+      take(shapes[i]);
+    }
+    settle(row, word, mended);
+    for (const OsmWay* way : outer)
+      if (tags == &way->tags || way->tags.empty() || word_for(way->tags) == word) {
+        ImportRow& used = in_.row_of(*way);
+        if (used.reason.empty() && tag_of(way->tags, "highway").empty())
+          decide(used, ImportOutcome::taken, "outline of a multipolygon", "relation " + std::to_string(relation.id));
+      }
+  }
+
+  std::vector<Shape> shapes_of(const Joined& outlines, std::string& fault, std::string& mended) const {
+    std::vector<Shape> shapes;
+    for (const auto& nodes : outlines.rings) {
+      std::string trouble, why;
+      Ring ring = ring_of(nodes, true, trouble, why);
+      note(mended, trouble);
+      if (why.empty()) {
+        shapes.emplace_back().outer = std::move(ring);
+        continue;
+      }
+      if (fault.empty()) fault = why;
+      if (outlines.rings.size() > 1) note(mended, "an outer ring left out: " + why);
+    }
+    return shapes;
+  }
+
+  // Each inner ring belongs to the outline that it lies in.
+  void deal_courts(const Joined& courts, std::vector<Shape>& shapes, std::string& mended) const {
+    for (const auto& nodes : courts.rings) {
+      std::string trouble, why;
+      Ring hole = ring_of(nodes, false, trouble, why);
+      note(mended, trouble);
+      if (!why.empty()) {
+        note(mended, "an inner ring left out: " + why);
+        continue;
+      }
+      const Point3 inside = place_inside(hole);
+      const auto home =
+          std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) { return ring_contains(s.outer, inside); });
+      if (home == shapes.end()) note(mended, "an inner ring outside of all outer ones left out");
+      else home->holes.push_back(std::move(hole));
+    }
+    for (Shape& shape : shapes) sort_holes(shape.outer, shape.holes, mended);
+  }
+
+  void read_way(const OsmWay& way) {
+    ImportRow& row = in_.row_of(way);
+    if (!row.reason.empty()) return;
+    const bool is_built = is_osm_building(way.tags) || is_osm_part(way.tags);
+    if (!is_built && (!tag_of(way.tags, "highway").empty() || osm_ground(way.tags).empty())) return;
+    const std::string word = word_for(way.tags);
+    if (!way.is_closed()) {
+      if (!is_built && tag_of(way.tags, "area") != "yes")
+        return decide(row, ImportOutcome::skipped, "area of ground: its line is open", osm_ground(way.tags));
+      return decide(row, ImportOutcome::skipped, word + ": its line is open", std::to_string(way.nodes.size()) + " nodes");
+    }
+    Shape shape;
+    std::string fault;
+    shape.outer = ring_of(way.nodes, true, shape.mended, fault);
+    if (!fault.empty()) return decide(row, ImportOutcome::skipped, word + ": " + fault, shape.mended);
+    shape.id = "w" + std::to_string(way.id);
+    shape.row = &row;
+    shape.tags = &way.tags;
+    take(shape);
+    settle(row, word, shape.mended);
+  }
+
+  void take(const Shape& shape) {
+    const OsmTags& tags = *shape.tags;
+    if (!is_osm_building(tags) && !is_osm_part(tags)) {
+      in_.context->areas.push_back({shape.id, tag_of(tags, "name"), osm_ground(tags), shape.outer, shape.holes, false});
+      return;
+    }
+    Candidate candidate;
+    ContextBuilding& building = candidate.building;
+    const OsmHeight height = osm_height(tags, in_.options->storey_height);
+    building.id = shape.id;
+    building.name = tag_of(tags, "name");
+    building.is_part = is_osm_part(tags) && !is_osm_building(tags);
+    building.use = tag_of(tags, building.is_part ? "building:part" : "building");
+    if (building.use == "yes") building.use = tag_of(tags, "building:use");
+    building.outer = shape.outer;
+    building.holes = shape.holes;
+    building.base = height.base;
+    building.height = height.height;
+    building.height_source = height.is_from_levels ? HeightSource::levels : HeightSource::tag;
+    if (!height.fault.empty()) {
+      note(shape.row->detail, "not understood: " + height.fault);
+      shape.row->outcome = ImportOutcome::repaired;
+    }
+    candidate.row = shape.row;
+    (building.is_part ? parts_ : wholes_).push_back(std::move(candidate));
+  }
+
+  // Parts that cover their building take its place; parts of others rise from it.
+  void replace_by_parts() {
+    std::map<std::size_t, std::vector<std::size_t>> parts_of;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const Point3 inside = place_inside(parts_[p].building.outer);
+      std::optional<std::size_t> home;
+      for (std::size_t w = 0; w < wholes_.size(); ++w)
+        if (ring_contains(wholes_[w].building.outer, inside) &&
+            (!home || ground_area(wholes_[w].building) < ground_area(wholes_[*home].building)))
+          home = w;
+      if (home) parts_of[*home].push_back(p);
+      else parts_[p].building.is_part = false;  // nobody's part: a building like any other
+    }
+    for (const auto& [w, list] : parts_of) {
+      Candidate& whole = wholes_[w];
+      double on_ground = 0;
+      for (const std::size_t p : list) {
+        parts_[p].building.whole = whole.building.id;
+        if (parts_[p].building.base < kSameHeight) on_ground += ground_area(parts_[p].building);
+        if (parts_[p].building.use.empty()) parts_[p].building.use = whole.building.use;
+        if (parts_[p].building.name.empty()) parts_[p].building.name = whole.building.name;
+      }
+      if (on_ground >= kCovered * ground_area(whole.building)) {
+        whole.is_dropped = true;
+        whole.row->reason = "building, drawn by its parts";
+        note(whole.row->detail, std::to_string(list.size()) + " parts");
+        for (const std::size_t p : list)
+          if (parts_[p].building.height == 0 && whole.building.height > 0) {
+            parts_[p].building.height =
+                std::max(kSameHeight, whole.building.base + whole.building.height - parts_[p].building.base);
+            parts_[p].building.height_source = whole.building.height_source;
+          }
+      } else {
+        for (const std::size_t p : list) raise(parts_[p], whole);
+      }
+    }
+  }
+
+  void raise(Candidate& part, const Candidate& whole) {
+    const double roof = whole.building.base + whole.building.height, top = part.building.base + part.building.height;
+    if (whole.building.height > 0 && part.building.height > 0 && top > roof + kSameHeight) {
+      if (part.building.base >= roof - kSameHeight) return;
+      part.building.base = roof;
+      part.building.height = top - roof;
+      note(part.row->detail, "begins at the roof of its building, whose parts do not cover it");
+      part.row->outcome = ImportOutcome::repaired;
+      return;
+    }
+    part.is_dropped = true;
+    decide(*part.row, ImportOutcome::skipped, "building part: within its building, whose parts do not cover it",
+           part.building.whole);
+  }
+
+  OsmImport& in_;
+  std::vector<Candidate> wholes_, parts_;
+};
+
+}  // namespace
+
+void read_osm_areas(OsmImport& import) { Areas(import).run(); }
+
+}  // namespace bl

@@ -1,0 +1,116 @@
+// From the elements of a file to a Context: the frame first, then areas, streets, and the report of what is left.
+#include "core/exchange/osm_context.h"
+
+#include <array>
+#include <set>
+
+#include "core/exchange/osm_import.h"
+#include "core/exchange/osm_tags.h"
+
+namespace bl {
+
+namespace {
+
+constexpr const char* kDegrees = "OGC:CRS84";
+
+// The middle of what will probably be taken: of buildings; else of streets; else of everything.
+std::optional<std::array<double, 2>> middle(const OsmStore& store) {
+  for (const int wanted : {0, 1}) {
+    std::vector<std::array<double, 2>> points;
+    for (const OsmWay& way : store.ways) {
+      if (wanted == 0 ? !is_osm_building(way.tags) : tag_of(way.tags, "highway").empty()) continue;
+      for (const std::int64_t id : way.nodes)
+        if (const OsmNode* node = store.node(id); node != nullptr && node->has_position)
+          points.push_back({node->longitude, node->latitude});
+    }
+    if (auto found = middle_of(std::move(points))) return found;
+  }
+  std::vector<std::array<double, 2>> points;
+  for (const OsmNode& node : store.nodes)
+    if (node.has_position) points.push_back({node.longitude, node.latitude});
+  return middle_of(std::move(points));
+}
+
+void report_nodes(const OsmStore& store, ImportReport& report) {
+  std::set<std::int64_t> used;
+  for (const OsmWay& way : store.ways) used.insert(way.nodes.begin(), way.nodes.end());
+  std::size_t corners = 0, loose = 0, lost = 0;
+  for (const OsmNode& node : store.nodes) {
+    const bool is_used = used.contains(node.id);
+    if (!node.has_position) ++lost;
+    else if (is_used) ++corners;
+    else if (node.tags.empty()) ++loose;
+    else
+      report.skip("node", "n" + std::to_string(node.id), "a single place: points are not read",
+                  node.tags.begin()->first + "=" + node.tags.begin()->second);
+  }
+  if (corners > 0) report.take("node", "", "corner of the lines of ways", "", corners);
+  if (loose > 0) report.skip("node", "", "neither tags nor a way that uses it", "", loose);
+  if (lost > 0) report.skip("node", "", "without a position", "", lost);
+  const auto older = [&report](const char* kind, std::size_t count) {
+    if (count > 0) report.skip(kind, "", "another version of it comes later in the file", "", count);
+  };
+  older("node", store.older_nodes);
+  older("way", store.older_ways);
+  older("relation", store.older_relations);
+}
+
+// Ways and relations that nobody wanted, told apart by what people would look for.
+void decide_rest(OsmImport& import) {
+  std::set<std::int64_t> members;
+  for (const OsmRelation& relation : import.store->relations)
+    for (const OsmMember& member : relation.members)
+      if (member.kind == 'w') members.insert(member.id);
+  for (const OsmWay& way : import.store->ways) {
+    ImportRow& row = import.row_of(way);
+    if (!row.reason.empty()) continue;
+    if (way.tags.empty() && members.contains(way.id))
+      decide(row, ImportOutcome::skipped, "no tags: a piece of a relation that is not read, or of one of its inner rings");
+    else
+      decide(row, ImportOutcome::skipped, "no building, street or area of ground",
+             way.tags.empty() ? "no tags" : way.tags.begin()->first + "=" + way.tags.begin()->second);
+  }
+}
+
+}  // namespace
+
+std::vector<Point3> OsmImport::places(const std::vector<std::int64_t>& nodes, std::size_t& missing) const {
+  std::vector<Point3> places;
+  places.reserve(nodes.size());
+  for (const std::int64_t id : nodes) {
+    const OsmNode* node = store->node(id);
+    if (node == nullptr || !node->has_position) ++missing;
+    else places.push_back(frame->to_local(node->longitude, node->latitude));
+  }
+  return places;
+}
+
+Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& options) {
+  auto store = read_osm(bytes);
+  if (!store) return store.error();
+  if (!options.crs.empty() && !is_longitude_latitude(tidy_crs_name(options.crs)))
+    return Error{ErrorCode::conflict, "crs", "OpenStreetMap files are in longitude and latitude always: leave the CRS out."};
+  const auto centre = middle(*store);
+  if (!centre) return Error{ErrorCode::missing, "", "The file holds no node with a position: there is nothing to import."};
+  auto frame = context_frame(options, kDegrees, *centre);
+  if (!frame) return frame.error();
+  Context context;
+  context.source_crs = kDegrees;
+  context.reference = frame->reference();
+  context.notes = frame->notes();
+  OsmImport import{&*store, &options, &*frame, &context, {}, {}};
+  for (const OsmWay& way : store->ways)
+    import.ways.push_back({ImportOutcome::taken, "way", "w" + std::to_string(way.id), "", "", 1});
+  for (const OsmRelation& relation : store->relations)
+    import.relations.push_back({ImportOutcome::taken, "relation", "r" + std::to_string(relation.id), "", "", 1});
+  read_osm_areas(import);
+  read_osm_streets(import);
+  decide_rest(import);
+  for (const std::vector<ImportRow>* rows : {&import.ways, &import.relations})
+    for (const ImportRow& row : *rows) context.report.add(row);
+  report_nodes(*store, context.report);
+  assume_heights(options, context);
+  return context;
+}
+
+}  // namespace bl

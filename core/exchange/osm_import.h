@@ -1,0 +1,37 @@
+// What the parts of the OpenStreetMap importer share while one file is read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/exchange/context_shape.h"
+#include "core/exchange/osm_store.h"
+
+namespace bl {
+
+/// One file on its way to a Context. The rows stand beside the ways and relations of the store, one for each; an empty reason
+/// means that nobody has decided yet.
+struct OsmImport {
+  const OsmStore* store = nullptr;
+  const ContextOptions* options = nullptr;
+  const LocalFrame* frame = nullptr;
+  Context* context = nullptr;
+  std::vector<ImportRow> ways, relations;
+
+  ImportRow& row_of(const OsmWay& way) { return ways[static_cast<std::size_t>(&way - store->ways.data())]; }
+  /// The nodes' places in local metres; `missing` counts those that the file does not hold.
+  std::vector<Point3> places(const std::vector<std::int64_t>& nodes, std::size_t& missing) const;
+};
+
+inline void decide(ImportRow& row, ImportOutcome outcome, std::string reason, std::string detail = "") {
+  row.outcome = outcome;
+  row.reason = std::move(reason);
+  row.detail = std::move(detail);
+}
+
+/// Buildings with their parts, and areas of land use, green and water: of relations first, then of ways.
+void read_osm_areas(OsmImport& import);
+/// Streets between junctions, and turn restrictions.
+void read_osm_streets(OsmImport& import);
+
+}  // namespace bl

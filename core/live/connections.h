@@ -1,0 +1,70 @@
+// The connections of a scene: what its sensors hear becomes commands, what its actuators say goes out.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/graph/scene.h"
+#include "core/graph/state.h"
+#include "core/live/endpoint.h"
+#include "core/session/commands.h"
+
+namespace bl {
+
+struct LiveOptions {
+  std::string folder;         ///< recordings with relative paths stand here; empty: where the program was started
+  bool opens_network = true;  ///< off: recordings are played, and nobody is connected to
+  Pauses pauses;
+};
+
+/// A command and who gives it: the address of a sensor, so that nobody's undo takes readings back.
+struct Report {
+  std::string author;
+  Command command;
+};
+
+/// How one sensor or actuator stands.
+struct ConnectionStatus {
+  std::string node, address;
+  bool is_sensor = true;
+  std::string line;  ///< what is wrong with the connection; empty where nothing is
+  Traffic traffic;
+};
+
+/// All of it is for one thread, the owner's; the connections have threads of their own. Nothing of the network reaches a state
+/// but through the commands of take().
+class Connections {
+ public:
+  explicit Connections(LiveOptions options);
+  ~Connections();
+  Connections(const Connections&) = delete;
+  Connections& operator=(const Connections&) = delete;
+
+  /// Starts, changes and ends connections as the sensors and actuators of the scene want it.
+  void follow(const Scene& scene);
+  /// What has come for the tick after `tick`: at most one reading for each sensor, in ascending node id.
+  std::vector<Report> take(std::int64_t tick);
+  /// Sends what has changed since the last time, where the interval of its actuator allows.
+  void send(const State& state);
+  /// In ascending node id, sensors before actuators.
+  std::vector<ConnectionStatus> status() const;
+  bool is_empty() const { return sensors_.empty() && actuators_.empty(); }
+
+ private:
+  struct Sensor;
+  struct Actuator;
+  // Whether something has changed that a connection follows from.
+  bool follow_sensor(const std::string& id, const PortValues& values);
+  bool follow_actuator(const std::string& id, const PortValues& values);
+  void follow_endpoints();
+  void begin_recording(Sensor& sensor);
+
+  const LiveOptions options_;
+  std::map<std::string, std::unique_ptr<Sensor>> sensors_;      // by node
+  std::map<std::string, std::unique_ptr<Actuator>> actuators_;  // by node
+  std::map<std::string, std::unique_ptr<Endpoint>> endpoints_;  // by what they connect to
+};
+
+}  // namespace bl

@@ -1,0 +1,94 @@
+// One connection on a thread of its own: a broker, a port that is listened to, a receiver, or a page that is asked for.
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/live/station.h"
+
+namespace bl {
+
+/// A sensor that an endpoint serves.
+struct Subscriber {
+  std::string path;   ///< topic, OSC path or URL
+  double period = 0;  ///< [s] between two questions; HTTP only
+  std::shared_ptr<Station> station;
+  bool operator==(const Subscriber&) const = default;
+};
+
+/// A message of an actuator on its way out.
+struct Outgoing {
+  std::string path, text;
+  std::optional<double> number;  ///< where the message is nothing but a number
+  std::shared_ptr<Station> station;
+};
+
+/// Pauses between attempts to connect: each is twice the one before [s].
+struct Pauses {
+  double first = 0.5, longest = 30;
+};
+
+class Endpoint {
+ public:
+  /// What the thread does until is_ending().
+  using Body = void (*)(Endpoint&);
+
+  Endpoint(Body body, std::string host, int port, std::vector<Subscriber> subscribers, Pauses pauses);
+  /// Waits for the thread; ask_to_end() several of them first, and they end at the same time.
+  ~Endpoint();
+  Endpoint(const Endpoint&) = delete;
+  Endpoint& operator=(const Endpoint&) = delete;
+
+  void ask_to_end();
+  /// The newest message for each path waits until it can go out.
+  void send(Outgoing message);
+
+  // Of the thread.
+  const std::string& host() const { return host_; }
+  int port() const { return port_; }
+  /// "host:port", as sentences name it.
+  std::string place() const;
+  const std::vector<Subscriber>& subscribers() const { return subscribers_; }
+  bool is_ending() const;
+  /// The messages that wait.
+  std::vector<Outgoing> outgoing();
+  /// Waits so long, or until a message waits or the end is asked for [s].
+  void wait_for_work(double seconds);
+  /// Says to everybody served what is wrong with the connection; empty where it stands.
+  void say(const std::string& sentence);
+  /// A failed attempt: says why, and waits longer each time.
+  void fail(const std::string& sentence);
+  /// The connection stands: the next failure begins with the first pause again.
+  void succeed();
+
+ private:
+  void run(Body body);
+
+  const std::string host_;
+  const int port_;
+  const std::vector<Subscriber> subscribers_;
+  const Pauses pauses_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  bool is_ending_ = false;
+  std::map<std::string, Outgoing> waiting_;                  // by path
+  std::map<std::string, std::shared_ptr<Station>> senders_;  // by path: whom failures are told besides
+  std::string line_;
+  bool is_line_known_ = false;
+  double pause_;
+  std::thread thread_;
+};
+
+// The bodies, each in a file of its own.
+void run_mqtt(Endpoint& endpoint);
+void run_osc_input(Endpoint& endpoint);
+void run_osc_output(Endpoint& endpoint);
+void run_http(Endpoint& endpoint);
+
+}  // namespace bl

@@ -1,0 +1,112 @@
+// A connection to an MQTT broker: subscribes to the topics of sensors, publishes what actuators say.
+#include <mosquitto.h>
+
+#include <map>
+#include <memory>
+
+#include "core/live/endpoint.h"
+#include "core/live/message.h"
+#include "core/live/socket.h"
+
+namespace bl {
+
+namespace {
+
+constexpr int kKeepAlive = 20;   // [s] of silence after which the broker is asked whether it is there
+constexpr int kSlice = 20;       // [ms] that one look at the socket may wait
+constexpr int kDelivery = 1;     // quality of service: the broker confirms what it got
+constexpr int kGreetings = 500;  // looks at the socket until the broker has to have answered: ten seconds
+
+struct Library {
+  Library() { mosquitto_lib_init(); }
+  ~Library() { mosquitto_lib_cleanup(); }
+};
+
+// What mosquitto's callbacks reach; all of them run on the thread of the endpoint.
+class Broker {
+ public:
+  explicit Broker(Endpoint& endpoint) : endpoint_(endpoint), client_(mosquitto_new(nullptr, true, this), mosquitto_destroy) {}
+
+  // Until the connection ends; the sentence why it did.
+  std::string run() {
+    if (!client_) return "there is no memory for a connection";
+    mosquitto_connect_callback_set(client_.get(), [](mosquitto*, void* self, int code) { of(self).greeted(code); });
+    mosquitto_message_callback_set(client_.get(),
+                                   [](mosquitto*, void* self, const mosquitto_message* m) { of(self).arrived(*m); });
+    mosquitto_publish_callback_set(client_.get(), [](mosquitto*, void* self, int id) { of(self).confirmed(id); });
+    // Asked first by ourselves: the library waits for silent hosts for minutes, and does not say what is wrong.
+    if (const auto answer = knock(endpoint_); !answer) return answer.error().message;
+    if (mosquitto_connect(client_.get(), endpoint_.host().c_str(), endpoint_.port(), kKeepAlive) != MOSQ_ERR_SUCCESS)
+      return endpoint_.place() + " cannot be connected to";
+    for (int looks = 0; !endpoint_.is_ending(); ++looks) {
+      if (mosquitto_loop(client_.get(), kSlice, 1) != MOSQ_ERR_SUCCESS)
+        return !refusal_.empty() ? refusal_ : endpoint_.place() + " has closed the connection";
+      if (!is_greeted_ && looks > kGreetings) return endpoint_.place() + " answers, but not as an MQTT broker does";
+      if (is_greeted_) publish();
+    }
+    mosquitto_disconnect(client_.get());
+    return "";
+  }
+
+ private:
+  static Broker& of(void* self) { return *static_cast<Broker*>(self); }
+
+  void greeted(int code) {
+    if (code != 0) {
+      refusal_ = "the broker " + endpoint_.place() + " refuses the connection: " + mosquitto_connack_string(code);
+      return;
+    }
+    is_greeted_ = true;
+    for (const Subscriber& subscriber : endpoint_.subscribers())
+      mosquitto_subscribe(client_.get(), nullptr, subscriber.path.c_str(), kDelivery);
+    endpoint_.succeed();
+  }
+
+  // A retained message may be of any age: it is no reading of now.
+  void arrived(const mosquitto_message& message) {
+    const std::string_view payload(static_cast<const char*>(message.payload),
+                                   message.payload != nullptr ? static_cast<std::size_t>(message.payloadlen) : 0);
+    for (const Subscriber& subscriber : endpoint_.subscribers()) {
+      if (subscriber.path != message.topic) continue;
+      if (message.retain) subscriber.station->count(&Traffic::skipped);
+      else subscriber.station->message(payload);
+    }
+  }
+
+  void publish() {
+    for (const Outgoing& message : endpoint_.outgoing()) {
+      int id = 0;
+      const int done = mosquitto_publish(client_.get(), &id, message.path.c_str(), static_cast<int>(message.text.size()),
+                                         message.text.data(), kDelivery, false);
+      if (done != MOSQ_ERR_SUCCESS) {
+        message.station->line(std::string("a message could not be sent: ") + mosquitto_strerror(done));
+        continue;
+      }
+      message.station->count(&Traffic::sent);
+      unconfirmed_[id] = message.station;
+    }
+  }
+
+  void confirmed(int id) {
+    const auto found = unconfirmed_.find(id);
+    if (found == unconfirmed_.end()) return;
+    found->second->count(&Traffic::acknowledged);
+    unconfirmed_.erase(found);
+  }
+
+  Endpoint& endpoint_;
+  std::unique_ptr<mosquitto, decltype(&mosquitto_destroy)> client_;
+  bool is_greeted_ = false;
+  std::string refusal_;
+  std::map<int, std::shared_ptr<Station>> unconfirmed_;  // by the library's number of the message
+};
+
+}  // namespace
+
+void run_mqtt(Endpoint& endpoint) {
+  static const Library kLibrary;
+  while (!endpoint.is_ending())
+    if (const std::string problem = Broker(endpoint).run(); !problem.empty()) endpoint.fail(problem);
+}
+
+}  // namespace bl

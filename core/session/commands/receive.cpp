@@ -1,0 +1,49 @@
+// Hands a sensor what was measured, or why a message of it is no measurement.
+#include "core/session/support.h"
+
+namespace bl {
+
+namespace {
+
+constexpr std::size_t kLongestText = 500;
+
+}  // namespace
+
+void Receive::declare(CommandBuilder<Receive>& c) {
+  c.id("receive").label("Receive").doc(
+      "A reading of a sensor. Devices give it, and people may; it stands in the log, so that a replay needs no device.");
+  c.argument(&In::node, "node").required().doc("Id of the sensor.");
+  c.argument(&In::value, "value").doc("The number as it came, before scale and offset.");
+  c.argument(&In::time, "time").doc("When it was measured or came, as a text for people.");
+  c.argument(&In::problem, "problem")
+      .doc("Why the message holds no number, as a sentence. The reading before it then stays, and its age goes on.");
+  c.argument(&In::tick, "tick").min(-1).doc("The tick that it was measured in; its age counts from there. -1: never.");
+  c.argument(&In::whole, "whole").doc("When on, all of it is taken as given, as an undo needs it.");
+}
+
+Inverse Receive::apply(SceneEdit& edit, const In& in) {
+  const std::string place = "nodes/" + in.node + "/sensor/";
+  for (const auto& [name, text] : {std::pair{"time", &in.time}, {"problem", &in.problem}})
+    if (text->size() > kLongestText)
+      return Error{ErrorCode::out_of_range, place + name, "is longer than " + std::to_string(kLongestText) + " characters"};
+  const auto value = find_setting(edit, in.node, {"sensor.reading"});
+  if (!value) return value.error();
+  const TypificationDefinition& type = *value->type;
+  PortValues& values = value->node->types.at(type.id);
+  const auto now = [&](const char* port) { return set_value(*value->node, type, *type.find_port(port)); };
+  const auto put = [&](const char* port, const Value& content) { assign(values, *type.find_port(port), content); };
+  const std::vector inverse{
+      command<Receive>({in.node, as_number(now("reading")), std::get<std::string>(now("reading_time")),
+                        std::get<std::string>(now("reading_problem")), std::get<std::int64_t>(now("reading_tick")), true})};
+  put("reading_problem", in.problem);
+  if (in.problem.empty() || in.whole) {
+    put("reading", in.value);
+    put("reading_time", in.time);
+    put("reading_tick", in.tick);
+  }
+  return inverse;
+}
+
+}  // namespace bl
+
+BL_COMMAND(receive, Receive)

@@ -1,0 +1,41 @@
+// A whole study: rectangles that want sun, casters in the way, and what each has and takes; works out again only what has
+// changed.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/sun/sun_hours.h"
+
+namespace bl {
+
+/// A rectangle that is measured on a grid.
+struct SunReceiver {
+  Point3 centre;
+  Vector3 half_across, half_up;    ///< to the middle of two sides; it looks along their cross product
+  double spacing = 2;              ///< [m]
+  double required = 0;             ///< direct sun that each point should have [s per day]
+  std::vector<std::uint8_t> mask;  ///< which casters count; empty: all
+};
+/// Half axes of a level rectangle, turned counter-clockwise by `rotation` [degree].
+void level_axes(double width, double depth, double rotation, SunReceiver& receiver);
+/// Half axes of an upright one that looks to `azimuth`, clockwise from the y axis [degree].
+void upright_axes(double width, double height, double azimuth, SunReceiver& receiver);
+
+/// What a receiver has, over its grid.
+struct SunRecord {
+  SunGrid grid;
+  SunHours hours;
+  double least = 0, mean = 0, most = 0;  ///< [s per day]
+  double share_met = 0;                  ///< of the points that have what is required
+  double deficit = 0;                    ///< mean of what the points are short of it [s per day]
+};
+
+/// The most points of one receiver; their spacing grows until there are no more.
+inline constexpr std::size_t kMostSunPoints = 4096;
+
+/// One record for each receiver. An empty mesh casts nothing.
+Result<std::vector<SunRecord>> sun_study(std::span<const MeshPointer> casters, std::span<const SunMoment> moments,
+                                         std::span<const SunReceiver> receivers, ThreadPool* pool = nullptr);
+
+}  // namespace bl

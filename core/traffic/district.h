@@ -1,0 +1,96 @@
+// One step of a district's traffic: streets, junctions and zones by id in, flows and times out, and what the next step needs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/vector.h"
+#include "core/traffic/trip_distribution.h"
+
+namespace bl {
+
+struct DistrictJunction {
+  std::string id;
+  Point3 position;
+  double delay = 0;  ///< [s] that everybody loses who arrives
+};
+
+struct DistrictStreet {
+  std::string id, start, end;                                   ///< ids of junctions
+  double length = 0, speed = 0, capacity = 0, toll = 0;         ///< [m] (0: the straight line), [m/s], [1/h], of each direction
+  bool is_one_way = false, is_open = true, is_for_cars = true;  ///< who may pass
+};
+
+struct DistrictZone {
+  std::string id;
+  Point3 position;
+  double leaving = 0, arriving = 0;  ///< trips [1/h]
+  std::vector<std::string> access;   ///< ids of junctions; empty: the junction of the zone's own id, where there is one
+  bool wants_reach = false;          ///< lists its times to all junctions
+};
+
+struct DistrictSettings {
+  double alpha = 0.15, beta = 4;
+  double toll_factor = 0, distance_factor = 0;  ///< [s per unit of toll], [s/m]
+  double walking_speed = 1.34;                  ///< [m/s], between a zone and its junctions
+  double fade = 600;                            ///< [s] of the gravity model
+  TripConstraint constraint = TripConstraint::origins;
+  double gap = 1e-4;
+  int steps = 2;       ///< iterations of one step at most
+  double haste = 0.5;  ///< share of the change of trips that one step makes
+};
+
+/// What the next step starts from. Rows whose zone or link is gone are passed over.
+struct DistrictState {
+  struct Flow {
+    std::string origin, link;
+    double flow = 0;
+  };
+  struct Trips {
+    std::string origin, destination;
+    double trips = 0;
+  };
+  std::vector<Flow> flows;
+  std::vector<Trips> trips;
+};
+
+struct DistrictResult {
+  struct Street {
+    double flow_forth = 0, flow_back = 0, time_forth = 0, time_back = 0;  ///< [1/h], [s]
+    double delay = 0, load = 0, length = 0;                               ///< the larger of both directions; [m]
+    std::string reason;                                                   ///< why nobody drives here; empty where one may
+  };
+  struct Junction {
+    int streets = 0;
+    double flow = 0, load = 0;  ///< what arrives by streets; the largest volume over capacity of its streets
+  };
+  /// Times from a zone to a junction [s]; below 0 where there is no way.
+  struct Reach {
+    std::string junction;
+    double driving = -1, walking = -1;
+  };
+  struct Zone {
+    double served = 0, lost = 0;  ///< trips that leave, and that would [1/h]
+    double mean_time = 0;         ///< of the trips that leave [s]
+    double accessibility = 0;     ///< trips that end elsewhere, faded by the time to get there [1/h]
+    std::string reason;           ///< why trips are lost; empty where none are
+    std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
+  };
+  std::vector<Street> streets;  ///< as given, and so below
+  std::vector<Junction> junctions;
+  std::vector<Zone> zones;
+  double gap = 0, restlessness = 0;      ///< the latter: share of the trips that wants to go elsewhere than it does
+  double trips = 0, lost = 0;            ///< [1/h]
+  double total_time = 0, objective = 0;  ///< vehicle seconds in an hour (with tolls and distance as time)
+  int iterations = 0;
+  DistrictState state;
+};
+
+/// Distributes the trips by the times of the last step, puts them on the streets and goes `steps` iterations on, from the last
+/// flows. A pure function of its arguments. An error's place is the id of what is wrong.
+Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
+                                     const std::vector<DistrictZone>& zones, const DistrictSettings& settings,
+                                     const DistrictState& last);
+
+}  // namespace bl

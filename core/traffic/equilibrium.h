@@ -1,0 +1,87 @@
+// User equilibrium: trips spread over the network so that nobody gains by another way, found from a cold or a warm start.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/traffic/bush.h"
+
+namespace bl {
+
+/// Trips that are not on the streets, and why.
+struct LostTrips {
+  std::uint32_t origin = 0, destination = 0;
+  double trips = 0;
+  std::string reason;
+};
+
+/// Where an assignment stands. Costs are generalised where factors were given.
+struct EquilibriumFigures {
+  int iterations = 0;
+  double gap = 1;            ///< relative: the share of the total cost that vanished if everybody took today's shortest way
+  double objective = 0;      ///< Beckmann's: the sum of the areas under the cost curves
+  double total_cost = 0;     ///< sum of flow · cost
+  double shortest_cost = 0;  ///< the same if all went the shortest way at these costs
+  double trips = 0;          ///< on the streets
+  double lost = 0;           ///< trips that cannot reach their destination
+  double within = 0;         ///< trips that begin and end in one zone and need no street
+};
+
+/// One way that trips of a pair use, or could use.
+struct Route {
+  std::vector<std::uint32_t> links;
+  double trips = 0, cost = 0;
+};
+
+/// Holds the bushes of all origins. After an edit the flows stay where they are as far as they can: a warm start.
+/// Origins take turns in ascending index, so that the result depends on network, demands and start alone.
+class Equilibrium {
+ public:
+  /// Demands of one pair add up; those without trips are dropped. Starts with everybody on the shortest way, origin by origin.
+  Equilibrium(TrafficNetwork network, std::vector<TripDemand> demands, std::span<const OriginFlow> start = {});
+
+  Equilibrium(const Equilibrium&) = delete;  // the bushes work on this very network
+  Equilibrium& operator=(const Equilibrium&) = delete;
+
+  /// One iteration: bushes are improved, then flow is shifted until `sweeps` are done.
+  void iterate(int sweeps = 8);
+  /// Iterates until the gap is reached; false where `most_iterations` did not suffice.
+  bool run(double gap, int most_iterations, int sweeps = 8);
+
+  /// Edits. Streets that change their capacity or time keep their flow. Closing, opening and other demands replant the bushes
+  /// around the flow that is left.
+  Result<void> set_capacity(std::uint32_t link, double capacity);
+  Result<void> set_free_time(std::uint32_t link, double free_time);
+  void set_open(std::uint32_t link, bool is_open);
+  void set_demands(std::vector<TripDemand> demands);
+
+  const TrafficNetwork& network() const { return network_; }
+  /// Measures gap and totals of the state as it is.
+  EquilibriumFigures figures();
+  const std::vector<double>& flows() const { return loads_.flows; }
+  const std::vector<double>& costs() const { return loads_.costs; }
+  const std::vector<LostTrips>& lost() const { return lost_; }
+  const std::vector<TripDemand>& demands() const { return demands_; }
+  const std::vector<Bush>& bushes() const { return bushes_; }
+  /// Everything that a warm start needs, ascending origin and link.
+  std::vector<OriginFlow> origin_flows() const;
+  /// The ways that trips of a pair use, most used first: the flow of the bush taken apart.
+  std::vector<Route> routes(std::uint32_t origin, std::uint32_t destination) const;
+
+ private:
+  void plant(std::span<const OriginFlow> start);
+  void add_up();
+
+  TrafficNetwork network_;
+  std::vector<TripDemand> demands_;  ///< ascending origin and destination
+  std::vector<Bush> bushes_;         ///< ascending origin
+  std::vector<LostTrips> lost_;
+  LinkLoads loads_;
+  BushWorker worker_;
+  double within_ = 0;
+  int iterations_ = 0;
+};
+
+}  // namespace bl

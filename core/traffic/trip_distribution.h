@@ -1,0 +1,26 @@
+// Deals the trips that leave zones out to the zones where they end: a gravity model by travel time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace bl {
+
+/// `origins`: exactly what leaves each zone; where it ends follows the attraction. `both`: what ends in each zone holds as well.
+enum class TripConstraint { origins, both };
+
+struct TripDistribution {
+  std::vector<double> trips;  ///< from zone i to zone j at [i · zones + j]
+  std::vector<double> lost;   ///< by origin: trips that find no destination, because nothing attracts within reach
+  int rounds = 0;             ///< of balancing; 0 where one side alone is held
+};
+
+/// trips(i, j) = a_i · leaving_i · b_j · arriving_j · exp(-time_ij / fade) (Wilson 1967). Times that are not finite mean out of
+/// reach; a zone sends nothing to itself. Where both sides are held, arriving is first scaled to the sum of leaving, and rows
+/// and columns are balanced in turn (Furness) until the columns are right within `tolerance`, or 200 rounds are over; the
+/// rows are exact in the end.
+TripDistribution distribute_trips(std::span<const double> times, std::span<const double> leaving,
+                                  std::span<const double> arriving, double fade, TripConstraint constraint,
+                                  double tolerance = 1e-9);
+
+}  // namespace bl

@@ -1,0 +1,69 @@
+// Attaches a zone to the nearest junctions that can be walked to.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+
+namespace bl {
+
+namespace {
+
+struct AccessRoute {
+  struct In {
+    double max_walk = 300;
+    std::int64_t count = 1;
+  };
+  struct Ends {
+    std::string zone;
+    Point3 from;
+    All<std::string> ids;
+    All<Point3> positions;
+    All<double> delays;  // who has one is a junction
+  };
+  struct Out {
+    std::vector<std::string> access;
+  };
+
+  static void declare(LinkBuilder<AccessRoute>& l) {
+    l.id("access_route").label("Access route");
+    l.doc(
+        "Says by which junctions the trips of a zone enter and leave the streets: the nearest of those at the other end, within "
+        "a "
+        "walk. Several links, or several junctions, are several ways to choose from.");
+    l.param(&In::max_walk, "max_walk").unit(Unit::metre).range(0, 1e5).soft(50, 1000).doc("The longest walk, as the crow flies.");
+    l.param(&In::count, "count")
+        .unit(Unit::count)
+        .range(1, 100)
+        .soft(1, 5)
+        .doc("So many of the nearest junctions, where there are as many.");
+    l.reads(&Ends::zone, End::from, "node.id").reads(&Ends::from, End::from, "node.position", Unit::metre);
+    l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::positions, End::to, "node.position", Unit::metre);
+    l.reads(&Ends::delays, End::to, "junction.delay", Unit::second);
+    l.proposes(&Out::access, End::from, "traffic_zone.access");
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    std::vector<std::pair<double, std::string>> near;
+    for (std::size_t i = 0; i < ends.ids.values.size(); ++i)
+      near.emplace_back(distance(ends.from, ends.positions.values[i]), ends.ids.values[i]);
+    std::sort(near.begin(), near.end());
+    Out out;
+    if (near.empty()) return out;
+    for (const auto& [walk, id] : near)
+      if (walk <= in.max_walk && out.access.size() < static_cast<std::size_t>(in.count)) out.access.push_back(id);
+    if (out.access.empty())
+      return Error{ErrorCode::infeasible, "max_walk",
+                   "from `" + ends.zone + "` the nearest junction, `" + near.front().second + "`, is a walk of " +
+                       fixed(near.front().first, 0) + " m; allow a longer one or bring them together"};
+    return out;
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(access_route, AccessRoute)

@@ -1,0 +1,73 @@
+// Holds back the demand of a volume while the streets at its access are overloaded.
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+
+namespace bl {
+
+namespace {
+
+struct CongestionFeedback {
+  struct In {
+    double limit = 0.9, gain = 0.1, least = 0.2;
+  };
+  struct Ends {
+    Shared<Table> loads;
+    std::string id;
+    std::vector<std::string> access;
+    double demand = 0, demand_limit = 0;
+  };
+  struct Out {
+    std::optional<double> demand_limit;
+  };
+
+  static void declare(LinkBuilder<CongestionFeedback>& l) {
+    l.id("congestion_feedback").label("Congestion feedback");
+    l.doc(
+        "Limits what a volume asks for while a street at its access carries more than a share of its capacity, tick by tick, and "
+        "loosens the limit again when there is room. With `request_traffic` this is a loop: the streets say how large the volume "
+        "may be.");
+    l.param(&In::limit, "limit")
+        .unit(Unit::ratio)
+        .range(0.01, 10)
+        .soft(0.5, 1.5)
+        .doc("Volume over capacity that the most used street at the access may have.");
+    l.param(&In::gain, "gain")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0.01, 0.3)
+        .doc("How strongly one tick answers. Volumes and streets follow some ticks later, so that large gains swing.");
+    l.param(&In::least, "least")
+        .unit(Unit::ratio)
+        .range(0.001, 1)
+        .doc("Share of the demand that no congestion takes away: it may be caused by others.");
+    l.reads(&Ends::loads, End::from, "traffic_network.loads");
+    l.reads(&Ends::id, End::to, "node.id").reads(&Ends::access, End::to, "traffic_zone.access");
+    l.reads(&Ends::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
+    l.reads(&Ends::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.proposes(&Out::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    const std::vector<std::string> own{ends.id};
+    double load = 0;
+    for (const std::string& junction : ends.access.empty() ? own : ends.access)
+      if (const std::size_t row = ends.loads->row_of("junction", junction); row < ends.loads->rows.size())
+        load = std::max(load, ends.loads->number(row, "volume_over_capacity"));
+    if (!(ends.demand > 0) || !(load > 0)) return Out{};
+    // From the share that the limit leaves now; one tick answers to at most a halving or a doubling.
+    const double answer = 1 + in.gain * (std::clamp(in.limit / load, 0.5, 2.0) - 1);
+    const double share = std::min(1.0, ends.demand_limit / ends.demand) * answer;
+    return Out{ends.demand * std::max(share, in.least)};
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(congestion_feedback, CongestionFeedback)

@@ -1,0 +1,50 @@
+// Turns the floor area of a volume into trips of its zone.
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+
+namespace bl {
+
+namespace {
+
+struct RequestTraffic {
+  struct In {
+    double trips_per_100 = 12, car_share = 0.5, out_share = 0.5;
+  };
+  struct Ends {
+    double floor_area = 0, peak_share = 0;
+  };
+  struct Out {
+    double trips_out = 0, trips_in = 0;
+  };
+
+  static void declare(LinkBuilder<RequestTraffic>& l) {
+    l.id("request_traffic").label("Request traffic");
+    l.doc(
+        "Asks a traffic network for the trips that a volume causes: its floor area, as it is now, times the trips of its use, of "
+        "which the network says how many fall into the hour looked at. They become trips of the volume's zone.");
+    l.param(&In::trips_per_100, "trips_per_100")
+        .min(0)
+        .soft(0, 200)
+        .doc("Trips per day and 100 m² of floor area, both ways together: about 10 for housing, 20 for offices, 100 for shops.");
+    l.param(&In::car_share, "car_share").unit(Unit::ratio).range(0, 1).doc("Share of the trips that are made by car.");
+    l.param(&In::out_share, "out_share")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .doc("Share of the trips in that hour that leave: more than half for housing in the morning, less for offices.");
+    l.reads(&Ends::floor_area, End::from, "smart_volume.floor_area", Unit::square_metre);
+    l.reads(&Ends::peak_share, End::to, "traffic_network.peak_share", Unit::ratio);
+    l.proposes(&Out::trips_out, End::from, "traffic_zone.trips_out", Unit::per_hour);
+    l.proposes(&Out::trips_in, End::from, "traffic_zone.trips_in", Unit::per_hour);
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    const double trips = ends.floor_area / 100 * in.trips_per_100 * in.car_share * ends.peak_share;
+    return Out{trips * in.out_share, trips * (1 - in.out_share)};
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(request_traffic, RequestTraffic)

@@ -1,0 +1,104 @@
+// Keeps volumes under the planes through which a neighbour's edge sees the sun.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+#include "core/sun/shadow_shape.h"
+
+namespace bl {
+
+namespace {
+
+struct SolarEnvelope {
+  enum class Mode { move, shave };
+  struct In {
+    std::vector<Point3> edge = {{-20, 30, 0}, {20, 30, 0}};
+    Mode mode = Mode::move;
+    double gain = 0.3, tolerance = 0.02;
+  };
+  struct Ends {
+    Shared<Table> moments;
+    Point3 position;
+    double radius = 0, bottom = 0, height = 0, demand = 0, limit = 0;
+  };
+  struct Out {
+    std::optional<Vector3> move;
+    std::optional<double> limit;
+  };
+
+  static void declare(LinkBuilder<SolarEnvelope>& l) {
+    l.id("solar_envelope")
+        .label("Solar envelope")
+        .doc(
+            "Limits how high volumes stand, so that a neighbour's edge keeps its sun at all moments of the sun's period. Each "
+            "moment "
+            "gives a plane that rises from the edge towards the sun; volumes that reach through one come back under it.");
+    l.param(&In::edge, "edge")
+        .unit(Unit::metre)
+        .doc(
+            "The neighbour's edge: a chain of points, at the height at which the sun has to arrive, such as that of window "
+            "sills.");
+    l.param(&In::mode, "mode",
+            {{Mode::move, "move", "The volume's position moves back under the plane by the shortest way."},
+             {Mode::shave, "shave", "The volume may demand less, until it fits under the planes; then it may grow again."}})
+        .doc("How a volume gives way.");
+    l.param(&In::gain, "gain")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0.01, 0.5)
+        .doc("Share of the excess that one tick takes back; of the demand, that share of the excess over the radius.");
+    l.param(&In::tolerance, "tolerance")
+        .unit(Unit::ratio)
+        .range(0.001, 1)
+        .soft(0.005, 0.1)
+        .doc("How far a volume may reach through a plane, as a share of its radius.");
+    l.reads(&Ends::moments, End::from, "sun_and_sky.moments");
+    l.reads(&Ends::position, End::to, "node.position", Unit::metre);
+    l.reads(&Ends::radius, End::to, "smart_volume.radius", Unit::metre);
+    l.reads(&Ends::bottom, End::to, "smart_volume.bottom", Unit::metre);
+    l.reads(&Ends::height, End::to, "smart_volume.height", Unit::metre);
+    l.reads(&Ends::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
+    l.reads(&Ends::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.proposes(&Out::move, End::to, "node.position", Unit::metre);
+    l.proposes(&Out::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+  }
+
+  // How far a shape reaches from its position towards `normal`, at most: it lies within its ball and below its top.
+  static double reach(const Ends& ends, const Vector3& normal) {
+    const double r = ends.radius, up = std::clamp(ends.bottom + ends.height - ends.position.z, -r, r);
+    if (normal.z * r <= up) return r;
+    return normal.z * up + std::sqrt(std::max(0.0, (r * r - up * up) * (1 - normal.z * normal.z)));
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    if (in.edge.size() < 2) return Error{ErrorCode::missing, "edge", "an edge has at least two points: add them"};
+    if (!(ends.radius > 0)) return Out{};
+    std::vector<Vector3> suns;
+    for (std::size_t row = 0; row < ends.moments->rows.size(); ++row)
+      suns.push_back({ends.moments->number(row, "x"), ends.moments->number(row, "y"), ends.moments->number(row, "z")});
+    double worst = -ends.radius;
+    Vector3 normal;
+    for (std::size_t i = 0; i + 1 < in.edge.size(); ++i)
+      for (const SunPlane& plane : solar_envelope(in.edge[i], in.edge[i + 1], ends.position, suns)) {
+        const double excess = dot(plane.normal, ends.position) + reach(ends, plane.normal) - plane.offset;
+        if (excess <= worst) continue;
+        worst = excess;
+        normal = plane.normal;
+      }
+    const double beyond = worst / ends.radius - in.tolerance;
+    if (in.mode == Mode::move) return beyond > 0 ? Out{normal * (-in.gain * beyond * ends.radius), {}} : Out{};
+    // Between half the tolerance and all of it the limit rests; below it the volume may grow again.
+    const double room = std::min(0.5, std::max(0.0, -beyond - 0.5 * in.tolerance));
+    const double now = std::max(1e-6 * ends.demand, std::min(ends.limit, ends.demand));
+    return Out{{}, now * (1 - in.gain * std::clamp(beyond, 0.0, 0.5)) * (1 + in.gain * room)};
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(solar_envelope, SolarEnvelope)

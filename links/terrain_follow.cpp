@@ -1,0 +1,69 @@
+// Keeps nodes at a height above the ground.
+#include <cmath>
+#include <optional>
+
+#include "core/base/text.h"
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+#include "core/geometry/height_grid.h"
+
+namespace bl {
+
+namespace {
+
+struct TerrainFollow {
+  struct In {
+    double offset = 0, stiffness = 0.5;
+    bool needs_ground = true;
+  };
+  struct Ends {
+    Shared<Table> rows;
+    double west = 0, north = 0, cell = 1, lowest = 0, step = 1;
+    Point3 position;
+  };
+  struct Out {
+    std::optional<Vector3> move;
+  };
+
+  static void declare(LinkBuilder<TerrainFollow>& l) {
+    l.id("terrain_follow")
+        .label("Terrain follow")
+        .doc("Brings nodes to a height above the ground, upright, tick by tick; in plan they stay where they are.");
+    l.param(&In::offset, "offset").unit(Unit::metre).soft(-5, 50).doc("Wanted height of the position above the ground.");
+    l.param(&In::stiffness, "stiffness")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .doc("The share of the deviation that is corrected in one tick.");
+    l.param(&In::needs_ground, "needs_ground")
+        .doc("When on, a node beside the ground is an error; when off, such a node is left alone.");
+    l.reads(&Ends::rows, End::from, "terrain.rows");
+    l.reads(&Ends::west, End::from, "terrain.west", Unit::metre).reads(&Ends::north, End::from, "terrain.north", Unit::metre);
+    l.reads(&Ends::cell, End::from, "terrain.cell", Unit::metre).reads(&Ends::lowest, End::from, "terrain.lowest", Unit::metre);
+    l.reads(&Ends::step, End::from, "terrain.step", Unit::metre);
+    l.reads(&Ends::position, End::to, "node.position", Unit::metre);
+    l.proposes(&Out::move, End::to, "node.position", Unit::metre);
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
+    const std::size_t column = ends.rows->column("heights");
+    for (const auto& row : ends.rows->rows)
+      if (const std::string* text = column < row.size() ? std::get_if<std::string>(&row[column]) : nullptr)
+        grid.rows.push_back(*text);
+    const auto ground = grid.sample(ends.position.x, ends.position.y);
+    if (!ground && in.needs_ground)
+      return Error{ErrorCode::not_found, "to",
+                   "there is no ground at (" + fixed(ends.position.x, 1) + ", " + fixed(ends.position.y, 1) +
+                       "): move the node onto the terrain, or turn `needs_ground` off"};
+    if (!ground) return Out{};
+    const double error = *ground + in.offset - ends.position.z;
+    if (std::abs(error) < 1e-6) return Out{};
+    return Out{Vector3{0, 0, in.stiffness * error}};
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(terrain_follow, TerrainFollow)

@@ -1,0 +1,137 @@
+// A plot with its rules: how much may be built on it, and by how much the volumes on it go beyond that.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "core/define/registry.h"
+#include "core/define/typification_builder.h"
+#include "core/geometry/plan_ring.h"
+
+namespace bl {
+
+namespace {
+
+struct Plot {
+  struct In {
+    std::vector<Point3> polygon = {{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}};
+    Selection volumes{{}, "smart_volume", {}};
+    double ground = 0, fsi_max = 100, gsi_max = 1, height_max = 10000, setback = 0;
+  };
+  struct Member {
+    Point3 centroid;
+    double floor_area = 0, footprint = 0, bottom = 0, height = 0, storey_height = 3.2, volume = 0;
+  };
+  struct Sets {
+    std::vector<Member> volumes;
+  };
+  struct Out {
+    std::int64_t count = 0;
+    double area = 0, floor_area = 0, footprint = 0, fsi = 0, gsi = 0, osr = 0, layers = 0, top = 0;
+    double floor_overshoot = 0, footprint_overshoot = 0, height_overshoot = 0, setback_overshoot = 0, overshoot = 0;
+  };
+
+  static void declare(TypificationBuilder<Plot>& t) {
+    t.id("plot").label("Plot");
+    t.doc(
+        "A piece of land with the rules for building on it. It counts the volumes whose centre of gravity lies within its "
+        "polygon. "
+        "FSI is floor area over land, GSI built ground over land, OSR open ground over floor area, L floor area over built "
+        "ground "
+        "(Berghauser Pont and Haupt 2010).");
+    t.in(&In::polygon, "polygon")
+        .unit(Unit::metre)
+        .doc("Corners of the plot, in order around it; their heights count for nothing.");
+    t.in(&In::volumes, "volumes").doc("The volumes that may stand on the plot; those outside its polygon are left out.");
+    t.in(&In::ground, "ground").unit(Unit::metre).range(-1e4, 1e5).soft(-20, 50).doc("Height of the ground above the origin.");
+    t.in(&In::fsi_max, "fsi_max")
+        .unit(Unit::ratio)
+        .range(0, 100)
+        .soft(0, 10)
+        .combine(CombineRule::min)
+        .doc("The largest FSI allowed.");
+    t.in(&In::gsi_max, "gsi_max").unit(Unit::ratio).range(0, 1).combine(CombineRule::min).doc("The largest GSI allowed.");
+    t.in(&In::height_max, "height_max")
+        .unit(Unit::metre)
+        .range(0, 10000)
+        .soft(3, 200)
+        .combine(CombineRule::min)
+        .doc("How high above the ground anything may reach.");
+    t.in(&In::setback, "setback")
+        .unit(Unit::metre)
+        .range(0, 1000)
+        .soft(0, 20)
+        .doc("How far from the sides of the plot volumes have to stay.");
+    t.out(&Out::count, "count").unit(Unit::count).doc("Number of volumes on the plot.");
+    t.out(&Out::area, "area").unit(Unit::square_metre).doc("Area of the plot.");
+    t.out(&Out::floor_area, "floor_area").unit(Unit::square_metre).doc("Floor area of the volumes on the plot.");
+    t.out(&Out::footprint, "footprint")
+        .unit(Unit::square_metre)
+        .doc("Built ground: the footprints of the volumes that begin within the lowest storey, since others stand on these.");
+    t.out(&Out::fsi, "fsi").unit(Unit::ratio).doc("Floor space index: floor area over the area of the plot.");
+    t.out(&Out::gsi, "gsi").unit(Unit::ratio).doc("Ground space index: built ground over the area of the plot.");
+    t.out(&Out::osr, "osr").unit(Unit::ratio).doc("Open space ratio, (1 - GSI) / FSI; 0 where nothing is built.");
+    t.out(&Out::layers, "layers").unit(Unit::ratio).doc("Mean number of storeys, FSI / GSI; 0 where no ground is built on.");
+    t.out(&Out::top, "top").unit(Unit::metre).doc("How high above the ground the highest volume reaches.");
+    t.out(&Out::floor_overshoot, "floor_overshoot").unit(Unit::square_metre).doc("Floor area beyond the largest FSI.");
+    t.out(&Out::footprint_overshoot, "footprint_overshoot").unit(Unit::square_metre).doc("Built ground beyond the largest GSI.");
+    t.out(&Out::height_overshoot, "height_overshoot")
+        .unit(Unit::metre)
+        .doc("Height of the highest volume beyond the largest height.");
+    t.out(&Out::setback_overshoot, "setback_overshoot")
+        .unit(Unit::metre)
+        .doc("How deep the worst volume stands in the setback, taken as a disc of the area of its footprint.");
+    t.out(&Out::overshoot, "overshoot")
+        .unit(Unit::ratio)
+        .doc("The worst overshoot of FSI, GSI and height, as a share of what is allowed.");
+    auto set = t.set("volumes", &Sets::volumes);
+    set.reads(&Member::centroid, "smart_volume.centroid", Unit::metre)
+        .reads(&Member::floor_area, "smart_volume.floor_area", Unit::square_metre);
+    set.reads(&Member::footprint, "smart_volume.footprint", Unit::square_metre)
+        .reads(&Member::bottom, "smart_volume.bottom", Unit::metre);
+    set.reads(&Member::height, "smart_volume.height", Unit::metre)
+        .reads(&Member::storey_height, "smart_volume.storey_height", Unit::metre);
+    set.reads(&Member::volume, "smart_volume.volume", Unit::cubic_metre);
+  }
+
+  // How much of what is allowed is exceeded; what is forbidden altogether counts as exceeded once.
+  static double share(double overshoot, double allowed) { return overshoot <= 0 ? 0 : allowed > 0 ? overshoot / allowed : 1; }
+
+  static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
+    if (in.polygon.size() < 3) return Error{ErrorCode::geometry, "polygon", "a plot needs at least 3 corners"};
+    if (const auto crossing = find_self_crossing(in.polygon))
+      return Error{ErrorCode::geometry, "polygon",
+                   "the polygon meets itself at (" + fixed(crossing->where.x, 3) + ", " + fixed(crossing->where.y, 3) +
+                       "): redraw it there"};
+    Out out;
+    out.area = std::abs(signed_area(in.polygon));
+    if (!(out.area > 0)) return Error{ErrorCode::geometry, "polygon", "the polygon encloses no area"};
+    for (const Member& member : sets.volumes) {
+      if (!(member.volume > 0) || !ring_contains(in.polygon, member.centroid)) continue;
+      ++out.count;
+      out.floor_area += member.floor_area;
+      if (member.bottom < in.ground + member.storey_height) out.footprint += member.footprint;
+      out.top = std::max(out.top, member.bottom + member.height - in.ground);
+      const double radius = std::sqrt(member.footprint / 3.14159265358979323846);
+      const Point3 flat{member.centroid.x, member.centroid.y, 0};
+      const Point3 side = nearest_on_ring(in.polygon, flat);
+      out.setback_overshoot = std::max(out.setback_overshoot, in.setback - (distance({side.x, side.y, 0}, flat) - radius));
+    }
+    if (!(in.setback > 0)) out.setback_overshoot = 0;
+    out.fsi = out.floor_area / out.area;
+    out.gsi = out.footprint / out.area;
+    if (out.fsi > 0) out.osr = (1 - out.gsi) / out.fsi;
+    if (out.gsi > 0) out.layers = out.fsi / out.gsi;
+    out.floor_overshoot = std::max(0.0, out.floor_area - in.fsi_max * out.area);
+    out.footprint_overshoot = std::max(0.0, out.footprint - in.gsi_max * out.area);
+    out.height_overshoot = std::max(0.0, out.top - in.height_max);
+    out.overshoot = std::max({share(out.floor_overshoot, in.fsi_max * out.area),
+                              share(out.footprint_overshoot, in.gsi_max * out.area), share(out.height_overshoot, in.height_max)});
+    return out;
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_TYPIFICATION(plot, Plot)

@@ -1,0 +1,264 @@
+// The traffic network: puts the trips of its zones on its streets, tick by tick, until nobody gains by another way.
+#include <algorithm>
+
+#include "core/define/registry.h"
+#include "core/define/typification_builder.h"
+#include "core/traffic/district.h"
+
+namespace bl {
+namespace {
+
+struct TrafficNetworkNode {
+  // What the next tick starts from: flow by zone and link, and trips by pair of zones.
+  struct Memory {
+    Table flows{{"origin", "link", "flow"}, {}}, trips{{"origin", "destination", "trips"}, {}};
+  };
+  struct In {
+    Selection streets{{}, "street", {}}, junctions{{}, "junction", {}}, zones{{}, "traffic_zone", {}};
+    double alpha = 0.15, beta = 4, peak_share = 0.1, toll_factor = 180, distance_factor = 0, walking_speed = 1.34;
+    TripConstraint distribution = TripConstraint::origins;
+    double fade = 600, haste = 0.5, gap = 1e-4;
+    int steps = 4;
+    Memory last;
+  };
+  struct Street {
+    std::string id;
+    Selection start, end;
+    double lanes = 0, capacity_per_lane = 0, speed = 0, length = 0, open = 0, toll = 0;
+    bool one_way = false, for_cars = true;
+  };
+  struct Crossing {
+    std::string id;
+    Point3 position;
+    double delay = 0;
+  };
+  struct Zone {
+    std::string id;
+    Point3 position;
+    double trips_out = 0, trips_in = 0;
+    std::vector<std::string> access;
+    bool list_reach = false;
+  };
+  struct Sets {
+    std::vector<Street> streets;
+    std::vector<Crossing> junctions;
+    std::vector<Zone> zones;
+  };
+  struct CrossingReply {
+    std::int64_t streets = 0;
+    double flow = 0, load = 0;
+  };
+  struct ZoneReply {
+    double served = 0, lost = 0, mean_time = 0, accessibility = 0;
+    std::string reason;
+    Table reach{{"junction", "driving", "walking"}, {}};
+  };
+  struct Out {
+    double relative_gap = 1, unrest = 1, trips = 0, trips_lost = 0, mean_travel_time = 0, total_time = 0, objective = 0;
+    double largest_load = 0;
+    std::string message;
+    Table loads{{"junction", "volume_over_capacity"}, {}};
+    Memory memory;
+    std::vector<DistrictResult::Street> streets;
+    std::vector<CrossingReply> junctions;
+    std::vector<ZoneReply> zones;
+  };
+  using Builder = TypificationBuilder<TrafficNetworkNode>;
+
+  static void declare(Builder& t) {
+    t.id("traffic_network").label("Traffic network");
+    t.doc(
+        "Streets, junctions and zones as one network. In every tick it deals the trips of the zones out to each other by travel "
+        "time, "
+        "and shifts them between ways towards user equilibrium: the state in which nobody gets there sooner by another way.");
+    t.in(&In::streets, "streets").doc("The streets of this network; a street belongs to one network only.");
+    t.in(&In::junctions, "junctions").doc("The junctions where they meet.");
+    t.in(&In::zones, "zones").doc("The zones whose trips it carries.");
+    declare_settings(t);
+    declare_results(t);
+    declare_sets(t);
+  }
+
+  static void declare_settings(Builder& t) {
+    t.in(&In::alpha, "alpha")
+        .unit(Unit::ratio)
+        .range(0, 100)
+        .soft(0.05, 1)
+        .doc("By which share a street takes longer when its flow equals its capacity (Bureau of Public Roads).");
+    t.in(&In::beta, "beta").range(0, 20).soft(1, 8).doc("How steeply it grows beyond: the power of volume over capacity.");
+    t.in(&In::peak_share, "peak_share")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0.05, 0.2)
+        .doc("Share of a day's trips in the hour looked at. Links that request traffic count with it.");
+    t.in(&In::toll_factor, "toll_factor")
+        .range(0, 1e6)
+        .soft(0, 600)
+        .doc("Seconds that people would drive longer to save one euro.");
+    t.in(&In::distance_factor, "distance_factor")
+        .range(0, 1e3)
+        .soft(0, 0.5)
+        .doc("Seconds that one metre of street counts besides its time.");
+    t.in(&In::walking_speed, "walking_speed")
+        .unit(Unit::metre_per_second)
+        .range(0.1, 10)
+        .soft(0.8, 2)
+        .doc("Speed on foot between a zone and the junctions of its access.");
+    t.in(&In::distribution, "distribution",
+         {{TripConstraint::origins, "singly", "What leaves each zone holds; what ends where follows attraction and time."},
+          {TripConstraint::both, "doubly", "What ends in each zone holds as well, in proportion."}})
+        .doc("Which sums of trips hold.");
+    t.in(&In::fade, "fade")
+        .unit(Unit::second)
+        .range(1, 1e6)
+        .soft(60, 3600)
+        .doc("So much farther away, a zone attracts only a third as much (1/e), and counts so for accessibility.");
+    t.in(&In::haste, "haste")
+        .unit(Unit::ratio)
+        .range(0.01, 1)
+        .doc("Share of the trips that want another destination and find it in one tick; less is slower and calmer.");
+    t.in(&In::gap, "gap")
+        .unit(Unit::ratio)
+        .range(1e-12, 0.1)
+        .soft(1e-6, 1e-2)
+        .doc("Relative gap at which the ways rest: the share of all time that vanished if everybody took today's shortest way.");
+    t.in(&In::steps, "steps").range(1, 100).soft(1, 20).doc("Iterations of the assignment in one tick at most.");
+  }
+
+  static void declare_results(Builder& t) {
+    t.out(&Out::relative_gap, "relative_gap").unit(Unit::ratio).doc("The gap that was reached.");
+    t.out(&Out::unrest, "unrest")
+        .unit(Unit::ratio)
+        .residual()
+        .doc(
+            "The gap while it is above the wanted one, or the share of trips that want another destination, whichever is "
+            "larger.");
+    t.out(&Out::trips, "trips").unit(Unit::per_hour).doc("Trips on the streets.");
+    t.out(&Out::trips_lost, "trips_lost").unit(Unit::per_hour).doc("Trips that have no way to go; their zones say why.");
+    t.out(&Out::mean_travel_time, "mean_travel_time")
+        .unit(Unit::second)
+        .doc("Mean time of all trips, with the walk at both ends.");
+    t.out(&Out::total_time, "total_time")
+        .unit(Unit::second)
+        .doc("Time of all trips of one hour together; tolls and distance count as time.");
+    t.out(&Out::objective, "objective")
+        .doc("Beckmann's objective: the sum of the areas under the curves of time over flow. Equilibrium is its least.");
+    t.out(&Out::largest_load, "largest_load").unit(Unit::ratio).doc("The largest volume over capacity of all streets.");
+    t.out(&Out::message, "message").doc("Which streets and zones are left out, and why; empty where none are.");
+    t.out(&Out::loads, "loads")
+        .column({.id = "junction", .is_text = true, .default_value = std::string(), .doc = "Id of the junction."})
+        .column({.id = "volume_over_capacity", .unit = Unit::ratio, .doc = "The largest of the streets there."})
+        .doc("How far the streets at each junction are used, in ascending id.");
+    t.memory(&Out::memory, &In::last, &Memory::flows, "flows")
+        .column({.id = "origin", .is_text = true, .default_value = std::string(), .doc = "The zone that the trips come from."})
+        .column(
+            {.id = "link", .is_text = true, .default_value = std::string(), .doc = "Street and direction, or zone and access."})
+        .column({.id = "flow", .unit = Unit::per_hour, .doc = "Trips per hour."})
+        .doc("Where the trips of each zone are: what the next tick starts from.");
+    t.memory(&Out::memory, &In::last, &Memory::trips, "pairs")
+        .column({.id = "origin", .is_text = true, .default_value = std::string(), .doc = "The zone where they begin."})
+        .column({.id = "destination", .is_text = true, .default_value = std::string(), .doc = "The zone where they end."})
+        .column({.id = "trips", .unit = Unit::per_hour, .doc = "Trips per hour."})
+        .doc("How many trips go from zone to zone.");
+  }
+
+  static void declare_sets(Builder& t) {
+    auto streets = t.set("streets", &Sets::streets, &Out::streets);
+    streets.reads(&Street::id, "node.id").reads(&Street::start, "street.start").reads(&Street::end, "street.end");
+    streets.reads(&Street::lanes, "street.lanes").reads(&Street::capacity_per_lane, "street.capacity_per_lane");
+    streets.reads(&Street::speed, "street.speed").reads(&Street::length, "street.length").reads(&Street::open, "street.open");
+    streets.reads(&Street::toll, "street.toll")
+        .reads(&Street::one_way, "street.one_way")
+        .reads(&Street::for_cars, "street.for_cars");
+    using StreetReply = DistrictResult::Street;
+    streets.writes(&StreetReply::flow_forth, "street.flow_forth").writes(&StreetReply::flow_back, "street.flow_back");
+    streets.writes(&StreetReply::time_forth, "street.time_forth").writes(&StreetReply::time_back, "street.time_back");
+    streets.writes(&StreetReply::delay, "street.delay").writes(&StreetReply::load, "street.volume_over_capacity");
+    streets.writes(&StreetReply::length, "street.used_length").writes(&StreetReply::reason, "street.reason");
+    auto junctions = t.set("junctions", &Sets::junctions, &Out::junctions);
+    junctions.reads(&Crossing::id, "node.id").reads(&Crossing::position, "node.position", Unit::metre);
+    junctions.reads(&Crossing::delay, "junction.delay").writes(&CrossingReply::streets, "junction.streets");
+    junctions.writes(&CrossingReply::flow, "junction.flow").writes(&CrossingReply::load, "junction.volume_over_capacity");
+    auto zones = t.set("zones", &Sets::zones, &Out::zones);
+    zones.reads(&Zone::id, "node.id").reads(&Zone::position, "node.position", Unit::metre);
+    zones.reads(&Zone::trips_out, "traffic_zone.trips_out").reads(&Zone::trips_in, "traffic_zone.trips_in");
+    zones.reads(&Zone::access, "traffic_zone.access").reads(&Zone::list_reach, "traffic_zone.list_reach");
+    zones.writes(&ZoneReply::reach, "traffic_zone.reach");
+    zones.writes(&ZoneReply::served, "traffic_zone.trips_served").writes(&ZoneReply::lost, "traffic_zone.trips_lost");
+    zones.writes(&ZoneReply::mean_time, "traffic_zone.mean_travel_time");
+    zones.writes(&ZoneReply::accessibility, "traffic_zone.accessibility").writes(&ZoneReply::reason, "traffic_zone.reason");
+  }
+
+  static std::string one_of(const Selection& selection) { return selection.ids.size() == 1 ? selection.ids.front() : ""; }
+
+  static DistrictState recalled(const Memory& last) {
+    DistrictState state;
+    for (std::size_t r = 0; r < last.flows.rows.size(); ++r)
+      state.flows.push_back({last.flows.text(r, "origin"), last.flows.text(r, "link"), last.flows.number(r, "flow")});
+    for (std::size_t r = 0; r < last.trips.rows.size(); ++r)
+      state.trips.push_back({last.trips.text(r, "origin"), last.trips.text(r, "destination"), last.trips.number(r, "trips")});
+    return state;
+  }
+
+  static Memory kept(const DistrictState& state) {
+    Memory memory;
+    for (const auto& row : state.flows) memory.flows.rows.push_back({row.origin, row.link, row.flow});
+    for (const auto& row : state.trips) memory.trips.rows.push_back({row.origin, row.destination, row.trips});
+    return memory;
+  }
+
+  static Result<DistrictResult> stepped(const In& in, const Sets& sets) {
+    std::vector<DistrictStreet> streets;
+    for (const Street& s : sets.streets) {
+      const double capacity = s.lanes * s.capacity_per_lane * s.open;
+      streets.push_back(
+          {s.id, one_of(s.start), one_of(s.end), s.length, s.speed, capacity, s.toll, s.one_way, capacity > 0, s.for_cars});
+    }
+    std::vector<DistrictJunction> junctions;
+    for (const Crossing& c : sets.junctions) junctions.push_back({c.id, c.position, c.delay});
+    std::vector<DistrictZone> zones;
+    for (const Zone& z : sets.zones) zones.push_back({z.id, z.position, z.trips_out, z.trips_in, z.access, z.list_reach});
+    const DistrictSettings settings{in.alpha, in.beta,         in.toll_factor, in.distance_factor, in.walking_speed,
+                                    in.fade,  in.distribution, in.gap,         in.steps,           in.haste};
+    return step_district(junctions, streets, zones, settings, recalled(in.last));
+  }
+
+  static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
+    auto result = stepped(in, sets);
+    if (!result) return Error{result.error().code, "streets", "`" + result.error().place + "`: " + result.error().message};
+    Out out;
+    out.relative_gap = result->gap;
+    out.unrest = std::max(result->gap > in.gap ? result->gap : 0, result->restlessness);
+    out.trips = result->trips;
+    out.trips_lost = result->lost;
+    out.mean_travel_time = result->trips > 0 ? result->total_time / result->trips : 0;
+    out.total_time = result->total_time;
+    out.objective = result->objective;
+    auto left_out = [&](const std::string& id, const std::string& reason) {
+      if (!reason.empty()) out.message += (out.message.empty() ? "`" : "; `") + id + "`: " + reason;
+    };
+    for (std::size_t s = 0; s < result->streets.size(); ++s) {
+      out.largest_load = std::max(out.largest_load, result->streets[s].load);
+      left_out(sets.streets[s].id, result->streets[s].reason);
+    }
+    for (std::size_t z = 0; z < result->zones.size(); ++z) left_out(sets.zones[z].id, result->zones[z].reason);
+    for (std::size_t j = 0; j < result->junctions.size(); ++j) {
+      const DistrictResult::Junction& junction = result->junctions[j];
+      out.junctions.push_back({junction.streets, junction.flow, junction.load});
+      out.loads.rows.push_back({sets.junctions[j].id, junction.load});
+    }
+    out.memory = kept(result->state);
+    out.streets = std::move(result->streets);
+    for (const DistrictResult::Zone& zone : result->zones) {
+      ZoneReply& reply = out.zones.emplace_back(ZoneReply{
+          zone.served, zone.lost, zone.mean_time, zone.accessibility, zone.reason, {{"junction", "driving", "walking"}, {}}});
+      for (const DistrictResult::Reach& row : zone.reach) reply.reach.rows.push_back({row.junction, row.driving, row.walking});
+    }
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace bl
+
+BL_TYPIFICATION(traffic_network, TrafficNetworkNode)

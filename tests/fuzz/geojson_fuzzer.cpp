@@ -1,0 +1,26 @@
+// Feeds bytes to the GeoJSON importers of surroundings and of data layers; what they take must be sound, finite and accounted
+// for.
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#include "core/exchange/data_layer.h"
+#include "core/exchange/geojson_context.h"
+#include "tests/fuzz/context_laws.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  bl::ContextOptions options;
+  options.target = bl::GeoReference{"OGC:CRS84", 0, 0, 0, 0, 0};
+  options.crs = "OGC:CRS84";
+  bl::fuzz::check_context(bl::read_geojson_context(bytes, options));
+  const auto layer = bl::read_layer_geojson(bytes, options);
+  if (!layer) {
+    bl::fuzz::require(!layer.error().message.empty(), "an error without a sentence");
+    return 0;
+  }
+  for (const bl::LayerPoint& point : layer->points)
+    bl::fuzz::require(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.value),
+                      "a point that is not finite");
+  return 0;
+}

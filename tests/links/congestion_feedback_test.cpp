@@ -1,0 +1,56 @@
+// Congestion feedback: limits by hand, and offices that their street holds back.
+#include "tests/links/link_case.h"
+
+namespace bl {
+namespace {
+
+LinkCase feedback(double load, double demand, double limit) {
+  LinkCase link("congestion_feedback");
+  link.set("limit", 0.8).set("gain", 0.5).set("least", 0.2);
+  link.from("traffic_network.loads",
+            Shared(Table{{"junction", "volume_over_capacity"},
+                         {{std::string("far"), 9.0}, {std::string("gate"), load}, {std::string("it"), 0.1}}}));
+  link.to("node.id", std::string("it"));
+  link.to("traffic_zone.access", Shared(std::vector<std::string>{"gate", "unknown"}));
+  link.to("smart_volume.demand", demand).to("smart_volume.demand_limit", limit);
+  return link;
+}
+
+TEST(CongestionFeedback, LimitsByTheStreetAtTheAccess) {
+  auto link = feedback(1.0, 1000, 1e9);  // a fifth too much, half of it answered: 0.9
+  ASSERT_EQ(link.run(), "");
+  EXPECT_NEAR(link.number(End::to, "smart_volume.demand_limit"), 900, 1e-9);
+  auto next = feedback(1.0, 1000, 900);
+  ASSERT_EQ(next.run(), "");
+  EXPECT_NEAR(next.number(End::to, "smart_volume.demand_limit"), 810, 1e-9);
+}
+
+TEST(CongestionFeedback, LoosensLeavesTheLeastAndIsSilentWithoutTraffic) {
+  auto loose = feedback(0.4, 1000, 500);  // room for twice as much: 1.5
+  ASSERT_EQ(loose.run(), "");
+  EXPECT_NEAR(loose.number(End::to, "smart_volume.demand_limit"), 750, 1e-9);
+  auto least = feedback(50, 1000, 210);
+  ASSERT_EQ(least.run(), "");
+  EXPECT_NEAR(least.number(End::to, "smart_volume.demand_limit"), 200, 1e-9);
+  auto calm = feedback(0, 1000, 1e9);
+  ASSERT_EQ(calm.run(), "");
+  EXPECT_FALSE(calm.proposed(End::to, "smart_volume.demand_limit").has_value());
+}
+
+TEST(CongestionFeedback, WithoutAccessTheNodeItselfIsTheJunction) {
+  auto link = feedback(5, 1000, 1e9);
+  link.to("traffic_zone.access", Shared(std::vector<std::string>{}));
+  ASSERT_EQ(link.run(), "");
+  EXPECT_GT(link.number(End::to, "smart_volume.demand_limit"), 1000) << "there is room at its own junction";
+}
+
+TEST(CongestionFeedback, SceneHoldsTheOfficesBack) {
+  World world = World::from_file("scenes/links/congestion_feedback.json");
+  ASSERT_TRUE(world.settle(300));
+  EXPECT_NEAR(world.number("street", "street.volume_over_capacity"), 0.9, 0.03);
+  EXPECT_LT(world.number("offices", "smart_volume.wanted"), 21000);
+  EXPECT_GT(world.number("offices", "smart_volume.wanted"), 15000);
+}
+
+}  // namespace
+}  // namespace bl

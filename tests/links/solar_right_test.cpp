@@ -1,0 +1,107 @@
+// Solar right: each way to give way by hand, and a garden that gets its sun.
+#include <cmath>
+
+#include "tests/links/link_case.h"
+
+namespace bl {
+namespace {
+
+// A garden at the origin that has lost 1800 of 7200 s; `tower` takes 2400 s of it, `house` 600 s. The link looks at one of them.
+LinkCase right(const std::string& mode, const std::string& caster, double deficit = 1800) {
+  LinkCase link("solar_right");
+  link.set("mode", mode).set("gain", 0.5).set("tolerance", 0.05);
+  link.from("node.id", std::string("garden")).from("node.position", Vector3{0, 0, 0});
+  link.from("shadow_receiver.deficit", deficit).from("shadow_receiver.required_sun", 7200.0);
+  link.from("shadow_receiver.sun_possible", 20000.0);
+  link.from("shadow_receiver.losses",
+            Shared<Table>(Table{{"node", "lost", "shared"}, {{"house", 600.0, 600.0}, {"tower", 2400.0, 2400.0}}}));
+  link.to("node.id", caster).to("node.position", Vector3{0, -30, 12}).to("smart_volume.demand", 8000.0);
+  link.to("smart_volume.demand_limit", 1e9).to("smart_volume.radius", 10.0).to("smart_volume.bottom", 0.0);
+  return link;
+}
+
+double limit(LinkCase& link) { return link.number(End::to, "smart_volume.demand_limit"); }
+
+TEST(SolarRight, GivesWayInProportion) {
+  // A quarter is missing, a twentieth may be: 0.2, half of it answered at once: 0.1.
+  auto shave = right("shave", "tower"), less = right("shave", "house");
+  ASSERT_EQ(shave.run(), "");
+  ASSERT_EQ(less.run(), "");
+  EXPECT_NEAR(limit(shave), 8000 * 0.9, 1e-9);
+  EXPECT_NEAR(limit(less), 8000 * (1 - 0.1 / 4), 1e-9);
+  EXPECT_FALSE(shave.moves(End::to));
+  auto lower = right("lower", "tower");
+  ASSERT_EQ(lower.run(), "");
+  expect_near(lower.move(End::to), {0, 0, -1.2});
+  auto move = right("move", "tower");
+  ASSERT_EQ(move.run(), "");
+  expect_near(move.move(End::to), {0, -1, 0});
+  EXPECT_FALSE(move.proposed(End::to, "smart_volume.demand_limit").has_value());
+}
+
+TEST(SolarRight, TheNeedMetNobodyGivesWay) {
+  for (const char* mode : {"lower", "move"}) {
+    auto met = right(mode, "tower", 360);  // exactly the tolerance
+    ASSERT_EQ(met.run(), "");
+    EXPECT_FALSE(met.moves(End::to)) << mode;
+    auto nearly = right(mode, "tower", 367.2);  // a thousandth beyond it: the push has become small
+    ASSERT_EQ(nearly.run(), "");
+    EXPECT_LT(norm(nearly.move(End::to)), 0.01) << mode;
+  }
+  auto rests = right("shave", "tower", 300), grows = right("shave", "tower", 0), stranger = right("shave", "shed");
+  rests.to("smart_volume.demand_limit", 5000.0);
+  grows.to("smart_volume.demand_limit", 5000.0);
+  for (LinkCase* link : {&rests, &grows, &stranger}) ASSERT_EQ(link->run(), "");
+  EXPECT_EQ(limit(rests), 5000);
+  EXPECT_NEAR(limit(grows), 5000 * (1 + 0.5 * 0.025), 1e-9);
+  EXPECT_EQ(limit(stranger), 8000);  // takes nothing, so nothing is asked of it
+}
+
+TEST(SolarRight, WhatNoCasterTakesIsAskedOfNone) {
+  auto night = right("move", "tower", 7200);
+  night.from("shadow_receiver.sun_possible", 0.0);
+  ASSERT_EQ(night.run(), "");
+  EXPECT_FALSE(night.moves(End::to));
+  auto none = right("move", "tower");
+  none.from("shadow_receiver.required_sun", 0.0);
+  ASSERT_EQ(none.run(), "");
+  EXPECT_FALSE(none.moves(End::to));
+}
+
+TEST(SolarRight, SceneTheGardenGetsItsSun) {
+  World world = World::from_file("scenes/links/solar_right.json");
+  ASSERT_TRUE(world.settle(400));
+  EXPECT_EQ(world.link_error("l1_right"), "");
+  const double required = world.number("garden", "shadow_receiver.required_sun");
+  EXPECT_LE(world.number("garden", "shadow_receiver.deficit"), 0.055 * required);
+  const double held = world.number("tower", "smart_volume.wanted");
+  EXPECT_LT(held, 0.9 * world.number("tower", "smart_volume.demand"));
+  // The house beside it takes less, and gives way less.
+  EXPECT_GT(world.number("house", "smart_volume.wanted") / world.number("house", "smart_volume.demand"),
+            held / world.number("tower", "smart_volume.demand"));
+  // Without the link the garden is short.
+  ASSERT_EQ(world.submit(command<RemoveLink>({.id = "l1_right"})), "");
+  world.tick(8);
+  ASSERT_TRUE(world.settle(400));
+  EXPECT_GT(world.number("garden", "shadow_receiver.deficit"), 0.09 * required);
+  EXPECT_EQ(world.number("tower", "smart_volume.wanted"), world.number("tower", "smart_volume.demand"));
+}
+
+TEST(SolarRight, OtherWaysToGiveWaySettleToo) {
+  for (const char* mode : {"lower", "move"}) {
+    World world = World::from_file("scenes/links/solar_right.json");
+    const Point3 before = world.point("tower", "node.position");
+    ASSERT_EQ(world.submit(
+                  command<SetLinkParameter>({.id = "l1_right", .parameter = "mode", .value = {"\"" + std::string(mode) + "\""}})),
+              "");
+    world.tick(8);
+    EXPECT_TRUE(world.settle(600)) << mode;
+    const Vector3 moved = world.point("tower", "node.position") - before;
+    if (std::string(mode) == "lower") EXPECT_LT(moved.z, -0.5);
+    else EXPECT_LT(moved.y, -0.5);
+    EXPECT_LT(norm(Vector3{moved.x, 0, 0}), 30) << mode;
+  }
+}
+
+}  // namespace
+}  // namespace bl

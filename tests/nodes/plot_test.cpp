@@ -1,0 +1,58 @@
+// Plots: the density figures follow from the volumes on them, and overshoots from the rules.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/nodes/scene_text.h"
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+TEST(Plot, FiguresFollowFromTheVolumesOnIt) {
+  World world = World::from_file("scenes/nodes/plot.json");
+  ASSERT_TRUE(world.settle());
+  const auto of = [&](const char* node, const char* port) { return world.number(node, std::string("smart_volume.") + port); };
+  EXPECT_EQ(world.number("plot", "plot.count"), 2);
+  EXPECT_EQ(world.number("plot", "plot.area"), 1600);
+  const double floor = of("west", "floor_area") + of("east", "floor_area"),
+               ground = of("west", "footprint") + of("east", "footprint");
+  EXPECT_NEAR(world.number("plot", "plot.floor_area"), floor, 1e-6 * floor);
+  EXPECT_NEAR(world.number("plot", "plot.fsi"), floor / 1600, 1e-6);
+  EXPECT_NEAR(world.number("plot", "plot.gsi"), ground / 1600, 1e-6);
+  EXPECT_NEAR(world.number("plot", "plot.osr"), (1 - ground / 1600) / (floor / 1600), 1e-6);
+  EXPECT_NEAR(world.number("plot", "plot.layers"), floor / ground, 1e-6);
+  EXPECT_EQ(world.number("plot", "plot.overshoot"), 0);
+}
+
+TEST(Plot, OvershootIsTheWorstShare) {
+  World world = World::from_file("scenes/nodes/plot.json");
+  const auto rule = [&](const char* port, const char* value) {
+    EXPECT_EQ(world.submit(command<SetPort>({"plot", {std::string("plot.") + port}, {value}})), "");
+  };
+  rule("fsi_max", "0.5");
+  rule("height_max", "5");
+  ASSERT_TRUE(world.settle());
+  const double fsi = world.number("plot", "plot.fsi"), top = world.number("plot", "plot.top");
+  EXPECT_NEAR(world.number("plot", "plot.floor_overshoot"), (fsi - 0.5) * 1600, 1e-6);
+  EXPECT_NEAR(world.number("plot", "plot.height_overshoot"), top - 5, 1e-9);
+  EXPECT_NEAR(world.number("plot", "plot.overshoot"), std::max((fsi - 0.5) / 0.5, (top - 5) / 5), 1e-9);
+  rule("setback", "10");
+  world.tick(2);
+  EXPECT_GT(world.number("plot", "plot.setback_overshoot"), 1);
+}
+
+TEST(Plot, AnEmptyPlotHasNoDensity) {
+  World world = World::from_text(one_node("plot", ""));
+  world.tick();
+  EXPECT_EQ(world.node_error("it", "plot"), "");
+  for (const char* port : {"count", "fsi", "gsi", "osr", "layers", "overshoot"})
+    EXPECT_EQ(world.number("it", std::string("plot.") + port), 0);
+  World crossed = World::from_text(one_node("plot", R"("polygon": [[0, 0, 0], [4, 4, 0], [4, 0, 0], [0, 4, 0]])"));
+  crossed.tick();
+  EXPECT_EQ(crossed.node_error("it", "plot"),
+            "nodes/it/plot/polygon: the polygon meets itself at (2.000, 2.000): redraw it there");
+}
+
+}  // namespace
+}  // namespace bl

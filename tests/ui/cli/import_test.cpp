@@ -1,0 +1,130 @@
+// `import`: surroundings of several formats in one scene that runs, and what it refuses.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tests/support/reference_files.h"
+#include "tests/ui/cli/program.h"
+
+namespace bl::test {
+
+namespace {
+
+constexpr const char* kHouses =
+    R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
+  {"type": "Feature", "properties": {"gid": 1, "height": 12, "use": "school"}, "geometry": {"type": "Polygon", "coordinates": [[[85000, 447000], [85020, 447000], [85020, 447010], [85000, 447010], [85000, 447000]]]}},
+  {"type": "Feature", "properties": {"gid": 2}, "geometry": {"type": "Polygon", "coordinates": [[[85030, 447000], [85040, 447010], [85040, 447000], [85030, 447010], [85030, 447000]]]}}]})";
+constexpr const char* kPlot = R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
+  "coordinates": [[[85000, 447020], [85040, 447020], [85040, 447060], [85000, 447060], [85000, 447020]]]})";
+
+nlohmann::json node(const nlohmann::json& scene, const std::string& id) {
+  for (const auto& one : scene["nodes"])
+    if (one["id"] == id) return one;
+  return {};
+}
+
+class Import : public testing::Test {
+ protected:
+  Import() {
+    place.write("houses.geojson", kHouses);
+    place.write("plot.geojson", kPlot);
+    place.write("heights.asc",
+                "ncols 3\nnrows 2\nxllcorner 84990\nyllcorner 446990\ncellsize 50\nNODATA_value -9999\n1 2 3\n4 5 -9999\n");
+    place.write("noise.csv", "x,y,level\n85000,447000,55\n85040,447040,65\n");
+  }
+  Workplace place;
+};
+
+TEST_F(Import, BringsBuildingsIntoASceneWithTheirPlace) {
+  const Outcome done = place.run({"import", "houses.geojson", "--out", "scene.json", "--report", "rows.csv"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("1 taken, 0 repaired, 1 skipped of 2 elements"), std::string::npos) << done.out;
+  const nlohmann::json scene = place.json("scene.json");
+  EXPECT_EQ(scene["settings"]["coordinate_system"], "EPSG:28992");
+  const nlohmann::json house = node(scene, "building_1");
+  ASSERT_FALSE(house.is_null());
+  EXPECT_EQ(house["types"]["existing_building"]["height"], 12);
+  EXPECT_EQ(house["types"]["existing_building"]["height_source"], "tag");
+  EXPECT_EQ(house["types"]["existing_building"]["origin"], "1 of houses.geojson");
+  EXPECT_NE(
+      place.text("rows.csv").find("houses.geojson,skipped,feature,features/1,building: its outline crosses or touches itself"),
+      std::string::npos)
+      << place.text("rows.csv");
+  EXPECT_EQ(place.run({"check", "scene.json"}).code, 0);
+  EXPECT_EQ(place.run({"run", "scene.json"}).code, 0);
+}
+
+TEST_F(Import, SeveralFilesShareOneFrame) {
+  const Outcome houses = place.run({"import", "houses.geojson", "--out", "a.json"});
+  ASSERT_EQ(houses.code, 0) << houses.err;
+  const Outcome plot = place.run({"import", "plot.geojson", "--as", "plot", "--into", "a.json", "--out", "b.json"});
+  ASSERT_EQ(plot.code, 0) << plot.err;
+  const Outcome rest = place.run({"import", "heights.asc", "noise.csv", "--crs", "EPSG:28992", "--into", "b.json", "--out",
+                                  "c.json", "--unit", "dB", "--licence", "CC0"});
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  const nlohmann::json scene = place.json("c.json");
+  ASSERT_EQ(scene["nodes"].size(), 4u);
+  const auto outline = node(scene, "building_1")["types"]["existing_building"]["outline"];
+  const auto polygon = node(scene, "plot_0")["types"]["plot"]["polygon"];
+  EXPECT_NEAR(polygon[0][1].get<double>() - outline[0][1].get<double>(), 20, 1e-9) << "20 m north of the house";
+  const nlohmann::json ground = node(scene, "terrain")["types"]["terrain"];
+  EXPECT_EQ(ground["rows"].size(), 2u);
+  EXPECT_NEAR(ground["west"].get<double>() - outline[0][0].get<double>(), 84990 + 25 - 85000, 1e-9);
+  const nlohmann::json layer = node(scene, "layer_level")["types"]["data_layer"];
+  EXPECT_EQ(layer["values"].size(), 2u);
+  EXPECT_EQ(layer["unit"], "dB");
+  EXPECT_EQ(layer["licence"], "CC0");
+  const Outcome run = place.run({"run", "c.json"});
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  const Outcome again = place.run({"import", "houses.geojson", "--into", "c.json", "--out", "d.json"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_FALSE(node(place.json("d.json"), "building_1_2").is_null()) << "an id that is taken gets a number";
+}
+
+TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
+  place.write("noise.osm", "noise \x01\x02");
+  place.write("empty.geojson", "");
+  place.write("there.json", "x");
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& said) {
+    arguments.insert(arguments.begin(), "import");
+    const Outcome outcome = place.run(arguments);
+    EXPECT_EQ(outcome.code, 2) << said;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(place.path("out.json")));
+  };
+  refused({"noise.osm", "--out", "out.json"}, "noise.osm: byte 0: This is no OpenStreetMap file");
+  refused({"empty.geojson", "--out", "out.json"}, "empty.geojson");
+  refused({"missing.osm", "--out", "out.json"}, "missing.osm");
+  refused({"heights.asc", "--out", "out.json"}, "heights.asc: crs: The file does not say in which CRS");
+  refused({"houses.geojson", "--crs", "EPSG:1", "--out", "out.json"}, "crs");
+  refused({"houses.geojson", "--origin", "here", "--out", "out.json"}, "expects two numbers");
+  refused({"houses.geojson", "noise.osm", "--out", "out.json"}, "noise.osm");
+  refused({"houses.geojson", "--out", "there.json"}, "exists already");
+  refused({"houses.geojson", "--into", "noise.osm", "--out", "out.json"}, "noise.osm");
+  EXPECT_EQ(place.text("there.json"), "x");
+}
+
+TEST_F(Import, RealCityModelsBecomeScenes) {
+  const auto village = shared_file("data/osm/small_village.osm"),
+             city = shared_file("data/cityjson/denhaag_DH01_subset_v11.city.json");
+  if (village.empty() || city.empty()) {
+    std::printf("the shared data are not beside this checkout: no real files are read here\n");
+    return;
+  }
+  const Outcome osm = place.run({"import", village.string(), "--out", "village.json"});
+  ASSERT_EQ(osm.code, 0) << osm.err;
+  EXPECT_NE(osm.out.find("of 340 elements"), std::string::npos) << osm.out;
+  EXPECT_EQ(place.run({"run", "village.json"}).code, 0);
+  const Outcome model = place.run({"import", city.string(), "--crs", "EPSG:28992", "--out", "city.json"});
+  ASSERT_EQ(model.code, 0) << model.err;
+  const nlohmann::json scene = place.json("city.json");
+  EXPECT_EQ(std::count_if(scene["nodes"].begin(), scene["nodes"].end(),
+                          [](const auto& one) { return one["types"]["existing_building"]["form"] == "mesh"; }),
+            9);
+  EXPECT_EQ(place.run({"run", "city.json"}).code, 0);
+}
+
+}  // namespace
+
+}  // namespace bl::test

@@ -1,0 +1,52 @@
+// Runs with sensors: recorded tables in any run, connections with --live only, and logs that replay without either.
+#include <gtest/gtest.h>
+
+#include "tests/ui/cli/program.h"
+
+namespace bl::test {
+namespace {
+
+std::string scene(const std::string& address) {
+  return R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "a", "types": {"smart_volume": {"demand": 900}}},
+    {"id": "s", "types": {"sensor": {"unit": "m3", "timeout": 30, "tick_length": 10, "address": ")" +
+         address + R"("}}}],
+    "links": [{"id": "l", "kind": "sensor_to_parameter", "from": "s", "to": "a"}]})";
+}
+
+Outcome run(const Workplace& place, const std::string& arguments) { return place.shell("\"$BEHAVIOURLINKS\" " + arguments); }
+
+TEST(Live, RecordedTablesArePlayedAndTheirLogReplaysWithoutThem) {
+  const Workplace place;
+  std::filesystem::create_directory(place.path("data"));
+  place.write("data/t.csv", "time,demand\n0,1000\n10,1100\n35,1200\n");
+  place.write("data/scene.json", scene("replay:t.csv#demand"));
+  const Outcome played = run(place, "run data/scene.json --ticks 6 --log run.log --json out.json");
+  EXPECT_EQ(played.code, 0) << played.err;
+  EXPECT_NE(played.out.find("sensor s: 3 messages, 0 of them skipped"), std::string::npos) << played.out;
+  std::filesystem::remove(place.path("data/t.csv"));
+  for (const char* threads : {"1", "2"}) {
+    const Outcome replay = run(place, std::string("replay run.log --threads ") + threads);
+    EXPECT_EQ(replay.code, 0) << replay.out << replay.err;
+    EXPECT_NE(replay.out.find("agrees with all"), std::string::npos) << replay.out;
+  }
+  EXPECT_NE(place.text("run.log").find("\"author\": \"replay:t.csv#demand\""), std::string::npos) << place.text("run.log");
+}
+
+TEST(Live, ConnectionsNeedToBeAskedFor) {
+  const Workplace place;
+  place.write("scene.json", scene("mqtt://127.0.0.1:1/t"));
+  const Outcome quiet = run(place, "run scene.json --ticks 5");
+  EXPECT_EQ(quiet.code, 0) << quiet.err;
+  EXPECT_EQ(quiet.out.find("sensor s"), std::string::npos) << quiet.out;
+  const Outcome live = run(place, "run scene.json --live --ticks 60 --rate 100 --log run.log");
+  EXPECT_EQ(live.code, 0) << live.err;
+  EXPECT_NE(live.err.find("refuses the connection: nothing listens there"), std::string::npos) << live.err;
+  EXPECT_NE(live.out.find("sensor s: 0 messages"), std::string::npos) << live.out;
+  EXPECT_NE(place.text("run.log").find("note_connection"), std::string::npos);
+  EXPECT_EQ(run(place, "replay run.log --threads 2").code, 0);
+  EXPECT_EQ(run(place, "run scene.json --rate 5").code, 2) << "a rate is for live runs";
+}
+
+}  // namespace
+}  // namespace bl::test

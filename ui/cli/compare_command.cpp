@@ -1,0 +1,106 @@
+// `compare`: runs two scenes and tells every indicator that differs, with what people set differently.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/base/text.h"
+#include "core/file/file_io.h"
+#include "core/session/session.h"
+#include "ui/cli/commands.h"
+#include "ui/cli/interrupt.h"
+#include "ui/cli/report/comparison.h"
+#include "ui/cli/report/figures.h"
+#include "ui/cli/scene_loading.h"
+#include "ui/cli/settle_watch.h"
+#include "ui/cli/terminal.h"
+
+namespace bl::cli {
+
+namespace {
+
+// Roundings of runs that end a little differently are no news.
+constexpr double kLeastShare = 1e-6;
+constexpr std::size_t kMostRows = 30;
+
+std::shared_ptr<const State> outcome_of(const std::string& file, const CompareOptions& options) {
+  auto reading = load_scene(file);
+  if (!reading) return nullptr;
+  auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options.threads);
+  if (!session) {
+    print_error(file, session.error());
+    return nullptr;
+  }
+  const long long most = options.ticks >= 0 ? options.ticks : options.max_ticks;
+  SettleWatch watch;
+  Progress progress;
+  std::shared_ptr<const State> before;
+  for (long long done = 0; done < most && !is_interrupted(); ++done) {
+    if (options.ticks < 0 && (*session)->state()->is_settled()) break;
+    before = (*session)->state();
+    (*session)->tick();
+    if (progress.is_due()) progress.show(file + ": tick " + std::to_string((*session)->state()->tick));
+    if (options.ticks < 0 && watch.is_hopeless(*(*session)->state())) break;
+  }
+  progress.clear();
+  const auto state = (*session)->state();
+  print_line(file + ": " + (state->is_settled() ? "settled" : "not settled: " + why_not_settled(*state, before.get())) +
+             ", tick " + std::to_string(state->tick) + ", hash " + hex_digits(state->hash));
+  return state;
+}
+
+void print_rows(const std::vector<report::IndicatorRow>& rows, std::size_t most) {
+  TextTable table({{"node"}, {"indicator"}, {"first", true}, {"second", true}, {"difference", true}});
+  for (std::size_t k = 0; k < std::min(rows.size(), most); ++k) {
+    const report::IndicatorRow& row = rows[k];
+    const auto figure = [&](double value) {
+      return row.unit == Unit::ratio ? report::percent(value) : report::quantity(value, row.unit);
+    };
+    table.add({row.node.empty() ? "all" : row.name, row.label, figure(row.before), figure(row.after),
+               row.before != 0 ? report::signed_percent((row.after - row.before) / std::abs(row.before))
+                               : figure(row.after - row.before)});
+  }
+  table.print();
+  if (rows.size() > most) print_line("... and " + std::to_string(rows.size() - most) + " more; --report has them all");
+}
+
+void print_comparison(const report::Comparison& comparison) {
+  print_line();
+  print_line("Set differently:");
+  for (const std::string& sentence : comparison.inputs) print_line("  " + sentence);
+  for (const std::string& name : comparison.only_before) print_line("  " + name + ": only in the first");
+  for (const std::string& name : comparison.only_after) print_line("  " + name + ": only in the second");
+  if (comparison.inputs.empty() && comparison.only_before.empty() && comparison.only_after.empty()) print_line("  nothing");
+  std::vector<report::IndicatorRow> totals;
+  std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
+               [](const report::IndicatorRow& row) { return row.share() > kLeastShare; });
+  print_line();
+  print_rows(totals, totals.size());
+  print_line();
+  print_rows(comparison.nodes, kMostRows);
+  print_line(std::to_string(comparison.nodes.size()) + " numbers of nodes differ, " + std::to_string(comparison.same) +
+             " are the same");
+}
+
+}  // namespace
+
+int compare_command(const CompareOptions& options) {
+  catch_interrupts();
+  const auto before = outcome_of(options.first, options);
+  if (!before) return kBadInput;
+  const auto after = outcome_of(options.second, options);
+  if (!after) return kBadInput;
+  if (is_interrupted()) return interrupt_exit_code();
+  const report::Comparison comparison = report::compare(*before, *after, kLeastShare);
+  print_comparison(comparison);
+  if (options.report.empty()) return kDone;
+  const auto name = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
+  const std::string page = report::comparison_page(*before, *after, comparison, name(options.first), name(options.second));
+  if (auto written = write_file(options.report, page); !written) {
+    print_error(options.report, written.error());
+    return kBadInput;
+  }
+  print_line("written: " + options.report);
+  return kDone;
+}
+
+}  // namespace bl::cli

@@ -1,0 +1,192 @@
+// Tells formats apart, reads each file into the frame of the scene, and adds its nodes by one command.
+#include "ui/cli/context_import.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "core/exchange/cityjson_context.h"
+#include "core/exchange/data_layer.h"
+#include "core/exchange/geojson_context.h"
+#include "core/exchange/geojson_polygons.h"
+#include "core/exchange/inflate.h"
+#include "core/exchange/osm_context.h"
+#include "core/exchange/terrain_grid.h"
+#include "core/file/file_io.h"
+#include "core/session/ledger.h"
+#include "ui/cli/context_nodes.h"
+
+namespace bl::cli {
+
+namespace {
+
+enum class Format { osm, cityjson, geojson, grid, table, unknown };
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+// By the name first, since a table can look like anything; then by how the file begins.
+Format format_of(const std::string& path, std::string_view text) {
+  std::string name = lower(path);
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  const auto ends = [&name](std::initializer_list<const char*> list) {
+    return std::any_of(list.begin(), list.end(), [&name](const char* ending) { return name.ends_with(ending); });
+  };
+  if (ends({".osm", ".pbf", ".osm.xml"})) return Format::osm;
+  if (ends({".asc", ".grd", ".tif", ".tiff"})) return Format::grid;
+  if (ends({".csv", ".tsv", ".txt"})) return Format::table;
+  if (ends({".city.json", ".jsonl"})) return Format::cityjson;
+  const std::string_view head = text.substr(0, 65536);
+  if (head.find("\"CityJSON\"") != std::string_view::npos) return Format::cityjson;
+  if (ends({".geojson"}) || head.find_first_of("{[") == head.find_first_not_of(" \t\r\n\xEF\xBB\xBF")) return Format::geojson;
+  if (head.find("<osm") != std::string_view::npos || head.substr(0, 64).find("OSMHeader") != std::string_view::npos)
+    return Format::osm;
+  if (head.starts_with("II") || head.starts_with("MM") ||
+      lower(std::string(head.substr(0, 64))).find("ncols") != std::string::npos)
+    return Format::grid;
+  return Format::unknown;
+}
+
+class Import {
+ public:
+  Import(const Scene& scene, const ImportOptions& options, const Registry& registry)
+      : scene_(scene), o_(options), registry_(registry), context_(options.context), nodes_(scene, registry) {}
+
+  ImportedScene run() {
+    check();
+    if (result_.errors.empty())
+      for (const std::string& file : o_.files) read(file);
+    result_.notes.insert(result_.notes.end(), nodes_.notes().begin(), nodes_.notes().end());
+    result_.nodes = nodes_.made();
+    if (!result_.errors.empty()) return std::move(result_);
+    Ledger ledger(registry_, scene_);
+    if (auto done = ledger.submit(nodes_.batch(), "import", 0); !done) fail(o_.out, done.error());
+    else result_.scene = ledger.scene();
+    return std::move(result_);
+  }
+
+ private:
+  void fail(const std::string& file, Error error) { result_.errors.emplace_back(file, std::move(error)); }
+  void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
+
+  void check() {
+    for (const auto& [name, value] :
+         {std::pair{"--storey-height", context_.storey_height}, {"--default-height", context_.default_height}})
+      if (!(value >= 1) || !(value <= 1000)) refuse(name, "must be between 1 and 1000 m, found " + shortest(value));
+    if (!(context_.radius >= 0) || !(context_.neighbour_distance >= 0)) refuse("--radius", "distances must be 0 m or more");
+    for (const std::string& property : o_.properties) {
+      const std::size_t equals = property.find('=');
+      if (equals == std::string::npos || equals == 0)
+        refuse("--property", "expects OURS=THEIRS such as height=H_MAX, found `" + property + "`");
+      else context_.properties.emplace_back(property.substr(0, equals), property.substr(equals + 1));
+    }
+    if (o_.kind == "building" || o_.kind == "street" || o_.kind == "plot" || o_.kind == "area") context_.feature_kind = o_.kind;
+    const Settings settings = settings_of(scene_);
+    if (!settings.coordinate_system.empty())
+      context_.target = GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
+                                     settings.latitude,          settings.longitude, settings.true_north};
+    if (o_.origin.empty()) return;
+    const std::size_t comma = o_.origin.find(',');
+    const auto x = parse_number(o_.origin.substr(0, comma)),
+               y = comma == std::string::npos ? std::nullopt : parse_number(o_.origin.substr(comma + 1));
+    if (!x || !y) return refuse("--origin", "expects two numbers such as 85000,447000, found `" + o_.origin + "`");
+    if (context_.target)
+      return fail(
+          "", {ErrorCode::conflict, "--origin",
+               "the scene lies in " + context_.target->crs + " already, and its origin stays where it is: leave --origin out"});
+    context_.origin = {*x, *y};
+  }
+
+  // The first file decides where the scene lies; all others follow it.
+  void settle(const GeoReference& reference) {
+    if (context_.target) return;
+    if (!scene_.nodes.empty())
+      result_.notes.push_back(
+          "The scene had no place on Earth: it has that of the first file now, and what was in it is about its origin.");
+    nodes_.place(reference);
+    context_.target = reference;
+    context_.origin.reset();
+  }
+
+  void take(const std::string& file, const ImportReport& report, const std::vector<std::string>& notes,
+            const GeoReference& reference) {
+    result_.reports.emplace_back(file, report);
+    for (const std::string& note : notes) result_.notes.push_back(file + ": " + note);
+    settle(reference);
+  }
+
+  template <class Read>
+  bool told(const std::string& file, const Read& read) {
+    if (read) return true;
+    fail(file, read.error());
+    return false;
+  }
+
+  void read(const std::string& file) {
+    auto bytes = read_file(file);
+    if (!bytes) return fail(file, bytes.error());
+    auto text = unpacked(*bytes);
+    if (!text) return fail(file, text.error());
+    const std::string name = file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1);
+    making_ = {o_.source.empty() ? name : o_.source, o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets};
+    const Format format = format_of(file, *text);
+    if (format == Format::grid) return read_grid(file, *text);
+    if (format == Format::table || o_.kind == "layer") return read_layer(file, *text, format);
+    if (o_.kind == "terrain")
+      return fail(file, {ErrorCode::wrong_kind, "--as", "a terrain is read from an ASCII grid or a GeoTIFF"});
+    auto context =
+        format == Format::osm        ? read_osm_context(*text, context_)
+        : format == Format::cityjson ? read_cityjson_context(*text, context_)
+        : format == Format::geojson
+            ? read_geojson_context(*text, context_)
+            : Result<Context>(Error{ErrorCode::parse, "",
+                                    "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
+    if (!told(file, context)) return;
+    take(file, context->report, context->notes, context->reference);
+    nodes_.add(*context, making_);
+  }
+
+  void read_grid(const std::string& file, const std::string& text) {
+    const auto grid = read_terrain_grid(text);
+    if (!told(file, grid)) return;
+    if (o_.kind == "layer") return read_layer(file, text, Format::grid);
+    const auto terrain = local_terrain(*grid, context_);
+    if (!told(file, terrain)) return;
+    std::vector<std::string> notes = grid->notes;
+    notes.insert(notes.end(), terrain->notes.begin(), terrain->notes.end());
+    take(file, terrain->report, notes, terrain->reference);
+    nodes_.add(*terrain, making_);
+  }
+
+  void read_layer(const std::string& file, const std::string& text, Format format) {
+    const auto from_grid = [&]() -> Result<DataLayer> {
+      const auto grid = read_terrain_grid(text);
+      return grid ? layer_of_grid(*grid, context_) : Result<DataLayer>(grid.error());
+    };
+    const auto layer = format == Format::grid      ? from_grid()
+                       : format == Format::geojson ? read_layer_geojson(text, context_, o_.value)
+                                                   : read_layer_csv(text, context_, o_.value);
+    if (!told(file, layer)) return;
+    take(file, layer->report, layer->notes, layer->reference);
+    nodes_.add(*layer, making_);
+  }
+
+  const Scene& scene_;
+  const ImportOptions& o_;
+  const Registry& registry_;
+  ContextOptions context_;
+  ContextNodes nodes_;
+  NodeMaking making_;
+  ImportedScene result_;
+};
+
+}  // namespace
+
+ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry) {
+  return Import(scene, options, registry).run();
+}
+
+}  // namespace bl::cli

@@ -1,0 +1,38 @@
+// From files of surroundings and a scene to a scene with these around it: what the command line and the window both offer.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/exchange/context.h"
+#include "core/graph/scene.h"
+
+namespace bl::cli {
+
+struct ImportOptions {
+  std::vector<std::string> files;
+  std::string into, out, report;
+  std::string kind;    ///< building, street, plot, area, terrain, layer; empty: what the file says
+  std::string origin;  ///< "X,Y"; empty: the middle of the first file
+  std::vector<std::string> properties;
+  std::string value, unit, source, licence;
+  ContextOptions context;
+  bool is_forced = false, is_extruded = false, takes_all_streets = false;
+};
+
+/// What came of it. Without a scene there are errors, each with the file that it is in.
+struct ImportedScene {
+  std::optional<Scene> scene;
+  std::vector<std::pair<std::string, ImportReport>> reports;
+  std::map<std::string, std::size_t> nodes;  ///< how many were made, by typification
+  std::vector<std::string> notes;
+  std::vector<std::pair<std::string, Error>> errors;
+};
+
+/// `scene`: the one that is added to.
+ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry);
+
+}  // namespace bl::cli

@@ -1,0 +1,86 @@
+// Keeps a run and its connections in step, and tells people about them.
+#include "ui/cli/live_run.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "core/base/text.h"
+#include "ui/cli/interrupt.h"
+#include "ui/cli/terminal.h"
+
+namespace bl::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kUsualTick = 0.05;  // [s] where no sensor says otherwise
+constexpr std::chrono::milliseconds kSlice{50};
+
+std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "sensor " : "actuator ") + status.node; }
+
+// The shortest tick that a sensor of the scene stands for [s].
+double tick_length(const Scene& scene) {
+  double shortest_tick = 0;
+  for (const auto& [id, node] : scene.nodes) {
+    const auto sensor = node.types.find("sensor");
+    if (sensor == node.types.end()) continue;
+    const auto set = sensor->second.find("tick_length");
+    const double length = set != sensor->second.end() ? as_number(set->second) : kUsualTick;
+    shortest_tick = shortest_tick > 0 ? std::min(shortest_tick, length) : length;
+  }
+  return shortest_tick > 0 ? shortest_tick : kUsualTick;
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate)
+    : is_live_(is_live),
+      rate_(rate),
+      connections_({std::filesystem::path(scene_file).parent_path().string(), is_live, {}}),
+      due_(Clock::now()) {}
+
+void LiveRun::before_tick(Session& session) {
+  connections_.follow(session.scene());
+  for (const Report& report : connections_.take(session.state()->tick))
+    if (auto done = session.submit(report.command, report.author); !done) print_error(report.author, done.error());
+}
+
+void LiveRun::after_tick(const Session& session) {
+  if (connections_.is_empty()) return;
+  connections_.send(*session.state());
+  tell();
+}
+
+void LiveRun::tell() {
+  for (const ConnectionStatus& status : connections_.status()) {
+    std::string& told = told_[status.node];
+    if (told == status.line) continue;
+    told = status.line;
+    print_error(call(status), {ErrorCode::io, status.address, status.line.empty() ? "is connected" : status.line});
+  }
+}
+
+void LiveRun::wait(const Session& session) {
+  if (!is_live_) return;
+  const double seconds = rate_ > 0 ? 1 / rate_ : tick_length(session.scene());
+  // A late tick is not made up for, so that ticks never queue behind themselves.
+  due_ = std::max(Clock::now(), due_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));
+  while (!is_interrupted() && Clock::now() < due_)
+    std::this_thread::sleep_for(std::min(due_ - Clock::now(), Clock::duration(kSlice)));
+}
+
+void LiveRun::sum_up() const {
+  for (const ConnectionStatus& status : connections_.status()) {
+    const Traffic& t = status.traffic;
+    std::string text = call(status) + ": ";
+    if (status.is_sensor) text += std::to_string(t.received) + " messages, " + std::to_string(t.skipped) + " of them skipped";
+    else
+      text += std::to_string(t.sent) + " messages sent, " + std::to_string(t.acknowledged) + " acknowledged, " +
+              std::to_string(t.replaced) + " replaced by newer ones";
+    print_line(text);
+  }
+}
+
+}  // namespace bl::cli

@@ -1,0 +1,37 @@
+// What a run does with sensors and actuators: recordings are played, and with --live the network is listened and sent to.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+
+#include "core/live/connections.h"
+#include "core/session/session.h"
+
+namespace bl::cli {
+
+class LiveRun {
+ public:
+  /// `rate` in ticks per second; 0 for the pace that the sensors' tick lengths say.
+  LiveRun(const std::string& scene_file, bool is_live, double rate);
+
+  /// Hands the session what has come for its next tick.
+  void before_tick(Session& session);
+  /// Sends what has changed, and says what has changed with the connections.
+  void after_tick(const Session& session);
+  /// Live, waits until the next tick is due or the run is interrupted.
+  void wait(const Session& session);
+  /// Says what has passed through every connection.
+  void sum_up() const;
+
+ private:
+  void tell();
+
+  bool is_live_;
+  double rate_;
+  Connections connections_;
+  std::map<std::string, std::string> told_;  // by node: the last sentence about its connection
+  std::chrono::steady_clock::time_point due_;
+};
+
+}  // namespace bl::cli

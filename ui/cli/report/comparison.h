@@ -1,0 +1,37 @@
+// What differs between two proposals: what people set, and what every indicator became of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/graph/state.h"
+
+namespace bl::report {
+
+/// One number of one node, or of all nodes of a typification together, in both proposals.
+struct IndicatorRow {
+  std::string node, name;  ///< node id, empty for all nodes together; what people call the node
+  std::string path;        ///< "typification.port"
+  std::string label;       ///< "SmartVolume: floor area", with what was done to many: "sum", "mean"
+  Unit unit = Unit::none;
+  double before = 0, after = 0;
+  /// The difference as a share of the larger of the two; 0 where they are the same.
+  double share() const;
+};
+
+struct Comparison {
+  std::vector<std::string> inputs;                   ///< what people have said differently, as sentences in the order of ids
+  std::vector<IndicatorRow> totals;                  ///< in the order of typifications and ports; those that are the same too
+  std::vector<IndicatorRow> nodes;                   ///< those that differ, the largest share first
+  std::size_t same = 0;                              ///< numbers of nodes that agree
+  std::vector<std::string> only_before, only_after;  ///< nodes, by name
+};
+
+/// Numbers closer than `least_share` count as the same. Settings of people are compared as they stand in the scenes.
+Comparison compare(const State& before, const State& after, double least_share);
+
+/// A page with both drawings side by side, and a chart of what differs most; depends on its arguments alone.
+std::string comparison_page(const State& before, const State& after, const Comparison& comparison, const std::string& name_before,
+                            const std::string& name_after);
+
+}  // namespace bl::report

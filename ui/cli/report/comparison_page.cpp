@@ -1,0 +1,114 @@
+// The page of a comparison: both drawings, bars of what differs most, and every number.
+#include <algorithm>
+#include <cmath>
+
+#include "ui/cli/report/comparison.h"
+#include "ui/cli/report/figures.h"
+#include "ui/cli/report/furniture.h"
+#include "ui/cli/report/page.h"
+
+namespace bl::report {
+
+namespace {
+
+constexpr std::size_t kMostBars = 40;
+constexpr double kWidth = 1000, kLine = 22, kLabels = 400, kFigures = 190;
+
+std::string who(const IndicatorRow& row) { return row.node.empty() ? "All" : row.name; }
+std::string figure(const IndicatorRow& row, double value) {
+  return row.unit == Unit::ratio ? percent(value) : quantity(value, row.unit);
+}
+
+// Bars from the middle: to the right what became more, to the left what became less, as a share of the larger value.
+std::string bars(const std::vector<IndicatorRow>& rows, const std::string& id, const std::string& title) {
+  const std::size_t count = std::min(rows.size(), kMostBars);
+  const double height = 30 + kLine * static_cast<double>(count);
+  const double left = kLabels, right = kWidth - kFigures, middle = 0.5 * (left + right), half = 0.5 * (right - left) - 4;
+  Markup svg;
+  open_picture(svg, kWidth, height, id, title, "Bars to the right: more in the second proposal; to the left: less.");
+  svg.leaf("line", {{"class", "axis"}, {"x1", pixels(middle)}, {"x2", pixels(middle)}, {"y1", "18"}, {"y2", pixels(height - 6)}});
+  svg.element("text", "less", {{"x", pixels(left)}, {"y", "12"}, {"class", "small"}});
+  svg.element("text", "more", {{"x", pixels(right)}, {"y", "12"}, {"class", "small"}, {"text-anchor", "end"}});
+  for (std::size_t k = 0; k < count; ++k) {
+    const IndicatorRow& row = rows[k];
+    const double y = 22 + kLine * static_cast<double>(k), length = half * row.share();
+    const bool is_more = row.after > row.before;
+    std::string label = who(row) + " \xC2\xB7 " + row.label;
+    constexpr std::size_t kMostLetters = 62;
+    if (label.size() > kMostLetters) label = label.substr(0, kMostLetters - 3) + "...";
+    svg.element("text", label, {{"x", pixels(left - 8)}, {"y", pixels(y + 14)}, {"text-anchor", "end"}, {"class", "small"}});
+    svg.leaf("rect", {{"x", pixels(is_more ? middle : middle - length)},
+                      {"y", pixels(y + 3)},
+                      {"width", pixels(std::max(1.0, length))},
+                      {"height", pixels(kLine - 6)},
+                      {"fill", is_more ? "#0072b2" : "#d55e00"}});
+    svg.element("text", figure(row, row.before) + " \xE2\x86\x92 " + figure(row, row.after),
+                {{"x", pixels(right + 8)}, {"y", pixels(y + 14)}, {"class", "small"}});
+  }
+  svg.close();
+  return svg.str();
+}
+
+void list(Markup& page, const std::string& heading, const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return;
+  page.element("h2", heading).open("ul");
+  for (const std::string& sentence : sentences) page.element("li", sentence);
+  page.close();
+}
+
+void table(Markup& page, const std::vector<IndicatorRow>& rows, const std::string& first, const std::string& second) {
+  page.open("div", {{"class", "scroll"}}).open("table").open("thead").open("tr");
+  for (const std::string& head : {std::string("Node"), std::string("Indicator")}) page.element("th", head, {{"scope", "col"}});
+  for (const std::string& head : {first, second, std::string("Difference")})
+    page.element("th", head, {{"scope", "col"}, {"class", "number"}});
+  page.close().close().open("tbody");
+  for (const IndicatorRow& row : rows) {
+    page.open("tr").element("td", who(row)).element("td", row.label);
+    const double change = row.before != 0 ? (row.after - row.before) / std::abs(row.before) : 0;
+    for (const std::string& cell : {figure(row, row.before), figure(row, row.after),
+                                    row.before != 0 ? signed_percent(change) : figure(row, row.after - row.before)})
+      page.element("td", cell, {{"class", "number"}});
+    page.close();
+  }
+  page.close().close().close();
+}
+
+void drawing(Markup& page, const State& state, const std::string& name) {
+  ReportModel model;
+  read_model(state, model);
+  page.element("h3", name).open("figure").raw(draw_axonometry(model, Palette(model.use_names())).svg).close();
+}
+
+}  // namespace
+
+std::string comparison_page(const State& before, const State& after, const Comparison& comparison, const std::string& name_before,
+                            const std::string& name_after) {
+  Markup page;
+  const std::string title = name_before + " against " + name_after;
+  page.raw("<!DOCTYPE html>\n");
+  page.open("html", {{"xmlns", "http://www.w3.org/1999/xhtml"}, {"lang", "en"}}).open("head");
+  page.leaf("meta", {{"charset", "utf-8"}})
+      .leaf("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  page.element("title", title).open("style").raw(page_style()).close().close();
+  page.open("body").open("header").element("h1", title).close().open("main");
+  drawing(page, before, name_before);
+  drawing(page, after, name_after);
+  list(page, "What was set differently", comparison.inputs);
+  list(page, "Only in the first", comparison.only_before);
+  list(page, "Only in the second", comparison.only_after);
+  std::vector<IndicatorRow> totals;
+  std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
+               [](const IndicatorRow& row) { return row.share() > 0; });
+  page.element("h2", "What came of it, over all nodes");
+  if (totals.empty()) page.element("p", "No indicator differs.");
+  else page.open("figure").raw(bars(totals, "totals", "Totals and means")).close();
+  table(page, totals, name_before, name_after);
+  page.element("h2", "Node by node");
+  if (!comparison.nodes.empty()) page.open("figure").raw(bars(comparison.nodes, "nodes", "What differs most")).close();
+  table(page, comparison.nodes, name_before, name_after);
+  page.element("p", counted(comparison.same, "number") + " of nodes in both are the same.");
+  page.close().close().close();
+  return page.str();
+}
+
+}  // namespace bl::report

@@ -1,0 +1,208 @@
+// Reads the city's parts from a state by the names of their ports; what a scene lacks stays empty.
+#include "ui/desktop/view/urban_facts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/cli/report/report_model.h"
+#include "ui/desktop/view/scene_facts.h"
+
+namespace bl::desktop {
+
+namespace {
+
+// Squares of a map lie so much above what they are measured on [m].
+constexpr double kLift = 0.06;
+// A data layer of more points than this is thinned for the eye.
+constexpr std::size_t kMostPoints = 4000;
+
+const Value* value_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto ref = state.plan->find(node, PortPath{type, port, ""});
+  return ref ? &state.value(*ref) : nullptr;
+}
+
+bool flag_at(const State& state, std::uint32_t node, const char* type, const char* port, bool fallback) {
+  const Value* value = value_at(state, node, type, port);
+  const bool* flag = value == nullptr ? nullptr : std::get_if<bool>(value);
+  return flag == nullptr ? fallback : *flag;
+}
+
+std::vector<Point3> points_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const Value* value = value_at(state, node, type, port);
+  const auto* points = value == nullptr ? nullptr : std::get_if<Shared<std::vector<Point3>>>(value);
+  return points == nullptr ? std::vector<Point3>{} : **points;
+}
+
+// The one node that a selection names, or the number of nodes.
+std::uint32_t chosen_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const Value* value = value_at(state, node, type, port);
+  const auto* selection = value == nullptr ? nullptr : std::get_if<Shared<Selection>>(value);
+  if (selection == nullptr || (*selection)->ids.size() != 1) return static_cast<std::uint32_t>(state.plan->nodes.size());
+  return state.plan->node_index((*selection)->ids.front());
+}
+
+void read_street(const State& state, std::uint32_t node, UrbanFacts& urban) {
+  StreetFacts street;
+  street.node = node;
+  street.id = state.plan->nodes[node].id;
+  street.start = chosen_at(state, node, "street", "start");
+  street.end = chosen_at(state, node, "street", "end");
+  if (street.start >= state.plan->nodes.size() || street.end >= state.plan->nodes.size()) return;
+  street.flow = report::number_at(state, node, "street", "flow_forth") + report::number_at(state, node, "street", "flow_back");
+  street.load = report::number_at(state, node, "street", "volume_over_capacity");
+  street.is_open = report::number_at(state, node, "street", "open", 1) > 0 || flag_at(state, node, "street", "open", false);
+  street.is_for_cars = flag_at(state, node, "street", "for_cars", true);
+  urban.most_flow = std::max(urban.most_flow, street.flow);
+  urban.streets.push_back(std::move(street));
+}
+
+// The flows of a network are kept by origin: "street:forth" or "street:back" of each zone's trips.
+void read_routes(const State& state, std::uint32_t node, UrbanFacts& urban) {
+  const Table* flows = report::table_at(state, node, "traffic_network", "flows");
+  for (std::size_t row = 0; flows != nullptr && row < flows->rows.size(); ++row) {
+    const std::string& link = flows->text(row, "link");
+    const std::string street = link.substr(0, link.rfind(':'));
+    const std::uint32_t from = state.plan->node_index(flows->text(row, "origin")), by = state.plan->node_index(street);
+    if (from < state.plan->nodes.size() && by < state.plan->nodes.size()) urban.routes[from][by] += flows->number(row, "flow");
+  }
+}
+
+// A body as the renderer takes volumes: one part, wrapped onto a ball that is too large to cut anything.
+MeshPointer as_cell(const Mesh& mesh) {
+  Mesh cell{mesh.vertices, mesh.triangles, {}, {}};
+  Point3 low = cell.vertices.front(), high = low;
+  for (const Point3& v : cell.vertices) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  const Point3 centre = 0.5 * (low + high);
+  MeshWrap wrap{centre,
+                distance(low, high) + 1,
+                {{static_cast<std::uint32_t>(cell.triangles.size()), centre, {}}},
+                std::vector<std::uint32_t>(cell.vertices.size(), 0)};
+  cell.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
+  return std::make_shared<const Mesh>(std::move(cell));
+}
+
+void read_body(const State& state, std::uint32_t node, const UrbanFacts* last, UrbanFacts& urban) {
+  const MeshPointer mesh = report::mesh_at(state, node, "existing_building", "mesh");
+  if (!mesh || mesh->triangles.empty() || mesh->vertices.size() >= 60000) return;
+  BodyFacts body;
+  if (last != nullptr)
+    for (const BodyFacts& earlier : last->bodies)
+      if (earlier.mesh == mesh) body = earlier;
+  body.node = node;
+  body.id = state.plan->nodes[node].id;
+  body.name = report::name_at(state, node);
+  body.is_assumed = flag_at(state, node, "existing_building", "is_assumed", false);
+  if (!body.mesh) {
+    body.mesh = mesh;
+    body.cell = as_cell(*mesh);
+    body.edges = sharp_edges(*mesh);
+  }
+  urban.bodies.push_back(std::move(body));
+}
+
+// Half the way to the next point of a row or column; where there is only one, half the rectangle.
+Vector3 half_step(const Table& map, std::size_t step, std::size_t count, const Vector3& whole) {
+  if (count < 2 || step >= map.rows.size()) return 0.5 * whole;
+  const auto at = [&](std::size_t row) { return Point3{map.number(row, "x"), map.number(row, "y"), map.number(row, "z")}; };
+  return 0.5 * (at(step) - at(0));
+}
+
+void read_sun_map(const State& state, std::uint32_t node, const UrbanFacts* last, UrbanFacts& urban) {
+  const Table* map = report::table_at(state, node, "shadow_receiver", "map");
+  if (map == nullptr || map->rows.empty()) return;
+  SunMapFacts facts;
+  facts.node = node;
+  facts.id = state.plan->nodes[node].id;
+  facts.source = map;
+  facts.highest = report::number_at(state, node, "shadow_receiver", "sun_possible");
+  for (std::size_t row = 0; row < map->rows.size(); ++row) facts.highest = std::max(facts.highest, map->number(row, "sun"));
+  if (last != nullptr)
+    for (const SunMapFacts& earlier : last->sun_maps)
+      if (earlier.node == node && earlier.source == map && earlier.highest == facts.highest) facts.steps = earlier.steps;
+  if (facts.steps.empty()) {
+    const auto columns = static_cast<std::size_t>(std::max(1.0, report::number_at(state, node, "shadow_receiver", "columns")));
+    const Vector3 across = half_step(*map, 1, columns, 2.0 * report::point_at(state, node, "shadow_receiver", "half_across"));
+    const Vector3 up =
+        half_step(*map, columns, map->rows.size() / columns, 2.0 * report::point_at(state, node, "shadow_receiver", "half_up"));
+    const Vector3 normal = cross(across, up);
+    const Vector3 lift = norm(normal) > 0 ? (kLift / norm(normal)) * normal : Vector3{0, 0, kLift};
+    std::map<int, Mesh> meshes;
+    for (std::size_t row = 0; row < map->rows.size(); ++row) {
+      const double share = facts.highest > 0 ? map->number(row, "sun") / facts.highest : 0;
+      Mesh& mesh = meshes[std::clamp(static_cast<int>(std::lround(share * kSunSteps)), 0, kSunSteps)];
+      const Point3 at = Point3{map->number(row, "x"), map->number(row, "y"), map->number(row, "z")} + lift;
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (const Vector3& corner : {-1.0 * across - up, across - up, across + up, up - across})
+        mesh.vertices.push_back(at + corner);
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+    for (auto& [step, mesh] : meshes) facts.steps[step] = std::make_shared<const Mesh>(std::move(mesh));
+  }
+  urban.sun_maps.push_back(std::move(facts));
+}
+
+void read_layer(const State& state, std::uint32_t node, UrbanFacts& urban) {
+  const Table* values = report::table_at(state, node, "data_layer", "values");
+  if (values == nullptr || values->rows.empty()) return;
+  DataFacts layer;
+  layer.node = node;
+  layer.id = state.plan->nodes[node].id;
+  layer.quantity = report::text_at(state, node, "data_layer", "quantity");
+  if (layer.quantity.empty()) layer.quantity = report::name_at(state, node);
+  layer.unit = report::text_at(state, node, "data_layer", "unit");
+  layer.low = report::number_at(state, node, "data_layer", "minimum");
+  layer.high = report::number_at(state, node, "data_layer", "maximum");
+  const std::size_t stride = values->rows.size() / kMostPoints + 1;
+  for (std::size_t row = 0; row < values->rows.size(); row += stride)
+    layer.values.emplace_back(Point3{values->number(row, "x"), values->number(row, "y"), 0}, values->number(row, "value"));
+  urban.layers.push_back(std::move(layer));
+}
+
+void read_ring(const State& state, std::uint32_t node, std::vector<Point3> ring, bool is_overshot,
+               std::vector<RingFacts>& rings) {
+  if (ring.size() >= 3) rings.push_back({node, state.plan->nodes[node].id, std::move(ring), is_overshot});
+}
+
+std::int64_t age_of_sun(const State& state) {
+  std::int64_t age = 0;
+  for (std::size_t a = 0; a < state.analyses.size(); ++a) {
+    const AnalysisPlan& plan = state.plan->analyses[a];
+    if (state.plan->nodes[plan.node].types[plan.type].definition->id != "sun_study") continue;
+    if (state.analyses[a].as_of < 0) return -1;
+    age = std::max(age, state.tick - state.analyses[a].as_of);
+  }
+  return age;
+}
+
+}  // namespace
+
+UrbanFacts read_urban(const State& state, const UrbanFacts* last) {
+  UrbanFacts urban;
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
+    const auto is = [&](const char* type) { return report::has_type(state, n, type); };
+    if (is("street")) read_street(state, n, urban);
+    if (is("traffic_network")) read_routes(state, n, urban);
+    if (is("existing_building")) read_body(state, n, last, urban);
+    if (is("shadow_receiver")) read_sun_map(state, n, last, urban);
+    if (is("data_layer")) read_layer(state, n, urban);
+    if (is("shadow_caster")) read_ring(state, n, points_at(state, n, "shadow_caster", "outline"), false, urban.shadows);
+    if (is("plot")) {
+      std::vector<Point3> ring = points_at(state, n, "plot", "polygon");
+      for (Point3& corner : ring) corner.z = report::number_at(state, n, "plot", "ground");
+      read_ring(state, n, std::move(ring), report::number_at(state, n, "plot", "overshoot") > 0, urban.plots);
+    }
+    if (is("terrain"))
+      if (const MeshPointer mesh = report::mesh_at(state, n, "terrain", "mesh"); mesh && !mesh->triangles.empty())
+        urban.grounds.emplace_back(n, mesh);
+    if (is("sun_and_sky") && report::number_at(state, n, "sun_and_sky", "altitude") > 0)
+      urban.sun = report::point_at(state, n, "sun_and_sky", "direction");
+  }
+  urban.sun_age = age_of_sun(state);
+  return urban;
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,76 @@
+// What the 3D view shows of a city around the volumes: streets, buildings, ground, sun maps, shadows, data, plots.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/graph/state.h"
+
+namespace bl::desktop {
+
+struct StreetFacts {
+  std::uint32_t node = 0, start = 0, end = 0;  ///< indices in the state
+  std::string id;
+  double flow = 0, load = 0;  ///< [1/h] both ways; volume over capacity
+  bool is_open = true, is_for_cars = true;
+};
+
+/// A building that stands already.
+struct BodyFacts {
+  std::uint32_t node = 0;
+  std::string id, name;
+  MeshPointer mesh, cell;  ///< as the state has it; the same as a cell that no ball cuts, for the renderer and for picking
+  std::vector<std::pair<Point3, Point3>> edges;
+  bool is_assumed = false;  ///< nobody measured its height
+};
+
+/// Sun per day on a grid of points, as squares of equal steps.
+struct SunMapFacts {
+  std::uint32_t node = 0;
+  std::string id;
+  double highest = 0;                ///< [s] that step `kSunSteps` stands for
+  const Table* source = nullptr;     ///< what the squares were made of; only compared
+  std::map<int, MeshPointer> steps;  ///< the squares of each step from 0 to kSunSteps
+};
+inline constexpr int kSunSteps = 12;
+
+/// Values on points of the ground.
+struct DataFacts {
+  std::uint32_t node = 0;
+  std::string id, quantity, unit;
+  double low = 0, high = 0;
+  std::vector<std::pair<Point3, double>> values;
+};
+
+/// A ring of points: a plot, or a shadow on the ground.
+struct RingFacts {
+  std::uint32_t node = 0;
+  std::string id;
+  std::vector<Point3> ring;
+  bool is_overshot = false;  ///< of plots: more is built than its rules allow
+};
+
+struct UrbanFacts {
+  std::vector<StreetFacts> streets;
+  std::vector<BodyFacts> bodies;
+  std::vector<SunMapFacts> sun_maps;
+  std::vector<DataFacts> layers;
+  std::vector<RingFacts> plots, shadows;
+  std::vector<std::pair<std::uint32_t, MeshPointer>> grounds;
+  Vector3 sun;               ///< towards it; 0 where no node says so, or it is below the horizon
+  std::int64_t sun_age = 0;  ///< ticks since the data that the sun maps fit; -1: there is no result yet
+  double most_flow = 0;      ///< [1/h]
+  /// Flow by street of the trips that begin at a zone: what "its routes" are; by node index of the zone.
+  std::map<std::uint32_t, std::map<std::uint32_t, double>> routes;
+
+  bool is_empty() const { return streets.empty() && bodies.empty() && sun_maps.empty() && layers.empty() && grounds.empty(); }
+};
+
+/// `last`: those of an earlier state, of which meshes that have not changed are taken over; may be null.
+UrbanFacts read_urban(const State& state, const UrbanFacts* last);
+
+}  // namespace bl::desktop
