@@ -59,6 +59,6 @@ expect 'a folder that is not there' 0 'there is no folder of plugins here'
 
 sed 's/BL_LINK(hold_height,/BL_LINK(hold_hight,/' "$checkout/links/plugin_template/hold_height.cpp" >"$place/my_links/hold_height.cpp"
 build misspelt
-expect 'a word that is not the name of the file' 1 'must close with' 'BL_LINK(hold_height, Type)'
+expect 'a word that is not the name of the file' 1 'BL_LINK(hold_height, Type) or BL_TYPIFICATION(hold_height, Type): the word'
 
 [ $failures -eq 0 ]
