@@ -29,8 +29,9 @@ constexpr std::array kLayers = {
     Layer{"core/geometry/", {"core/geometry/", "core/base/"}},
     Layer{"core/traffic/", {"core/traffic/", "core/geometry/", "core/base/"}},
     Layer{"core/sun/", {"core/sun/", "core/geometry/", "core/base/"}},
-    Layer{"nodes/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/"}},
-    Layer{"links/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/"}},
+    Layer{"core/facade/", {"core/facade/", "core/geometry/", "core/base/"}},
+    Layer{"nodes/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/", "core/facade/"}},
+    Layer{"links/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/", "core/facade/"}},
     Layer{"ui/", {"ui/", "core/"}},
 };
 

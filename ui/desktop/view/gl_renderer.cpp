@@ -66,10 +66,10 @@ bool GlRenderer::build(std::string& failure) {
     std::vector<const char*> captured;
   };
   const std::string nothing = version + "void main() {}\n";
-  const Recipe recipes[] = {{&p.volumes, divide + shaders::kVolumeVertex, version + light + shaders::kVolumeFragment, {}},
+  const Recipe recipes[] = {{&p.volumes, divide + shaders::kVolumeVertex, version + light + shaders::kFacade + shaders::kVolumeFragment, {}},
                             {&p.cut_volumes,
                              divide + shaders::kVolumeVertex,
-                             version + "#define WITH_SECTION\n" + light + shaders::kVolumeFragment,
+                             version + "#define WITH_SECTION\n" + light + shaders::kFacade + shaders::kVolumeFragment,
                              {}},
                             {&p.shadow, divide + shaders::kShadowVertex, version + shaders::kShadowFragment, {}},
                             {&p.heights, divide + shaders::kShadowVertex, version + shaders::kHeightFragment, {}},

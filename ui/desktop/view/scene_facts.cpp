@@ -19,6 +19,18 @@ constexpr std::size_t kMostPairs = 80;
 // Faces that meet at a smaller angle than this look like one (cosine).
 constexpr double kSharp = 0.97;
 
+// What its style makes of the façade, where one dresses it.
+void read_facade(const State& state, std::uint32_t node, VolumeFacts& facts) {
+  const Table* table = report::table_at(state, node, "facade", "by_orientation");
+  if (table == nullptr || table->rows.size() != facts.facade.sides.size()) return;
+  facts.is_dressed = true;
+  facts.facade.north = static_cast<float>(report::number_at(state, node, "facade", "true_north"));
+  for (std::size_t k = 0; k < facts.facade.sides.size(); ++k) {
+    const auto number = [&](const char* column) { return static_cast<float>(table->number(k, column)); };
+    facts.facade.sides[k] = {number("width"), number("module"), number("sill"), number("head")};
+  }
+}
+
 VolumeFacts read_volume(const State& state, std::uint32_t node) {
   const auto number = [&](const char* port) { return report::number_at(state, node, kVolume, port); };
   VolumeFacts facts;
@@ -37,6 +49,7 @@ VolumeFacts read_volume(const State& state, std::uint32_t node) {
   facts.storey = number("storey_height");
   facts.bottom = number("bottom");
   facts.height = number("height");
+  read_facade(state, node, facts);
   if (const auto ref = state.plan->find(node, PortPath{"node", "position", ""}))
     facts.tension = state.nodes[node].types[ref->type].tension[ref->port];
   if (const MeshPointer mesh = report::mesh_at(state, node, kVolume, "mesh")) facts.cell = mesh->coarse;

@@ -22,6 +22,8 @@ struct VolumeFacts {
   double tension = 0;                                                                             ///< of its place [m]
   MeshPointer cell;      ///< coarse, with its wrap; a ball where the solver gives a volume but no shape; none without a volume
   bool is_ball = false;  ///< the shape is not known, only its radius
+  bool is_dressed = false;
+  ViewFacade facade;  ///< where it is dressed
 
   double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
   /// Where its label and links are tied to.

@@ -10,8 +10,9 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr std::array<Layer, 13> kLayers = {{{"boundary", "Boundary", true},
+constexpr std::array<Layer, 14> kLayers = {{{"boundary", "Boundary", true},
                                             {"storeys", "Storey lines", true},
+                                            {"facades", "Fa\xC3\xA7" "ades", true},
                                             {"edges", "Edges", true},
                                             {"shadows", "Shadows", true},
                                             {"grid", "Ground and grid", true},
@@ -103,6 +104,9 @@ void Builder::add_volumes() {
     if (is_hovered) shown.flags |= ViewVolume::hovered;
     if (picks.nodes.contains(volume.id)) shown.flags |= ViewVolume::chosen;
     if (volume.is_ball) shown.flags |= ViewVolume::dimmed;
+    if (!volume.is_dressed || volume.is_ball || !shows("facades")) continue;
+    shown.flags |= ViewVolume::dressed;
+    shown.facade = volume.facade;
   }
 }
 

@@ -13,14 +13,27 @@ namespace bl::desktop {
 /// Packed as ImGui packs them: red in the lowest byte, alpha in the highest.
 using Colour = std::uint32_t;
 
+/// The windows of a façade, for each of the eight orientations clockwise from north.
+struct ViewFacade {
+  struct Side {
+    float width = 0, module = 1;  ///< of a window as a share of its module; of the module [m]
+    float sill = 0, head = 0;     ///< above each floor [m]
+    bool operator==(const Side&) const = default;
+  };
+  std::array<Side, 8> sides;
+  float north = 0;  ///< clockwise from the y axis [degree]
+  bool operator==(const ViewFacade&) const = default;
+};
+
 /// A volume: its coarse cell, which the renderer divides and wraps onto the ball that the cell's wrap names.
 struct ViewVolume {
-  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, failing = 8 };
+  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, failing = 8, dressed = 16 };
   std::uint32_t node = 0;  ///< index in the state, for picking
   MeshPointer cell;        ///< never empty, always with a wrap
   Colour colour = 0;
   float bottom = 0, storey = 0;  ///< [m], of the storey lines; 0: none
   std::uint32_t flags = 0;
+  ViewFacade facade = {};  ///< where the flag `dressed` is set
   bool operator==(const ViewVolume&) const = default;
 };
 
@@ -56,7 +69,7 @@ struct ViewColours {
 
 /// Parts of the picture that can be left out.
 struct ViewLayers {
-  bool shadows = true, edges = true, storeys = true, ground = true;
+  bool shadows = true, edges = true, storeys = true, ground = true;  // façades: the flag of each volume
   bool operator==(const ViewLayers&) const = default;
 };
 

@@ -1,0 +1,52 @@
+// Shares out each storey's façade.
+#include "core/facade/dressing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bl {
+
+WindowBand band_of(const FacadeRule& rule, double storey_height) {
+  const double sill = std::clamp(rule.sill, 0.0, storey_height);
+  return {sill, std::max(sill, storey_height - std::max(0.0, rule.band))};
+}
+
+double most_glazing(const FacadeRule& rule, double storey_height) {
+  const WindowBand band = band_of(rule, storey_height);
+  return storey_height > 0 ? (band.head - band.sill) / storey_height : 0;
+}
+
+double window_width(const FacadeRule& rule, double factor, double storey_height) {
+  const double most = most_glazing(rule, storey_height);
+  return most > 0 ? std::clamp(rule.glazing * factor, 0.0, most) / most : 0;
+}
+
+DressedArea& DressedArea::operator+=(const DressedArea& other) {
+  glazed += other.glazed;
+  opaque += other.opaque;
+  cost += other.cost;
+  panels += other.panels;
+  return *this;
+}
+
+Dressing dress(const FacadeSurvey& survey, const FacadeRules& rules, double factor, double storey_height) {
+  Dressing out;
+  for (const FacadeRow& row : survey.rows) {
+    const FacadeRule& rule = rules[static_cast<std::size_t>(row.orientation)];
+    const double area = row.area(), wanted = std::clamp(rule.glazing * factor, 0.0, 1.0) * area;
+    DressedArea part;
+    part.glazed = std::min(wanted, row.band);
+    part.opaque = area - part.glazed;
+    part.cost = part.glazed * rule.cost_glazed + part.opaque * rule.cost_opaque;
+    if (rule.module > 0 && storey_height > 0) part.panels = area / (rule.module * storey_height);
+    out.missing += wanted - part.glazed;
+    out.all += part;
+    out.by_orientation[static_cast<std::size_t>(row.orientation)] += part;
+    const auto storey = static_cast<std::size_t>(row.storey);
+    if (out.by_storey.size() <= storey) out.by_storey.resize(storey + 1);
+    out.by_storey[storey] += part;
+  }
+  return out;
+}
+
+}  // namespace bl
