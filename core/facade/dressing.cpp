@@ -39,7 +39,7 @@ Dressing dress(const FacadeSurvey& survey, const FacadeRules& rules, double fact
     part.opaque = area - part.glazed;
     part.cost = part.glazed * rule.cost_glazed + part.opaque * rule.cost_opaque;
     if (rule.module > 0 && storey_height > 0) part.panels = area / (rule.module * storey_height);
-    out.missing += wanted - part.glazed;
+    out.missing += std::max(0.0, wanted - most_glazing(rule, storey_height) * area);
     out.all += part;
     out.by_orientation[static_cast<std::size_t>(row.orientation)] += part;
     const auto storey = static_cast<std::size_t>(row.storey);

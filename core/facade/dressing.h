@@ -40,11 +40,11 @@ struct Dressing {
   DressedArea all;
   std::array<DressedArea, kOrientations> by_orientation;
   std::vector<DressedArea> by_storey;  ///< index = storey
-  double missing = 0;                  ///< glazing that is wanted and finds no room between sill and band [m²]
+  double missing = 0;                  ///< glazing that finds no room between sill and band even in a whole storey [m²]
 };
 
-/// `factor` multiplies every glazing ratio; no ratio goes beyond 1. Windows stand between sill and band only: what does not fit
-/// there is missing. Glazed and opaque add up to the façade.
+/// `factor` multiplies every glazing ratio; no ratio goes beyond 1. Windows stand between sill and band only; a storey that
+/// ends early has less room for them. Glazed and opaque add up to the façade.
 Dressing dress(const FacadeSurvey& survey, const FacadeRules& rules, double factor, double storey_height);
 
 }  // namespace bl

@@ -48,6 +48,8 @@ constexpr std::array kLibraries = {
     Library{"muParser", "", true, "muParser"},
     Library{"proj.h", "core/exchange/", true, "PROJ"},
     Library{"csv.h", "core/exchange/", true, "libcsv"},
+    Library{"libexif/", "core/exchange/", true, "libexif"},
+    Library{"stb/", "ui/desktop/view/", true, "stb"},
     Library{"GLFW/", "ui/desktop/", false, "GLFW"},
     Library{"imgui", "ui/desktop/", false, "Dear ImGui"},
     Library{"backends/imgui", "ui/desktop/", false, "Dear ImGui"},

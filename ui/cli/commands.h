@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/cli/media_making.h"
 #include "ui/cli/scene_making.h"
 
 namespace bl::cli {
@@ -38,6 +39,14 @@ struct ReplayOptions {
 int replay_command(const ReplayOptions& options);
 
 int new_command(const NewOptions& options);
+
+struct PlaceOptions {
+  std::vector<std::string> files;
+  std::string into, out;
+  std::vector<double> at;  ///< nothing, or x, y, z [m]
+  MediaOptions media;
+};
+int place_command(const PlaceOptions& options);
 
 struct OpenOptions {
   std::vector<std::string> arguments;  ///< as the window's own program takes them

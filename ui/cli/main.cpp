@@ -96,6 +96,22 @@ void declare_new(CLI::App& app, NewOptions& o) {
   c.footer("Example:\n  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json");
 }
 
+void declare_place(CLI::App& app, PlaceOptions& o) {
+  CLI::App& c = *app.add_subcommand("place", "Puts pictures into a scene, where and as they were taken.");
+  c.add_option("pictures", o.files, "JPEG or PNG files; they stay where they are.")->type_name("PICTURE")->required();
+  c.add_option("--into", o.into, "The scene.")->type_name("SCENE")->required();
+  c.add_option("--out", o.out, "Where the scene is written. Default: the same file.")->type_name("SCENE");
+  c.add_option("--at", o.at, "Position in m. Default: by the coordinates in the picture.")->type_name("X Y Z")->expected(3);
+  c.add_option("--placement", o.media.placement, "Default: camera where the picture says where it looked, else billboard.")
+      ->check(CLI::IsMember({"ground", "billboard", "camera"}));
+  c.add_option("--consent", o.media.consent, "May it be shown? Default: unknown, which veils it.")
+      ->check(CLI::IsMember({"unknown", "given", "not_needed", "refused"}));
+  c.add_option("--licence", o.media.licence, "Terms of its use. Default: what the picture says.")->type_name("TEXT");
+  c.add_option("--author", o.media.author, "Who made it. Default: what the picture says.")->type_name("TEXT");
+  c.add_option("--size", o.media.size, "Width in m, of a billboard or on the ground. Default: 10.")->type_name("METRES");
+  c.footer("Example:\n  behaviourlinks place site.jpg --into scene.json --consent given");
+}
+
 void declare_check(CLI::App& app, CheckOptions& o) {
   CLI::App& c = *app.add_subcommand("check", "Says everything that is wrong with scene files.");
   c.add_option("scenes", o.scenes, "The scene files.")->type_name("SCENE")->required();
@@ -235,6 +251,7 @@ int run_program(int count, char** arguments) {
   RunOptions run;
   OpenOptions window;
   NewOptions fresh;
+  PlaceOptions place;
   CheckOptions check;
   ReplayOptions replay;
   DocsOptions docs;
@@ -245,6 +262,7 @@ int run_program(int count, char** arguments) {
   declare_run(app, run);
   declare_open(app);
   declare_new(app, fresh);
+  declare_place(app, place);
   declare_check(app, check);
   declare_papers(app, docs, schema);
   declare_replay(app, replay);
@@ -273,6 +291,7 @@ int run_program(int count, char** arguments) {
     return open_command(window);
   }
   if (app.got_subcommand("new")) return new_command(fresh);
+  if (app.got_subcommand("place")) return place_command(place);
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand("docs")) return docs_command(docs);
   if (app.got_subcommand("schema")) return schema_command(schema);

@@ -24,6 +24,8 @@ class Desktop {
   std::string title();
   /// Files that were dropped onto the window.
   void drop(const std::string& path);
+  /// A picture becomes a node of the open scene.
+  void place_picture(const std::string& path);
   /// The person wants to close the window; asks first where something would be lost.
   void ask_to_quit();
   /// Once, at the start: what windows that did not end well have left.

@@ -8,6 +8,7 @@
 
 #include "ui/cli/report/mesh_lines.h"
 #include "ui/cli/report/report_model.h"
+#include "ui/desktop/view/media_place.h"
 
 namespace bl::desktop {
 
@@ -123,6 +124,24 @@ void read_boundary(const State& state, std::uint32_t node, const SceneFacts* las
   facts.boundaries.push_back(std::move(boundary));
 }
 
+void read_media(const State& state, std::uint32_t node, SceneFacts& facts) {
+  const auto number = [&](const char* port) { return report::number_at(state, node, "media", port); };
+  const auto text = [&](const char* port) { return report::text_at(state, node, "media", port); };
+  MediaFacts media{node, state.plan->nodes[node].id, report::name_at(state, node), text("message"), text("file"), {}};
+  if (media.file.empty()) return;
+  if (text("kind") == "sequence")
+    media.file = frame_file(media.file, state.tick, number("rate"), static_cast<std::int64_t>(number("frames")));
+  const MediaPlace place = place_of({text("placement"), report::point_at(state, node, "node", "position"), number("azimuth"),
+                                     number("tilt"), number("width"), number("height"), number("distance")});
+  media.picture.corner = place.corner;
+  media.picture.across = place.across;
+  media.picture.up = place.up;
+  media.picture.opacity = static_cast<float>(number("opacity"));
+  media.picture.orientation = static_cast<int>(number("orientation"));
+  media.picture.is_veiled = !(number("is_free") > 0);
+  facts.media.push_back(std::move(media));
+}
+
 // The ball around boundaries, or volumes where there are none; it stays as it was while it still fits.
 void read_extent(const SceneFacts* last, SceneFacts& facts) {
   Vector3 low{1e300, 1e300, 1e300}, high = -low;
@@ -164,6 +183,7 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
     facts->places.push_back(report::point_at(state, n, "node", "position"));
     if (report::has_type(state, n, "boundary")) read_boundary(state, n, last, *facts);
+    if (report::has_type(state, n, "media")) read_media(state, n, *facts);
     if (report::has_type(state, n, kVolume)) {
       VolumeFacts volume = read_volume(state, n);
       // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
@@ -193,6 +213,7 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   std::erase_if(rest->volumes, is_gone);
   std::erase_if(rest->marks, is_gone);
   std::erase_if(rest->boundaries, is_gone);
+  std::erase_if(rest->media, is_gone);
   std::erase_if(rest->pulls, is_gone);
   std::erase_if(rest->links, [&](const LinkFacts& link) { return is_hidden(link.from) || is_hidden(link.to); });
   std::erase_if(rest->neighbours, [&](const auto& pair) { return is_hidden(pair.first) || is_hidden(pair.second); });

@@ -44,6 +44,14 @@ struct BoundaryFacts {
   std::vector<std::pair<Point3, Point3>> edges;
 };
 
+/// A picture or a sequence in the scene.
+struct MediaFacts {
+  std::uint32_t node = 0;
+  std::string id, name, message;
+  std::string file;     ///< of the frame that this tick shows, as the scene names it
+  ViewPicture picture;  ///< without its path
+};
+
 /// One pair of nodes that a link joins.
 struct LinkFacts {
   std::size_t link = 0;  ///< index in the plan
@@ -63,6 +71,7 @@ struct SceneFacts {
   std::vector<VolumeFacts> volumes;  ///< ascending node
   std::vector<MarkFacts> marks;
   std::vector<BoundaryFacts> boundaries;
+  std::vector<MediaFacts> media;
   std::vector<LinkFacts> links;  ///< of sets that are not too large
   std::vector<PullFacts> pulls;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;  ///< nodes that share a face, the lower first

@@ -177,7 +177,8 @@ vec3 facade_colour(vec3 wall, int number, vec3 place, vec3 ball, bool is_round, 
   vec4 side = texelFetch(facades, 9 * number + 1 + sector);
   // Along the façade: straight on a flat face, around the axis of the ball on a round one.
   float around = is_round ? atan(outward.y, outward.x) * radius : dot(place.xy - ball.xy, vec2(-outward.y, outward.x));
-  float height = place.z - storey.x;
+  // The ball's own height, not that of the triangles that stand for it: windows stay level.
+  float height = (is_round ? ball.z + normal.z * radius : place.z) - storey.x;
   float modules = max(side.y, 0.05);
   if (is_round) modules = 6.28318531 * radius / max(1.0, floor(6.28318531 * radius / modules + 0.5));
   vec2 at = vec2(around / modules + 0.5, height / storey.y);

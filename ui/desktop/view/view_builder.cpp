@@ -10,11 +10,12 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr std::array<Layer, 14> kLayers = {{{"boundary", "Boundary", true},
+constexpr std::array<Layer, 15> kLayers = {{{"boundary", "Boundary", true},
                                             {"storeys", "Storey lines", true},
                                             {"facades", "Fa\xC3\xA7" "ades", true},
                                             {"edges", "Edges", true},
                                             {"shadows", "Shadows", true},
+                                            {"media", "Pictures", true},
                                             {"grid", "Ground and grid", true},
                                             {"labels", "Labels", true},
                                             {"marks", "Nodes without a volume", true},
@@ -52,6 +53,7 @@ struct Builder {
   void add_frame();
   void add_volumes();
   void add_boundary();
+  void add_media();
   void add_links();
   void add_weights();
   void add_neighbours();
@@ -119,6 +121,20 @@ void Builder::add_boundary() {
     scene.surfaces.push_back({boundary.shape, faded(ink, is_chosen || is_hovered ? 0.05f : theme.is_dark() ? 0.018f : 0.028f)});
     for (const auto& [a, b] : boundary.edges)
       line(a, b, faded(ink, is_chosen ? 0.95f : 0.5f), is_chosen || is_hovered ? 2.0f : 1.1f, 0.22f);
+  }
+}
+
+void Builder::add_media() {
+  if (!shows("media")) return;
+  for (const MediaFacts& media : facts.media) {
+    ViewPicture& picture = scene.pictures.emplace_back(media.picture);
+    const bool is_whole = media.file.front() == '/' || choices.folder.empty();
+    picture.path = is_whole ? media.file : choices.folder + "/" + media.file;
+    const bool is_picked = picks.nodes.contains(media.id) || picks.hovered_node == media.id;
+    if (!is_picked) continue;
+    const Point3 a = picture.corner, b = a + picture.across, c = b + picture.up, d = a + picture.up;
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, d}, std::pair{d, a}})
+      line(from, to, theme.colours().accent, 2.0f, 0.4f);
   }
 }
 
@@ -221,6 +237,7 @@ ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const 
   builder.add_frame();
   builder.add_volumes();
   builder.add_boundary();
+  builder.add_media();
   builder.add_links();
   builder.add_weights();
   builder.add_neighbours();

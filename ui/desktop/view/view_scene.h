@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/base/mesh.h"
@@ -53,6 +54,18 @@ struct ViewSurface {
   bool operator==(const ViewSurface&) const = default;
 };
 
+/// A picture of a file on a plane.
+struct ViewPicture {
+  std::string path;
+  Point3 corner;       ///< lower left, as people see it [m]
+  Vector3 across, up;  ///< along its lower and its left side [m]
+  float opacity = 1;
+  int orientation = 1;     ///< of EXIF, 1 to 8
+  bool is_veiled = false;  ///< it may not be shown
+  bool operator==(const ViewPicture&) const = default;
+  Point3 middle() const { return corner + 0.5 * (across + up); }
+};
+
 /// The half-space that is shown: normal · x <= offset.
 struct ViewSection {
   bool is_on = false;
@@ -90,6 +103,7 @@ struct ViewScene {
   std::vector<ViewVolume> volumes;  ///< ascending node
   std::vector<ViewSurface> surfaces;
   std::vector<ViewLine> lines;
+  std::vector<ViewPicture> pictures;
   bool operator==(const ViewScene&) const = default;
 
   double near_plane() const;  ///< [m] from the eye
