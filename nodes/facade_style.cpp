@@ -26,17 +26,13 @@ struct FacadeStyle {
     MeshPointer mesh;
     Shared<Table> neighbours;
   };
-  struct Style {
+  struct Named {
     std::string name;
-  };
-  struct Surrounding {
-    std::string id;
-    MeshPointer mesh;
+    MeshPointer mesh;  // of surroundings only
   };
   struct Sets {
     std::vector<Member> members;
-    std::vector<Style> styles;
-    std::vector<Surrounding> surroundings;
+    std::vector<Named> styles, surroundings;
   };
   struct Reply {
     std::optional<std::string> style_in_force, message;
@@ -94,38 +90,31 @@ struct FacadeStyle {
   }
 
   static void declare_sets(TypificationBuilder<FacadeStyle>& t) {
-    t.set("styles", &Sets::styles).reads(&Style::name, "facade_style.name");
-    t.set("surroundings", &Sets::surroundings).reads(&Surrounding::id, "node.id").reads(&Surrounding::mesh, "smart_volume.mesh");
+    t.set("styles", &Sets::styles).reads(&Named::name, "facade_style.name");
+    t.set("surroundings", &Sets::surroundings).reads(&Named::name, "node.id").reads(&Named::mesh, "smart_volume.mesh");
     auto set = t.set("volumes", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id").reads(&Member::use, "smart_volume.use").reads(&Member::style, "facade.style");
     set.reads(&Member::glazing, "facade.glazing").reads(&Member::ground, "facade.ground");
     set.reads(&Member::storey_height, "smart_volume.storey_height").reads(&Member::bottom, "smart_volume.bottom");
-    set.reads(&Member::spherical_area, "smart_volume.spherical_area").reads(&Member::mesh, "smart_volume.mesh");
-    set.reads(&Member::neighbours, "smart_volume.neighbours");
+    set.reads(&Member::spherical_area, "smart_volume.spherical_area");
+    set.reads(&Member::mesh, "smart_volume.mesh").reads(&Member::neighbours, "smart_volume.neighbours");
     set.writes(&Reply::style_in_force, "facade.style_in_force").writes(&Reply::message, "facade.message");
     set.writes(&Reply::facade_area, "facade.facade_area").writes(&Reply::glazed_area, "facade.glazed_area");
     set.writes(&Reply::opaque_area, "facade.opaque_area").writes(&Reply::roof_area, "facade.roof_area");
     set.writes(&Reply::shared_area, "facade.shared_area").writes(&Reply::glazing_ratio, "facade.glazing_ratio");
-    set.writes(&Reply::cost, "facade.cost").writes(&Reply::panels, "facade.panels");
-    set.writes(&Reply::true_north, "facade.true_north");
+    set.writes(&Reply::cost, "facade.cost").writes(&Reply::panels, "facade.panels").writes(&Reply::true_north, "facade.true_north");
     set.writes(&Reply::by_orientation, "facade.by_orientation").writes(&Reply::by_storey, "facade.by_storey");
   }
 
   static Reply bare(std::string message) {
-    Reply reply{"", std::move(message), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, Table{}, Table{}};
-    write_sides({}, {}, 1, 0, *reply.by_orientation);
-    write_storeys({}, *reply.by_storey);
-    reply.by_orientation->rows.clear();
-    return reply;
+    return {"", std::move(message), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, Table{}, Table{}};
   }
 
   static Reply reply_of(const In& in, const Member& member, const FacadeSurvey& survey, const FacadeRules& rules,
                         std::string message) {
     const Dressing dressing = dress(survey, rules, member.glazing, member.storey_height);
     const DressedArea& all = dressing.all;
-    if (dressing.missing > 1e-9 * all.area())
-      message += (message.empty() ? "" : "; ") + fixed(dressing.missing, 1) +
-                 " m² of the glazing that is asked for find no room between sills and bands";
+    add_missing_text(dressing, message);
     const double share = all.area() > 0 ? all.glazed / all.area() : 0;
     Reply reply{in.name, std::move(message), all.area(), all.glazed, all.opaque, survey.roof, survey.shared, share, all.cost,
                 all.panels, in.true_north, Table{}, Table{}};
@@ -135,19 +124,17 @@ struct FacadeStyle {
   }
 
   static SurveyOptions options_of(const In& in, const Member& member, const FacadeRules& rules) {
-    SurveyOptions options{member.bottom, member.storey_height, member.ground, in.true_north, member.spherical_area, {}};
-    for (std::size_t k = 0; k < kOrientations; ++k) options.bands[k] = band_of(rules[k], member.storey_height);
-    return options;
+    return {member.bottom, member.storey_height, member.ground, in.true_north, member.spherical_area, bands_of(rules, member.storey_height)};
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
     if (in.name.empty()) return Error{ErrorCode::missing, "name", "the style needs a name, by which façades ask for it"};
     if (auto sound = check_style_rows(in.rows); !sound) return sound.error();
     std::map<std::string, MeshPointer> shapes;
-    for (const Surrounding& surrounding : sets.surroundings) shapes[surrounding.id] = surrounding.mesh;
+    for (const Named& volume : sets.surroundings) shapes[volume.name] = volume.mesh;
     // Somebody has to clear the façades that no style dresses: the first style does.
     std::vector<std::string> names;
-    for (const Style& style : sets.styles) names.push_back(style.name);
+    for (const Named& style : sets.styles) names.push_back(style.name);
     const bool is_first = !names.empty() && names.front() == in.name;
     Out out;
     out.replies.resize(sets.members.size());
@@ -161,10 +148,7 @@ struct FacadeStyle {
       messages[m] = std::move(message);
       if (dresser.empty() && is_first) out.replies[m] = bare(messages[m]);
       if (dresser != in.name) continue;
-      std::string unmatched;
-      rules[m] = rules_of(in.rows, member.use, unmatched);
-      if (!unmatched.empty())
-        messages[m] += (messages[m].empty() ? "" : "; ") + std::string("no row of the style fits ") + unmatched + ": closed walls there";
+      rules[m] = rules_of(in.rows, member.use, messages[m]);
       if (!member.mesh) {
         out.replies[m] = bare("it has no shape, so that there is no façade to measure");
         continue;

@@ -4,11 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text.h"
+
 namespace bl {
 
 WindowBand band_of(const FacadeRule& rule, double storey_height) {
   const double sill = std::clamp(rule.sill, 0.0, storey_height);
   return {sill, std::max(sill, storey_height - std::max(0.0, rule.band))};
+}
+
+std::array<WindowBand, kOrientations> bands_of(const FacadeRules& rules, double storey_height) {
+  std::array<WindowBand, kOrientations> bands;
+  for (std::size_t k = 0; k < kOrientations; ++k) bands[k] = band_of(rules[k], storey_height);
+  return bands;
 }
 
 double most_glazing(const FacadeRule& rule, double storey_height) {
@@ -47,6 +55,12 @@ Dressing dress(const FacadeSurvey& survey, const FacadeRules& rules, double fact
     out.by_storey[storey] += part;
   }
   return out;
+}
+
+void add_missing_text(const Dressing& dressing, std::string& message) {
+  if (!(dressing.missing > 1e-9 * dressing.all.area())) return;
+  message += (message.empty() ? "" : "; ") + fixed(dressing.missing, 1) +
+             " m² of the glazing that is asked for find no room between sills and bands";
 }
 
 }  // namespace bl

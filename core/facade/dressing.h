@@ -22,6 +22,8 @@ using FacadeRules = std::array<FacadeRule, kOrientations>;
 /// The windows of a storey of that height; none where sill and band leave nothing.
 WindowBand band_of(const FacadeRule& rule, double storey_height);
 
+std::array<WindowBand, kOrientations> bands_of(const FacadeRules& rules, double storey_height);
+
 /// The largest share of a whole storey that its band holds.
 double most_glazing(const FacadeRule& rule, double storey_height);
 
@@ -46,5 +48,8 @@ struct Dressing {
 /// `factor` multiplies every glazing ratio; no ratio goes beyond 1. Windows stand between sill and band only; a storey that
 /// ends early has less room for them. Glazed and opaque add up to the façade.
 Dressing dress(const FacadeSurvey& survey, const FacadeRules& rules, double factor, double storey_height);
+
+/// Adds a sentence where glazing is missing.
+void add_missing_text(const Dressing& dressing, std::string& message);
 
 }  // namespace bl

@@ -11,10 +11,11 @@
 namespace bl {
 
 /// The rules of a use: for each orientation the first row that fits. Empty fields of `use` and `orientation` fit all. Without any
-/// rows a plain façade; where rows exist and none fits, a closed wall, named in `unmatched`.
+/// rows a plain façade; where rows exist and none fits, a closed wall, and a sentence about it is added to `message`.
 template <class Table>
-FacadeRules rules_of(const Table& table, const std::string& use, std::string& unmatched) {
+FacadeRules rules_of(const Table& table, const std::string& use, std::string& message) {
   FacadeRules rules;
+  std::string unmatched;
   for (std::size_t k = 0; k < kOrientations && !table.rows.empty(); ++k) {
     const std::string_view name = name_of(static_cast<Orientation>(k));
     std::size_t row = 0;
@@ -31,6 +32,8 @@ FacadeRules rules_of(const Table& table, const std::string& use, std::string& un
     rules[k] = {number("glazing"), number("module"),      number("sill"),
                 number("band"),    number("cost_glazed"), number("cost_opaque")};
   }
+  if (!unmatched.empty())
+    message += (message.empty() ? "" : "; ") + std::string("no row of the style fits ") + unmatched + ": closed walls there";
   return rules;
 }
 

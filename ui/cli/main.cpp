@@ -52,7 +52,7 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->take_all();
   add_threads(c, o.threads);
   c.add_option("--log", o.log, "Writes the log of commands and hashes, for `replay`.")->type_name("FILE");
-  c.add_option("--report", o.report, "Writes report.html, volumes.csv and volumes.obj into a folder.")->type_name("DIR");
+  c.add_option("--report", o.report, "Writes report.html, volumes.csv, volumes.obj and, of dressed volumes, facades.csv into a folder.")->type_name("DIR");
   c.add_option("--json", o.json, "Writes all figures as JSON, lengths in m, areas in m2, volumes in m3.")->type_name("FILE");
   c.add_option("--save", o.save, "Saves the scene with its running state, to continue later.")->type_name("FILE");
   c.footer(

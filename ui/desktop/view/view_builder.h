@@ -27,7 +27,7 @@ void set_layer(PersonSettings& person, const std::string& layer, bool is_on);
 struct ViewChoices {
   Camera camera;
   ViewSection section;
-  std::string folder;                    ///< of the scene's file, which pictures are named from; empty: the current one
+  std::string folder = {};               ///< of the scene's file, which pictures are named from; empty: the current one
   std::map<std::uint32_t, Point3> held;  ///< nodes in somebody's hand: where the hand has them
 };
 
