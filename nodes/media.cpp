@@ -48,7 +48,7 @@ struct Media {
     t.in(&In::rate, "rate")
         .range(0, 1000)
         .soft(0.1, 30)
-        .doc("Frames of a sequence in each second of the scene, where a second has thirty ticks.");
+        .doc("Frames of a sequence in each second of the scene, where a second counts as thirty ticks.");
     t.in(&In::frames, "frames").unit(Unit::count).range(1, 1e6).soft(1, 500).doc("Frames of a sequence, counted from 1; then it begins again.");
     declare_place(t);
     declare_rights(t);

@@ -9,8 +9,10 @@
 #include <numbers>
 
 #include <libexif/exif-data.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/define/json_text.h"
 
 namespace bl {
 
@@ -156,6 +158,23 @@ void read_place(const Tags& tags, ImageFacts& facts) {
     facts.notes.emplace_back("its direction is against magnetic north and was taken as it is");
 }
 
+// Phones that take streets for maps write their compass into the description, beside much that is nobody's business: of such a
+// record only the direction is kept.
+void read_description(ImageFacts& facts) {
+  if (facts.note.empty() || facts.note.front() != '{') return;
+  const auto parsed = parse_json(facts.note);
+  if (!parsed || !parsed->is_object()) return;
+  const Json& record = *parsed;
+  facts.note.clear();
+  facts.notes.emplace_back("its description is a record of the camera and was left out");
+  const auto heading = record.find("MAPCompassHeading");
+  if (facts.bearing || heading == record.end() || !heading->is_object()) return;
+  const auto found = heading->find("TrueHeading");
+  if (found == heading->end() || !found->is_number()) return;
+  const double bearing = found->get<double>();
+  if (bearing >= 0 && bearing <= 360) facts.bearing = bearing;
+}
+
 }  // namespace
 
 Result<ImageFacts> read_image_facts(std::string_view bytes) {
@@ -179,6 +198,7 @@ Result<ImageFacts> read_image_facts(std::string_view bytes) {
   facts.licence = tags.text(EXIF_IFD_0, EXIF_TAG_COPYRIGHT);
   facts.note = tags.text(EXIF_IFD_0, EXIF_TAG_IMAGE_DESCRIPTION);
   read_place(tags, facts);
+  read_description(facts);
   // The focal length on film gives the angle across its diagonal: it is the same for all formats.
   const auto focal = tags.number(EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM);
   if (focal && *focal > 1) {

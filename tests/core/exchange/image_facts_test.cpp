@@ -136,6 +136,8 @@ TEST(ImageFacts, OfAPhotographOfAStreet) {
   EXPECT_EQ(facts->height, 768);
   EXPECT_NEAR(facts->latitude.value_or(0), 55.69817, 1e-5);
   EXPECT_NEAR(facts->longitude.value_or(0), 13.19539, 1e-5);
+  EXPECT_NEAR(facts->bearing.value_or(0), 179.2156, 1e-9) << "from the record in its description";
+  EXPECT_EQ(facts->note, "");
 }
 
 }  // namespace

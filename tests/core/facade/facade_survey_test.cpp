@@ -82,7 +82,9 @@ TEST(FacadeSurvey, WhatStandsInTheGroundIsNoFacade) {
 TEST(FacadeSurvey, OfABallInTheAir) {
   const auto cells = cells_of(box(100, 100, 100), {{{50, 50, 50}, 100}});
   const Mesh& mesh = *cells[0].mesh->coarse;
-  const FacadeSurvey survey = survey_facade(mesh, faces_of(mesh), every(4, 1, 3));
+  SurveyOptions options = every(4, 1, 3);
+  options.spherical_area = cells[0].spherical_area;
+  const FacadeSurvey survey = survey_facade(mesh, faces_of(mesh), options);
   const double all = 4 * std::numbers::pi * 100, steep = all * std::numbers::sqrt2 / 2;
   EXPECT_NEAR(survey.facade, steep, 0.02 * steep);
   EXPECT_NEAR(survey.roof, (all - steep) / 2, 0.03 * steep);
