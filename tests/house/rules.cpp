@@ -32,8 +32,9 @@ constexpr std::array kLayers = {
     Layer{"core/geometry/", {"core/geometry/", "core/base/"}},
     Layer{"core/traffic/", {"core/traffic/", "core/geometry/", "core/base/"}},
     Layer{"core/sun/", {"core/sun/", "core/geometry/", "core/base/"}},
-    Layer{"nodes/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/"}},
-    Layer{"links/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/"}},
+    Layer{"core/facade/", {"core/facade/", "core/geometry/", "core/base/"}},
+    Layer{"nodes/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/", "core/facade/"}},
+    Layer{"links/", {"core/define/", "core/base/", "core/geometry/", "core/traffic/", "core/sun/", "core/facade/"}},
     Layer{"ui/", {"ui/", "core/"}},
 };
 
@@ -55,6 +56,8 @@ constexpr std::array kLibraries = {
     Library{"mosquitto.h", "core/live/", true, "libmosquitto"},
     Library{"lo/", "core/live/", true, "liblo"},
     Library{"curl/", "core/live/", true, "libcurl"},
+    Library{"libexif/", "core/exchange/", true, "libexif"},
+    Library{"stb/", "ui/desktop/view/", true, "stb"},
     Library{"GLFW/", "ui/desktop/", false, "GLFW"},
     Library{"imgui", "ui/desktop/", false, "Dear ImGui"},
     Library{"backends/imgui", "ui/desktop/", false, "Dear ImGui"},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ui/cli/context_import.h"
+#include "ui/cli/media_making.h"
 #include "ui/cli/scene_making.h"
 
 namespace bl::cli {
@@ -58,6 +59,13 @@ int compare_command(const CompareOptions& options);
 int new_command(const NewOptions& options);
 
 int import_command(const ImportOptions& options);
+struct PlaceOptions {
+  std::vector<std::string> files;
+  std::string into, out;
+  std::vector<double> at;  ///< nothing, or x, y, z [m]
+  MediaOptions media;
+};
+int place_command(const PlaceOptions& options);
 
 struct OpenOptions {
   std::vector<std::string> arguments;  ///< as the window's own program takes them

@@ -65,7 +65,7 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->needs(live)
       ->check(CLI::Range(0.001, 1000.0));
   c.add_option("--log", o.log, "Writes the log of commands and hashes, for `replay`.")->type_name("FILE");
-  c.add_option("--report", o.report, "Writes report.html, volumes.csv and volumes.obj into a folder.")->type_name("DIR");
+  c.add_option("--report", o.report, "Writes report.html, volumes.csv, volumes.obj and, of dressed volumes, facades.csv into a folder.")->type_name("DIR");
   c.add_option("--json", o.json, "Writes all figures as JSON, lengths in m, areas in m2, volumes in m3.")->type_name("FILE");
   c.add_option("--save", o.save, "Saves the scene with its running state, to continue later.")->type_name("FILE");
   c.footer(
@@ -177,6 +177,22 @@ void declare_import(CLI::App& app, ImportOptions& o) {
       "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
       "--report import.csv\n\nHeights that are not in the file are assumed, and marked as such. Exit codes: 0 imported; 2 bad input, "
       "nothing written.");
+}
+
+void declare_place(CLI::App& app, PlaceOptions& o) {
+  CLI::App& c = *app.add_subcommand("place", "Puts pictures into a scene, where and as they were taken.");
+  c.add_option("pictures", o.files, "JPEG or PNG files; they stay where they are.")->type_name("PICTURE")->required();
+  c.add_option("--into", o.into, "The scene.")->type_name("SCENE")->required();
+  c.add_option("--out", o.out, "Where the scene is written. Default: the same file.")->type_name("SCENE");
+  c.add_option("--at", o.at, "Position in m. Default: by the coordinates in the picture.")->type_name("X Y Z")->expected(3);
+  c.add_option("--placement", o.media.placement, "Default: camera where the picture says where it looked, else billboard.")
+      ->check(CLI::IsMember({"ground", "billboard", "camera"}));
+  c.add_option("--consent", o.media.consent, "May it be shown? Default: unknown, which veils it.")
+      ->check(CLI::IsMember({"unknown", "given", "not_needed", "refused"}));
+  c.add_option("--licence", o.media.licence, "Terms of its use. Default: what the picture says.")->type_name("TEXT");
+  c.add_option("--author", o.media.author, "Who made it. Default: what the picture says.")->type_name("TEXT");
+  c.add_option("--size", o.media.size, "Width in m, of a billboard or on the ground. Default: 10.")->type_name("METRES");
+  c.footer("Example:\n  behaviourlinks place site.jpg --into scene.json --consent given");
 }
 
 void declare_check(CLI::App& app, CheckOptions& o) {
@@ -375,6 +391,7 @@ int run_program(int count, char** arguments) {
   OpenOptions window;
   NewOptions fresh;
   ImportOptions import;
+  PlaceOptions place;
   CheckOptions check;
   ReplayOptions replay;
   CompareOptions compare;
@@ -389,6 +406,7 @@ int run_program(int count, char** arguments) {
   declare_script(app, script);
   declare_new(app, fresh);
   declare_import(app, import);
+  declare_place(app, place);
   declare_check(app, check);
   declare_papers(app, docs, schema);
   declare_replay(app, replay);
@@ -423,6 +441,7 @@ int run_program(int count, char** arguments) {
   }
   if (app.got_subcommand("new")) return new_command(fresh);
   if (app.got_subcommand("import")) return import_command(import);
+  if (app.got_subcommand("place")) return place_command(place);
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand("docs")) return docs_command(docs);
   if (app.got_subcommand("schema")) return schema_command(schema);

@@ -126,6 +126,8 @@ std::string write_page(const ReportModel& model, const ReportData& data, const P
   write_figure(page, draw_error_chart(model, data.history), model, nullptr);
   write_programme(page, model, palette);
   write_volumes(page, model, palette);
+  write_facades(page, model, *data.state);
+  write_pictures(page, *data.state);
   write_conflicts(page, model);
   write_problems(page, model);
   write_notes(page, model, palette);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ui/cli/media_making.h"
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/app/splitter.h"
 #include "ui/desktop/panels/canvas/canvas.h"
@@ -62,7 +63,19 @@ std::string Desktop::title() {
   return std::string(editor_->document->is_unsaved() ? "* " : "") + editor_->document->name() + " - BehaviourLinks";
 }
 
+void Desktop::place_picture(const std::string& path) {
+  Editor& editor = *editor_;
+  cli::MediaOptions options;
+  options.scene = editor.document->path();
+  const auto made = cli::make_media(path, editor.scene(), options);
+  if (!made) return editor.tell(NoticeKind::error, path + ": " + made.error().message);
+  if (!editor.submit(made->command)) return;
+  editor.picks.only_node(made->id);
+  for (const std::string& note : made->notes) editor.tell(NoticeKind::told, note);
+}
+
 void Desktop::drop(const std::string& path) {
+  if (editor_->document && cli::is_picture_name(path)) return place_picture(path);
   if (!path.ends_with(".lua")) return dialogs_->guard([this, path] { editor_->open(path, true); });
   if (editor_->document) editor_->script_watch.add(*editor_, path);
   else editor_->tell(NoticeKind::warning, "A link script belongs to a scene: open the scene first, then drop the script again.");

@@ -24,6 +24,8 @@ class Desktop {
   std::string title();
   /// A file that was dropped onto the window: a scene is opened, a link script (.lua) is taken into the open scene.
   void drop(const std::string& path);
+  /// A picture becomes a node of the open scene.
+  void place_picture(const std::string& path);
   /// The person wants to close the window; asks first where something would be lost.
   void ask_to_quit();
   /// Once, at the start: what windows that did not end well have left.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
@@ -37,6 +38,7 @@ void SceneView::draw(ImVec2 size) {
     for (const auto& [id, start] : move_->starts)
       if (const std::uint32_t node = seen_index(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
   colouring_ = colour_volumes(*facts_, colour_choice(), editor_->theme);
+  choices_.folder = std::filesystem::path(editor_->document->path()).parent_path().string();
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
   const bool has_same_cells = std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
                                          [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
@@ -59,6 +61,7 @@ void SceneView::draw_overlay() {
   ImGui::GetWindowDrawList()->PushClipRect(at_, {at_.x + size_.x, at_.y + size_.y}, true);
   draw_marks();
   draw_labels();
+  draw_media_notes();
   draw_gizmo();
   draw_scale_and_north();
   draw_legends(editor_->is_beamer);

@@ -109,6 +109,7 @@ class SceneView {
   // scene_view_overlay.cpp
   void draw_marks();
   void draw_labels();
+  void draw_media_notes();
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   std::string street_under(const ImVec2& mouse) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ui/desktop/view/shaders_picture.h"
 #include "ui/desktop/view/shaders_scene.h"
 #include "ui/desktop/view/shaders_volume.h"
 
@@ -66,10 +67,10 @@ bool GlRenderer::build(std::string& failure) {
     std::vector<const char*> captured;
   };
   const std::string nothing = version + "void main() {}\n";
-  const Recipe recipes[] = {{&p.volumes, divide + shaders::kVolumeVertex, version + light + shaders::kVolumeFragment, {}},
+  const Recipe recipes[] = {{&p.volumes, divide + shaders::kVolumeVertex, version + light + shaders::kFacade + shaders::kVolumeFragment, {}},
                             {&p.cut_volumes,
                              divide + shaders::kVolumeVertex,
-                             version + "#define WITH_SECTION\n" + light + shaders::kVolumeFragment,
+                             version + "#define WITH_SECTION\n" + light + shaders::kFacade + shaders::kVolumeFragment,
                              {}},
                             {&p.shadow, divide + shaders::kShadowVertex, version + shaders::kShadowFragment, {}},
                             {&p.heights, divide + shaders::kShadowVertex, version + shaders::kHeightFragment, {}},
@@ -77,6 +78,7 @@ bool GlRenderer::build(std::string& failure) {
                             {&p.ground, version + shaders::kGroundVertex, version + light + shaders::kGroundFragment, {}},
                             {&p.surfaces, version + shaders::kSurfaceVertex, version + shaders::kSurfaceFragment, {}},
                             {&p.lines, version + shaders::kLineVertex, version + shaders::kLineFragment, {}},
+                            {&p.pictures, version + shaders::kPictureVertex, version + shaders::kPictureFragment, {}},
                             {&p.blur, version + shaders::kWholeVertex, version + shaders::kBlurFragment, {}},
                             {&p.finish, version + shaders::kWholeVertex, version + shaders::kFinishFragment, {}}};
   for (const Recipe& recipe : recipes)
@@ -118,7 +120,8 @@ std::uintptr_t GlRenderer::draw(const ViewScene& scene, int width, int height) {
   int factor = oversampling_;
   while (factor > 1 && std::max(width, height) * factor > kLargestPicture) --factor;
   const int w = std::min(width * factor, kLargestPicture), h = std::min(height * factor, kLargestPicture);
-  if (has_last_ && w == final_.width() && h == final_.height() && scene == last_) return final_.plane(0);
+  const bool has_news = pictures_.has_news();
+  if (!has_news && has_last_ && w == final_.width() && h == final_.height() && scene == last_) return final_.plane(0);
   if (!picture_.resize(w, h) || !final_.resize(w, h)) return 0;
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
@@ -147,6 +150,7 @@ std::uintptr_t GlRenderer::draw(const ViewScene& scene, int width, int height) {
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_pictures(scene);
   draw_surfaces(scene);
   draw_lines(scene);
   glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -248,6 +252,17 @@ void GlRenderer::draw_volumes(const ViewScene& scene) {
   program.set("with_edges", scene.layers.edges ? 1.0f : 0.0f);
   program.set("with_storeys", scene.layers.storeys ? 1.0f : 0.0f);
   volumes_.draw(program, depth_);
+}
+
+void GlRenderer::draw_pictures(const ViewScene& scene) {
+  if (scene.pictures.empty()) return;
+  const GlProgram& program = programs_->pictures;
+  program.use();
+  program.set_matrix("matrix", matrix_.data());
+  program.set("section", section_of(scene));
+  program.set_colour("frame_colour", scene.colours.edge);
+  program.set_colour("ground_colour", scene.colours.ground);
+  pictures_.draw(scene, program, empty_, traffic_);
 }
 
 void GlRenderer::draw_ground(const ViewScene& scene) {

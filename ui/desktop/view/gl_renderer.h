@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/desktop/view/gl_pictures.h"
 #include "ui/desktop/view/gl_volumes.h"
 #include "ui/desktop/view/renderer.h"
 
@@ -21,6 +22,7 @@ class GlRenderer final : public Renderer {
   std::uint64_t take_bytes_sent() override;
   std::uint64_t take_bytes_spared() override;
   std::string description() const override { return description_; }
+  std::string why_missing(const std::string& path) override { return pictures_.why_missing(path); }
 
   /// The corners of all triangles as the shaders make them, relative to the balls' centres: three floats each. For tests.
   std::vector<float> divided(const ViewScene& scene, int depth);
@@ -28,6 +30,8 @@ class GlRenderer final : public Renderer {
   std::vector<std::uint8_t> pixels() const;
   int width() const { return final_.width(); }
   int height() const { return final_.height(); }
+  /// Until all files of pictures have come in that the last draw asked for. For tests and stills.
+  void wait_for_pictures() { pictures_.wait(); }
   /// Splits of each triangle in the last picture.
   int depth() const { return depth_; }
 
@@ -40,6 +44,7 @@ class GlRenderer final : public Renderer {
   void draw_ground(const ViewScene& scene);
   void draw_surfaces(const ViewScene& scene);
   void draw_lines(const ViewScene& scene);
+  void draw_pictures(const ViewScene& scene);
   void send_surfaces(const ViewScene& scene);
   void send_lines(const ViewScene& scene);
   void finish(const ViewScene& scene);
@@ -48,7 +53,7 @@ class GlRenderer final : public Renderer {
   bool has_new_shapes(const ViewScene& scene) const;
 
   struct Programs {
-    GlProgram volumes, cut_volumes, shadow, heights, capture, ground, surfaces, lines, blur, finish;
+    GlProgram volumes, cut_volumes, shadow, heights, capture, ground, surfaces, lines, pictures, blur, finish;
   };
   std::unique_ptr<Programs> programs_;
   std::string description_;
@@ -57,6 +62,7 @@ class GlRenderer final : public Renderer {
   float pixel_ = 1;
   Traffic traffic_;
   GlVolumes volumes_;
+  GlPictures pictures_;
   GlTarget picture_, final_, shadow_, heights_, blurred_;
   GLuint empty_ = 0, surface_array_ = 0, line_array_ = 0;
   GlBuffer surface_buffer_, line_buffer_;

@@ -2,6 +2,8 @@
 #include "ui/desktop/view/gl_volumes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace bl::desktop {
 
@@ -13,7 +15,7 @@ struct Instance {
 };
 static_assert(sizeof(Instance) == 8);
 
-constexpr std::size_t kCornerBytes = 16, kRecordBytes = 48;
+constexpr std::size_t kCornerBytes = 16, kRecordBytes = 48, kFacadeBytes = 144;
 constexpr std::uint32_t kStep = 8;
 
 std::uint32_t centres_of(const MeshWrap& wrap) {
@@ -138,6 +140,7 @@ void GlVolumes::lay_out(std::span<const ViewVolume> volumes) {
   }
   corners_.reserve(corner_room_ * kCornerBytes);
   records_.reserve(volumes.size() * kRecordBytes);
+  facades_.reserve(volumes.size() * kFacadeBytes);
   if (instances_.reserve(triangle_room_ * sizeof(Instance))) {
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, instances_.id());
@@ -187,6 +190,21 @@ void GlVolumes::send_record(std::size_t k, const ViewVolume& volume, const Point
   slot.has_record = true;
 }
 
+void GlVolumes::send_facade(std::size_t k, const ViewFacade& facade, Traffic& traffic) {
+  Slot& slot = slots_[k];
+  const float turn = facade.north * std::numbers::pi_v<float> / 180;
+  std::array<float, 36> texels{std::cos(turn), std::sin(turn), 0, 0};
+  for (std::size_t s = 0; s < facade.sides.size(); ++s) {
+    const ViewFacade::Side& side = facade.sides[s];
+    const std::array<float, 4> row{side.width, side.module, side.sill, side.head};
+    std::copy(row.begin(), row.end(), texels.begin() + static_cast<std::ptrdiff_t>(4 + 4 * s));
+  }
+  if (slot.has_facade && texels == slot.facade) return;
+  facades_.write(k * kFacadeBytes, texels.data(), kFacadeBytes, traffic);
+  slot.facade = texels;
+  slot.has_facade = true;
+}
+
 void GlVolumes::update(const ViewScene& scene, int depth, Traffic& traffic) {
   // More than the numbers of the instances reach would need another layout; no scene of volumes comes near it.
   const std::size_t count = std::min<std::size_t>(scene.volumes.size(), 0xffff);
@@ -199,6 +217,7 @@ void GlVolumes::update(const ViewScene& scene, int depth, Traffic& traffic) {
   for (std::size_t k = 0; k < volumes.size(); ++k) {
     send_cell(k, volumes[k], is_laid_out, depth, traffic);
     send_record(k, volumes[k], scene.origin, traffic);
+    if ((volumes[k].flags & ViewVolume::dressed) != 0) send_facade(k, volumes[k].facade, traffic);
   }
 }
 
@@ -206,6 +225,8 @@ void GlVolumes::draw(const GlProgram& program, int depth) const {
   if (triangle_room_ == 0) return;
   corners_.bind(0);
   records_.bind(1);
+  facades_.bind(4);
+  program.set("facades", 4);
   program.set("corners", 0);
   program.set("records", 1);
   const Grid& grid = grids_[static_cast<std::size_t>(std::clamp(depth, 0, kDeepest))];

@@ -30,7 +30,8 @@ class GlVolumes {
     MeshPointer cell;
     std::uint32_t first_corner = 0, corner_room = 0, first_triangle = 0, triangle_room = 0;
     std::array<float, 12> record{};
-    bool has_record = false;
+    std::array<float, 36> facade{};
+    bool has_record = false, has_facade = false;
   };
   struct Grid {
     GLsizei indices = 0;
@@ -40,11 +41,12 @@ class GlVolumes {
   void make_grids();
   void lay_out(std::span<const ViewVolume> volumes);
   void send_cell(std::size_t k, const ViewVolume& volume, bool is_laid_out, int depth, Traffic& traffic);
+  void send_facade(std::size_t k, const ViewFacade& facade, Traffic& traffic);
   void send_record(std::size_t k, const ViewVolume& volume, const Point3& origin, Traffic& traffic);
 
   std::vector<Slot> slots_;
   std::size_t corner_room_ = 0, triangle_room_ = 0;
-  GlTexels corners_{GL_RGBA32F}, records_{GL_RGBA32F};
+  GlTexels corners_{GL_RGBA32F}, records_{GL_RGBA32F}, facades_{GL_RGBA32F};
   GlBuffer instances_;
   GLuint array_ = 0, grid_vertices_ = 0, grid_indices_ = 0;
   std::array<Grid, kDeepest + 1> grids_;

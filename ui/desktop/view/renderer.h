@@ -17,6 +17,11 @@ class Renderer {
   virtual std::uint64_t take_bytes_sent() = 0;
   /// Bytes that the meshes of the same volumes would have taken, had they been divided and wrapped before; since the last call.
   virtual std::uint64_t take_bytes_spared() { return 0; }
+  /// Why the picture of a file cannot be shown, a sentence; empty while it is waited for and where all is well.
+  virtual std::string why_missing(const std::string& path) {
+    (void)path;
+    return "";
+  }
   /// Name of the driver, for the statistics.
   virtual std::string description() const = 0;
 };

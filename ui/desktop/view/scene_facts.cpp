@@ -8,6 +8,7 @@
 
 #include "ui/cli/report/mesh_lines.h"
 #include "ui/cli/report/report_model.h"
+#include "ui/desktop/view/media_place.h"
 
 namespace bl::desktop {
 
@@ -18,6 +19,18 @@ constexpr const char* kVolume = "smart_volume";
 constexpr std::size_t kMostPairs = 80;
 // Faces that meet at a smaller angle than this look like one (cosine).
 constexpr double kSharp = 0.97;
+
+// What its style makes of the façade, where one dresses it.
+void read_facade(const State& state, std::uint32_t node, VolumeFacts& facts) {
+  const Table* table = report::table_at(state, node, "facade", "by_orientation");
+  if (table == nullptr || table->rows.size() != facts.facade.sides.size()) return;
+  facts.is_dressed = true;
+  facts.facade.north = static_cast<float>(report::number_at(state, node, "facade", "true_north"));
+  for (std::size_t k = 0; k < facts.facade.sides.size(); ++k) {
+    const auto number = [&](const char* column) { return static_cast<float>(table->number(k, column)); };
+    facts.facade.sides[k] = {number("width"), number("module"), number("sill"), number("head")};
+  }
+}
 
 VolumeFacts read_volume(const State& state, std::uint32_t node) {
   const auto number = [&](const char* port) { return report::number_at(state, node, kVolume, port); };
@@ -37,6 +50,7 @@ VolumeFacts read_volume(const State& state, std::uint32_t node) {
   facts.storey = number("storey_height");
   facts.bottom = number("bottom");
   facts.height = number("height");
+  read_facade(state, node, facts);
   if (const auto ref = state.plan->find(node, PortPath{"node", "position", ""}))
     facts.tension = state.nodes[node].types[ref->type].tension[ref->port];
   if (const MeshPointer mesh = report::mesh_at(state, node, kVolume, "mesh")) facts.cell = mesh->coarse;
@@ -133,6 +147,24 @@ void read_boundary(const State& state, std::uint32_t node, const SceneFacts* las
   facts.boundaries.push_back(std::move(boundary));
 }
 
+void read_media(const State& state, std::uint32_t node, SceneFacts& facts) {
+  const auto number = [&](const char* port) { return report::number_at(state, node, "media", port); };
+  const auto text = [&](const char* port) { return report::text_at(state, node, "media", port); };
+  MediaFacts media{node, state.plan->nodes[node].id, report::name_at(state, node), text("message"), text("file"), {}};
+  if (media.file.empty()) return;
+  if (text("kind") == "sequence")
+    media.file = frame_file(media.file, state.tick, number("rate"), static_cast<std::int64_t>(number("frames")));
+  const MediaPlace place = place_of({text("placement"), report::point_at(state, node, "node", "position"), number("azimuth"),
+                                     number("tilt"), number("width"), number("height"), number("distance")});
+  media.picture.corner = place.corner;
+  media.picture.across = place.across;
+  media.picture.up = place.up;
+  media.picture.opacity = static_cast<float>(number("opacity"));
+  media.picture.orientation = static_cast<int>(number("orientation"));
+  media.picture.is_veiled = !(number("is_free") > 0);
+  facts.media.push_back(std::move(media));
+}
+
 // The ball around boundaries, or volumes where there are none; it stays as it was while it still fits.
 void read_extent(const SceneFacts* last, SceneFacts& facts) {
   Vector3 low{1e300, 1e300, 1e300}, high = -low;
@@ -174,6 +206,7 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
     facts->places.push_back(report::point_at(state, n, "node", "position"));
     if (report::has_type(state, n, "boundary")) read_boundary(state, n, last, *facts);
+    if (report::has_type(state, n, "media")) read_media(state, n, *facts);
     if (report::has_type(state, n, kVolume)) {
       VolumeFacts volume = read_volume(state, n);
       // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
@@ -204,6 +237,7 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   std::erase_if(rest->volumes, is_gone);
   std::erase_if(rest->marks, is_gone);
   std::erase_if(rest->boundaries, is_gone);
+  std::erase_if(rest->media, is_gone);
   std::erase_if(rest->pulls, is_gone);
   std::erase_if(rest->urban.streets, is_gone);
   std::erase_if(rest->urban.bodies, is_gone);

@@ -23,6 +23,8 @@ struct VolumeFacts {
   double tension = 0;                                                                             ///< of its place [m]
   MeshPointer cell;      ///< coarse, with its wrap; a ball where the solver gives a volume but no shape; none without a volume
   bool is_ball = false;  ///< the shape is not known, only its radius
+  bool is_dressed = false;
+  ViewFacade facade;  ///< where it is dressed
 
   double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
 };
@@ -39,6 +41,14 @@ struct BoundaryFacts {
   std::string id;
   MeshPointer shape;
   std::vector<std::pair<Point3, Point3>> edges;
+};
+
+/// A picture or a sequence in the scene.
+struct MediaFacts {
+  std::uint32_t node = 0;
+  std::string id, name, message;
+  std::string file;     ///< of the frame that this tick shows, as the scene names it
+  ViewPicture picture;  ///< without its path
 };
 
 /// One pair of nodes that a link joins.
@@ -60,6 +70,7 @@ struct SceneFacts {
   std::vector<VolumeFacts> volumes;  ///< ascending node
   std::vector<MarkFacts> marks;
   std::vector<BoundaryFacts> boundaries;
+  std::vector<MediaFacts> media;
   std::vector<LinkFacts> links;  ///< of sets that are not too large
   std::vector<PullFacts> pulls;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;  ///< nodes that share a face, the lower first

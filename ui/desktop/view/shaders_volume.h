@@ -152,6 +152,68 @@ vec3 lit(vec3 colour, vec3 place, vec3 normal) {
 }
 )";
 
+// Windows in modules between sill and head of each storey: glass with frames and reveals, and mullions between modules. A window
+// that is small in the picture fades into the mean of glass and wall. Texels of a façade: where north lies, then for each of the
+// eight orientations the window's width, the module, sill and head.
+inline constexpr const char* kFacade = R"(
+uniform samplerBuffer facades;
+
+float scatter(vec2 cell) {
+  uvec2 q = uvec2(ivec2(cell)) * uvec2(1597334673u, 3812015801u);
+  uint n = (q.x ^ q.y) * 1597334673u;
+  return float(n >> 8) * (1.0 / 16777216.0);
+}
+// How much of a pixel of that size around `at` lies in a strip, both as shares of its period.
+float covered(float at, float half_width, float size) {
+  return clamp((half_width - abs(at)) / max(size, 1e-6) + 0.5, 0.0, 1.0);
+}
+
+vec3 facade_colour(vec3 wall, int number, vec3 place, vec3 ball, bool is_round, float radius, vec3 normal, vec2 storey) {
+  vec2 outward = normal.xy / max(length(normal.xy), 1e-4);
+  vec4 north = texelFetch(facades, 9 * number);
+  vec2 turned = vec2(outward.x * north.x - outward.y * north.y, outward.y * north.x + outward.x * north.y);
+  float bearing = atan(turned.x, turned.y);
+  int sector = int(floor(bearing / 0.785398163 + 0.5 + 1e-4) + 8.0) & 7;
+  vec4 side = texelFetch(facades, 9 * number + 1 + sector);
+  // Along the façade: straight on a flat face, around the axis of the ball on a round one.
+  float around = is_round ? atan(outward.y, outward.x) * radius : dot(place.xy - ball.xy, vec2(-outward.y, outward.x));
+  // The ball's own height, not that of the triangles that stand for it: windows stay level.
+  float height = (is_round ? ball.z + normal.z * radius : place.z) - storey.x;
+  float modules = max(side.y, 0.05);
+  if (is_round) modules = 6.28318531 * radius / max(1.0, floor(6.28318531 * radius / modules + 0.5));
+  vec2 at = vec2(around / modules + 0.5, height / storey.y);
+  // Derivatives without the seam of the angle.
+  vec2 size = max(fwidth(at), vec2(1e-6));
+  size.x = min(size.x, fwidth(fract(at.x + 0.5)));
+  vec2 cell = floor(at), in_cell = fract(at);
+  vec2 middle = vec2(0.5, 0.5 * (side.z + side.w) / storey.y);
+  vec2 half_size = vec2(0.5 * side.x, max(0.0, 0.5 * (side.w - side.z) / storey.y));
+  if (half_size.x <= 0.0 || half_size.y <= 0.0 || height < 0.0) return wall;
+  vec2 off = in_cell - middle;
+  float glass = covered(off.x, half_size.x, size.x) * covered(off.y, half_size.y, size.y);
+  vec2 frame = vec2(0.09 / modules, 0.09 / storey.y);
+  vec2 pane = max(half_size - frame, vec2(0.0));
+  float clear = covered(off.x, pane.x, size.x) * covered(off.y, pane.y, size.y);
+  // What is too small to be told apart is the mean of itself.
+  float room = smoothstep(0.75, 0.3, max(size.x, 1.4 * size.y)), mean = 4.0 * half_size.x * half_size.y;
+  float chance = scatter(cell + 4096.0);
+  vec3 sky = mix(vec3(0.20, 0.27, 0.34), vec3(0.52, 0.63, 0.72), smoothstep(-0.9, 0.9, off.y / half_size.y) * 0.55 + 0.45 * chance * chance);
+  vec3 dark = vec3(0.10, 0.13, 0.17);
+  // The reveal's shade lies under the head, deeper where the sun stands high.
+  float reveal = smoothstep(0.10 / storey.y + size.y, 0.0, half_size.y - off.y - frame.y);
+  vec3 pane_colour = mix(mix(dark, sky, 0.72), dark * 0.6, 0.6 * reveal);
+  vec3 frame_colour = wall * 0.55;
+  vec3 sharp = mix(wall, mix(frame_colour, pane_colour, clear / max(glass, 1e-4)), glass);
+  // Joints between modules and a sill's edge give the wall its grain.
+  float joint = covered(abs(in_cell.x - 0.5) - 0.5, 0.02 / modules + 0.25 * size.x, size.x);
+  sharp = mix(sharp, sharp * 0.82, joint * (1.0 - glass));
+  float ledge = covered(off.y + half_size.y + 0.05 / storey.y, 0.05 / storey.y, size.y) * covered(off.x, half_size.x, size.x);
+  sharp = mix(sharp, min(vec3(1.0), wall * 1.18), 0.8 * ledge * (1.0 - glass));
+  vec3 blurred = mix(wall, mix(dark, vec3(0.40, 0.49, 0.57), 0.6), 0.85 * mean);
+  return mix(blurred, sharp, room);
+}
+)";
+
 inline constexpr const char* kVolumeFragment = R"(
 uniform samplerBuffer records;
 uniform vec4 edge_colour, chosen_colour, hovered_colour, cut_colour, section, ground_colour;
@@ -205,6 +267,12 @@ void main() {
   if ((flags & 2) != 0) own = mix(own, chosen_colour.rgb, 0.22);
   if ((flags & 1) != 0) own = mix(own, vec3(1.0), 0.14);
   own = mix(own, ground_colour.rgb, 0.72 * faint);
+  // Derivatives want to be taken everywhere, also beside the façade.
+  bool is_dressed = (flags & 16) != 0 && storey.y > 0.0;
+  if (is_dressed) {
+    vec3 dressed = facade_colour(own, number, world, ball.xyz, is_round, ball.w, normal, storey.xy);
+    if (abs(normal.z) <= 0.7072) own = mix(own, dressed, 1.0 - 0.7 * faint);
+  }
   vec3 shown = to_screen(lit(to_linear(own), world, normal));
   if (with_storeys > 0.5 && storey.y > 0.0 && abs(normal.z) < 0.93) {
     // On the ball itself, not on the triangles that stand for it: lines stay level however coarse these are.
@@ -220,7 +288,7 @@ void main() {
     float stripe = abs(fract((world.x + world.y + world.z) / 2.4) - 0.5);
     shown = mix(shown, edge_colour.rgb, 0.22 * smoothstep(0.30, 0.36, stripe));
   }
-  if (with_edges > 0.5 && (flags & 16) == 0) {
+  if (with_edges > 0.5 && (flags & 64) == 0) {
     float rim = centre_weight / max(fwidth(centre_weight), 1e-6);
     float crease = abs(reach - ball.w) / max(fwidth(reach), 1e-6);
     float edge = is_round ? 0.0 : line(rim, 0.55 * pixel);

@@ -14,8 +14,10 @@ namespace {
 
 constexpr std::array<Layer, kLayerCount> kLayers = {{{"boundary", "Boundary", true},
                                                      {"storeys", "Storey lines", true},
+                                                     {"facades", "Façades", true},
                                                      {"edges", "Edges", true},
                                                      {"shadows", "Shadows", true},
+                                                     {"media", "Pictures", true},
                                                      {"grid", "Ground and grid", true},
                                                      {"labels", "Labels", true},
                                                      {"marks", "Nodes without a volume", true},
@@ -60,6 +62,7 @@ struct Builder {
   void add_frame();
   void add_volumes();
   void add_boundary();
+  void add_media();
   void add_links();
   void add_weights();
   void add_neighbours();
@@ -111,6 +114,9 @@ void Builder::add_volumes() {
     if (is_hovered) shown.flags |= ViewVolume::hovered;
     if (picks.nodes.contains(volume.id)) shown.flags |= ViewVolume::chosen;
     if (volume.is_ball) shown.flags |= ViewVolume::dimmed;
+    if (!volume.is_dressed || volume.is_ball || !shows("facades")) continue;
+    shown.flags |= ViewVolume::dressed;
+    shown.facade = volume.facade;
   }
 }
 
@@ -123,6 +129,20 @@ void Builder::add_boundary() {
     scene.surfaces.push_back({boundary.shape, faded(ink, is_chosen || is_hovered ? 0.05f : theme.is_dark() ? 0.018f : 0.028f)});
     for (const auto& [a, b] : boundary.edges)
       line(a, b, faded(ink, is_chosen ? 0.95f : 0.5f), is_chosen || is_hovered ? 2.0f : 1.1f, 0.22f);
+  }
+}
+
+void Builder::add_media() {
+  if (!shows("media")) return;
+  for (const MediaFacts& media : facts.media) {
+    ViewPicture& picture = scene.pictures.emplace_back(media.picture);
+    const bool is_whole = media.file.front() == '/' || choices.folder.empty();
+    picture.path = is_whole ? media.file : choices.folder + "/" + media.file;
+    const bool is_picked = picks.nodes.contains(media.id) || picks.hovered_node == media.id;
+    if (!is_picked) continue;
+    const Point3 a = picture.corner, b = a + picture.across, c = b + picture.up, d = a + picture.up;
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, d}, std::pair{d, a}})
+      line(from, to, theme.colours().accent, 2.0f, 0.4f);
   }
 }
 
@@ -225,6 +245,7 @@ ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const 
   builder.add_frame();
   builder.add_volumes();
   builder.add_boundary();
+  builder.add_media();
   builder.add_links();
   builder.add_weights();
   builder.add_neighbours();

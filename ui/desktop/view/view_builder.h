@@ -18,7 +18,7 @@ struct Layer {
   const char *id, *label;
   bool is_on_at_first;
 };
-inline constexpr std::size_t kLayerCount = 20;
+inline constexpr std::size_t kLayerCount = 22;
 std::span<const Layer> layers();
 /// As the person has it, or as it is at first.
 bool is_on(const PersonSettings& person, const std::string& layer);
@@ -28,6 +28,7 @@ void set_layer(PersonSettings& person, const std::string& layer, bool is_on);
 struct ViewChoices {
   Camera camera;
   ViewSection section;
+  std::string folder = {};               ///< of the scene's file, which pictures are named from; empty: the current one
   std::map<std::uint32_t, Point3> held;  ///< nodes in somebody's hand: where the hand has them
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/base/mesh.h"
@@ -13,15 +14,28 @@ namespace bl::desktop {
 /// Packed as ImGui packs them: red in the lowest byte, alpha in the highest.
 using Colour = std::uint32_t;
 
+/// The windows of a façade, for each of the eight orientations clockwise from north.
+struct ViewFacade {
+  struct Side {
+    float width = 0, module = 1;  ///< of a window as a share of its module; of the module [m]
+    float sill = 0, head = 0;     ///< above each floor [m]
+    bool operator==(const Side&) const = default;
+  };
+  std::array<Side, 8> sides;
+  float north = 0;  ///< clockwise from the y axis [degree]
+  bool operator==(const ViewFacade&) const = default;
+};
+
 /// A volume: its coarse cell, which the renderer divides and wraps onto the ball that the cell's wrap names.
 struct ViewVolume {
   /// plain: no edges and storeys of its own; hatched: its height is assumed.
-  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, plain = 16, hatched = 32 };
+  enum Flag : std::uint32_t { hovered = 1, chosen = 2, dimmed = 4, dressed = 16, hatched = 32, plain = 64 };
   std::uint32_t node = 0;  ///< index in the state, for picking
   MeshPointer cell;        ///< never empty, always with a wrap
   Colour colour = 0;
   float bottom = 0, storey = 0;  ///< [m], of the storey lines; 0: none
   std::uint32_t flags = 0;
+  ViewFacade facade = {};  ///< where the flag `dressed` is set
   bool operator==(const ViewVolume&) const = default;
 };
 
@@ -41,6 +55,18 @@ struct ViewSurface {
   bool operator==(const ViewSurface&) const = default;
 };
 
+/// A picture of a file on a plane.
+struct ViewPicture {
+  std::string path;
+  Point3 corner;       ///< lower left, as people see it [m]
+  Vector3 across, up;  ///< along its lower and its left side [m]
+  float opacity = 1;
+  int orientation = 1;     ///< of EXIF, 1 to 8
+  bool is_veiled = false;  ///< it may not be shown
+  bool operator==(const ViewPicture&) const = default;
+  Point3 middle() const { return corner + 0.5 * (across + up); }
+};
+
 /// The half-space that is shown: normal · x <= offset.
 struct ViewSection {
   bool is_on = false;
@@ -57,7 +83,7 @@ struct ViewColours {
 
 /// Parts of the picture that can be left out.
 struct ViewLayers {
-  bool shadows = true, edges = true, storeys = true, ground = true;
+  bool shadows = true, edges = true, storeys = true, ground = true;  // façades: the flag of each volume
   bool operator==(const ViewLayers&) const = default;
 };
 
@@ -78,6 +104,7 @@ struct ViewScene {
   std::vector<ViewVolume> volumes;  ///< ascending node
   std::vector<ViewSurface> surfaces;
   std::vector<ViewLine> lines;
+  std::vector<ViewPicture> pictures;
   bool operator==(const ViewScene&) const = default;
 
   double near_plane() const;  ///< [m] from the eye

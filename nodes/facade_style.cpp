@@ -1,0 +1,180 @@
+// A façade style: glazing, modules, bands and prices by use and orientation, and the dressing of the volumes that it is given.
+#include <map>
+#include <optional>
+
+#include "core/define/registry.h"
+#include "core/define/typification_builder.h"
+#include "core/facade/dressing_table.h"
+#include "core/facade/style_claims.h"
+#include "core/facade/style_rows.h"
+#include "core/facade/survey_cache.h"
+
+namespace bl {
+namespace {
+
+struct FacadeStyle {
+  struct In {
+    std::string name = "standard";
+    Table rows;
+    double true_north = 0;
+    Selection volumes{{}, "facade", {}}, styles{{}, "facade_style", {}}, surroundings{{}, "smart_volume", {}};
+  };
+  struct Member {
+    std::string id, use;
+    std::vector<std::string> style;
+    double glazing = 1, ground = 0, storey_height = 0, bottom = 0, spherical_area = 0;
+    MeshPointer mesh;
+    Shared<Table> neighbours;
+  };
+  struct Named {
+    std::string name;
+    MeshPointer mesh;  // of surroundings only
+  };
+  struct Sets {
+    std::vector<Member> members;
+    std::vector<Named> styles, surroundings;
+  };
+  struct Reply {
+    std::optional<std::string> style_in_force, message;
+    std::optional<double> facade_area, glazed_area, opaque_area, roof_area, shared_area, glazing_ratio, cost, panels, true_north;
+    std::optional<Table> by_orientation, by_storey;
+  };
+  struct Out {
+    std::int64_t count = 0;
+    double facade_area = 0, glazed_area = 0, cost = 0;
+    std::vector<Reply> replies;
+  };
+
+  static void declare(TypificationBuilder<FacadeStyle>& t) {
+    t.id("facade_style").label("Façade style");
+    t.doc(
+        "A set of rules by which façades are dressed: how much glass, how wide the modules, how high sills and bands, at what "
+        "price. It dresses the façades that name it, and adds up their areas.");
+    t.in(&In::name, "name").doc("What façades call the style; each style of a scene needs a name of its own.");
+    declare_rows(t);
+    t.in(&In::true_north, "true_north")
+        .unit(Unit::degree)
+        .range(-360, 360)
+        .soft(-180, 180)
+        .doc("Where true north lies in the scene: clockwise from its y axis. Orientations are told against it.");
+    t.in(&In::volumes, "volumes").doc("The façades that the style may dress; it dresses those among them that name it.");
+    t.in(&In::styles, "styles").doc("All styles of the scene, by which a façade is known that names none of them.");
+    t.in(&In::surroundings, "surroundings").doc("The volumes that may cover façades.");
+    t.out(&Out::count, "count").unit(Unit::count).doc("Number of façades that the style dresses.");
+    t.out(&Out::facade_area, "facade_area").unit(Unit::square_metre).doc("Their area.");
+    t.out(&Out::glazed_area, "glazed_area").unit(Unit::square_metre).doc("Their area of glass.");
+    t.out(&Out::cost, "cost").unit(Unit::euro).doc("Their cost.");
+    declare_sets(t);
+  }
+
+  static void declare_rows(TypificationBuilder<FacadeStyle>& t) {
+    const auto number = [](const char* id, Unit unit, double by_default, double most, const char* doc) {
+      return ColumnDefinition{.id = id, .unit = unit, .default_value = by_default, .minimum = 0, .maximum = most, .doc = doc};
+    };
+    const FacadeRule rule;
+    ColumnDefinition module = number("module", Unit::metre, rule.module, 100, "Width of one window with its pier.");
+    module.minimum = 0.1;
+    t.in(&In::rows, "rows")
+        .column({.id = "use", .is_text = true, .default_value = std::string(), .doc = "Use that the row is for; empty: any."})
+        .column({.id = "orientation",
+                 .is_text = true,
+                 .default_value = std::string(),
+                 .doc = "Orientation that the row is for, such as `south_west`; empty: any."})
+        .column(number("glazing", Unit::ratio, rule.glazing, 1, "Glazed share of each storey."))
+        .column(module)
+        .column(number("sill", Unit::metre, rule.sill, 50, "Closed parapet above each floor."))
+        .column(number("band", Unit::metre, rule.band, 50, "Closed band under the next floor."))
+        .column(number("cost_glazed", Unit::none, rule.cost_glazed, 1e6, "Price of glass in euro for a square metre."))
+        .column(number("cost_opaque", Unit::none, rule.cost_opaque, 1e6, "Price of wall in euro for a square metre."))
+        .doc("The rules; the first row that fits a use and an orientation holds. Without rows all façades are alike.");
+  }
+
+  static void declare_sets(TypificationBuilder<FacadeStyle>& t) {
+    t.set("styles", &Sets::styles).reads(&Named::name, "facade_style.name");
+    t.set("surroundings", &Sets::surroundings).reads(&Named::name, "node.id").reads(&Named::mesh, "smart_volume.mesh");
+    auto set = t.set("volumes", &Sets::members, &Out::replies);
+    set.reads(&Member::id, "node.id").reads(&Member::use, "smart_volume.use").reads(&Member::style, "facade.style");
+    set.reads(&Member::glazing, "facade.glazing").reads(&Member::ground, "facade.ground");
+    set.reads(&Member::storey_height, "smart_volume.storey_height").reads(&Member::bottom, "smart_volume.bottom");
+    set.reads(&Member::spherical_area, "smart_volume.spherical_area");
+    set.reads(&Member::mesh, "smart_volume.mesh").reads(&Member::neighbours, "smart_volume.neighbours");
+    set.writes(&Reply::style_in_force, "facade.style_in_force").writes(&Reply::message, "facade.message");
+    set.writes(&Reply::facade_area, "facade.facade_area").writes(&Reply::glazed_area, "facade.glazed_area");
+    set.writes(&Reply::opaque_area, "facade.opaque_area").writes(&Reply::roof_area, "facade.roof_area");
+    set.writes(&Reply::shared_area, "facade.shared_area").writes(&Reply::glazing_ratio, "facade.glazing_ratio");
+    set.writes(&Reply::cost, "facade.cost").writes(&Reply::panels, "facade.panels").writes(&Reply::true_north, "facade.true_north");
+    set.writes(&Reply::by_orientation, "facade.by_orientation").writes(&Reply::by_storey, "facade.by_storey");
+  }
+
+  static Reply bare(std::string message) {
+    return {"", std::move(message), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, Table{}, Table{}};
+  }
+
+  static Reply reply_of(const In& in, const Member& member, const FacadeSurvey& survey, const FacadeRules& rules,
+                        std::string message) {
+    const Dressing dressing = dress(survey, rules, member.glazing, member.storey_height);
+    const DressedArea& all = dressing.all;
+    add_missing_text(dressing, message);
+    const double share = all.area() > 0 ? all.glazed / all.area() : 0;
+    Reply reply{in.name, std::move(message), all.area(), all.glazed, all.opaque, survey.roof, survey.shared, share, all.cost,
+                all.panels, in.true_north, Table{}, Table{}};
+    write_sides(dressing, rules, member.glazing, member.storey_height, *reply.by_orientation);
+    write_storeys(dressing, *reply.by_storey);
+    return reply;
+  }
+
+  static SurveyOptions options_of(const In& in, const Member& member, const FacadeRules& rules) {
+    return {member.bottom, member.storey_height, member.ground, in.true_north, member.spherical_area, bands_of(rules, member.storey_height)};
+  }
+
+  static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
+    if (in.name.empty()) return Error{ErrorCode::missing, "name", "the style needs a name, by which façades ask for it"};
+    if (auto sound = check_style_rows(in.rows); !sound) return sound.error();
+    std::map<std::string, MeshPointer> shapes;
+    for (const Named& volume : sets.surroundings) shapes[volume.name] = volume.mesh;
+    // Somebody has to clear the façades that no style dresses: the first style does.
+    std::vector<std::string> names;
+    for (const Named& style : sets.styles) names.push_back(style.name);
+    const bool is_first = !names.empty() && names.front() == in.name;
+    Out out;
+    out.replies.resize(sets.members.size());
+    std::vector<SurveyCase> cases;
+    std::vector<std::size_t> dressed;
+    std::vector<FacadeRules> rules(sets.members.size());
+    std::vector<std::string> messages(sets.members.size());
+    for (std::size_t m = 0; m < sets.members.size(); ++m) {
+      const Member& member = sets.members[m];
+      auto [dresser, message] = settle_claims(member.style, names);
+      messages[m] = std::move(message);
+      if (dresser.empty() && is_first) out.replies[m] = bare(messages[m]);
+      if (dresser != in.name) continue;
+      rules[m] = rules_of(in.rows, member.use, messages[m]);
+      if (!member.mesh) {
+        out.replies[m] = bare("it has no shape, so that there is no façade to measure");
+        continue;
+      }
+      SurveyCase& one = cases.emplace_back(SurveyCase{member.id, member.mesh, {}, options_of(in, member, rules[m])});
+      for (std::size_t row = 0; row < member.neighbours->rows.size(); ++row)
+        if (const auto other = shapes.find(member.neighbours->text(row, "node")); other != shapes.end() && other->second)
+          one.neighbours.push_back(other->second);
+      dressed.push_back(m);
+    }
+    SurveyCache own;
+    SurveyCache& cache = tick.memo != nullptr ? tick.memo->of<SurveyCache>() : own;
+    const std::vector<const FacadeSurvey*> surveys = cache.of(cases, tick.pool);
+    for (std::size_t k = 0; k < dressed.size(); ++k) {
+      const std::size_t m = dressed[k];
+      Reply& reply = out.replies[m] = reply_of(in, sets.members[m], *surveys[k], rules[m], std::move(messages[m]));
+      ++out.count;
+      out.facade_area += *reply.facade_area;
+      out.glazed_area += *reply.glazed_area;
+      out.cost += *reply.cost;
+    }
+    return out;
+  }
+};
+
+}  // namespace
+}  // namespace bl
+
+BL_TYPIFICATION(facade_style, FacadeStyle)
