@@ -34,9 +34,7 @@ using Plane2 = std::array<double, 2>;
 constexpr double kSteep = 0.70710678118654757;
 // Rows of small triangles in each coarse one, for what lies on the ball: its area comes out within some parts in a thousand
 // before scaling.
-constexpr int kMostParts = 14;
-// They are so many that none is seen under a larger angle from the ball's centre [rad].
-constexpr double kPieceAngle = 0.2;
+constexpr int kParts = 6;
 constexpr double kMostStoreys = 10000;
 
 template <class Corners>
@@ -194,23 +192,13 @@ struct RoundPiece {
   double area = 0;
 };
 
-int parts_of(const std::array<Point3, 3>& corners, const Point3& centre) {
-  double widest = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3 a = corners[i] - centre, b = corners[(i + 1) % 3] - centre;
-    widest = std::max(widest, std::atan2(norm(cross(a, b)), dot(a, b)));
-  }
-  return std::clamp(static_cast<int>(std::ceil(widest / kPieceAngle)), 1, kMostParts);
-}
-
 void add_pieces(const std::array<Point3, 3>& corners, const Projection& projection, std::vector<RoundPiece>& pieces) {
   if (std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return projection.beyond(p) < 0; })) return;
-  const int parts = parts_of(corners, projection.centre);
   const auto at = [&](int row, int i) {
-    const double a = static_cast<double>(row - i) / parts, b = static_cast<double>(i) / parts;
+    const double a = static_cast<double>(row - i) / kParts, b = static_cast<double>(i) / kParts;
     return corners[0] + a * (corners[1] - corners[0]) + b * (corners[2] - corners[0]);
   };
-  for (int row = 0; row < parts; ++row)
+  for (int row = 0; row < kParts; ++row)
     for (int i = 0; i < 2 * row + 1; ++i) {
       const int k = i / 2;
       const std::array<Point3, 3> small = i % 2 == 0
