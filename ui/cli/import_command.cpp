@@ -1,6 +1,8 @@
 // `import`: adds the surroundings of a site to a scene, and says what became of every element.
 #include <sys/stat.h>
 
+#include <algorithm>
+
 #include "core/file/file_io.h"
 #include "core/session/ledger.h"
 #include "ui/cli/commands.h"
@@ -34,9 +36,28 @@ bool is_there(const std::string& file) {
   return ::stat(file.c_str(), &status) == 0;
 }
 
+// Pictures alone: as `place` does it.
+int import_pictures(const ImportOptions& options) {
+  if (options.into.empty()) {
+    complain("pictures are put into a scene: name it by --into");
+    return kBadInput;
+  }
+  if (!options.is_forced && is_there(options.out) && options.out != options.into) {
+    print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
+    return kBadInput;
+  }
+  PlaceOptions place;
+  place.files = options.files;
+  place.into = options.into;
+  place.out = options.out;
+  place.media.licence = options.licence;
+  return place_command(place);
+}
+
 }  // namespace
 
 int import_command(const ImportOptions& options) {
+  if (std::all_of(options.files.begin(), options.files.end(), is_picture_name)) return import_pictures(options);
   const Registry& registry = full_registry();
   Scene scene;
   if (!options.into.empty()) {

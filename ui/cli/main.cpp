@@ -142,7 +142,7 @@ void declare_new(CLI::App& app, NewOptions& o) {
 
 void declare_import(CLI::App& app, ImportOptions& o) {
   CLI::App& c = *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
-  c.add_option("files", o.files, "OSM (.osm, .osm.gz, .pbf), CityJSON (.json, .jsonl), GeoJSON, ASCII grid (.asc), GeoTIFF, CSV with coordinates.")
+  c.add_option("files", o.files, "OSM (.osm, .osm.gz, .pbf), CityJSON (.json, .jsonl), GeoJSON, ASCII grid (.asc), GeoTIFF, CSV with coordinates; or pictures (JPEG, PNG).")
       ->type_name("FILE")
       ->required();
   c.add_option("--into", o.into, "The scene that is added to. Default: an empty one.")->type_name("SCENE");
