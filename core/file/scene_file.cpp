@@ -232,11 +232,12 @@ class Reader {
         fail({ErrorCode::wrong_kind, place, "expects the results of `node/typification`"});
         return false;
       }
-      if (!note(check_keys(json, {"as_of", "inputs", "begun", "due", "running", "error", "outputs"}, place))) return false;
+      if (!note(check_keys(json, {"as_of", "taken", "inputs", "begun", "due", "running", "error", "outputs"}, place)))
+        return false;
       SavedAnalysis& saved = state.analyses[{name.substr(0, slash), name.substr(slash + 1)}];
-      if (!read_tick(json, "as_of", place, saved.as_of) || !read_tick(json, "begun", place, saved.begun) ||
-          !read_tick(json, "due", place, saved.due) || !read_digest(json, "inputs", place, saved.inputs) ||
-          !read_digest(json, "running", place, saved.running_inputs))
+      if (!read_tick(json, "as_of", place, saved.as_of) || !read_tick(json, "taken", place, saved.taken) ||
+          !read_tick(json, "begun", place, saved.begun) || !read_tick(json, "due", place, saved.due) ||
+          !read_digest(json, "inputs", place, saved.inputs) || !read_digest(json, "running", place, saved.running_inputs))
         return false;
       if (const auto error = json.find("error"); error != json.end() && error->is_string())
         saved.result.error = Error{ErrorCode::internal, "", error->get<std::string>()};
@@ -328,6 +329,7 @@ Json state_to_json(const SavedState& state, const Registry& registry) {
   for (const auto& [name, saved] : state.analyses) {
     Json& analysis = json["analyses"][name.first + "/" + name.second] = Json::object();
     if (saved.as_of >= 0) analysis["as_of"] = saved.as_of;
+    if (saved.as_of >= 0) analysis["taken"] = saved.taken;
     if (saved.as_of >= 0) analysis["inputs"] = hex_digits(saved.inputs);
     if (saved.due < 0) continue;
     analysis["begun"] = saved.begun;

@@ -33,7 +33,5 @@ std::string place_of(const State& state, std::size_t n, std::size_t t);
 /// Takes over what an evaluation wrote, or keeps the last good values and the error.
 void accept_values(const TypificationDefinition& definition, TypeState& state, std::vector<Value>&& values, Result<void> done,
                    const std::string& place);
-/// By what share of itself a number has changed; 1 for a list of texts that changed, 0 for what is neither.
-double relative_change(const Value& before, const Value& after);
 
 }  // namespace bl

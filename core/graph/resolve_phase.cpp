@@ -120,6 +120,15 @@ struct Unrest {
   PortRef restless;
 };
 
+// By what share of itself a number has changed; 1 for a list of texts that changed, 0 for what is neither.
+double relative_change(const Value& before, const Value& after) {
+  if (before == after) return 0;
+  if (std::holds_alternative<Shared<std::vector<std::string>>>(after)) return 1;
+  if (!std::holds_alternative<double>(after)) return 0;
+  const double a = as_number(before), b = as_number(after);
+  return std::abs(b - a) / std::max(std::abs(a), std::abs(b));
+}
+
 void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<const Heard> heard, Unrest& unrest) {
   std::size_t at = 0;
   for (std::uint16_t t = 0; t < next.nodes[n].types.size(); ++t) {
@@ -153,14 +162,6 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<c
 }
 
 }  // namespace
-
-double relative_change(const Value& before, const Value& after) {
-  if (before == after) return 0;
-  if (std::holds_alternative<Shared<std::vector<std::string>>>(after)) return 1;
-  if (!std::holds_alternative<double>(after)) return 0;
-  const double a = as_number(before), b = as_number(after);
-  return std::abs(b - a) / std::max(std::abs(a), std::abs(b));
-}
 
 void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
   const std::vector<Heard> heard = gather(next);

@@ -90,11 +90,6 @@ void take_result(State& next, const SetCase& one, const AnalysisResult& result, 
                           "`" + output.path + "` of `" + output.node + "` came out as a number that is not finite"};
       continue;
     }
-    // A result that changes much makes the scene restless again: links have to answer it.
-    if (const double change = relative_change(next.value(*ref), output.value); change > next.largest_change) {
-      next.largest_change = change;
-      next.restless = *ref;
-    }
     replies.push_back({*ref, output.value, one.node(), one.type()});
   }
 }
@@ -117,7 +112,7 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, std::ve
   AnalysisState& analysis = next.analyses[one.analysis];
   if (analysis.running && next.tick >= analysis.due) {
     take_result(next, one, analysis.running->result(), replies);
-    analysis = {analysis.begun, analysis.running_inputs, -1, -1, 0, nullptr};
+    analysis = {analysis.begun, next.tick, analysis.running_inputs, -1, -1, 0, nullptr};
   }
   if (analysis.running) return;
   const std::int64_t latency = static_cast<std::int64_t>(as_number(one.values[next.plan->analyses[one.analysis].latency]));
@@ -136,7 +131,7 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, std::ve
     runner.begin(begun);
   } else {
     take_result(next, one, begun->result(), replies);
-    analysis = {next.tick, inputs, -1, -1, 0, nullptr};
+    analysis = {next.tick, next.tick, inputs, -1, -1, 0, nullptr};
   }
 }
 

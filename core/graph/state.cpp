@@ -32,7 +32,10 @@ bool has_failure(const State& state) {
 
 bool State::is_settled() const {
   if (calm < plan->settings.calm_ticks) return false;
-  return std::all_of(analyses.begin(), analyses.end(), [&](const AnalysisState& a) { return a.as_of > tick - calm; });
+  return std::all_of(analyses.begin(), analyses.end(), [&](const AnalysisState& a) {
+    // Links answer a result in the next tick, and nodes the links in the one after.
+    return a.as_of > tick - calm && tick >= a.taken + 2;
+  });
 }
 
 double largest_residual_of(const State& state) {
@@ -64,7 +67,8 @@ std::uint64_t hash_of(const State& state) {
         add_to(hash, voice.value);
       }
   for (const AnalysisState& analysis : state.analyses) {
-    for (const std::int64_t tick : {analysis.as_of, analysis.begun, analysis.due}) hash.add(static_cast<std::uint64_t>(tick));
+    for (const std::int64_t tick : {analysis.as_of, analysis.taken, analysis.begun, analysis.due})
+      hash.add(static_cast<std::uint64_t>(tick));
     hash.add(analysis.inputs);
     hash.add(analysis.running_inputs);
   }
@@ -92,8 +96,13 @@ SavedState save(const State& state) {
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const AnalysisState& now = state.analyses[a];
     if (now.as_of < 0 && now.due < 0) continue;
-    saved.analyses[analysis_name(*state.plan, a)] = {
-        now.as_of, now.begun, now.due, now.inputs, now.running_inputs, now.running ? now.running->result() : AnalysisResult{}};
+    saved.analyses[analysis_name(*state.plan, a)] = {now.as_of,
+                                                     now.taken,
+                                                     now.begun,
+                                                     now.due,
+                                                     now.inputs,
+                                                     now.running_inputs,
+                                                     now.running ? now.running->result() : AnalysisResult{}};
   }
   return saved;
 }
@@ -204,8 +213,13 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
     const auto kept = saved.analyses.find(analysis_name(*state.plan, a));
     if (kept == saved.analyses.end()) continue;
     const SavedAnalysis& now = kept->second;
-    state.analyses[a] = {now.as_of, now.inputs,         now.begun,
-                         now.due,   now.running_inputs, now.due < 0 ? nullptr : std::make_shared<Analysis>(now.result)};
+    state.analyses[a] = {now.as_of,
+                         now.taken,
+                         now.inputs,
+                         now.begun,
+                         now.due,
+                         now.running_inputs,
+                         now.due < 0 ? nullptr : std::make_shared<Analysis>(now.result)};
   }
   state.largest_residual = largest_residual_of(state);
   state.hash = hash_of(state);

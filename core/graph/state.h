@@ -40,6 +40,7 @@ struct LinkState {
 /// How far an analysis beside the loop has come.
 struct AnalysisState {
   std::int64_t as_of = -1;            ///< the last tick whose data the outputs fit; -1: no result yet
+  std::int64_t taken = -1;            ///< the tick in which the last result was taken in
   std::uint64_t inputs = 0;           ///< hash of the data that the outputs follow from
   std::int64_t begun = -1, due = -1;  ///< ticks of the one that is running
   std::uint64_t running_inputs = 0;
@@ -77,7 +78,7 @@ std::uint64_t hash_of(const State& state);
 /// Values of a running state as a scene file keeps them, by node and "typification.port"; meshes are not among them.
 /// An analysis as files keep it. One that was running is finished first: its result follows from what it was given.
 struct SavedAnalysis {
-  std::int64_t as_of = -1, begun = -1, due = -1;  ///< due is -1 where none was running
+  std::int64_t as_of = -1, taken = -1, begun = -1, due = -1;  ///< due is -1 where none was running
   std::uint64_t inputs = 0, running_inputs = 0;
   AnalysisResult result;  ///< of the one that was running
 };

@@ -1,0 +1,22 @@
+// The words of the command line, told to the library that reads it; `main.cpp` hands over to the commands.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "ui/cli/commands.h"
+
+namespace bl::cli {
+
+/// --threads, as all commands have it that compute.
+void add_threads(CLI::App& command, int& threads);
+
+void declare_new(CLI::App& app, NewOptions& o);
+void declare_import(CLI::App& app, ImportOptions& o);
+void declare_place(CLI::App& app, PlaceOptions& o);
+void declare_script(CLI::App& app, ScriptOptions& o);
+
+void declare_cells(CLI::App& app, CellsOptions& o);
+void declare_fit(CLI::App& app, FitFileOptions& o);
+void declare_assign(CLI::App& app, AssignOptions& o);
+
+}  // namespace bl::cli

@@ -1,0 +1,102 @@
+// The words of the commands that make scenes: new, import, place and script.
+#include "ui/cli/declarations.h"
+
+namespace bl::cli {
+
+void declare_script(CLI::App& app, ScriptOptions& o) {
+  CLI::App& c = *app.add_subcommand("script", "Puts link kinds written in Lua into a scene, lists them, takes them out.");
+  c.add_option("scene", o.scene, "The scene file.")->type_name("SCENE")->required();
+  c.add_option("files", o.files, "Lua files; a script of the same name is replaced.")->type_name("FILE.lua");
+  c.add_option("--remove", o.removed, "Takes a script away, as often as needed; its links stay and do not run.")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--extract", o.extract, "Writes all scripts of the scene as files into a folder.")->type_name("DIR");
+  c.add_option("--out", o.out, "Where the changed scene is written; may be the scene itself.")->type_name("SCENE");
+  c.footer("Example:\n  behaviourlinks script scene.json lean_uphill.lua --out scene.json");
+}
+
+void declare_new(CLI::App& app, NewOptions& o) {
+  CLI::App& c = *app.add_subcommand("new", "Makes a scene from a plan boundary and a programme of demands.");
+  c.add_option("--boundary", o.boundary, "Plan polygon as GeoJSON, in WGS84 or in a CRS in metres.")
+      ->type_name("FILE")
+      ->required();
+  c.add_option("--height", o.height, "Height of the boundary above the ground, in m.")->type_name("METRES")->required();
+  c.add_option("--programme", o.programme, "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, ...")
+      ->type_name("FILE")
+      ->required();
+  c.add_option("--out", o.out, "The scene file to write.")->type_name("FILE")->required();
+  c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
+  c.add_option("--title", o.title, "Name of the project. Default: the name of the programme's file.")->type_name("TEXT");
+  c.add_option("--feature", o.feature, "Which polygon: its index from 0, or PROPERTY=VALUE. Default: the only or largest one.")
+      ->type_name("WHICH");
+  c.add_option("--crs", o.crs, "CRS of the boundary in place of what the file says, such as EPSG:28992.")->type_name("CRS");
+  c.add_flag("--hull", o.use_hull, "Takes the convex hull of a plan that is not convex.");
+  c.add_option("--column", o.columns,
+               "Names a column that is called otherwise in the table, as often as needed: use=\"Room name\".")
+      ->type_name("OURS=HEADER")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--storey-height", o.storey_height, "Storey height of rows that give none, in m. Default: 3.2.")
+      ->type_name("METRES");
+  c.add_option("--margin", o.margin, "How far inside the boundary the positions stay, in m. Default: 1.")->type_name("METRES");
+  c.add_option("--seed", o.seed, "Seed of the first positions. Default: 1.")->type_name("N");
+  c.footer("Example:\n  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json");
+}
+
+void declare_import(CLI::App& app, ImportOptions& o) {
+  CLI::App& c = *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
+  c.add_option("files", o.files, "OSM (.osm, .osm.gz, .pbf), CityJSON (.json, .jsonl), GeoJSON, ASCII grid (.asc), GeoTIFF, CSV with coordinates; or pictures (JPEG, PNG).")
+      ->type_name("FILE")
+      ->required();
+  c.add_option("--into", o.into, "The scene that is added to. Default: an empty one.")->type_name("SCENE");
+  c.add_option("--out", o.out, "The scene file to write.")->type_name("SCENE")->required();
+  c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
+  c.add_option("--as", o.kind, "What the features or the grid are, where the file does not say: building, street, plot, area, terrain, layer.")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"building", "street", "plot", "area", "terrain", "layer"}));
+  c.add_option("--crs", o.context.crs, "CRS of the files in place of what they say, such as EPSG:28992.")->type_name("CRS");
+  c.add_option("--origin", o.origin, "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
+      ->type_name("X,Y");
+  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m.")->type_name("METRES");
+  c.add_option("--property", o.properties, "Names a property that is called otherwise, as often as needed: height=H_MAX.")
+      ->type_name("OURS=THEIRS")
+      ->expected(1)
+      ->take_all();
+  c.add_option("--value", o.value, "Of a data layer: the column or property with the values.")->type_name("NAME");
+  c.add_option("--unit", o.unit, "Of a data layer: the unit of the values, such as dB.")->type_name("UNIT");
+  c.add_option("--source", o.source, "Who made the data, for the nodes that keep it. Default: the name of the file.")->type_name("TEXT");
+  c.add_option("--licence", o.licence, "What may be done with the data, for the nodes that keep it.")->type_name("TEXT");
+  c.add_option("--storey-height", o.context.storey_height, "Height of storeys where only their number is known, in m. Default: 3.2.")
+      ->type_name("METRES");
+  c.add_option("--default-height", o.context.default_height, "Height of buildings that nothing is known about, in m. Default: 9.6.")
+      ->type_name("METRES");
+  c.add_option("--neighbours", o.context.neighbour_distance, "How near buildings are whose heights are taken over, in m. Default: 100.")
+      ->type_name("METRES");
+  c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")->type_name("LEVEL");
+  c.add_flag("--extruded", o.is_extruded, "Makes buildings from outline and height even where the file has solids.");
+  c.add_flag("--all-streets", o.takes_all_streets, "Takes footpaths, cycleways and steps as well, not only streets for cars.");
+  c.add_option("--report", o.report, "Writes what became of every single element as CSV.")->type_name("FILE");
+  c.footer(
+      "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
+      "--report import.csv\n\nHeights that are not in the file are assumed, and marked as such. Exit codes: 0 imported; 2 bad input, "
+      "nothing written.");
+}
+
+void declare_place(CLI::App& app, PlaceOptions& o) {
+  CLI::App& c = *app.add_subcommand("place", "Puts pictures into a scene, where and as they were taken.");
+  c.add_option("pictures", o.files, "JPEG or PNG files; they stay where they are.")->type_name("PICTURE")->required();
+  c.add_option("--into", o.into, "The scene.")->type_name("SCENE")->required();
+  c.add_option("--out", o.out, "Where the scene is written. Default: the same file.")->type_name("SCENE");
+  c.add_option("--at", o.at, "Position in m. Default: by the coordinates in the picture.")->type_name("X Y Z")->expected(3);
+  c.add_option("--placement", o.media.placement, "Default: camera where the picture says where it looked, else billboard.")
+      ->check(CLI::IsMember({"ground", "billboard", "camera"}));
+  c.add_option("--consent", o.media.consent, "May it be shown? Default: unknown, which veils it.")
+      ->check(CLI::IsMember({"unknown", "given", "not_needed", "refused"}));
+  c.add_option("--licence", o.media.licence, "Terms of its use. Default: what the picture says.")->type_name("TEXT");
+  c.add_option("--author", o.media.author, "Who made it. Default: what the picture says.")->type_name("TEXT");
+  c.add_option("--size", o.media.size, "Width in m, of a billboard or on the ground. Default: 10.")->type_name("METRES");
+  c.footer("Example:\n  behaviourlinks place site.jpg --into scene.json --consent given");
+}
+
+}  // namespace bl::cli
