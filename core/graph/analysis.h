@@ -29,6 +29,7 @@ struct AnalysisResult {
 
 /// What an analysis was given. Its result depends on this alone.
 struct AnalysisInput {
+  std::shared_ptr<const void> plan;  ///< whose types the definition is one of: the scene may have others before it is done
   const TypificationDefinition* definition = nullptr;
   std::string node;
   std::int64_t tick = 0;

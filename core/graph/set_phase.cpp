@@ -95,8 +95,14 @@ void take_result(State& next, const SetCase& one, const AnalysisResult& result, 
 }
 
 AnalysisInput input_of(const State& state, SetCase& one) {
-  AnalysisInput input{
-      &one.definition(state), state.plan->nodes[one.node()].id, state.tick, std::move(one.values), std::move(one.sets), {}, {}};
+  AnalysisInput input{state.plan,
+                      &one.definition(state),
+                      state.plan->nodes[one.node()].id,
+                      state.tick,
+                      std::move(one.values),
+                      std::move(one.sets),
+                      {},
+                      {}};
   for (std::size_t s = 0; s < one.plans.size(); ++s) {
     std::vector<std::string>& members = input.members.emplace_back();
     std::vector<std::string>& paths = input.write_paths.emplace_back();
