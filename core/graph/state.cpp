@@ -33,8 +33,8 @@ bool has_failure(const State& state) {
 bool State::is_settled() const {
   if (calm < plan->settings.calm_ticks) return false;
   return std::all_of(analyses.begin(), analyses.end(), [&](const AnalysisState& a) {
-    // Links answer a result in the next tick, and nodes the links in the one after.
-    return a.as_of > tick - calm && tick >= a.taken + 2;
+    // It reads shapes of the tick before. Links answer its result in the next tick, and nodes the links in the one after.
+    return a.as_of - 1 > tick - calm && tick >= a.taken + 2;
   });
 }
 

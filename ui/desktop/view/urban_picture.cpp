@@ -17,7 +17,7 @@ constexpr double kHighestLoad = 1.5;
 constexpr float kThinnest = 2, kThickest = 11;  // [points]
 // Lines on the ground lie a little above it [m].
 constexpr double kAboveGround = 0.12;
-constexpr int kRampSteps = 24, kDotParts = 10;
+constexpr int kRampSteps = 24;
 
 Colour colour_of_load(const Theme& theme, double load) {
   return theme.diverging(std::clamp((load - 1) / (kHighestLoad - 1), -1.0, 1.0));
