@@ -36,21 +36,26 @@ void hand_over(lo_message message, const Subscriber& subscriber) {
     return station.problem("the message has " + std::to_string(count) + " arguments, and number " + std::to_string(at) +
                            " (counted from 0) is wanted");
   const char type = lo_message_get_types(message)[at];
-  const lo_arg* argument = lo_message_get_argv(message)[at];
+  // Arguments lie at multiples of four bytes, which is no place for numbers of eight.
+  const void* bytes = lo_message_get_argv(message)[at];
+  const auto read = [bytes](auto number) {
+    std::memcpy(&number, bytes, sizeof number);
+    return number;
+  };
   const auto put = [&](double number) {
     if (number - number != 0) station.problem("the message holds a number that is not finite");
     else station.number(number);
   };
   switch (type) {
-    case LO_INT32: return put(argument->i);
-    case LO_INT64: return put(static_cast<double>(argument->h));
-    case LO_FLOAT: return put(static_cast<double>(argument->f));
-    case LO_DOUBLE: return put(argument->d);
+    case LO_INT32: return put(read(std::int32_t{}));
+    case LO_INT64: return put(static_cast<double>(read(std::int64_t{})));
+    case LO_FLOAT: return put(static_cast<double>(read(float{})));
+    case LO_DOUBLE: return put(read(double{}));
     case LO_TRUE: return put(1);
     case LO_FALSE: return put(0);
     case LO_STRING:
     case LO_SYMBOL: {
-      const auto number = number_in(&argument->s, "");
+      const auto number = number_in(static_cast<const char*>(bytes), "");
       return number ? put(*number) : station.problem(number.error().message);
     }
     default: return station.problem(std::string("an argument of the OSC type `") + type + "` holds no number");

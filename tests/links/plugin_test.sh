@@ -1,6 +1,6 @@
-# Follows links/plugin_template/README.md: copies the folder, builds it, uses it; then one of another ABI. Usage: sh plugin_test.sh CHECKOUT PROGRAM SANITIZERS
+# Follows links/plugin_template/README.md: copies the folder, builds it, uses it; then one of another ABI. Usage: sh plugin_test.sh CHECKOUT PROGRAM SANITIZERS COMPILER
 set -u
-checkout=$1 program=$2 sanitizers=${3:-}
+checkout=$1 program=$2 sanitizers=$3 compiler=$4
 place=$(mktemp -d "${TMPDIR:-/tmp}/bl plugin.XXXXXX") || exit 1    # a space in the path, on purpose
 trap 'rm -rf "$place"' EXIT
 failures=0
@@ -22,7 +22,7 @@ expect() {
 }
 run() { output=$("$program" "$@" 2>&1) code=$?; }
 build() {
-  output=$(cmake -S "$place/my_links" -B "$place/$1" "-DBEHAVIOURLINKS=$checkout" "-DBL_SANITIZE=$sanitizers" "-DBL_PLUGIN_ABI_INSTEAD=${2:-}" 2>&1 &&
+  output=$(cmake -S "$place/my_links" -B "$place/$1" "-DBEHAVIOURLINKS=$checkout" "-DBL_SANITIZE=$sanitizers" "-DCMAKE_CXX_COMPILER=$compiler" "-DBL_PLUGIN_ABI_INSTEAD=${2:-}" 2>&1 &&
     cmake --build "$place/$1" 2>&1)
   code=$?
 }

@@ -103,7 +103,7 @@ TEST(ImageFacts, DamagedBytesNeverBreakIt) {
   for (int k = 0; k < 3000; ++k) {
     std::string bytes = photograph();
     for (int i = 0; i < 4; ++i)
-      bytes[static_cast<std::size_t>(random.uniform() * static_cast<double>(bytes.size()))] = static_cast<char>(256 * random.uniform());
+      bytes[static_cast<std::size_t>(random.uniform() * static_cast<double>(bytes.size()))] = static_cast<char>(random.below(256));
     const auto facts = read_image_facts(bytes);
     if (!facts) continue;
     EXPECT_TRUE(facts->orientation >= 1 && facts->orientation <= 8);

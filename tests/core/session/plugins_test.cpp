@@ -34,7 +34,7 @@ TEST_F(Plugins, OthersAreRefusedByTheirBytes) {
   EXPECT_NE(refusal("none.so", "").find("no plugin of BehaviourLinks"), std::string::npos);
   EXPECT_NE(refusal("noise.so", std::string("\x7f"
                                             "ELF\x02\x01\x01 and so on",
-                                            20))
+                                            17))
                 .find("no plugin of BehaviourLinks"),
             std::string::npos);
   const std::string mark = std::string("BEHAVIOURLINKS-PLUGIN-") + "ABI:";
