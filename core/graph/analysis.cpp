@@ -1,6 +1,9 @@
 // Working analyses out on a thread of their own.
 #include "core/graph/analysis.h"
 
+#include <exception>
+#include <new>
+
 namespace bl {
 
 namespace {
@@ -56,7 +59,15 @@ void Analysis::run() {
     if (is_claimed_) return;
     is_claimed_ = true;
   }
-  AnalysisResult result = worked_out(input_);
+  // Nobody else could catch it: this may be a thread of its own, and others wait for the result.
+  AnalysisResult result;
+  try {
+    result = worked_out(input_);
+  } catch (const std::bad_alloc&) {
+    result = {{}, Error{ErrorCode::out_of_range, "", "memory ran out in this analysis: ask for less, such as fewer or coarser points"}};
+  } catch (const std::exception& thrown) {
+    result = {{}, Error{ErrorCode::internal, "", std::string("the analysis failed: ") + thrown.what()}};
+  }
   {
     const std::lock_guard lock(mutex_);
     result_ = std::move(result);
