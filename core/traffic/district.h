@@ -22,6 +22,13 @@ struct DistrictStreet {
   bool is_one_way = false, is_open = true, is_for_cars = true;  ///< who may pass
 };
 
+/// A rule at a junction: `no` forbids to go on from one street by the other one, `only` forbids all else. Both the same: turning
+/// round.
+struct DistrictTurn {
+  std::string junction, from, to;  ///< ids of a junction and of two streets that meet there
+  std::string rule = "no";
+};
+
 struct DistrictZone {
   std::string id;
   Point3 position;
@@ -61,6 +68,10 @@ struct DistrictResult {
     double delay = 0, load = 0, length = 0;                               ///< the larger of both directions; [m]
     std::string reason;                                                   ///< why nobody drives here; empty where one may
   };
+  struct Turn {
+    int forbidden = 0;          ///< turns that could be taken without this rule
+    std::string place, reason;  ///< why the rule does not hold, and which member is wrong: "from"; empty where it holds
+  };
   struct Junction {
     int streets = 0;
     double flow = 0, load = 0;  ///< what arrives by streets; the largest volume over capacity of its streets
@@ -78,6 +89,7 @@ struct DistrictResult {
     std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
   std::vector<Street> streets;  ///< as given, and so below
+  std::vector<Turn> turns;
   std::vector<Junction> junctions;
   std::vector<Zone> zones;
   double gap = 0, restlessness = 0;      ///< the latter: share of the trips that wants to go elsewhere than it does
@@ -88,9 +100,9 @@ struct DistrictResult {
 };
 
 /// Distributes the trips by the times of the last step, puts them on the streets and goes `steps` iterations on, from the last
-/// flows. A pure function of its arguments. An error's place is the id of what is wrong.
+/// flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
 Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictZone>& zones, const DistrictSettings& settings,
-                                     const DistrictState& last);
+                                     const std::vector<DistrictTurn>& turns, const std::vector<DistrictZone>& zones,
+                                     const DistrictSettings& settings, const DistrictState& last);
 
 }  // namespace bl
