@@ -53,10 +53,6 @@ struct TrafficNetworkNode {
     std::int64_t streets = 0;
     double flow = 0, load = 0;
   };
-  struct RulesReply {
-    std::int64_t forbidden = 0;
-    std::string reason;
-  };
   struct ZoneReply {
     double served = 0, lost = 0, mean_time = 0, accessibility = 0;
     std::string reason;
@@ -70,7 +66,7 @@ struct TrafficNetworkNode {
     Memory memory;
     std::vector<DistrictResult::Street> streets;
     std::vector<CrossingReply> junctions;
-    std::vector<RulesReply> rules;
+    std::vector<DistrictResult::Rules> rules;
     std::vector<ZoneReply> zones;
   };
   using Builder = TypificationBuilder<TrafficNetworkNode>;
@@ -193,7 +189,8 @@ struct TrafficNetworkNode {
     junctions.writes(&CrossingReply::flow, "junction.flow").writes(&CrossingReply::load, "junction.volume_over_capacity");
     auto rules = t.set("junctions", &Sets::rules, &Out::rules);  // those of the junctions that have any
     rules.reads(&Rules::id, "node.id").reads(&Rules::turns, "turn_rules.turns");
-    rules.writes(&RulesReply::forbidden, "turn_rules.forbidden").writes(&RulesReply::reason, "turn_rules.reason");
+    rules.writes(&DistrictResult::Rules::forbidden, "turn_rules.forbidden");
+    rules.writes(&DistrictResult::Rules::reason, "turn_rules.reason");
     auto zones = t.set("zones", &Sets::zones, &Out::zones);
     zones.reads(&Zone::id, "node.id").reads(&Zone::position, "node.position", Unit::metre);
     zones.reads(&Zone::trips_out, "traffic_zone.trips_out").reads(&Zone::trips_in, "traffic_zone.trips_in");
@@ -222,27 +219,14 @@ struct TrafficNetworkNode {
     return memory;
   }
 
-  static std::vector<DistrictTurn> turns_of(const Sets& sets) {
-    std::vector<DistrictTurn> turns;
-    for (const Rules& rules : sets.rules)
-      for (std::size_t r = 0; r < rules.turns.rows.size(); ++r)
-        turns.push_back({rules.id, rules.turns.text(r, "from"), rules.turns.text(r, "to"), rules.turns.text(r, "rule")});
-    return turns;
-  }
-
-  static std::vector<RulesReply> replies_of(const Sets& sets, const std::vector<DistrictResult::Turn>& turns) {
-    std::vector<RulesReply> replies;
-    auto turn = turns.begin();
+  static std::vector<DistrictRules> rules_of(const Sets& sets) {
+    std::vector<DistrictRules> all;
     for (const Rules& rules : sets.rules) {
-      RulesReply& reply = replies.emplace_back();
-      for (std::size_t r = 0; r < rules.turns.rows.size(); ++r, ++turn) {
-        reply.forbidden += turn->forbidden;
-        if (turn->reason.empty()) continue;
-        reply.reason +=
-            (reply.reason.empty() ? "turns/" : "; turns/") + std::to_string(r) + "/" + turn->place + ": " + turn->reason;
-      }
+      all.push_back({rules.id, {}});
+      for (std::size_t r = 0; r < rules.turns.rows.size(); ++r)
+        all.back().turns.push_back({rules.turns.text(r, "from"), rules.turns.text(r, "to"), rules.turns.text(r, "rule")});
     }
-    return replies;
+    return all;
   }
 
   static Result<DistrictResult> stepped(const In& in, const Sets& sets) {
@@ -258,7 +242,7 @@ struct TrafficNetworkNode {
     for (const Zone& z : sets.zones) zones.push_back({z.id, z.position, z.trips_out, z.trips_in, z.access, z.list_reach});
     const DistrictSettings settings{in.alpha, in.beta,         in.toll_factor, in.distance_factor, in.walking_speed,
                                     in.fade,  in.distribution, in.gap,         in.steps,           in.haste};
-    return step_district(junctions, streets, turns_of(sets), zones, settings, recalled(in.last));
+    return step_district(junctions, streets, rules_of(sets), zones, settings, recalled(in.last));
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
@@ -279,7 +263,7 @@ struct TrafficNetworkNode {
       out.largest_load = std::max(out.largest_load, result->streets[s].load);
       left_out(sets.streets[s].id, result->streets[s].reason);
     }
-    out.rules = replies_of(sets, result->turns);
+    out.rules = std::move(result->rules);
     for (std::size_t j = 0; j < out.rules.size(); ++j) left_out(sets.rules[j].id, out.rules[j].reason);
     for (std::size_t z = 0; z < result->zones.size(); ++z) left_out(sets.zones[z].id, result->zones[z].reason);
     for (std::size_t j = 0; j < result->junctions.size(); ++j) {

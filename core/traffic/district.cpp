@@ -19,8 +19,8 @@ std::string zone_name(const std::string& id) { return "z:" + id; }
 class District {
  public:
   District(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-           const std::vector<DistrictTurn>& turns, const std::vector<DistrictZone>& zones, const DistrictSettings& settings)
-      : junctions_(junctions), streets_(streets), turns_(turns), zones_(zones), settings_(settings) {
+           const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones, const DistrictSettings& settings)
+      : junctions_(junctions), streets_(streets), rules_(rules), zones_(zones), settings_(settings) {
     for (std::size_t j = 0; j < junctions.size(); ++j) junction_at_[junctions[j].id] = j;
   }
 
@@ -47,7 +47,7 @@ class District {
     std::vector<TrafficNode> nodes = places();
     std::vector<TrafficLink> links;
     for (std::size_t s = 0; s < streets_.size(); ++s) add_street(s, links);
-    const std::vector<ForbiddenTurn> turns = forbidden_turns(turns_, streets_, links, out_.turns);
+    const std::vector<ForbiddenTurn> turns = forbidden_turns(rules_, streets_, links, out_.rules);
     for (std::size_t z = 0; z < zones_.size(); ++z) add_access(z);
     links.insert(links.end(), access_.begin(), access_.end());
     if (auto split = forbid_turns(nodes, links, turns); !split) return split.error();
@@ -294,7 +294,7 @@ class District {
 
   const std::vector<DistrictJunction>& junctions_;
   const std::vector<DistrictStreet>& streets_;
-  const std::vector<DistrictTurn>& turns_;
+  const std::vector<DistrictRules>& rules_;
   const std::vector<DistrictZone>& zones_;
   const DistrictSettings& settings_;
   std::map<std::string, std::size_t> junction_at_;
@@ -310,9 +310,9 @@ class District {
 }  // namespace
 
 Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictTurn>& turns, const std::vector<DistrictZone>& zones,
+                                     const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones,
                                      const DistrictSettings& settings, const DistrictState& last) {
-  return District(junctions, streets, turns, zones, settings).step(last);
+  return District(junctions, streets, rules, zones, settings).step(last);
 }
 
 }  // namespace bl

@@ -22,11 +22,13 @@ struct DistrictStreet {
   bool is_one_way = false, is_open = true, is_for_cars = true;  ///< who may pass
 };
 
-/// A rule at a junction: `no` forbids to go on from one street by the other one, `only` forbids all else. Both the same: turning
-/// round.
+/// `no` forbids to go on from one street by the other one, `only` forbids all else. Both the same: turning round.
 struct DistrictTurn {
-  std::string junction, from, to;  ///< ids of a junction and of two streets that meet there
-  std::string rule = "no";
+  std::string from, to, rule = "no";  ///< ids of two streets
+};
+struct DistrictRules {
+  std::string junction;  ///< id of the junction where they meet
+  std::vector<DistrictTurn> turns;
 };
 
 struct DistrictZone {
@@ -68,9 +70,9 @@ struct DistrictResult {
     double delay = 0, load = 0, length = 0;                               ///< the larger of both directions; [m]
     std::string reason;                                                   ///< why nobody drives here; empty where one may
   };
-  struct Turn {
-    int forbidden = 0;          ///< turns that could be taken without this rule
-    std::string place, reason;  ///< why the rule does not hold, and which member is wrong: "from"; empty where it holds
+  struct Rules {
+    int forbidden = 0;   ///< turns that could be taken without them
+    std::string reason;  ///< which do not hold, with their place ("turns/1/from"), and why; empty where all do
   };
   struct Junction {
     int streets = 0;
@@ -89,7 +91,7 @@ struct DistrictResult {
     std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
   std::vector<Street> streets;  ///< as given, and so below
-  std::vector<Turn> turns;
+  std::vector<Rules> rules;
   std::vector<Junction> junctions;
   std::vector<Zone> zones;
   double gap = 0, restlessness = 0;      ///< the latter: share of the trips that wants to go elsewhere than it does
@@ -102,7 +104,7 @@ struct DistrictResult {
 /// Distributes the trips by the times of the last step, puts them on the streets and goes `steps` iterations on, from the last
 /// flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
 Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictTurn>& turns, const std::vector<DistrictZone>& zones,
+                                     const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones,
                                      const DistrictSettings& settings, const DistrictState& last);
 
 }  // namespace bl

@@ -3,7 +3,6 @@
 
 #include <map>
 #include <set>
-#include <utility>
 
 namespace bl {
 
@@ -26,67 +25,78 @@ class Rules {
     for (const TrafficLink& link : links) departures_[link.from].insert(link.id), links_.insert(link.id);
   }
 
-  std::vector<ForbiddenTurn> read(std::span<const DistrictTurn> rules, std::vector<DistrictResult::Turn>& results) {
-    results.assign(rules.size(), {});
-    for (std::size_t r = 0; r < rules.size(); ++r) find_links(rules[r], results[r]);
-    // Several rules of the kind `only` about one way in leave the choice among what they name.
-    for (std::size_t r = 0; r < rules.size(); ++r)
-      if (rules[r].rule == "only" && results[r].reason.empty()) allowed_[found_[r].from].insert(found_[r].to);
-    std::vector<ForbiddenTurn> turns;
-    for (std::size_t r = 0; r < rules.size(); ++r)
-      if (results[r].reason.empty()) results[r].forbidden = add(rules[r], found_[r], turns);
-    return turns;
+  // Adds what is forbidden at one junction.
+  DistrictResult::Rules read(const DistrictRules& rules, std::vector<ForbiddenTurn>& turns) const {
+    DistrictResult::Rules result;
+    std::vector<ForbiddenTurn> found(rules.turns.size());
+    std::vector<bool> holds;
+    std::map<std::string, std::set<std::string>> allowed;  // by way in: several rules of the kind `only` leave the choice
+    for (std::size_t r = 0; r < rules.turns.size(); ++r) {
+      const auto links = links_of(rules.turns[r], rules.junction);
+      holds.push_back(links.ok());
+      if (links) found[r] = *links;
+      else result.reason += (result.reason.empty() ? "turns/" : "; turns/") + std::to_string(r) + "/" + links.error().text();
+      if (links && rules.turns[r].rule == "only") allowed[links->from].insert(links->to);
+    }
+    const std::size_t before = turns.size();
+    for (std::size_t r = 0; r < rules.turns.size(); ++r) {
+      if (!holds[r] || !links_.contains(found[r].from)) continue;
+      if (rules.turns[r].rule == "only") forbid_others(found[r].from, rules.junction, allowed.at(found[r].from), turns);
+      else if (links_.contains(found[r].to)) turns.push_back(found[r]);
+    }
+    result.forbidden = static_cast<int>(turns.size() - before);
+    return result;
   }
 
  private:
-  void find_links(const DistrictTurn& rule, DistrictResult::Turn& result) {
-    ForbiddenTurn& turn = found_.emplace_back();
+  // An error's place is the member that is wrong.
+  Result<ForbiddenTurn> links_of(const DistrictTurn& turn, const std::string& junction) const {
+    ForbiddenTurn found;
     for (const bool is_to : {false, true}) {
-      const std::string& id = is_to ? rule.to : rule.from;
+      const std::string& id = is_to ? turn.to : turn.from;
+      const char* const place = is_to ? "to" : "from";
       const auto street = street_of_.find(id);
-      std::string& link = is_to ? turn.to : turn.from;
-      result.place = is_to ? "to" : "from";
-      if (street == street_of_.end()) {
-        result.reason = id.empty() ? "it names no street" : "`" + id + "` is no street of this network";
-      } else if (street->second->start != rule.junction && street->second->end != rule.junction) {
-        result.reason = "`" + id + "` neither begins nor ends at `" + rule.junction + "`";
-      } else {
-        link = is_to ? link_out_of(*street->second, rule.junction) : link_into(*street->second, rule.junction);
-        if (!link.empty()) continue;
-        result.reason =
-            "`" + id +
-            (is_to ? "` is one-way and leads here: nobody leaves by it" : "` is one-way and leads away: nobody arrives by it");
-      }
-      return;
+      if (street == street_of_.end())
+        return Error{ErrorCode::not_found, place,
+                     id.empty() ? "it names no street" : "`" + id + "` is no street of this network"};
+      if (street->second->start != junction && street->second->end != junction)
+        return Error{ErrorCode::conflict, place, "`" + id + "` neither begins nor ends at `" + junction + "`"};
+      std::string& link = is_to ? found.to : found.from;
+      link = is_to ? link_out_of(*street->second, junction) : link_into(*street->second, junction);
+      if (link.empty())
+        return Error{ErrorCode::conflict, place,
+                     "`" + id +
+                         (is_to ? "` is one-way and leads here: nobody leaves by it"
+                                : "` is one-way and leads away: nobody arrives by it")};
     }
-    result.place.clear();
-    if (rule.rule == "no" || rule.rule == "only") return;
-    result = {0, "rule", "`" + rule.rule + "` is no rule; write `no` or `only`"};
+    if (turn.rule != "no" && turn.rule != "only")
+      return Error{ErrorCode::parse, "rule", "`" + turn.rule + "` is no rule; write `no` or `only`"};
+    return found;
   }
 
-  int add(const DistrictTurn& rule, const ForbiddenTurn& turn, std::vector<ForbiddenTurn>& turns) const {
-    if (!links_.contains(turn.from)) return 0;
-    const std::size_t before = turns.size();
-    if (rule.rule != "only") {
-      if (links_.contains(turn.to)) turns.push_back(turn);
-    } else if (const auto here = departures_.find(junction_node(rule.junction)); here != departures_.end()) {
-      for (const std::string& departure : here->second)
-        if (!allowed_.at(turn.from).contains(departure)) turns.push_back({turn.from, departure});
-    }
-    return static_cast<int>(turns.size() - before);
+  void forbid_others(const std::string& from, const std::string& junction, const std::set<std::string>& allowed,
+                     std::vector<ForbiddenTurn>& turns) const {
+    const auto here = departures_.find(junction_node(junction));
+    if (here == departures_.end()) return;
+    for (const std::string& departure : here->second)
+      if (!allowed.contains(departure)) turns.push_back({from, departure});
   }
 
   std::map<std::string, const DistrictStreet*> street_of_;
-  std::map<std::string, std::set<std::string>> departures_, allowed_;  // by node, and by way in
+  std::map<std::string, std::set<std::string>> departures_;  // by node
   std::set<std::string> links_;
-  std::vector<ForbiddenTurn> found_;  // by rule
 };
 
 }  // namespace
 
-std::vector<ForbiddenTurn> forbidden_turns(std::span<const DistrictTurn> rules, std::span<const DistrictStreet> streets,
-                                           std::span<const TrafficLink> links, std::vector<DistrictResult::Turn>& results) {
-  return Rules(streets, links).read(rules, results);
+std::vector<ForbiddenTurn> forbidden_turns(std::span<const DistrictRules> rules, std::span<const DistrictStreet> streets,
+                                           std::span<const TrafficLink> links, std::vector<DistrictResult::Rules>& results) {
+  std::vector<ForbiddenTurn> turns;
+  results.clear();
+  if (rules.empty()) return turns;
+  const Rules reader(streets, links);
+  for (const DistrictRules& one : rules) results.push_back(reader.read(one, turns));
+  return turns;
 }
 
 }  // namespace bl

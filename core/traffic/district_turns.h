@@ -15,8 +15,8 @@ namespace bl {
 inline std::string junction_node(const std::string& id) { return "j:" + id; }
 
 /// `links`: those of streets ("street:forth", "street:back") that are in the network; a rule about others forbids nothing now.
-/// `results` gets one entry for each rule. A rule that does not hold has its reason there and forbids nothing.
-std::vector<ForbiddenTurn> forbidden_turns(std::span<const DistrictTurn> rules, std::span<const DistrictStreet> streets,
-                                           std::span<const TrafficLink> links, std::vector<DistrictResult::Turn>& results);
+/// `results` gets one entry for each junction with rules. A rule that does not hold has its reason there and forbids nothing.
+std::vector<ForbiddenTurn> forbidden_turns(std::span<const DistrictRules> rules, std::span<const DistrictStreet> streets,
+                                           std::span<const TrafficLink> links, std::vector<DistrictResult::Rules>& results);
 
 }  // namespace bl
