@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/define/codec.h"
 #include "core/exchange/context.h"
 #include "core/exchange/data_layer.h"
 #include "core/exchange/terrain_grid.h"
@@ -42,6 +43,9 @@ class ContextNodes {
   std::string fresh_id(const std::string& wanted);
   void add_building(const ContextBuilding& building, const NodeMaking& making);
   void add_streets(const Context& context, const NodeMaking& making);
+  std::string add_junction(const ContextJunction& junction, const Json& turns);
+  void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end);
+  std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids);
   void add_plot(const ContextArea& area);
 
   const Registry* registry_;
