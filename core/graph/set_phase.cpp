@@ -163,9 +163,15 @@ void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunne
   std::vector<SetCase> cases = gather(next);
   std::vector<Reply> replies;
   for (SetCase& one : cases) {
-    if (const Error* error = one.error()) next.nodes[one.node()].types[one.type()].error = *error;
-    else if (one.analysis == SetCase::kNone) evaluate_now(next, one, pool, memos, replies);
-    else advance_analysis(next, one, runner, replies);
+    if (const Error* error = one.error()) {
+      next.nodes[one.node()].types[one.type()].error = *error;
+      // Once the sets are whole again it is worked out anew, which takes the error away.
+      if (one.analysis != SetCase::kNone) next.analyses[one.analysis] = {};
+    } else if (one.analysis == SetCase::kNone) {
+      evaluate_now(next, one, pool, memos, replies);
+    } else {
+      advance_analysis(next, one, runner, replies);
+    }
   }
   write_replies(next, replies);
 }

@@ -127,8 +127,12 @@ void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& af
                 const std::set<std::string>& placed) {
   for (std::size_t p = 0; p < after.definition->ports.size(); ++p) {
     const PortDefinition& port = after.definition->ports[p];
+    // What links have agreed on is a part of what runs: a limit that is tightened tick by tick reads itself. An edit elsewhere
+    // must not let it go; an edit of the port itself starts from what people say.
+    const bool is_agreed = port.rule != CombineRule::none && before.is_locked[p] == after.is_locked[p] &&
+                           before.set_values[p] == after.set_values[p];
     // What nobody computes any more goes back to its defaults, which say so.
-    const bool is_lasting = (port.is_computed && after.is_served) || port.rule == CombineRule::sum;
+    const bool is_lasting = (port.is_computed && after.is_served) || port.rule == CombineRule::sum || is_agreed;
     if (is_lasting && !placed.contains(port.id)) fresh.values[p] = old.values[p];
   }
   fresh.error = old.error;
