@@ -17,8 +17,8 @@ struct TrafficNetworkNode {
     Selection streets{{}, "street", {}}, junctions{{}, "junction", {}}, zones{{}, "traffic_zone", {}};
     double alpha = 0.15, beta = 4, peak_share = 0.1, toll_factor = 180, distance_factor = 0, walking_speed = 1.34;
     TripConstraint distribution = TripConstraint::origins;
-    double fade = 600, haste = 0.5, gap = 1e-4;
-    int steps = 4;
+    double fade = 600, haste = 0.5, gap = 1e-4, isochrone_step = 300;
+    int steps = 4, isochrone_bands = 3;
     Memory last;
   };
   struct Street {
@@ -109,7 +109,13 @@ struct TrafficNetworkNode {
         .unit(Unit::metre_per_second)
         .range(0.1, 10)
         .soft(0.8, 2)
-        .doc("Speed on foot between a zone and the junctions of its access.");
+        .doc("Speed on foot: between a zone and the junctions of its access, and along streets.");
+    t.in(&In::isochrone_step, "isochrone_step")
+        .unit(Unit::second)
+        .range(10, 36000)
+        .soft(60, 900)
+        .doc("Time from isochrone to isochrone.");
+    t.in(&In::isochrone_bands, "isochrone_bands").range(1, 6).doc("Isochrones that are drawn around a chosen node.");
     t.in(&In::distribution, "distribution",
          {{TripConstraint::origins, "singly", "What leaves each zone holds; what ends where follows attraction and time."},
           {TripConstraint::both, "doubly", "What ends in each zone holds as well, in proportion."}})
