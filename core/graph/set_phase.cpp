@@ -106,7 +106,8 @@ AnalysisInput input_of(const State& state, SetCase& one) {
                       std::move(one.values),
                       std::move(one.sets),
                       {},
-                      {}};
+                      {},
+                      nullptr};
   for (std::size_t s = 0; s < one.plans.size(); ++s) {
     std::vector<std::string>& members = input.members.emplace_back();
     std::vector<std::string>& paths = input.write_paths.emplace_back();
@@ -118,7 +119,14 @@ AnalysisInput input_of(const State& state, SetCase& one) {
   return input;
 }
 
-void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, std::vector<Reply>& replies) {
+// What the analyses of one node keep is shared by those that run, also by one that nobody wants any more.
+std::shared_ptr<AnalysisMemo> memo_of(Memo& memo) {
+  auto& shared = memo.of<std::shared_ptr<AnalysisMemo>>();
+  if (!shared) shared = std::make_shared<AnalysisMemo>();
+  return shared;
+}
+
+void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& memo, std::vector<Reply>& replies) {
   AnalysisState& analysis = next.analyses[one.analysis];
   std::vector<Reply> own;
   if (analysis.running && next.tick >= analysis.due) {
@@ -134,6 +142,7 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, std::ve
     analysis.as_of = next.tick;
     return hand_on();
   }
+  input.memo = memo_of(memo);
   const auto begun = std::make_shared<Analysis>(std::move(input));
   if (latency > 0) {
     analysis.begun = next.tick;
@@ -178,7 +187,7 @@ void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunne
     } else if (one.analysis == SetCase::kNone) {
       evaluate_now(next, one, pool, memos, replies);
     } else {
-      advance_analysis(next, one, runner, replies);
+      advance_analysis(next, one, runner, memos[{next.plan->nodes[one.node()].id, one.definition(next).id}], replies);
     }
   }
   write_replies(next, replies);
