@@ -57,6 +57,56 @@ TEST(District, DelaysAtJunctionsAndTollsCount) {
   EXPECT_NEAR(town.step().streets[0].flow_forth, 1, 1e-9);
 }
 
+TEST(District, TheTimeAtAJunctionDoesNotGrowWithTheStreetsTraffic) {
+  Town town;
+  town.streets.pop_back();
+  town.junctions[0].delay = 7;
+  const DistrictResult result = town.step();
+  EXPECT_NEAR(result.streets[0].time_forth, 30 * (1 + 0.15 * std::pow(2.5, 4)) + 7, 1e-9);
+  EXPECT_NEAR(result.streets[0].delay, 30 * 0.15 * std::pow(2.5, 4), 1e-9);
+}
+
+TEST(District, AStreetThatIsNearlyClosedLosesItsTraffic) {
+  for (const double capacity : {0.008, 1e-9, 1e-300}) {
+    Town town;
+    town.step();
+    town.streets[0].capacity = capacity;
+    DistrictResult result = town.step();
+    for (int i = 0; i < 3; ++i) result = town.step();
+    EXPECT_LT(result.streets[0].flow_forth, 1) << capacity;
+    EXPECT_NEAR(result.streets[0].flow_forth + result.streets[1].flow_forth, 2500, 1e-6) << capacity;
+    EXPECT_LT(result.gap, 1e-6) << capacity;
+    EXPECT_TRUE(std::isfinite(result.streets[0].time_forth) && std::isfinite(result.streets[0].load)) << capacity;
+  }
+}
+
+TEST(District, TripsToWhereNobodyCanGoEndElsewhereAtOnce) {
+  Town town;
+  town.junctions.push_back({"north", {0, 300, 0}, 0});
+  town.streets.push_back({"up", "west", "north", 0, 10, 1000, 0, false, true, true});
+  town.zones.push_back({"north", {0, 300, 0}, 0, 100, {}});
+  town.step();
+  ASSERT_GT(town.step().streets[2].flow_forth, 0);
+  town.streets[2].is_open = false;
+  const DistrictResult result = town.step();
+  EXPECT_EQ(result.lost, 0);
+  EXPECT_EQ(result.zones[1].reason, "");
+  EXPECT_NEAR(result.zones[1].served, 2500, 1e-9);
+  for (const auto& trip : result.state.trips) EXPECT_NE(trip.destination, "north");
+}
+
+TEST(District, AStreetOfNoLengthIsWalkedToo) {
+  Town town;
+  town.junctions.push_back({"beside", {300, 0, 0}, 0});
+  town.streets.push_back({"step", "east", "beside", 0, 10, 1000, 0, false, true, true});
+  town.zones[1].wants_reach = true;
+  const DistrictResult result = town.step();
+  bool is_reached = false;
+  for (const auto& row : result.zones[1].reach)
+    if (row.junction == "beside") is_reached = row.walking > 0 && row.driving > 0;
+  EXPECT_TRUE(is_reached);
+}
+
 TEST(District, WhatIsLeftOutSaysWhy) {
   Town town;
   town.streets.push_back({"stub", "west", "nowhere", 0, 10, 1000, 0, false, true, true});
@@ -72,7 +122,7 @@ TEST(District, WhatIsLeftOutSaysWhy) {
   EXPECT_EQ(result.streets[4].reason, "it is for walking only");
   EXPECT_EQ(result.streets[5].reason, "it is closed");
   EXPECT_EQ(result.streets[6].reason, "its start names no junction");
-  EXPECT_EQ(result.zones[2].reason, "it has no access: lay a link to a junction");
+  EXPECT_EQ(result.zones[2].reason, "it has no access: lay a link to a junction, or allow a longer walk to one");
   EXPECT_EQ(result.zones[2].lost, 20);
   EXPECT_EQ(result.zones[3].reason, "its access `wset` is no junction of this network");
   EXPECT_EQ(result.lost, 25);
@@ -129,7 +179,7 @@ TEST(District, TheSteepestDelaysStayNumbers) {
   Town town;
   town.settings.alpha = 100;
   town.settings.beta = 20;
-  for (auto& street : town.streets) street.capacity = 1e-9;
+  for (auto& street : town.streets) street.capacity = 2e-3;
   for (int i = 0; i < 3; ++i) {
     const DistrictResult result = town.step();
     EXPECT_TRUE(std::isfinite(result.gap) && std::isfinite(result.total_time) && std::isfinite(result.objective));
