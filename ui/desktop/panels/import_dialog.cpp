@@ -164,7 +164,9 @@ void Dialogs::draw_import_progress() {
   const std::string count = total > 0  ? report::grouped(static_cast<double>(done)) + " of " + report::grouped(static_cast<double>(total))
                             : done > 0 ? report::grouped(static_cast<double>(done))
                                        : std::string();
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, theme.colours().accent);
   ImGui::ProgressBar(share, {-FLT_MIN, theme.px(8)}, "");
+  ImGui::PopStyleColor();
   ImGui::TextDisabled("%s %s", watch.step.load(), count.c_str());
   ImGui::Dummy({0, theme.px(10)});
   ImGui::TextDisabled("The scene goes on meanwhile. Nothing is added before all files are read.");
@@ -237,6 +239,7 @@ bool Dialogs::prepare_scene_for_import() {
   if (!document) return false;
   editor_->list_problems("", std::move(problems));
   editor_->take(std::move(document));
+  editor_->document->session().play(true);
   return true;
 }
 

@@ -34,7 +34,7 @@ Sign sign_of(const Theme& theme, ImportOutcome outcome) {
   switch (outcome) {
     case ImportOutcome::taken: return {icon::kCheck, c.good};
     case ImportOutcome::repaired: return {icon::kReset, c.warning};
-    case ImportOutcome::skipped: return {icon::kMuted, c.bad};
+    case ImportOutcome::skipped: return {icon::kClose, c.bad};
   }
   return {icon::kCheck, c.good};
 }
@@ -149,12 +149,13 @@ void draw_row(Editor& editor, const ImportEntry& entry, int index, bool has_file
   }
   ImGui::PopID();
   const Sign sign = sign_of(theme, row.outcome);
+  // In a column of their own, however wide the sign is.
+  const ImVec2 at = ImGui::GetItemRectMin();
   ImGui::SameLine(0, 0);
-  ImGui::PushStyleColor(ImGuiCol_Text, sign.colour);
-  ImGui::TextUnformatted(sign.text);
-  ImGui::PopStyleColor();
-  ImGui::SameLine(0, theme.px(6));
-  ImGui::TextUnformatted(label_of(row.outcome));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText({at.x + theme.px(4), ImGui::GetCursorScreenPos().y}, sign.colour, sign.text);
+  list.AddText({at.x + theme.px(24), ImGui::GetCursorScreenPos().y}, c.text, label_of(row.outcome));
+  ImGui::Dummy({0, 0});
   const auto column = [&](const std::string& text, ImU32 colour) {
     if (!ImGui::TableNextColumn()) return;
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
