@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/demand_limit.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -61,8 +62,8 @@ struct CongestionFeedback {
     if (!(ends.demand > 0) || !(load > 0)) return Out{};
     // From the share that the limit leaves now; one tick answers to at most a halving or a doubling.
     const double answer = 1 + in.gain * (std::clamp(in.limit / load, 0.5, 2.0) - 1);
-    const double share = std::min(1.0, ends.demand_limit / ends.demand) * answer;
-    return Out{ends.demand * std::max(share, in.least)};
+    const double share = granted_share(ends.demand, ends.demand_limit) * answer;
+    return Out{limit_that_grants(ends.demand, std::max(share, in.least))};
   }
 };
 

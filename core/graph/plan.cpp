@@ -262,11 +262,17 @@ class Compiler {
         set.members.push_back(node);
         set.reads.insert(set.reads.end(), reads.begin(), reads.end());
         set.writes.insert(set.writes.end(), writes.begin(), writes.end());
-      } else if (!selection.is_query()) {
+      } else if (!selection.is_query() && !is_further(*type.definition, s)) {
         set.error = Error{ErrorCode::conflict, place, "the node `" + id + "` has no `" + missing + "`"};
       }
     }
     return set;
+  }
+
+  // Of several sets over one selection the first says what its nodes must have; a further one takes those that have more.
+  static bool is_further(const TypificationDefinition& definition, std::uint32_t s) {
+    return std::any_of(definition.sets.begin(), definition.sets.begin() + s,
+                       [&](const SetDefinition& set) { return set.selection == definition.sets[s].selection; });
   }
 
   std::shared_ptr<Plan> plan_;

@@ -22,6 +22,15 @@ struct DistrictStreet {
   bool is_one_way = false, is_open = true, is_for_cars = true;  ///< who may pass
 };
 
+/// `no` forbids to go on from one street by the other one, `only` forbids all else. Both the same: turning round.
+struct DistrictTurn {
+  std::string from, to, rule = "no";  ///< ids of two streets
+};
+struct DistrictRules {
+  std::string junction;  ///< id of the junction where they meet
+  std::vector<DistrictTurn> turns;
+};
+
 struct DistrictZone {
   std::string id;
   Point3 position;
@@ -61,6 +70,10 @@ struct DistrictResult {
     double delay = 0, load = 0, length = 0;                               ///< the larger of both directions; [m]
     std::string reason;                                                   ///< why nobody drives here; empty where one may
   };
+  struct Rules {
+    int forbidden = 0;   ///< turns that could be taken without them
+    std::string reason;  ///< which do not hold, with their place ("turns/1/from"), and why; empty where all do
+  };
   struct Junction {
     int streets = 0;
     double flow = 0, load = 0;  ///< what arrives by streets; the largest volume over capacity of its streets
@@ -78,6 +91,7 @@ struct DistrictResult {
     std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
   std::vector<Street> streets;  ///< as given, and so below
+  std::vector<Rules> rules;
   std::vector<Junction> junctions;
   std::vector<Zone> zones;
   double gap = 0, restlessness = 0;      ///< the latter: share of the trips that wants to go elsewhere than it does
@@ -88,9 +102,9 @@ struct DistrictResult {
 };
 
 /// Distributes the trips by the times of the last step, puts them on the streets and goes `steps` iterations on, from the last
-/// flows. A pure function of its arguments. An error's place is the id of what is wrong.
+/// flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
 Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictZone>& zones, const DistrictSettings& settings,
-                                     const DistrictState& last);
+                                     const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones,
+                                     const DistrictSettings& settings, const DistrictState& last);
 
 }  // namespace bl

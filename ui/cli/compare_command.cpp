@@ -8,6 +8,7 @@
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
+#include "ui/cli/live_run.h"
 #include "ui/cli/report/comparison.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/scene_loading.h"
@@ -22,21 +23,21 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 constexpr std::size_t kMostRows = 30;
 
-std::shared_ptr<const State> outcome_of(const std::string& file, const CompareOptions& options) {
-  auto reading = load_scene(file);
-  if (!reading) return nullptr;
-  auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options.threads);
+std::shared_ptr<const State> outcome_of(const std::string& file, const SceneReading& reading, const CompareOptions& options) {
+  auto session = Session::start(full_registry(), reading.scene, reading.state ? &*reading.state : nullptr, options.threads);
   if (!session) {
     print_error(file, session.error());
     return nullptr;
   }
   const long long most = options.ticks >= 0 ? options.ticks : options.max_ticks;
   SettleWatch watch;
+  LiveRun recordings(file, false, 0);
   Progress progress;
   std::shared_ptr<const State> before;
   for (long long done = 0; done < most && !is_interrupted(); ++done) {
     if (options.ticks < 0 && (*session)->state()->is_settled()) break;
     before = (*session)->state();
+    recordings.before_tick(**session);
     (*session)->tick();
     if (progress.is_due()) progress.show(file + ": tick " + std::to_string((*session)->state()->tick));
     if (options.ticks < 0 && watch.is_hopeless(*(*session)->state())) break;
@@ -85,9 +86,12 @@ void print_comparison(const report::Comparison& comparison) {
 
 int compare_command(const CompareOptions& options) {
   catch_interrupts();
-  const auto before = outcome_of(options.first, options);
+  // Both are read before either runs: a name that is wrong is said at once.
+  const auto first = load_scene(options.first), second = load_scene(options.second);
+  if (!first || !second) return kBadInput;
+  const auto before = outcome_of(options.first, *first, options);
   if (!before) return kBadInput;
-  const auto after = outcome_of(options.second, options);
+  const auto after = outcome_of(options.second, *second, options);
   if (!after) return kBadInput;
   if (is_interrupted()) return interrupt_exit_code();
   const report::Comparison comparison = report::compare(*before, *after, kLeastShare);

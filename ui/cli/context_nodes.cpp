@@ -194,55 +194,87 @@ std::string ContextNodes::add_plot(const ContextArea& area) {
 }
 
 void ContextNodes::add_streets(const Context& context, const NodeMaking& making, ImportReport& report) {
-  const TypificationDefinition *junction = registry_->typification("junction"), *street = registry_->typification("street");
-  if (junction == nullptr || street == nullptr) {
+  if (registry_->typification("junction") == nullptr || registry_->typification("street") == nullptr) {
     notes_.push_back(std::to_string(context.streets.size()) +
                      " pieces of street became no nodes: this program has no typifications `junction` and `street`.");
     return;
   }
-  std::vector<std::string> ids(context.junctions.size());
-  const auto id_of = [&](std::size_t index) -> const std::string& {
-    if (!ids[index].empty()) return ids[index];
-    ids[index] = fresh_id("junction_" + context.junctions[index].id);
-    const Json node = {{"name", context.junctions[index].id},
-                       {"position", position_json(context.junctions[index].position)},
-                       {"types", {{"junction", Json::object()}}}};
-    add_node(ids[index], node);
-    ++made_["junction"];
-    return ids[index];
-  };
+  // Ids first: turn rules stand at junctions and name streets.
+  std::vector<std::string> street_ids(context.streets.size()), junction_ids(context.junctions.size());
   std::size_t without_cars = 0, loops = 0;
-  for (const ContextStreet& piece : context.streets) {
+  for (std::size_t s = 0; s < context.streets.size(); ++s) {
+    const ContextStreet& piece = context.streets[s];
     if (!piece.for_cars && !making.takes_all_streets) ++without_cars;
     else if (piece.start == piece.end) ++loops;
-    else {
-      Fitting fit(*street);
-      fit.set_node("start", id_of(piece.start));
-      fit.set_node("end", id_of(piece.end));
-      // A street has lanes in each direction; maps count those of both together, and a narrow one is shared.
-      fit.set("lanes", piece.is_one_way ? piece.lanes : std::max(1.0, piece.lanes / 2));
-      fit.set("speed", piece.speed);
-      fit.set("length", length_of(piece.line));
-      fit.set("one_way", piece.is_one_way);
-      fit.set("for_cars", piece.for_cars);
-      fit.set("line", piece.line);
-      const Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
-                         {"position", position_json(piece.line[piece.line.size() / 2])},
-                         {"types", {{"street", fit.values}}}};
-      const std::string id = fresh_id("street_" + piece.id);
-      add_node(id, node);
-      for (const Point3& point : piece.line) reach(point);
-      if (piece.row != kNoRow) report.made(piece.row, id);
-      ++made_["street"];
+    else street_ids[s] = fresh_id("street_" + piece.id);
+  }
+  const std::map<std::size_t, Json> turns = turn_rules(context, street_ids);
+  const auto junction_at = [&](std::size_t index) -> const std::string& {
+    if (junction_ids[index].empty()) {
+      const auto rules = turns.find(index);
+      junction_ids[index] = add_junction(context.junctions[index], rules == turns.end() ? Json::array() : rules->second);
     }
+    return junction_ids[index];
+  };
+  for (std::size_t s = 0; s < context.streets.size(); ++s) {
+    if (street_ids[s].empty()) continue;
+    const std::string &start = junction_at(context.streets[s].start), &end = junction_at(context.streets[s].end);
+    add_street(street_ids[s], context.streets[s], start, end);
+    if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
   }
   if (without_cars > 0)
-    notes_.push_back(std::to_string(without_cars) + " pieces of street without cars became no nodes: they are taken where all streets are asked for.");
+    notes_.push_back(std::to_string(without_cars) +
+                     " pieces of street without cars became no nodes: they are taken where all streets are asked for.");
   if (loops > 0)
     notes_.push_back(std::to_string(loops) + " pieces of street that begin and end at one junction became no nodes.");
-  if (!context.restrictions.empty())
-    notes_.push_back(std::to_string(context.restrictions.size()) +
-                     " turn restrictions became nothing: the network of streets has no turns.");
+}
+
+std::string ContextNodes::add_junction(const ContextJunction& junction, const Json& turns) {
+  const std::string id = fresh_id("junction_" + junction.id);
+  Json types = {{"junction", Json::object()}};
+  if (!turns.empty()) types["turn_rules"] = {{"turns", turns}};
+  const Json node = {{"name", junction.id}, {"position", position_json(junction.position)}, {"types", types}};
+  add_node(id, node);
+  ++made_["junction"];
+  return id;
+}
+
+void ContextNodes::add_street(const std::string& id, const ContextStreet& piece, const std::string& start,
+                              const std::string& end) {
+  Fitting fit(*registry_->typification("street"));
+  fit.set_node("start", start);
+  fit.set_node("end", end);
+  // A street has lanes in each direction; maps count those of both together, and a narrow one is shared.
+  fit.set("lanes", piece.is_one_way ? piece.lanes : std::max(1.0, piece.lanes / 2));
+  fit.set("speed", piece.speed);
+  fit.set("length", length_of(piece.line));
+  fit.set("one_way", piece.is_one_way);
+  fit.set("for_cars", piece.for_cars);
+  fit.set("line", piece.line);
+  const Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
+                     {"position", position_json(piece.line[piece.line.size() / 2])},
+                     {"types", {{"street", fit.values}}}};
+  add_node(id, node);
+  for (const Point3& point : piece.line) reach(point);
+  ++made_["street"];
+}
+
+// Rows of turn rules by junction. A restriction holds only where both of its streets became nodes.
+std::map<std::size_t, Json> ContextNodes::turn_rules(const Context& context, const std::vector<std::string>& street_ids) {
+  std::map<std::size_t, Json> rules;
+  for (const ContextRestriction& turn : context.restrictions) {
+    const std::string &from = street_ids[turn.from], &to = street_ids[turn.to];
+    if (from.empty() || to.empty()) {
+      notes_.push_back("Turn restriction `" + turn.id + "` (" + turn.rule + ") became nothing: `" +
+                       context.streets[from.empty() ? turn.from : turn.to].id + "` became no node.");
+      continue;
+    }
+    Json row = {{"from", from}, {"to", to}};
+    if (turn.rule.starts_with("only_")) row["rule"] = "only";
+    Json& rows = rules[turn.via];
+    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(std::move(row));
+  }
+  return rules;
 }
 
 void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making, ImportReport& report) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/define/json_text.h"
+#include "core/define/codec.h"
 #include "core/exchange/context.h"
 #include "core/exchange/data_layer.h"
 #include "core/exchange/terrain_grid.h"
@@ -47,6 +47,9 @@ class ContextNodes {
   std::string fresh_id(const std::string& wanted);
   std::string add_building(const ContextBuilding& building, const NodeMaking& making);
   void add_streets(const Context& context, const NodeMaking& making, ImportReport& report);
+  std::string add_junction(const ContextJunction& junction, const Json& turns);
+  void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end);
+  std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids);
   std::string add_plot(const ContextArea& area);
   void add_node(const std::string& id, const Json& node);
   void reach(const Point3& point);

@@ -36,13 +36,16 @@ void SceneView::draw(ImVec2 size) {
   if (move_)
     for (const auto& [id, start] : move_->starts)
       if (const std::uint32_t node = seen_index(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
+  follow_sun();
+  follow_choice();
   colouring_ = colour_volumes(*facts_, colour_choice(), editor_->theme);
   choices_.folder = editor_->document->folder();
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
   const bool has_same_cells = std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
                                          [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
-  if (scene.camera != still_camera_ || !has_same_cells) still_since_ = editor_->now;
+  if (scene.camera != still_camera_ || scene.sun != still_sun_ || !has_same_cells) still_since_ = editor_->now;
   still_camera_ = scene.camera;
+  still_sun_ = scene.sun;
   still_volumes_ = scene.volumes;
   scene.is_hurried = editor_->now < still_since_ + kStillSeconds;
   const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
@@ -77,6 +80,7 @@ void SceneView::draw_overlay() {
   }
   draw_card();
   draw_typed();
+  draw_sun_strip();
   ImGui::GetWindowDrawList()->PopClipRect();
   if (editor_->is_beamer) draw_title();
   else draw_tools();
@@ -87,6 +91,12 @@ void SceneView::forget() {
   all_facts_ = facts_ = nullptr;
   still_volumes_.clear();
   move_.reset();
+  preview_.reset();
+  is_sun_running_ = false;
+  shade_.clear();
+  reach_state_ = nullptr;
+  choices_.sun = {};
+  choices_.isochrones = nullptr;
 }
 
 void SceneView::follow_document() {

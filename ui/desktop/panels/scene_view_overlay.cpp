@@ -177,7 +177,8 @@ void SceneView::draw_scale_and_north() {
   // The arrow of north lies flat in the scene, so that it turns and tilts with it.
   const double turn = (90 - facts_->state->plan->settings.true_north) * std::numbers::pi / 180;
   const Vector3 north{std::cos(turn), std::sin(turn), 0}, east{north.y, -north.x, 0};
-  const ImVec2 middle{at_.x + width() - theme.px(38), at_.y + height() - theme.px(44)};
+  const float bottom = at_.y + height() - strip_height();
+  const ImVec2 middle{at_.x + width() - theme.px(38), bottom - theme.px(44)};
   const float r = theme.px(17);
   const auto at = [&](const Vector3& v) {
     return ImVec2{middle.x + r * static_cast<float>(dot(v, camera.right())),
@@ -198,7 +199,7 @@ void SceneView::draw_scale_and_north() {
   const double unit = camera.metres_per_pixel(camera.target, height());
   const double metres = round_distance(unit * theme.px(90));
   const float length = static_cast<float>(metres / unit);
-  const ImVec2 end{at_.x + width() - theme.px(76), at_.y + height() - theme.px(26)}, begin{end.x - length, end.y};
+  const ImVec2 end{at_.x + width() - theme.px(76), bottom - theme.px(26)}, begin{end.x - length, end.y};
   list.AddLine(begin, end, c.text_soft, theme.px(1.5f));
   for (const ImVec2 p : {begin, end, ImVec2{(begin.x + end.x) / 2, end.y}})
     list.AddLine({p.x, p.y - theme.px(4)}, p, c.text_soft, theme.px(1.2f));
@@ -210,31 +211,40 @@ void SceneView::draw_scale_and_north() {
 
 // Along the bottom from the left; what finds no room there stands above.
 void SceneView::draw_legends(bool is_large) {
-  std::vector<Legend> legends = urban_legends(*facts_, editor_->theme, [this](const char* layer) { return shows(layer); });
+  std::vector<Legend> legends =
+      urban_legends(*facts_, choices_, editor_->theme, [this](const char* layer) { return shows(layer); });
   legends.insert(legends.begin(), colouring_.legend);
-  const float margin = editor_->theme.px(is_large ? 28 : 14), right = at_.x + width() - editor_->theme.px(is_large ? 300 : 190);
-  ImVec2 corner{at_.x + margin, at_.y + height() - margin};
+  const float margin = editor_->theme.px(is_large ? 28 : 14);
+  // The lowest row leaves room for scale and north.
+  float right = at_.x + width() - editor_->theme.px(190);
+  ImVec2 corner{at_.x + margin, at_.y + height() - strip_height() - margin};
   float tallest = 0;
+  const auto room_above = [&](const ImVec2& place) { return place.y - at_.y - editor_->theme.px(is_large ? 88 : 74); };
   for (const Legend& legend : legends) {
     if (legend.rows.empty() && legend.ramp.empty()) continue;
-    if (corner.x > at_.x + margin && corner.x > right) {
+    const float wide = draw_legend(legend, corner, is_large, room_above(corner), nullptr).x;
+    if (corner.x > at_.x + margin && corner.x + wide > right) {
       corner = {at_.x + margin, corner.y - tallest - margin};
       tallest = 0;
+      right = at_.x + width() - margin;
     }
-    const ImVec2 size = draw_legend(legend, corner, is_large);
+    const ImVec2 size = draw_legend(legend, corner, is_large, room_above(corner), ImGui::GetWindowDrawList());
     corner.x += size.x + 2 * margin;
     tallest = std::max(tallest, size.y);
   }
+  const Legend reach = isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme);
+  if (reach.rows.empty()) return;
+  const ImVec2 size = draw_legend(reach, corner, is_large, height(), nullptr);
+  const ImVec2 place{at_.x + width() - size.x - margin, at_.y + editor_->theme.px(is_large ? 64 : 52) + size.y};
+  draw_legend(reach, place, is_large, height(), ImGui::GetWindowDrawList());
 }
 
-// With its lower left corner there; returns its size.
-ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool is_large) {
+// With its lower left corner there, no taller than `room`; returns its size. Without a list it only measures.
+ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool is_large, float room, ImDrawList* drawn_to) {
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
-  ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = is_large ? theme.fonts().body : theme.fonts().small;
   const float line = font->FontSize * 1.35f, swatch = font->FontSize * 0.8f;
-  const float room = corner.y - at_.y - theme.px(is_large ? 88 : 74);
   const std::size_t most = static_cast<std::size_t>(std::max(1.0f, room / line - 2));
   const std::size_t rows = std::min(legend.rows.size(), most);
   const float x = corner.x;
@@ -248,6 +258,8 @@ ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool i
   // Volumes may stand behind it.
   const float pad = theme.px(7);
   const ImVec2 size{widest + pad, corner.y - y + line + pad};
+  if (drawn_to == nullptr) return size;
+  ImDrawList& list = *drawn_to;
   list.AddRectFilled({x - pad, y - line - pad}, {x + widest + pad, corner.y + pad}, faded(c.sky, 0.72f), theme.px(5));
   list.AddText(theme.fonts().strong, font->FontSize, {x, y - line}, c.text, legend.title.c_str());
   for (std::size_t k = 0; k < rows; ++k, y += line) {
