@@ -37,7 +37,7 @@ struct GridPoint {
   Point3 place;
   double beyond = 0;
   bool is_moved = false;
-  Point3 on_ball, third;  // and a third of it: most pieces are triangles, whose middle is the sum of three of these
+  Point3 on_ball;
 };
 
 class PieceMaker {
@@ -64,12 +64,10 @@ class PieceMaker {
  private:
   GridPoint& at(int row, int i) { return grid_[static_cast<std::size_t>(row * (row + 1) / 2 + i)]; }
 
-  const GridPoint& moved(GridPoint& point) const {
-    if (point.is_moved) return point;
+  const Point3& moved(GridPoint& point) const {
+    if (!point.is_moved) point.on_ball = projection_.on_ball(point.place);
     point.is_moved = true;
-    point.on_ball = projection_.on_ball(point.place);
-    point.third = point.on_ball / 3.0;
-    return point;
+    return point.on_ball;
   }
 
   void add_part(const std::array<GridPoint*, 3>& part) {
@@ -80,30 +78,30 @@ class PieceMaker {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t next = i == 2 ? 0 : i + 1;
       const bool is_in = part[i]->beyond < 0;
-      if (is_out[i]) polygon[count++] = moved(*part[i]).on_ball;
+      if (is_out[i]) polygon[count++] = moved(*part[i]);
       if (is_in != (part[next]->beyond < 0))
         polygon[count++] = projection_.crossing(part[i]->place, part[next]->place, part[i]->beyond);
     }
     if (count < 3) return;
-    Point3 middle;
     Vector3 doubled;
-    for (std::size_t c = 0; c < count; ++c) {
-      middle += polygon[c] / static_cast<double>(count);
-      if (c >= 2) doubled += cross(polygon[c - 1] - polygon[0], polygon[c] - polygon[0]);
-    }
-    keep(std::span(polygon).first(count), middle, doubled);
+    for (std::size_t c = 2; c < count; ++c) doubled += cross(polygon[c - 1] - polygon[0], polygon[c] - polygon[0]);
+    if (BallPiece* piece = keep(std::span(polygon).first(count), doubled))
+      piece->flat_area = std::max(0.0, 0.5 * doubled_area(out_.of(*piece), piece->flat_normal));
   }
 
-  void add_whole(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
-    const std::array<Point3, 3> polygon{a.on_ball, b.on_ball, c.on_ball};
-    keep(polygon, a.third + b.third + c.third, cross(polygon[1] - polygon[0], polygon[2] - polygon[0]));
+  void add_whole(const Point3& a, const Point3& b, const Point3& c) {
+    const std::array<Point3, 3> polygon{a, b, c};
+    const Vector3 doubled = cross(b - a, c - a);
+    if (BallPiece* piece = keep(polygon, doubled)) piece->flat_area = std::max(0.0, 0.5 * dot(piece->flat_normal, doubled));
   }
 
-  void keep(std::span<const Point3> polygon, const Point3& middle, const Vector3& doubled) {
-    const double size = norm(doubled), reach = distance(middle, projection_.centre);
-    if (!(size > 0) || !(reach > 0)) return;
-    out_.pieces.push_back({out_.corners.size(), polygon.size(), doubled / size, (middle - projection_.centre) / reach, 0.5 * size});
-    out_.corners.insert(out_.corners.end(), polygon.begin(), polygon.end());
+  BallPiece* keep(std::span<const Point3> polygon, const Vector3& doubled) {
+    const double size = norm(doubled);
+    if (!(size > 0)) return nullptr;
+    if (!out_.about_outward(polygon) && !(norm(out_.outward(polygon)) > 0)) return nullptr;
+    const auto first = static_cast<std::uint32_t>(out_.corners.size());
+    for (const Point3& corner : polygon) out_.corners.push_back(corner);
+    return &out_.pieces.emplace_back(BallPiece{first, static_cast<std::uint32_t>(polygon.size()), doubled / size, 0.5 * size, 0});
   }
 
   Projection projection_;
@@ -113,9 +111,33 @@ class PieceMaker {
 
 }  // namespace
 
+Vector3 BallPieces::outward(std::span<const Point3> polygon) const {
+  Point3 middle;
+  for (const Point3& corner : polygon) middle += corner / static_cast<double>(polygon.size());
+  return middle - centre;
+}
+
+std::optional<Vector3> BallPieces::about_outward(std::span<const Point3> polygon) const {
+  Vector3 sum;
+  for (const Point3& corner : polygon) sum += corner - centre;
+  constexpr double kFarEnough = 1e-8;  // squared: at 1e-4 of the coordinates rounding is 1e-11 of the direction
+  if (!(squared_norm(sum) > kFarEnough * squared_norm(centre))) return std::nullopt;
+  return sum;
+}
+
+double doubled_area(std::span<const Point3> polygon, const Vector3& normal) {
+  double doubled = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    doubled += dot(normal, cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
+  return doubled;
+}
+
 BallPieces ball_pieces(const Mesh& mesh) {
   const MeshWrap& wrap = *mesh.wrap;
   BallPieces out;
+  out.centre = wrap.ball_centre;
+  out.pieces.reserve(mesh.triangles.size() * kParts * kParts);
+  out.corners.reserve(3 * mesh.triangles.size() * kParts * kParts);
   std::size_t t = 0;
   for (const MeshWrap::Part& part : wrap.parts) {
     PieceMaker maker({wrap.ball_centre, part.centre, wrap.radius * wrap.radius}, out);

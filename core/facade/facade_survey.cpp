@@ -44,11 +44,31 @@ Part below(Corners polygon, double height) {
   return out;
 }
 
-double flat_area(Corners polygon, const Vector3& normal) {
-  double doubled = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    doubled += dot(normal, cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
-  return std::max(0.0, 0.5 * doubled);
+double flat_area(Corners polygon, const Vector3& normal) { return std::max(0.0, 0.5 * doubled_area(polygon, normal)); }
+
+// What a piece of surface counts as, and where it looks to if it is façade.
+struct Facing {
+  enum class Side { facade, roof, underside } side = Side::facade;
+  Orientation orientation = Orientation::north;
+};
+
+Facing facing_of(const Vector3& normal, const Compass& compass) {
+  if (normal.z > kSteep) return {Facing::Side::roof};
+  if (normal.z < -kSteep) return {Facing::Side::underside};
+  return {Facing::Side::facade, compass.of(normal)};
+}
+
+// Of a piece of the ball: by comparing squares where these leave no doubt, without roots and divisions.
+Facing facing_of(const BallPieces& round, Corners polygon, const Compass& compass) {
+  if (const auto about = round.about_outward(polygon)) {
+    const double squared = squared_norm(*about), steepness = about->z * about->z - kSteep * kSteep * squared;
+    constexpr double kDoubtful = 1e-8;
+    if (steepness > kDoubtful * squared) return {about->z > 0 ? Facing::Side::roof : Facing::Side::underside};
+    if (steepness < -kDoubtful * squared)
+      if (const auto orientation = compass.of_about(*about)) return {Facing::Side::facade, *orientation};
+  }
+  const Vector3 outward = round.outward(polygon);
+  return facing_of(outward / norm(outward), compass);
 }
 
 // A face in its plane, with the disc that the ball cuts out of it.
@@ -78,20 +98,20 @@ struct Disc {
 class Surveyor {
  public:
   explicit Surveyor(const SurveyOptions& options) : options_(options), compass_(options.true_north) {}
+  const Compass& compass() const { return compass_; }
 
-  /// Adds the polygon; `area` gives that of any part of it, which is held as `Part`.
+  /// Adds the polygon, whose whole area is given; `area` gives that of any part of it, which is held as `Part`.
   template <class Part, class Area>
-  void add(Corners polygon, const Vector3& normal, double scale, const Area& area) {
-    const double whole = scale * area(polygon);
+  void add(Corners polygon, const Facing& facing, double whole, double scale, const Area& area) {
     if (!(whole > 0)) return;
     double low = polygon[0].z, high = low;
     for (const Point3& p : polygon) {
       low = std::min(low, p.z);
       high = std::max(high, p.z);
     }
-    if (normal.z > kSteep) out_.roof += whole;
-    else if (normal.z < -kSteep) (high <= options_.ground + kOnGround ? out_.ground : out_.underside) += whole;
-    else add_facade<Part>(polygon, low, high, compass_.of(normal), whole, scale, area);
+    if (facing.side == Facing::Side::facade) add_facade<Part>(polygon, low, high, facing.orientation, whole, scale, area);
+    else if (facing.side == Facing::Side::roof) out_.roof += whole;
+    else (high <= options_.ground + kOnGround ? out_.ground : out_.underside) += whole;
   }
 
   FacadeSurvey take() {
@@ -159,7 +179,7 @@ void survey_flat(const Mesh& mesh, std::span<const ShapeFace> faces, Surveyor& s
     const Disc disc = mesh.wrap ? Disc::of(*mesh.wrap, face.normal, face.middle) : Disc{};
     const auto area = [&](Corners part) { return mesh.wrap ? disc.area(part) : flat_area(part, face.normal); };
     if (face.is_shared) surveyor.out().shared += area(polygon);
-    else surveyor.add<Polygon>(polygon, face.normal, 1, area);
+    else surveyor.add<Polygon>(polygon, facing_of(face.normal, surveyor.compass()), area(polygon), 1, area);
   }
 }
 
@@ -168,9 +188,11 @@ void survey_round(const Mesh& mesh, const SurveyOptions& options, Surveyor& surv
   double measured = 0;
   for (const BallPiece& piece : round.pieces) measured += piece.area;
   const double scale = options.spherical_area >= 0 && measured > 0 ? options.spherical_area / measured : 1;
-  for (const BallPiece& piece : round.pieces)
-    surveyor.add<Piece>(round.of(piece), piece.ball_normal, scale,
-                        [&](std::span<const Point3> part) { return flat_area(part, piece.flat_normal); });
+  for (const BallPiece& piece : round.pieces) {
+    const Corners polygon = round.of(piece);
+    surveyor.add<Piece>(polygon, facing_of(round, polygon, surveyor.compass()), scale * piece.flat_area, scale,
+                        [&](Corners part) { return flat_area(part, piece.flat_normal); });
+  }
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ class Compass {
  public:
   explicit Compass(double true_north);
   Orientation of(const Vector3& normal) const;
+  /// Of a normal of any length that is known to a billionth only; nothing near the border of two sectors.
+  std::optional<Orientation> of_about(const Vector3& normal) const;
 
  private:
   double true_north_, sine_, cosine_;
