@@ -18,6 +18,8 @@ namespace {
 constexpr double kLeastCapacity = 1e-3;
 // A pair with a smaller share of what leaves a zone has no trips: halved tick by tick, it would never come to an end.
 constexpr double kLeastShare = 1e-9;
+// Where a smaller share of the trips wants to go elsewhere, all stay: else the last digits would never come to rest.
+constexpr double kRest = 1e-7;
 
 std::string zone_name(const std::string& id) { return "z:" + id; }
 
@@ -36,14 +38,17 @@ class District {
     if (auto made = make_network(); !made) return made.error();
     find_indices();
     const std::vector<TripDemand> before = trips_of(last);
-    equilibrium_ = std::make_unique<Equilibrium>(*network_, before, flows_of(last));
+    const std::vector<OriginFlow> flows = flows_of(last);
+    equilibrium_ = std::make_unique<Equilibrium>(*network_, before, flows);
     equilibrium_->set_demands(trips_wanted(before));
     for (int i = 0; i < settings_.steps && equilibrium_->figures().gap > settings_.gap; ++i) equilibrium_->iterate();
     read_totals();
     for (std::size_t s = 0; s < streets_.size(); ++s) read_street(s);
     read_zones();
     if (auto read = read_reach(); !read) return read.error();
-    remember();
+    out_.is_at_rest = has_same_trips_ && out_.iterations == 0 && before.size() == last.trips.size() && flows.size() == last.flows.size();
+    if (out_.is_at_rest) out_.state = last;
+    else remember();
     return std::move(out_);
   }
 
@@ -176,7 +181,7 @@ class District {
     measure_times();
     const TripDistribution wanted = distribute_trips(times_, leaving, arriving, settings_.fade, settings_.constraint);
     for (const TripDemand& trip : before) last[zone_at_[trip.origin] * n + zone_at_[trip.destination]] += trip.trips;
-    double apart = 0, all = 0;
+    double apart = 0, all = 0, changed = 0;
     std::vector<TripDemand> trips;
     for (std::size_t i = 0; i < n; ++i) {
       // A zone whose sum has changed follows at once; only where its trips go is approached.
@@ -190,13 +195,15 @@ class District {
         const double goal = wanted.trips[i * n + j], held = sum > 0 ? last[i * n + j] * (aim / sum) : goal;
         apart += std::abs(goal - held);
         all += goal;
+        changed += std::abs(last[i * n + j] - held);
         const double trip = held + settings_.haste * (goal - held);
         if (trip > kLeastShare * aim) trips.push_back({zone_nodes_[i], zone_nodes_[j], trip});
       }
       tell_lost(i, wanted.lost[i]);
     }
     out_.restlessness = all > 0 ? apart / all : 0;
-    return trips;
+    has_same_trips_ = apart <= kRest * all && changed <= kRest * all && trips.size() == before.size();
+    return has_same_trips_ ? before : trips;
   }
 
   void tell_lost(std::size_t z, double lost) {
@@ -315,6 +322,7 @@ class District {
   std::vector<std::uint32_t> zone_nodes_;
   std::map<std::uint32_t, std::size_t> zone_at_;  // the other way round
   std::vector<double> times_;                     // from zone i to zone j at [i · zones + j]
+  bool has_same_trips_ = false;  // as in the last step
   DistrictResult out_;
 };
 
