@@ -225,8 +225,9 @@ bool is_context_file(const std::string& path) {
 }
 
 const std::vector<std::string>& context_endings() {
-  static const std::vector<std::string> endings{".osm",  ".osm.gz", ".pbf", ".json", ".json.gz", ".jsonl", ".jsonl.gz", ".geojson", ".geojson.gz",
-                                                ".asc",  ".asc.gz", ".grd", ".tif",  ".tiff",    ".csv",   ".csv.gz",   ".tsv",     ".txt"};
+  static const std::vector<std::string> endings{".osm",      ".osm.gz",  ".pbf",        ".json",   ".json.gz", ".jsonl",
+                                                ".jsonl.gz", ".geojson", ".geojson.gz", ".asc",    ".asc.gz",  ".grd",
+                                                ".tif",      ".tiff",    ".csv",        ".csv.gz", ".tsv",     ".txt"};
   return endings;
 }
 
