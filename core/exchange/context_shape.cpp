@@ -190,6 +190,19 @@ void assume_heights(const ContextOptions& options, Context& context) {
                             " buildings are not known: " + shortest(options.default_height) + " m were assumed.");
 }
 
+std::optional<std::array<double, 2>> place_of(const std::vector<Point3>& points) {
+  double west = INFINITY, east = -INFINITY, south = INFINITY, north = -INFINITY;
+  for (const Point3& p : points) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+    west = std::min(west, p.x), east = std::max(east, p.x);
+    south = std::min(south, p.y), north = std::max(north, p.y);
+  }
+  if (west > east) return std::nullopt;
+  return std::array{west / 2 + east / 2, south / 2 + north / 2};
+}
+
+Error stopped_error() { return {ErrorCode::cancelled, "", "The import was stopped; nothing was added."}; }
+
 std::optional<std::array<double, 2>> middle_of(std::vector<std::array<double, 2>> points) {
   if (points.empty()) return std::nullopt;
   std::array<double, 2> middle{};

@@ -61,4 +61,20 @@ sed 's/BL_LINK(hold_height,/BL_LINK(hold_hight,/' "$checkout/links/plugin_templa
 build misspelt
 expect 'a word that is not the name of the file' 1 'BL_LINK(hold_height, Type) or BL_TYPIFICATION(hold_height, Type): the word'
 
+# A header that is new to the checkout changes the ABI text at the next build, without being configured again by hand.
+mkdir -p "$place/checkout/core" "$place/fresh"
+cp -r "$checkout/core/base" "$checkout/core/define" "$place/checkout/core/"
+cp -r "$checkout/links" "$place/checkout/"
+cp -r "$checkout/links/plugin_template" "$place/fresh/my_links"
+abi() { grep -ao 'BEHAVIOURLINKS-PLUGIN-ABI:declarations [0-9a-f]*' "$place/grown/my_links.so"; }
+output=$(cmake -S "$place/fresh/my_links" -B "$place/grown" "-DBEHAVIOURLINKS=$place/checkout" "-DCMAKE_CXX_COMPILER=$compiler" 2>&1 &&
+  cmake --build "$place/grown" 2>&1)
+code=$?
+expect 'another checkout builds it as well' 0
+before=$(abi)
+echo '// A new declaration.' >"$place/checkout/core/define/newcomer.h"
+output=$(cmake --build "$place/grown" 2>&1) code=$?
+expect 'and once more after a header was added' 0
+[ -n "$before" ] && [ "$before" != "$(abi)" ] || { echo 'the new header is not in the ABI text'; failures=$((failures + 1)); }
+
 [ $failures -eq 0 ]

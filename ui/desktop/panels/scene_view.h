@@ -28,6 +28,16 @@ class SceneView {
   void forget();
   /// Moves the camera so that the selection fills the view, or everything where `all` or where nothing is chosen.
   void fit(bool all);
+  /// Moves the camera so that a box fills the view [m].
+  void fit_to(const Point3& low, const Point3& high);
+  /// A pin with a sentence at a place where no node stands, until the next one, another choice or Esc; the camera goes there.
+  struct Pin {
+    Point3 place;
+    std::string text;
+  };
+  void put_pin(const Pin& pin);
+  void drop_pin() { pin_.reset(); }
+  const std::optional<Pin>& pin() const { return pin_; }
 
   // --- What actions ask for.
   enum class Side { plan, south, east, axonometric };
@@ -129,6 +139,7 @@ class SceneView {
   void draw_marks();
   void draw_labels();
   void draw_media_notes();
+  void draw_pin();
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   std::string street_under(const ImVec2& mouse) const;
@@ -195,6 +206,9 @@ class SceneView {
   std::string pointed_at_;
   std::optional<Move> move_;
   int hot_handle_ = -1;
+  std::optional<std::pair<Point3, Point3>> wanted_box_;  ///< to be brought into sight once its nodes are known
+  std::optional<Pin> pin_;
+  std::set<std::string> chosen_at_pin_;  ///< what was chosen when the pin was put
 
   std::optional<SunClock> preview_;
   bool is_sun_running_ = false;

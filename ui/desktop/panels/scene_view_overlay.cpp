@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/scene_view.h"
+#include "ui/desktop/panels/stream_text.h"
 #include "ui/desktop/view/urban_picture.h"
 
 namespace bl::desktop {
@@ -26,7 +28,18 @@ struct Wish {
   double importance;
   bool is_chosen, is_mark;
   std::uint32_t node;
+  std::optional<StreamText> stream;
 };
+
+// What a sensor says stands behind its name, in the colour of how far it can be relied on; `at`: its left edge.
+void draw_stream(ImDrawList& list, const Theme& theme, const StreamText& stream, ImVec2 at, bool is_chosen) {
+  const Colours& c = theme.colours();
+  ImFont* font = theme.fonts().small;
+  const float size = font->FontSize;
+  draw_standing(list, theme, {at.x + 0.4f * size, at.y + 0.52f * size}, 0.27f * size, stream.standing);
+  const ImU32 plain = stream.standing == StreamStanding::good ? c.text : colour_of(theme, stream.standing);
+  list.AddText(font, size, {at.x + 0.95f * size, at.y}, is_chosen ? c.text : plain, stream.text().c_str());
+}
 
 const char* sign_of(const std::string& type) {
   if (type == "programme") return icon::kFile;
@@ -103,7 +116,7 @@ void SceneView::draw_labels() {
     const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
     if (!at.is_in_front || !is_inside) return;
     if (!is_chosen && !is_hovered && size < kLeastVolumeOnScreen * theme.scale()) return;
-    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
+    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node, {}});
   };
   for (const VolumeFacts& volume : facts_->volumes)
     wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()), false);
@@ -111,6 +124,7 @@ void SceneView::draw_labels() {
     for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
   std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.importance > b.importance; });
   if (wishes.size() > kMostLabels) wishes.resize(kMostLabels);
+  for (Wish& one : wishes) one.stream = stream_of(*editor_, *facts_->state, one.node);
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = theme.fonts().small;
@@ -119,10 +133,17 @@ void SceneView::draw_labels() {
     const Seen anchor = w.is_mark || w.is_chosen ? w.at : visible_anchor(w.node, w.at);
     if (!anchor.is_in_front) continue;
     const ImVec2 p = on_screen(anchor);
-    const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.text->c_str());
+    const ImVec2 name = font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.text->c_str());
+    ImVec2 extent = name;
+    // A second line below the name.
+    if (w.stream) {
+      extent.x = std::max(extent.x, 0.95f * font->FontSize +
+                                        font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.stream->text().c_str()).x);
+      extent.y += 1.15f * font->FontSize;
+    }
     const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
     const std::array<ImVec2, 6> offsets = {
-        {{0, w.is_mark ? theme.px(20) : 0}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
+        {{0, w.is_mark ? theme.px(20) + (extent.y - name.y) / 2 : 0}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
     for (std::size_t k = 0; k < offsets.size(); ++k) {
       const ImVec2 middle{p.x + offsets[k].x, p.y + offsets[k].y};
       const Rectangle place{middle.x - extent.x / 2 - padding, middle.y - extent.y / 2 - theme.px(2),
@@ -137,6 +158,12 @@ void SceneView::draw_labels() {
                          theme.px(4));
       list.AddText(font, font->FontSize, {std::round(middle.x - extent.x / 2), std::round(middle.y - extent.y / 2)},
                    w.is_chosen ? c.on_accent : c.text, w.text->c_str());
+      if (!w.stream) break;
+      const ImVec2 corner{std::round(middle.x - extent.x / 2), std::round(middle.y + extent.y / 2 - 1.05f * font->FontSize)};
+      if (w.is_chosen)
+        list.AddRectFilled({place.left, corner.y - theme.px(1)}, {place.right, place.bottom}, c.panel, theme.px(4),
+                           ImDrawFlags_RoundCornersBottom);
+      draw_stream(list, theme, *w.stream, corner, w.is_chosen);
       break;
     }
   }
