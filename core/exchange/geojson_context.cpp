@@ -324,7 +324,7 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   if (importer.unsure > 0)
     context.notes.push_back(
         "The properties of " + std::to_string(importer.unsure) +
-        " polygons do not say what they are: they were taken as buildings. Say so if they are plots or areas.");
+        " polygons do not say what they are: they were taken as buildings. Say so by `--as plot` or `--as area` if they are something else.");
   assume_heights(options, context);
   return context;
 }

@@ -39,8 +39,10 @@ bool is_complete_png(std::string_view bytes) { return bytes.substr(bytes.size() 
 // From where the picture's own data begin: pictures in miniature within EXIF have an end of their own.
 bool is_complete_jpeg(std::string_view bytes) {
   std::size_t at = 2;
-  while (at + 4 <= bytes.size() && bytes[at] == '\xff') {
+  while (at + 2 <= bytes.size() && bytes[at] == '\xff') {
     const unsigned marker = big_endian(bytes, at + 1, 1);
+    if (marker == 0xd9) return true;
+    if (at + 4 > bytes.size()) return false;
     if (marker == 0xda) return bytes.find("\xff\xd9", at) != std::string_view::npos;
     at += marker == 0xff ? 1 : marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8) ? 2 : 2 + big_endian(bytes, at + 2, 2);
   }

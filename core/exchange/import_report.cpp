@@ -109,13 +109,15 @@ Result<ImportReports> read_import_csv(std::string_view text) {
   if (csv->records.empty() || csv->records.front().fields != csv_header())
     return Error{ErrorCode::parse, "line 1", "This is no import report: its header is not that of one."};
   if (!text.ends_with('\n'))
-    return Error{ErrorCode::parse, "line " + std::to_string(csv->records.back().line), "The report ends within this line: is it complete?"};
+    return Error{ErrorCode::parse, "line " + std::to_string(csv->records.back().line),
+                 "The report ends within this line: is it complete?"};
   ImportReports reports;
   for (std::size_t r = 1; r < csv->records.size(); ++r) {
     const CsvRecord& record = csv->records[r];
     auto row = row_of(record);
     if (!row)
-      return Error{ErrorCode::parse, "line " + std::to_string(record.line), "This is no row of an import report: it was changed."};
+      return Error{ErrorCode::parse, "line " + std::to_string(record.line),
+                   "This is no row of an import report: it was changed."};
     if (reports.empty() || reports.back().first != record.fields[0]) reports.emplace_back(record.fields[0], ImportReport());
     reports.back().second.add(std::move(*row));
   }

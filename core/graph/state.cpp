@@ -113,7 +113,10 @@ SavedState save(const State& state) {
   return saved;
 }
 
-State initial_state(std::shared_ptr<const Plan> plan) {
+namespace {
+
+// As initial_state() gives it, but for the hash.
+State fresh_state(std::shared_ptr<const Plan> plan) {
   State state;
   for (const NodePlan& node : plan->nodes) {
     NodeState& fresh = state.nodes.emplace_back();
@@ -123,11 +126,8 @@ State initial_state(std::shared_ptr<const Plan> plan) {
   state.links.resize(plan->links.size());
   state.analyses.resize(plan->analyses.size());
   state.plan = std::move(plan);
-  state.hash = hash_of(state);
   return state;
 }
-
-namespace {
 
 void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& after, TypeState& fresh,
                 const std::set<std::string>& placed) {
@@ -157,20 +157,28 @@ void carry_link(const State& old, std::size_t from, const Plan& plan, LinkState&
 
 }  // namespace
 
+State initial_state(std::shared_ptr<const Plan> plan) {
+  State state = fresh_state(std::move(plan));
+  state.hash = hash_of(state);
+  return state;
+}
+
 State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed) {
-  State state = initial_state(std::move(plan));
+  State state = fresh_state(std::move(plan));
   state.tick = old.tick;
   for (std::size_t n = 0; n < state.nodes.size(); ++n) {
     const NodePlan& node = state.plan->nodes[n];
     const std::uint32_t before = old.plan->node_index(node.id);
     if (before == old.plan->nodes.size()) continue;
+    const auto first = placed.lower_bound({node.id, ""});
+    const bool is_placed = first != placed.end() && first->first == node.id;
     for (std::size_t t = 0; t < node.types.size(); ++t)
       for (std::size_t o = 0; o < old.plan->nodes[before].types.size(); ++o) {
         const TypePlan& type = old.plan->nodes[before].types[o];
         if (type.definition->id != node.types[t].definition->id) continue;
         std::set<std::string> ports;
         for (const PortDefinition& port : type.definition->ports)
-          if (placed.contains({node.id, type.definition->id + "." + port.id})) ports.insert(port.id);
+          if (is_placed && placed.contains({node.id, type.definition->id + "." + port.id})) ports.insert(port.id);
         carry_type(type, old.nodes[before].types[o], node.types[t], state.nodes[n].types[t], ports);
       }
   }

@@ -15,7 +15,7 @@ namespace bl {
 namespace {
 
 // Streets that let pass fewer are closed [1/h]: nobody could wait for them.
-constexpr double kLeastCapacity = 1e-3;
+constexpr double kLeastCapacity = 1e-9;
 // A pair with a smaller share of what leaves a zone has no trips: halved tick by tick, it would never come to an end.
 constexpr double kLeastShare = 1e-9;
 // Where a smaller share of the trips wants to go elsewhere, all stay: else the last digits would never come to rest.

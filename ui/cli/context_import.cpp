@@ -72,6 +72,10 @@ class Import {
     result_.notes.insert(result_.notes.end(), nodes_.notes().begin(), nodes_.notes().end());
     result_.nodes = nodes_.made();
     if (!result_.errors.empty()) return std::move(result_);
+    if (result_.nodes.empty() && !result_.reports.empty()) {
+      fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
+      return std::move(result_);
+    }
     (void)goes_on(context_.watch, "adding to the scene", 0, 0);
     result_.command = nodes_.batch();
     result_.bounds = nodes_.bounds();
@@ -125,10 +129,20 @@ class Import {
     context_.origin.reset();
   }
 
+  std::string why_nothing() const {
+    if (context_.radius > 0) return "is anything within --radius " + shortest(context_.radius) + " m of the origin? --report FILE lists every element";
+    if (!o_.origin.empty())
+      return "is --origin right? It is X,Y in the CRS of the first file: longitude,latitude, east,north";
+    if (context_.target) return "do the files lie where the scene does (" + context_.target->crs + ")? --report FILE lists every element";
+    return "--report FILE lists every element with its reason";
+  }
+
   void take(const std::string& file, const ImportReport& report, const std::vector<std::string>& notes,
             const GeoReference& reference) {
     result_.reports.emplace_back(file, report);
     for (const std::string& note : notes) result_.notes.push_back(file + ": " + note);
+    if (report.total() > 0 && report.count(ImportOutcome::taken) + report.count(ImportOutcome::repaired) == 0)
+      result_.notes.push_back(file + ": nothing of this file was taken; " + why_nothing());
     settle(reference);
   }
 
@@ -211,8 +225,9 @@ bool is_context_file(const std::string& path) {
 }
 
 const std::vector<std::string>& context_endings() {
-  static const std::vector<std::string> endings{".osm",  ".osm.gz", ".pbf", ".json", ".json.gz", ".jsonl", ".jsonl.gz", ".geojson", ".geojson.gz",
-                                                ".asc",  ".asc.gz", ".grd", ".tif",  ".tiff",    ".csv",   ".csv.gz",   ".tsv",     ".txt"};
+  static const std::vector<std::string> endings{".osm",      ".osm.gz",  ".pbf",        ".json",   ".json.gz", ".jsonl",
+                                                ".jsonl.gz", ".geojson", ".geojson.gz", ".asc",    ".asc.gz",  ".grd",
+                                                ".tif",      ".tiff",    ".csv",        ".csv.gz", ".tsv",     ".txt"};
   return endings;
 }
 

@@ -59,7 +59,7 @@ void declare_import(CLI::App& app, ImportOptions& o) {
   c.add_option("--crs", o.context.crs, "CRS of the files in place of what they say, such as EPSG:28992.")->type_name("CRS");
   c.add_option("--origin", o.origin, "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
       ->type_name("X,Y");
-  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m.")->type_name("METRES");
+  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m. Default: 0, which takes all.")->type_name("METRES");
   c.add_option("--property", o.properties, "Names a property that is called otherwise, as often as needed: height=H_MAX.")
       ->type_name("OURS=THEIRS")
       ->expected(1)

@@ -175,7 +175,7 @@ class Run {
     if (!options_.report.empty())
       is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, *state);
-    live_.sum_up();
+    live_.sum_up(*state);
     const bool is_whole = std::none_of(state->links.begin(), state->links.end(), [](const LinkState& l) { return l.error.has_value(); });
     print_line(last_line, !state->is_settled() ? Colour::red : is_whole ? Colour::green : Colour::yellow);
     return is_saved;

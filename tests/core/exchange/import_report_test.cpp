@@ -91,8 +91,8 @@ TEST(ImportReport, AStoppedImportSaysSo) {
   const auto context = read_osm_context(kTriangleWay, options);
   ASSERT_FALSE(context);
   EXPECT_EQ(context.error().code, ErrorCode::cancelled);
-  const auto houses = read_geojson_context(
-      R"({"type": "Polygon", "coordinates": [[[4, 52], [4.001, 52], [4.001, 52.001], [4, 52]]]})", options);
+  const auto houses =
+      read_geojson_context(R"({"type": "Polygon", "coordinates": [[[4, 52], [4.001, 52], [4.001, 52.001], [4, 52]]]})", options);
   ASSERT_FALSE(houses);
   EXPECT_EQ(houses.error().code, ErrorCode::cancelled);
 }

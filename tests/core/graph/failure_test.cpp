@@ -53,13 +53,13 @@ TEST(Failure, AMeshThatIsNoneIsAnErrorWithAPlace) {
   }
 }
 
-// A street that is opened to a thousandth has times beyond what anybody could set.
+// The error of a volume that wants next to nothing is a number beyond what anybody could set.
 TEST(Failure, FiguresBeyondAllSettingsAreReadAgain) {
-  World world = World::from_file("scenes/nodes/street.json");
-  std::vector<std::string> streets;
+  World world = World::from_file("scenes/nodes/smart_volume.json");
+  std::vector<std::string> volumes;
   for (const auto& [id, node] : world.session().scene().nodes)
-    if (node.types.contains("street")) streets.push_back(id);
-  for (const std::string& id : streets) ASSERT_EQ(world.submit(command<SetPort>({id, "street.open", {"1e-9"}})), "");
+    if (node.types.contains("smart_volume")) volumes.push_back(id);
+  for (const std::string& id : volumes) ASSERT_EQ(world.submit(command<SetPort>({id, "smart_volume.demand", {"1e-300"}})), "");
   world.tick(10);
   bool is_beyond = false;
   for (const auto& [node, values] : save(world.state()).nodes)

@@ -52,7 +52,8 @@ TEST(Copies, FilesThatASceneNamesAreFoundFromItsNewFolder) {
   const Folder folder("copies_files");
   ImportDesktop desktop("scenes/nodes/media.json");
   Editor& editor = desktop.editor();
-  EXPECT_EQ(editor.document->folder(), files::path(kMedia).parent_path().string()) << "until it is saved, pictures are those of the original";
+  EXPECT_EQ(editor.document->folder(), files::path(kMedia).parent_path().string())
+      << "until it is saved, pictures are those of the original";
   ASSERT_TRUE(editor.document->save(folder.at("mine.json")));
   const std::string named = media_file(editor, "board");
   EXPECT_TRUE(files::path(named).is_absolute()) << named;
@@ -113,7 +114,8 @@ TEST(Copies, AnotherNameOfAShippedFileIsNoCopyOfIt) {
 TEST(Copies, WhatACrashLeavesIsACopyAgain) {
   ImportDesktop desktop;
   const std::string scene = read_file(kMedia).value();
-  const std::string text = log_header(scene) + log_line(LogEntry{1, 0, 1, "desk", command<RenameNode>({"board", "Panel"})}, full_registry());
+  const std::string text =
+      log_header(scene) + log_line(LogEntry{1, 0, 1, "desk", command<RenameNode>({"board", "Panel"})}, full_registry());
   auto log = read_log(text, full_registry());
   ASSERT_TRUE(log);
   std::vector<Problem> problems;

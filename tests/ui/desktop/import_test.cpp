@@ -33,7 +33,8 @@ TEST(WindowImport, IsOneStepThatCanBeUndone) {
 }
 
 // Twenty metres north of the first of the houses.
-constexpr const char* kNorth = R"({"type": "Feature", "properties": {"building": "yes", "gid": 7}, "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
+constexpr const char* kNorth =
+    R"({"type": "Feature", "properties": {"building": "yes", "gid": 7}, "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
     "geometry": {"type": "Polygon", "coordinates": [[[85000, 447020], [85020, 447020], [85020, 447030], [85000, 447030], [85000, 447020]]]}})";
 
 Vector3 position_of(Editor& editor, const std::string& id) {
@@ -60,8 +61,9 @@ TEST(WindowImport, LaterFilesLandInTheFrameOfTheFirst) {
 TEST(WindowImport, OneBadFileOfSeveralKeepsAllOut) {
   const Folder folder("import_several");
   ImportDesktop desktop("scenes/start/quarter.json");
-  desktop.import({folder.write("more.geojson", kNorth),
-                  folder.write("heights.asc", "ncols 3\nnrows 2\nxllcorner 84990\nyllcorner 446990\ncellsize 50\n1 2 3\n4 5 6\n")});
+  desktop.import(
+      {folder.write("more.geojson", kNorth),
+       folder.write("heights.asc", "ncols 3\nnrows 2\nxllcorner 84990\nyllcorner 446990\ncellsize 50\n1 2 3\n4 5 6\n")});
   EXPECT_TRUE(desktop.is_open());
   EXPECT_NE(desktop.told().find("heights.asc: crs: The file does not say in which CRS"), std::string::npos) << desktop.told();
   EXPECT_EQ(steps_of(desktop.editor()), 0u);
@@ -155,12 +157,14 @@ TEST(WindowImport, CanBeAskedForByKeyAndPalette) {
 // Many features: the window goes on, and stopping leaves the scene as it was.
 TEST(WindowImport, CanBeStopped) {
   const Folder folder("import_stop");
-  std::string text = R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)";
+  std::string text =
+      R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)";
   for (int k = 0; k < 60000; ++k) {
     const std::string x = std::to_string(80000 + 12 * (k % 250)), y = std::to_string(440000 + 12 * (k / 250));
     const std::string e = std::to_string(80008 + 12 * (k % 250)), n = std::to_string(440008 + 12 * (k / 250));
-    text += std::string(k > 0 ? "," : "") + R"({"type":"Feature","properties":{"height":9},"geometry":{"type":"Polygon","coordinates":[[[)" + x + "," + y + "],[" + e + "," + y +
-            "],[" + e + "," + n + "],[" + x + "," + n + "],[" + x + "," + y + "]]]}}";
+    text += std::string(k > 0 ? "," : "") +
+            R"({"type":"Feature","properties":{"height":9},"geometry":{"type":"Polygon","coordinates":[[[)" + x + "," + y +
+            "],[" + e + "," + y + "],[" + e + "," + n + "],[" + x + "," + n + "],[" + x + "," + y + "]]]}}";
   }
   ImportDesktop desktop("scenes/start/quarter.json");
   const std::string before = desktop.scene_text();

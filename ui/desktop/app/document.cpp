@@ -103,13 +103,15 @@ std::int64_t Document::name_files_from(const std::string& target) {
   const std::int64_t gesture = session_->new_gesture();
   if (auto done = submit(commands, gesture); !done) return 0;  // somebody has taken the node away: then it names no file any more
   name_step(gesture, "Name files from the new folder");
-  save_note_ = report::counted(commands.size(), "file") + " that the scene names (pictures, tables) stayed in place; the scene names them from its new folder.";
+  save_note_ = report::counted(commands.size(), "file") +
+               " that the scene names (pictures, tables) stayed in place; the scene names them from its new folder.";
   return gesture;
 }
 
 Result<void> Document::save(const std::string& path) {
   if (is_shipped(path))
-    return Error{ErrorCode::conflict, path, "The scenes of this folder come with the program and stay as they are: choose another folder."};
+    return Error{ErrorCode::conflict, path,
+                 "The scenes of this folder come with the program and stay as they are: choose another folder."};
   save_note_.clear();
   const std::int64_t gesture = name_files_from(std::filesystem::path(path).parent_path().string());
   // Scene and running state of one and the same moment.
@@ -152,7 +154,8 @@ void Document::read_imports(std::vector<Problem>& problems) {
   if (!std::filesystem::exists(path, error)) return;
   const auto text = read_file(path);
   auto reports = text ? read_import_csv(*text) : Result<ImportReports>(text.error());
-  if (!reports) problems.push_back({false, {reports.error().code, path, reports.error().text() + " The scene is not touched by it."}});
+  if (!reports)
+    problems.push_back({false, {reports.error().code, path, reports.error().text() + " The scene is not touched by it."}});
   else add_imports(*reports);
 }
 

@@ -26,7 +26,8 @@ files::path absolute(const std::string& folder) {
 }
 
 // The name from the new folder; nothing where the old one serves as well.
-std::optional<std::string> moved(const std::string& name, const std::string& first, const files::path& from, const files::path& to) {
+std::optional<std::string> moved(const std::string& name, const std::string& first, const files::path& from,
+                                 const files::path& to) {
   std::error_code error;
   if (name.empty() || files::path(name).is_absolute() || !files::exists(from / first, error)) return std::nullopt;
   const files::path path = (from / name).lexically_normal(), inside = path.lexically_relative(to);
@@ -52,7 +53,8 @@ std::vector<Command> commands_naming_files_from(const Scene& scene, const std::s
   if (from == to) return commands;
   for (const auto& [id, node] : scene.nodes) {
     if (const std::string* file = text_of(node, "media", "file"))
-      if (const auto name = moved(*file, frame_file(*file, 0, 1, 1), from, to)) commands.push_back(set_text(id, "media.file", *name));
+      if (const auto name = moved(*file, frame_file(*file, 0, 1, 1), from, to))
+        commands.push_back(set_text(id, "media.file", *name));
     const std::string* address = text_of(node, "sensor", "address");
     if (address == nullptr || !address->starts_with(kReplay)) continue;
     const auto parsed = parse_live_address(*address);

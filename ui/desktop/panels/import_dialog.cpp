@@ -27,9 +27,9 @@ struct KindChoice {
   const char* kind;
   const char* label;
 };
-constexpr std::array kKinds = {KindChoice{"", "as the file says"},     KindChoice{"building", "buildings"},
-                               KindChoice{"street", "streets"},        KindChoice{"plot", "plots"},
-                               KindChoice{"area", "areas of ground"},  KindChoice{"terrain", "a terrain"},
+constexpr std::array kKinds = {KindChoice{"", "as the file says"},    KindChoice{"building", "buildings"},
+                               KindChoice{"street", "streets"},       KindChoice{"plot", "plots"},
+                               KindChoice{"area", "areas of ground"}, KindChoice{"terrain", "a terrain"},
                                KindChoice{"layer", "a layer of data"}};
 
 std::string name_of_file(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -122,23 +122,28 @@ void Dialogs::draw_import_options() {
       if (ImGui::Selectable(kind.label, import_.kind == kind.kind)) import_.kind = kind.kind;
     ImGui::EndCombo();
   }
-  text_field(theme, "Coordinates are in", "A CRS in place of what the files say of themselves.", context.crs, "as the file says, or EPSG:28992");
+  text_field(theme, "Coordinates are in", "A CRS in place of what the files say of themselves.", context.crs,
+             "as the file says, or EPSG:28992");
   const std::string crs = editor_->document ? settings_of(editor_->scene()).coordinate_system : std::string();
   if (crs.empty()) {
-    text_field(theme, "Origin of the scene (X,Y)", "In the CRS of the first file; later files land in the same frame.", import_.origin,
-               "the middle of the first file");
+    text_field(theme, "Origin of the scene (X,Y)", "In the CRS of the first file; later files land in the same frame.",
+               import_.origin, "the middle of the first file");
   } else {
     import_.origin.clear();
     label(theme, "Origin of the scene", "Decided by the first file that was imported, or by the plan it was made from.");
     ImGui::TextDisabled("stays where it is, in %s", crs.starts_with("+") ? "a projection made for the site" : crs.c_str());
   }
-  number_field(theme, "Radius around the origin", "What begins farther away is skipped, and reported. 0: no limit.", context.radius, "%.5g m");
-  number_field(theme, "Finest level of detail", "Of city models: the finest geometry up to this, such as 1.2 or 2.2.", context.level_of_detail, "%.3g");
+  number_field(theme, "Radius around the origin", "What begins farther away is skipped, and reported. 0: no limit.",
+               context.radius, "%.5g m");
+  number_field(theme, "Finest level of detail", "Of city models: the finest geometry up to this, such as 1.2 or 2.2.",
+               context.level_of_detail, "%.3g");
   number_field(theme, "Storey height", "Where only a number of storeys is known.", context.storey_height, "%.4g m");
-  number_field(theme, "Height of unknown buildings", "Where neither the file nor three neighbours tell one. It is marked as assumed.",
-               context.default_height, "%.4g m");
+  number_field(theme, "Height of unknown buildings",
+               "Where neither the file nor three neighbours tell one. It is marked as assumed.", context.default_height,
+               "%.4g m");
   text_field(theme, "Column with the values", "Of a layer of data.", import_.value, "the only one with numbers");
-  text_field(theme, "Unit, licence of the values", "Of a layer of data: such as dB, and what may be done with it.", import_.unit, "unit", 90);
+  text_field(theme, "Unit, licence of the values", "Of a layer of data: such as dB, and what may be done with it.", import_.unit,
+             "unit", 90);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(theme.px(152));
   ImGui::InputTextWithHint("##licence", "licence", &import_.licence);
@@ -154,16 +159,20 @@ void Dialogs::draw_import_progress() {
   const std::string name = name_of_file(import_.files[file]);
   ImGui::Dummy({0, theme.px(30)});
   ImGui::PushFont(theme.fonts().strong);
-  ImGui::TextUnformatted(import_.files.size() > 1 ? (name + ", file " + std::to_string(file + 1) + " of " + std::to_string(import_.files.size())).c_str()
-                                                  : name.c_str());
+  ImGui::TextUnformatted(
+      import_.files.size() > 1
+          ? (name + ", file " + std::to_string(file + 1) + " of " + std::to_string(import_.files.size())).c_str()
+          : name.c_str());
   ImGui::PopFont();
   ImGui::Dummy({0, theme.px(6)});
   // Where nobody knows how much there is, the bar goes to and fro.
   const double swing = 0.5 - 0.5 * std::cos(2.2 * editor_->now);
-  const float share = total > 0 ? static_cast<float>(static_cast<double>(done) / static_cast<double>(total)) : static_cast<float>(swing);
-  const std::string count = total > 0  ? report::grouped(static_cast<double>(done)) + " of " + report::grouped(static_cast<double>(total))
-                            : done > 0 ? report::grouped(static_cast<double>(done))
-                                       : std::string();
+  const float share =
+      total > 0 ? static_cast<float>(static_cast<double>(done) / static_cast<double>(total)) : static_cast<float>(swing);
+  const std::string count =
+      total > 0  ? report::grouped(static_cast<double>(done)) + " of " + report::grouped(static_cast<double>(total))
+      : done > 0 ? report::grouped(static_cast<double>(done))
+                 : std::string();
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, theme.colours().accent);
   ImGui::ProgressBar(share, {-FLT_MIN, theme.px(8)}, "");
   ImGui::PopStyleColor();
@@ -234,8 +243,7 @@ void Dialogs::wait_for_import() {
 bool Dialogs::prepare_scene_for_import() {
   if (editor_->document) return true;
   std::vector<Problem> problems;
-  auto document =
-      Document::from_text(editor_->program, write_scene(Scene(), editor_->program), "", kTickThreads, problems);
+  auto document = Document::from_text(editor_->program, write_scene(Scene(), editor_->program), "", kTickThreads, problems);
   if (!document) return false;
   editor_->list_problems("", std::move(problems));
   editor_->take(std::move(document));
@@ -266,12 +274,14 @@ bool Dialogs::take_import(cli::ImportedScene& imported) {
   document.add_imports(imported.reports);
   std::vector<Problem> problems = editor_->problems;
   for (const std::string& note : imported.notes) problems.push_back({false, {ErrorCode::missing, "import", note}});
-  if (!imported.notes.empty()) editor_->list_problems(editor_->problem_file.empty() ? names : editor_->problem_file, std::move(problems));
+  if (!imported.notes.empty())
+    editor_->list_problems(editor_->problem_file.empty() ? names : editor_->problem_file, std::move(problems));
   std::size_t skipped = 0;
   for (const auto& [file, report] : imported.reports) skipped += report.count(ImportOutcome::skipped);
-  editor_->tell(NoticeKind::told, "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
-                                      (skipped == 0 ? "Nothing was skipped."
-                                                    : report::counted(skipped, "element") + " skipped; the tab Import says why."));
+  editor_->tell(
+      NoticeKind::told,
+      "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
+          (skipped == 0 ? "Nothing was skipped." : report::counted(skipped, "element") + " skipped; the tab Import says why."));
   editor_->person.shows_bottom = true;
   memory_of(*editor_).wanted_tab = "Import";
   const auto& [low, high] = imported.bounds;

@@ -35,7 +35,7 @@ class ImportList {
   /// The rows that pass what is chosen below, in the order that is wanted. Worked out anew after changes only.
   const std::vector<ImportEntry>& shown();
 
-  void choose_outcome(int outcome);     ///< of ImportOutcome; -1: all. The same again: all
+  void choose_outcome(int outcome);      ///< of ImportOutcome; -1: all. The same again: all
   void choose_group(std::size_t group);  ///< the same again: all
   void search(const std::string& text);
   void sort(ImportColumn column, bool is_descending);

@@ -73,11 +73,13 @@ void go_to(Editor& editor, const ImportRow& row) {
   if (row.place && editor.view != nullptr) {
     editor.picks.clear();
     const double ground = editor.view->facts() == nullptr ? 0 : editor.view->facts()->ground;
-    const std::string what = title_of(row) + "\n" + label_of(row.outcome) + ": " + row.reason + (row.detail.empty() ? "" : "\n" + row.detail);
+    const std::string what =
+        title_of(row) + "\n" + label_of(row.outcome) + ": " + row.reason + (row.detail.empty() ? "" : "\n" + row.detail);
     return editor.view->put_pin({{(*row.place)[0], (*row.place)[1], ground}, what});
   }
-  editor.tell(NoticeKind::told, row.count > 1 ? "This row speaks of " + number(row.count) + " elements together, which have no place of their own."
-                                              : "The file does not say where " + title_of(row) + " lies.");
+  editor.tell(NoticeKind::told,
+              row.count > 1 ? "This row speaks of " + number(row.count) + " elements together, which have no place of their own."
+                            : "The file does not say where " + title_of(row) + " lies.");
 }
 
 void draw_outcomes(Editor& editor, ImportList& list) {
@@ -88,7 +90,8 @@ void draw_outcomes(Editor& editor, ImportList& list) {
     const bool is_on = list.outcome() == outcome && list.group() == list.groups().size();
     ImGui::PushStyleColor(ImGuiCol_Button, is_on ? c.accent_soft : c.raised);
     ImGui::PushStyleColor(ImGuiCol_Text, is_on ? c.text : c.text_soft);
-    if (ImGui::Button((label + "  " + number(count) + "###outcome" + std::to_string(outcome)).c_str())) list.choose_outcome(outcome);
+    if (ImGui::Button((label + "  " + number(count) + "###outcome" + std::to_string(outcome)).c_str()))
+      list.choose_outcome(outcome);
     note_place(editor, "import/outcome/" + label);
     ImGui::PopStyleColor(2);
     ImGui::SameLine(0, theme.px(4));
@@ -122,9 +125,11 @@ void draw_groups(Editor& editor, ImportList& list, float width) {
     const std::string count = number(group.count);
     const float count_width = ImGui::CalcTextSize(count.c_str()).x;
     draw.AddText({at.x + theme.px(4), y}, sign.colour, sign.text);
-    draw.AddText({at.x + theme.px(24), y}, c.text, fitted(group.kind + ": " + group.reason, room - count_width - theme.px(44)).c_str());
+    draw.AddText({at.x + theme.px(24), y}, c.text,
+                 fitted(group.kind + ": " + group.reason, room - count_width - theme.px(44)).c_str());
     draw.AddText({at.x + room - count_width - theme.px(8), y}, c.text_soft, count.c_str());
-    if (is_hovered) card(editor, std::string(label_of(group.outcome)) + ": " + report::counted(group.count, group.kind), group.reason);
+    if (is_hovered)
+      card(editor, std::string(label_of(group.outcome)) + ": " + report::counted(group.count, group.kind), group.reason);
     ImGui::PopID();
     ImGui::SetCursorScreenPos({at.x, at.y + height});
   }
@@ -181,14 +186,16 @@ void draw_table(Editor& editor, ImportList& list) {
     const char* name;
     float weight;
   };
-  constexpr Column kColumns[] = {{"Outcome", 1}, {"Kind", 0.8f}, {"Id", 1.3f}, {"Why", 2.6f}, {"Special", 1.8f}, {"Where", 1.5f}, {"File", 1.2f}};
+  constexpr Column kColumns[] = {{"Outcome", 1},    {"Kind", 0.8f},  {"Id", 1.3f},  {"Why", 2.6f},
+                                 {"Special", 1.8f}, {"Where", 1.5f}, {"File", 1.2f}};
   for (int k = 0; k < (has_files ? kImportColumns : kImportColumns - 1); ++k)
     ImGui::TableSetupColumn(kColumns[k].name, ImGuiTableColumnFlags_WidthStretch, kColumns[k].weight, static_cast<ImGuiID>(k));
   ImGui::TableHeadersRow();
   note_place(editor, "import/heads");
   if (ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs(); specs != nullptr && specs->SpecsDirty) {
     if (specs->SpecsCount > 0)
-      list.sort(static_cast<ImportColumn>(specs->Specs[0].ColumnUserID), specs->Specs[0].SortDirection == ImGuiSortDirection_Descending);
+      list.sort(static_cast<ImportColumn>(specs->Specs[0].ColumnUserID),
+                specs->Specs[0].SortDirection == ImGuiSortDirection_Descending);
     specs->SpecsDirty = false;
   }
   const std::vector<ImportEntry>& shown = list.shown();
@@ -208,7 +215,8 @@ void draw_table(Editor& editor, ImportList& list) {
 
 void draw_nothing(Editor& editor) {
   ImGui::Dummy({0, editor.theme.px(6)});
-  ImGui::TextUnformatted("Nothing was imported into this scene. After an import, every element of the files stands here, with what became of it.");
+  ImGui::TextUnformatted(
+      "Nothing was imported into this scene. After an import, every element of the files stands here, with what became of it.");
   ImGui::Dummy({0, editor.theme.px(4)});
   if (ImGui::Button("Import surroundings ...")) editor.dialogs->show_import();
 }

@@ -31,14 +31,31 @@ struct Wish {
   std::optional<StreamText> stream;
 };
 
-// What a sensor says stands behind its name, in the colour of how far it can be relied on; `at`: its left edge.
-void draw_stream(ImDrawList& list, const Theme& theme, const StreamText& stream, ImVec2 at, bool is_chosen) {
+// Of the name, and of the line below it in which a sensor says what it has measured.
+ImVec2 extent_of(ImFont* font, const Wish& wish) {
+  ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, wish.text->c_str());
+  if (!wish.stream) return extent;
+  const float line = font->CalcTextSizeA(font->FontSize, 1e4f, 0, wish.stream->text().c_str()).x;
+  return {std::max(extent.x, 0.95f * font->FontSize + line), extent.y + 1.15f * font->FontSize};
+}
+
+// The stream is written in the colour of how far it can be relied on, which needs the panel's ground.
+void write_label(ImDrawList& list, const Theme& theme, const Wish& wish, const Rectangle& place, ImVec2 corner) {
   const Colours& c = theme.colours();
   ImFont* font = theme.fonts().small;
   const float size = font->FontSize;
-  draw_standing(list, theme, {at.x + 0.4f * size, at.y + 0.52f * size}, 0.27f * size, stream.standing);
-  const ImU32 plain = stream.standing == StreamStanding::good ? c.text : colour_of(theme, stream.standing);
-  list.AddText(font, size, {at.x + 0.95f * size, at.y}, is_chosen ? c.text : plain, stream.text().c_str());
+  list.AddRectFilled({place.left, place.top}, {place.right, place.bottom}, wish.is_chosen ? c.accent : faded(c.panel, 0.74f),
+                     theme.px(4));
+  list.AddText(font, size, corner, wish.is_chosen ? c.on_accent : c.text, wish.text->c_str());
+  if (!wish.stream) return;
+  const float top = corner.y + 1.15f * size;
+  if (wish.is_chosen)
+    list.AddRectFilled({place.left, top - theme.px(1)}, {place.right, place.bottom}, c.panel, theme.px(4),
+                       ImDrawFlags_RoundCornersBottom);
+  const StreamStanding standing = wish.stream->standing;
+  draw_standing(list, theme, {corner.x + 0.4f * size, top + 0.52f * size}, 0.27f * size, standing);
+  list.AddText(font, size, {corner.x + 0.95f * size, top}, standing == StreamStanding::good ? c.text : colour_of(theme, standing),
+               wish.stream->text().c_str());
 }
 
 const char* sign_of(const std::string& type) {
@@ -133,17 +150,11 @@ void SceneView::draw_labels() {
     const Seen anchor = w.is_mark || w.is_chosen ? w.at : visible_anchor(w.node, w.at);
     if (!anchor.is_in_front) continue;
     const ImVec2 p = on_screen(anchor);
-    const ImVec2 name = font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.text->c_str());
-    ImVec2 extent = name;
-    // A second line below the name.
-    if (w.stream) {
-      extent.x = std::max(extent.x, 0.95f * font->FontSize +
-                                        font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.stream->text().c_str()).x);
-      extent.y += 1.15f * font->FontSize;
-    }
+    const ImVec2 extent = extent_of(font, w);
+    const float below = w.is_mark ? theme.px(20) + (w.stream ? 0.575f * font->FontSize : 0) : 0;
     const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
     const std::array<ImVec2, 6> offsets = {
-        {{0, w.is_mark ? theme.px(20) + (extent.y - name.y) / 2 : 0}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
+        {{0, below}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
     for (std::size_t k = 0; k < offsets.size(); ++k) {
       const ImVec2 middle{p.x + offsets[k].x, p.y + offsets[k].y};
       const Rectangle place{middle.x - extent.x / 2 - padding, middle.y - extent.y / 2 - theme.px(2),
@@ -154,16 +165,7 @@ void SceneView::draw_labels() {
         list.AddLine(p, middle, faded(c.text, 0.55f), 1);
         list.AddCircleFilled(p, theme.px(2), faded(c.text, 0.8f));
       }
-      list.AddRectFilled({place.left, place.top}, {place.right, place.bottom}, w.is_chosen ? c.accent : faded(c.panel, 0.74f),
-                         theme.px(4));
-      list.AddText(font, font->FontSize, {std::round(middle.x - extent.x / 2), std::round(middle.y - extent.y / 2)},
-                   w.is_chosen ? c.on_accent : c.text, w.text->c_str());
-      if (!w.stream) break;
-      const ImVec2 corner{std::round(middle.x - extent.x / 2), std::round(middle.y + extent.y / 2 - 1.05f * font->FontSize)};
-      if (w.is_chosen)
-        list.AddRectFilled({place.left, corner.y - theme.px(1)}, {place.right, place.bottom}, c.panel, theme.px(4),
-                           ImDrawFlags_RoundCornersBottom);
-      draw_stream(list, theme, *w.stream, corner, w.is_chosen);
+      write_label(list, theme, w, place, {std::round(middle.x - extent.x / 2), std::round(middle.y - extent.y / 2)});
       break;
     }
   }

@@ -51,9 +51,9 @@ StreamText sensor_text(const Editor& editor, const State& state, std::uint32_t n
   if (quality == "stale" || quality == "invalid") stream.quality = quality;
   if (!text_at(state, node, type, "connection").empty()) stream.quality += stream.quality.empty() ? "line lost" : ", line lost";
   stream.standing = stream.quality.ends_with("lost") || quality == "invalid" ? StreamStanding::lost
-                    : quality == "stale"                                      ? StreamStanding::stale
-                    : quality == "never"                                      ? StreamStanding::silent
-                                                                              : StreamStanding::good;
+                    : quality == "stale"                                     ? StreamStanding::stale
+                    : quality == "never"                                     ? StreamStanding::silent
+                                                                             : StreamStanding::good;
   return stream;
 }
 

@@ -115,7 +115,8 @@ void draw_stream_line(const Ink& ink, const NodeBox& box, const Section& section
   if (!stream) return;
   const ImVec2 low = ink.at(box.box.at.x + 6, y + 2), high = ink.at(box.box.high().x - 6, y + kStreamHeight - 1);
   const ImU32 colour = colour_of(editor.theme, stream->standing);
-  ink.list.AddRectFilled(low, high, mixed(ink.c.sunken, colour, stream->standing == StreamStanding::silent ? 0.0f : 0.16f), 3 * ink.k);
+  ink.list.AddRectFilled(low, high, mixed(ink.c.sunken, colour, stream->standing == StreamStanding::silent ? 0.0f : 0.16f),
+                         3 * ink.k);
   const float size = kRowText * ink.k, middle = (low.y + high.y) / 2, top = middle - 0.6f * size, gap = 5 * ink.k;
   draw_standing(ink.list, editor.theme, {low.x + 8 * ink.k, middle}, 3.2f * ink.k, stream->standing);
   const float begin = low.x + 16 * ink.k, end = high.x - gap;
@@ -128,8 +129,8 @@ void draw_stream_line(const Ink& ink, const NodeBox& box, const Section& section
   }
   const float room = end - begin, taken = std::min(text_width(ink.board, size, rest), std::max(0.45f * room, room - value - gap));
   draw_text(ink.board, {begin, top}, size, ink.c.text, stream->value, room - taken - gap);
-  draw_text(ink.board, {end - taken, top}, size, stream->standing == StreamStanding::good ? ink.c.text_soft : mixed(colour, ink.c.text, 0.25f),
-            rest, taken + 1);
+  draw_text(ink.board, {end - taken, top}, size,
+            stream->standing == StreamStanding::good ? ink.c.text_soft : mixed(colour, ink.c.text, 0.25f), rest, taken + 1);
 }
 
 // From further away fewer rows, in a size that can still be read: the residual is the first to go, for the bar shows it too.
@@ -215,8 +216,8 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
   if (section.is_stream && box.in_state != kNoIndex && section.in_state != kNoIndex) {
     const Editor& editor = ink.board.editor;
     if (const auto stream = stream_of(editor, editor.state(), box.in_state, section.in_state))
-      draw_text(ink.board, {screen.low().x + pad, foot}, 0.85f * pixels, mixed(colour_of(editor.theme, stream->standing), ink.c.text, 0.3f),
-                stream->value, room);
+      draw_text(ink.board, {screen.low().x + pad, foot}, 0.85f * pixels,
+                mixed(colour_of(editor.theme, stream->standing), ink.c.text, 0.3f), stream->value, room);
     return;
   }
   refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
