@@ -73,6 +73,15 @@ TEST_F(ViewShade, IsHiddenByVolumesThatStandBeforeIt) {
   EXPECT_EQ(differing(drawn(), without), 0u) << "inside the ball";
 }
 
+TEST_F(ViewShade, ThinLinesDoNotShineThroughWhatStandsBeforeThem) {
+  scene_.layers.ground = false;
+  scene_.volumes.push_back({0, ball_cell({0, 0, 5}, 4), 0xff8080c0u, 0, 0, 0});
+  const auto without = drawn();
+  const Point3 behind = Point3{0, 0, 5} + 5.0 * scene_.camera.forward();
+  scene_.lines = {{behind - 2.0 * scene_.camera.right(), behind + 2.0 * scene_.camera.right(), 0xffffffffu, 1, 0}};
+  EXPECT_EQ(differing(drawn(), without), 0u);
+}
+
 TEST_F(ViewShade, LinesBeforeItAreClearAndLinesBehindItAreDimmed) {
   const auto line_at = [&](const Vector3& shift) {
     const Point3 middle = Point3{0, 0, 5} + shift;

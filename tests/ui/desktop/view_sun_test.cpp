@@ -186,6 +186,7 @@ TEST_F(ViewSun, WhatIsOlderThanTheStateSaysSo) {
   view().preview_sun({sun().clock.day, 16 * 3600});
   desktop.frames(1);
   EXPECT_NE(text().find("Outlines on the ground at 16:00 (preview)"), std::string::npos) << text();
+  EXPECT_NE(text().find("Direct sun per day, of the scene's days"), std::string::npos) << "maps do not follow a preview";
 }
 
 TEST_F(ViewSun, BodiesOfShadeAreOfTheChosenCastersElseOfAll) {

@@ -8,8 +8,11 @@ namespace bl::desktop {
 
 namespace {
 
-// Lines lie a hair nearer than the surfaces that they are drawn on.
-constexpr float kLineBias = 2e-4f;
+// What the depth of clip space changes by where something comes nearer by the whole distance between eye and target.
+float depth_per_distance(const ViewScene& scene) {
+  const double near = scene.near_plane(), far = scene.far_plane();
+  return static_cast<float>(2 * (scene.camera.is_parallel ? scene.camera.distance : far * near) / (far - near));
+}
 
 struct Item {
   float from[3], to[3];
@@ -138,7 +141,7 @@ void GlRenderer::draw_line_quads(const ViewScene& scene, bool is_behind) const {
   program.set_matrix("matrix", matrix_.data());
   program.set("size", static_cast<float>(picture_.width()), static_cast<float>(picture_.height()));
   program.set("pixel", pixel_);
-  program.set("bias", is_behind ? 0.0f : kLineBias);
+  program.set("bias", is_behind ? 0.0f : depth_per_distance(scene));
   glDepthFunc(is_behind ? GL_GREATER : GL_LEQUAL);
   glBindVertexArray(line_array_);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(scene.lines.size()));

@@ -118,7 +118,8 @@ void main() {
   vec4 clip = is_end ? b : a;
   across = side * (half_width + 1.0);
   clip.xy += aside * across / (size * 0.5) * clip.w;
-  clip.z -= bias * clip.w;
+  // Nearer by a share of the distance, a larger one for wide lines: the ground that their sides lie on is nearer than their middle.
+  clip.z -= bias * (0.002 + 0.003 * half_width);
   tint = paint;
   if (bias <= 0.0) tint.a *= shape.y;
   gl_Position = clip;

@@ -237,8 +237,9 @@ std::vector<Legend> urban_legends(const SceneFacts& facts, const ViewChoices& ch
   if (!facts.urban.sun_maps.empty() && shows("sun_maps")) {
     double highest = 0;
     for (const SunMapFacts& map : facts.urban.sun_maps) highest = std::max(highest, map.highest);
-    legends.push_back(ramp_of("Direct sun per day" + told_age(facts.urban.sun_age, false), colour_of_sun, hours(0),
-                              hours(0.5 * highest), hours(highest)));
+    legends.push_back(ramp_of(std::string("Direct sun per day") + (choices.sun.is_preview ? ", of the scene's days" : "") +
+                                  told_age(facts.urban.sun_age, false),
+                              colour_of_sun, hours(0), hours(0.5 * highest), hours(highest)));
   }
   legends.push_back(legend_of_shade(facts, choices.sun, theme, shows));
   if (shows("data"))
