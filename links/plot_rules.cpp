@@ -71,7 +71,7 @@ struct PlotRules {
     }
     double room = 2;
     if (in.hold_fsi) room = std::min(room, allowed(ends.fsi_max, ends.fsi));
-    if (in.hold_gsi) room = std::min(room, allowed(ends.gsi_max, ends.gsi));
+    if (in.hold_gsi) room = std::min(room, allowed(ends.gsi_max, ends.gsi, kLittleGround));
     for (std::size_t i = 0; i < count; ++i) {
       if (!is_on_plot[i]) continue;
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
@@ -87,8 +87,16 @@ struct PlotRules {
  private:
   static double granted(const Ends& ends, std::size_t i) { return granted_share(ends.demands.values[i], ends.limits.values[i]); }
 
-  // How many times what there is now is allowed, at most twice.
-  static double allowed(double most, double now) { return now > 0 ? std::min(most / now, 2.0) : 2; }
+  // Of the land. Where less of it is built on, the answer is to what is missing of it rather than to its share of the little that
+  // is there: small footprints come and go with the lowest part of a volume, faster than volumes can follow.
+  static constexpr double kLittleGround = 0.1;
+
+  // How many times what there is now is allowed, at most twice. Where nothing is allowed and nothing is there, all rests.
+  static double allowed(double most, double now, double little = 0) {
+    if (now >= little && now > 0) return std::min(most / now, 2.0);
+    if (little > 0) return std::min(1 + (most - now) / little, 2.0);
+    return most > 0 ? 2 : 1;
+  }
 };
 
 }  // namespace

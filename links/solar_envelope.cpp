@@ -1,5 +1,6 @@
 // Keeps volumes under the planes through which a neighbour's edge sees the sun.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "core/base/demand_limit.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
+#include "core/sun/moment_table.h"
 #include "core/sun/shadow_shape.h"
 
 namespace bl {
@@ -67,6 +69,28 @@ struct SolarEnvelope {
     l.proposes(&Out::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
+  // The planes through each part of the edge, for volumes on its one side and on its other: the same for all volumes of a tick.
+  struct Planes {
+    std::optional<Shared<Table>> moments;
+    std::vector<std::array<std::vector<SunPlane>, 2>> parts;
+
+    void make(const std::vector<Point3>& edge, const Shared<Table>& from) {
+      if (moments && &**moments == &*from) return;
+      moments = from;
+      parts.assign(edge.size() - 1, {});
+      std::vector<Vector3> suns;
+      for (const SunMoment& moment : moments_in(*from)) suns.push_back(moment.toward);
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        for (const int side : {0, 1})
+          parts[i][static_cast<std::size_t>(side)] =
+              solar_envelope(edge[i], edge[i + 1], edge[i] + (side == 0 ? -1.0 : 1.0) * across(edge, i), suns);
+    }
+    // Level, at right angles to a part of the edge.
+    static Vector3 across(const std::vector<Point3>& edge, std::size_t i) {
+      return {(edge[i + 1] - edge[i]).y, -(edge[i + 1] - edge[i]).x, 0};
+    }
+  };
+
   // How far a shape reaches from its position towards `normal`, at most: it lies within its ball and below its top.
   static double reach(const Ends& ends, const Vector3& normal) {
     const double r = ends.radius, up = std::clamp(ends.bottom + ends.height - ends.position.z, -r, r);
@@ -74,21 +98,28 @@ struct SolarEnvelope {
     return normal.z * up + std::sqrt(std::max(0.0, (r * r - up * up) * (1 - normal.z * normal.z)));
   }
 
-  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     if (in.edge.size() < 2) return Error{ErrorCode::missing, "edge", "an edge has at least two points: add them"};
     if (!(ends.radius > 0)) return Out{};
-    std::vector<Vector3> suns;
-    for (std::size_t row = 0; row < ends.moments->rows.size(); ++row)
-      suns.push_back({ends.moments->number(row, "x"), ends.moments->number(row, "y"), ends.moments->number(row, "z")});
+    Planes own;
+    Planes& planes = tick.memo != nullptr ? tick.memo->of<Planes>() : own;
+    planes.make(in.edge, ends.moments);
     double worst = -ends.radius;
     Vector3 normal;
-    for (std::size_t i = 0; i + 1 < in.edge.size(); ++i)
-      for (const SunPlane& plane : solar_envelope(in.edge[i], in.edge[i + 1], ends.position, suns)) {
-        const double excess = dot(plane.normal, ends.position) + reach(ends, plane.normal) - plane.offset;
+    // Most planes are far above: the whole ball, and a hair for rounding, is below them.
+    const double most = ends.radius * (1 + 1e-12);
+    for (std::size_t i = 0; i + 1 < in.edge.size(); ++i) {
+      const double side = dot(Planes::across(in.edge, i), ends.position - in.edge[i]);
+      if (side == 0) continue;
+      for (const SunPlane& plane : planes.parts[i][side > 0 ? 1 : 0]) {
+        const double height = dot(plane.normal, ends.position);
+        if (height + most - plane.offset <= worst) continue;
+        const double excess = height + reach(ends, plane.normal) - plane.offset;
         if (excess <= worst) continue;
         worst = excess;
         normal = plane.normal;
       }
+    }
     const double beyond = worst / ends.radius - in.tolerance;
     if (in.mode == Mode::move) return beyond > 0 ? Out{normal * (-in.gain * beyond * ends.radius), {}} : Out{};
     // Between half the tolerance and all of it the limit rests; below it the volume may grow again.

@@ -20,7 +20,7 @@ struct SolarRight {
   struct Ends {
     std::string receiver, caster;
     Point3 place, position;
-    double deficit = 0, required = 0, possible = 0;
+    double deficit = 0, required = 0, possible = 0, least = 0;
     Shared<Table> losses;
     double demand = 0, limit = 0, radius = 0, bottom = 0;
   };
@@ -55,6 +55,7 @@ struct SolarRight {
     l.reads(&Ends::deficit, End::from, "shadow_receiver.deficit", Unit::second);
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
     l.reads(&Ends::possible, End::from, "shadow_receiver.sun_possible", Unit::second);
+    l.reads(&Ends::least, End::from, "shadow_receiver.sun_min", Unit::second);
     l.reads(&Ends::losses, End::from, "shadow_receiver.losses");
     l.reads(&Ends::caster, End::to, "node.id").reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads(&Ends::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
@@ -72,6 +73,9 @@ struct SolarRight {
     const double unavoidable = std::max(0.0, ends.required - ends.possible);
     return std::clamp((ends.deficit - unavoidable) / ends.required, 0.0, 1.0) - in.tolerance;
   }
+
+  // What even the worst point has beyond its need, as a share of the need.
+  static double surplus(const Ends& ends) { return std::clamp((ends.least - ends.required) / ends.required, 0.0, 1.0); }
 
   // What the volume takes, as a share of what the worst one takes.
   static double share_of(const Ends& ends) {
@@ -99,9 +103,10 @@ struct SolarRight {
       return fall > 0 ? Out{Vector3{0, 0, -fall}, {}} : Out{};
     }
     if (in.mode == Mode::move) return answer * ends.radius > 0 ? Out{away(ends) * (answer * ends.radius), {}} : Out{};
-    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Who
-    // takes little may grow nevertheless: what others limit, or limited once, is not ours to hold.
-    const double room = std::max({0.0, -missing - 0.5 * in.tolerance, 1 - share / kLittle});
+    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Below that
+    // it grows with the sun that is left over. Who takes little may grow nevertheless: what others limit, or limited once, is not
+    // ours to hold.
+    const double room = std::max({0.0, -missing - 0.5 * in.tolerance, surplus(ends), 1 - share / kLittle});
     return Out{{}, limit_that_grants(ends.demand, granted_share(ends.demand, ends.limit) * (1 - answer) * (1 + in.gain * room))};
   }
 };

@@ -1,6 +1,8 @@
 // A façade style: glazing, modules, bands and prices by use and orientation, and the dressing of the volumes that it is given.
 #include <map>
 #include <optional>
+#include <set>
+#include <span>
 
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
@@ -18,6 +20,7 @@ struct FacadeStyle {
     Table rows;
     double true_north = 0;
     Selection volumes{{}, "facade", {}}, styles{{}, "facade_style", {}}, surroundings{{}, "smart_volume", {}};
+    Selection facades{{}, "facade", {}};
   };
   struct Member {
     std::string id, use;
@@ -27,12 +30,22 @@ struct FacadeStyle {
     Shared<Table> neighbours;
   };
   struct Named {
-    std::string name;
-    MeshPointer mesh;  // of surroundings only
+    std::string id, name;
+  };
+  struct Neighbour {
+    std::string id;
+    MeshPointer mesh;
+  };
+  struct Claimant {
+    std::string id;
+    std::vector<std::string> style;
+    double bottom = 0;  // read for its being there: the façade is that of a SmartVolume
   };
   struct Sets {
     std::vector<Member> members;
-    std::vector<Named> styles, surroundings;
+    std::vector<Named> styles;
+    std::vector<Neighbour> surroundings;
+    std::vector<Claimant> claimants;
   };
   struct Reply {
     std::optional<std::string> style_in_force, message;
@@ -42,7 +55,7 @@ struct FacadeStyle {
   struct Out {
     std::int64_t count = 0;
     double facade_area = 0, glazed_area = 0, cost = 0;
-    std::vector<Reply> replies;
+    std::vector<Reply> replies, cleared;
   };
 
   static void declare(TypificationBuilder<FacadeStyle>& t) {
@@ -60,6 +73,8 @@ struct FacadeStyle {
     t.in(&In::volumes, "volumes").doc("The façades that the style may dress; it dresses those among them that name it.");
     t.in(&In::styles, "styles").doc("All styles of the scene, by which a façade is known that names none of them.");
     t.in(&In::surroundings, "surroundings").doc("The volumes that may cover façades.");
+    t.in(&In::facades, "facades")
+        .doc("All façades of the scene: those that ask for this style and are not its `volumes` are told.");
     t.out(&Out::count, "count").unit(Unit::count).doc("Number of façades that the style dresses.");
     t.out(&Out::facade_area, "facade_area").unit(Unit::square_metre).doc("Their area.");
     t.out(&Out::glazed_area, "glazed_area").unit(Unit::square_metre).doc("Their area of glass.");
@@ -90,14 +105,23 @@ struct FacadeStyle {
   }
 
   static void declare_sets(TypificationBuilder<FacadeStyle>& t) {
-    t.set("styles", &Sets::styles).reads(&Named::name, "facade_style.name");
-    t.set("surroundings", &Sets::surroundings).reads(&Named::name, "node.id").reads(&Named::mesh, "smart_volume.mesh");
+    t.set("styles", &Sets::styles).reads(&Named::id, "node.id").reads(&Named::name, "facade_style.name");
+    t.set("surroundings", &Sets::surroundings).reads(&Neighbour::id, "node.id").reads(&Neighbour::mesh, "smart_volume.mesh");
+    auto claimants = t.set("facades", &Sets::claimants, &Out::cleared);
+    claimants.reads(&Claimant::id, "node.id").reads(&Claimant::style, "facade.style");
+    claimants.reads(&Claimant::bottom, "smart_volume.bottom");
+    bind_replies(claimants);
     auto set = t.set("volumes", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id").reads(&Member::use, "smart_volume.use").reads(&Member::style, "facade.style");
     set.reads(&Member::glazing, "facade.glazing").reads(&Member::ground, "facade.ground");
     set.reads(&Member::storey_height, "smart_volume.storey_height").reads(&Member::bottom, "smart_volume.bottom");
     set.reads(&Member::spherical_area, "smart_volume.spherical_area");
     set.reads(&Member::mesh, "smart_volume.mesh").reads(&Member::neighbours, "smart_volume.neighbours");
+    bind_replies(set);
+  }
+
+  template <class Set>
+  static void bind_replies(Set& set) {
     set.writes(&Reply::style_in_force, "facade.style_in_force").writes(&Reply::message, "facade.message");
     set.writes(&Reply::facade_area, "facade.facade_area").writes(&Reply::glazed_area, "facade.glazed_area");
     set.writes(&Reply::opaque_area, "facade.opaque_area").writes(&Reply::roof_area, "facade.roof_area");
@@ -127,16 +151,41 @@ struct FacadeStyle {
     return {member.bottom, member.storey_height, member.ground, in.true_north, member.spherical_area, bands_of(rules, member.storey_height)};
   }
 
+  // Two with one name would dress the same façades.
+  static Result<void> check_names(const In& in, const std::vector<Named>& styles) {
+    std::vector<std::string> same;
+    for (const Named& style : styles)
+      if (style.name == in.name) same.push_back(style.id);
+    if (same.size() < 2) return {};
+    return Error{ErrorCode::duplicate, "name",
+                 "`" + same[0] + "` and `" + same[1] + "` are both called `" + in.name + "`: give one of them another name"};
+  }
+
+  // Façades that nobody dresses must not keep what an earlier style wrote. The style that a façade asks for clears it where it is
+  // none of the style's volumes; where a façade asks for none, the first style does.
+  static void clear(const In& in, const Sets& sets, std::span<const std::string> names, Out& out) {
+    std::set<std::string> own;
+    for (const Member& member : sets.members) own.insert(member.id);
+    out.cleared.resize(sets.claimants.size());
+    for (std::size_t c = 0; c < sets.claimants.size(); ++c) {
+      auto [dresser, message] = settle_claims(sets.claimants[c].style, names);
+      if (dresser.empty() && !names.empty() && names.front() == in.name) out.cleared[c] = bare(std::move(message));
+      if (dresser != in.name || own.contains(sets.claimants[c].id)) continue;
+      message += (message.empty() ? "`" : "; `") + in.name + "` is not allowed to dress it: add it to the `volumes` of that style";
+      out.cleared[c] = bare(std::move(message));
+    }
+  }
+
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
     if (in.name.empty()) return Error{ErrorCode::missing, "name", "the style needs a name, by which façades ask for it"};
     if (auto sound = check_style_rows(in.rows); !sound) return sound.error();
+    if (auto single = check_names(in, sets.styles); !single) return single.error();
     std::map<std::string, MeshPointer> shapes;
-    for (const Named& volume : sets.surroundings) shapes[volume.name] = volume.mesh;
-    // Somebody has to clear the façades that no style dresses: the first style does.
+    for (const Neighbour& volume : sets.surroundings) shapes[volume.id] = volume.mesh;
     std::vector<std::string> names;
     for (const Named& style : sets.styles) names.push_back(style.name);
-    const bool is_first = !names.empty() && names.front() == in.name;
     Out out;
+    clear(in, sets, names, out);
     out.replies.resize(sets.members.size());
     std::vector<SurveyCase> cases;
     std::vector<std::size_t> dressed;
@@ -145,9 +194,8 @@ struct FacadeStyle {
     for (std::size_t m = 0; m < sets.members.size(); ++m) {
       const Member& member = sets.members[m];
       auto [dresser, message] = settle_claims(member.style, names);
-      messages[m] = std::move(message);
-      if (dresser.empty() && is_first) out.replies[m] = bare(messages[m]);
       if (dresser != in.name) continue;
+      messages[m] = std::move(message);
       rules[m] = rules_of(in.rows, member.use, messages[m]);
       if (!member.mesh) {
         out.replies[m] = bare("it has no shape, so that there is no façade to measure");

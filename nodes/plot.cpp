@@ -18,7 +18,8 @@ struct Plot {
     double ground = 0, fsi_max = 100, gsi_max = 1, height_max = 10000, setback = 0;
   };
   struct Member {
-    Point3 centroid;
+    std::string id;
+    Point3 position, centroid;
     double floor_area = 0, footprint = 0, bottom = 0, height = 0, storey_height = 3.2, volume = 0;
   };
   struct Sets {
@@ -28,6 +29,7 @@ struct Plot {
     std::int64_t count = 0;
     double area = 0, floor_area = 0, footprint = 0, fsi = 0, gsi = 0, osr = 0, layers = 0, top = 0;
     double floor_overshoot = 0, footprint_overshoot = 0, height_overshoot = 0, setback_overshoot = 0, overshoot = 0;
+    std::string message;
   };
 
   static void declare(TypificationBuilder<Plot>& t) {
@@ -66,7 +68,9 @@ struct Plot {
     t.out(&Out::floor_area, "floor_area").unit(Unit::square_metre).doc("Floor area of the volumes on the plot.");
     t.out(&Out::footprint, "footprint")
         .unit(Unit::square_metre)
-        .doc("Built ground: the footprints of the volumes that begin within the lowest storey, since others stand on these.");
+        .doc(
+            "Built ground: the footprints of the volumes that begin within the lowest storey, since others stand on these. What "
+            "begins in the upper half of it counts less and less.");
     t.out(&Out::fsi, "fsi").unit(Unit::ratio).doc("Floor space index: floor area over the area of the plot.");
     t.out(&Out::gsi, "gsi").unit(Unit::ratio).soft(0, 1).doc("Ground space index: built ground over the area of the plot.");
     t.out(&Out::osr, "osr").unit(Unit::ratio).doc("Open space ratio, (1 - GSI) / FSI; 0 where nothing is built.");
@@ -83,7 +87,10 @@ struct Plot {
     t.out(&Out::overshoot, "overshoot")
         .unit(Unit::ratio)
         .doc("The worst overshoot of FSI, GSI and height, as a share of what is allowed.");
+    t.out(&Out::message, "message")
+        .doc("Volumes that no smaller demand brings below the largest height; empty where there are none.");
     auto set = t.set("volumes", &Sets::volumes);
+    set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
     set.reads(&Member::centroid, "smart_volume.centroid", Unit::metre)
         .reads(&Member::floor_area, "smart_volume.floor_area", Unit::square_metre);
     set.reads(&Member::footprint, "smart_volume.footprint", Unit::square_metre)
@@ -94,7 +101,25 @@ struct Plot {
   }
 
   // How much of what is allowed is exceeded; what is forbidden altogether counts as exceeded once.
-  static double share(double overshoot, double allowed) { return overshoot <= 0 ? 0 : allowed > 0 ? overshoot / allowed : 1; }
+  static double share(double overshoot, double allowed) {
+    constexpr double kMost = 1e6;
+    return overshoot <= 0 ? 0 : allowed > 0 ? std::min(overshoot / allowed, kMost) : 1;
+  }
+
+  // How much of a footprint is built ground. A volume that shrinks lifts off little by little, and so does its footprint: a step
+  // would make links that hold the GSI swing.
+  static double grounded(const In& in, const Member& member) {
+    return std::clamp(2 * (in.ground + member.storey_height - member.bottom) / member.storey_height, 0.0, 1.0);
+  }
+
+  // Shapes shrink towards their positions.
+  static void tell_height(const In& in, const Member& member, std::string& message) {
+    const double height = member.position.z - in.ground;
+    if (height < in.height_max || member.bottom + member.height - in.ground <= in.height_max) return;
+    message += (message.empty() ? "`" : "; `") + member.id + "` has its position " + fixed(height, 1) +
+               " m above the ground, so that however small it becomes it stands above the largest height of " +
+               fixed(in.height_max, 1) + " m: move it down, or raise `height_max`";
+  }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
     if (in.polygon.size() < 3) return Error{ErrorCode::geometry, "polygon", "a plot needs at least 3 corners"};
@@ -109,7 +134,8 @@ struct Plot {
       if (!(member.volume > 0) || !ring_contains(in.polygon, member.centroid)) continue;
       ++out.count;
       out.floor_area += member.floor_area;
-      if (member.bottom < in.ground + member.storey_height) out.footprint += member.footprint;
+      out.footprint += grounded(in, member) * member.footprint;
+      tell_height(in, member, out.message);
       out.top = std::max(out.top, member.bottom + member.height - in.ground);
       const double radius = std::sqrt(member.footprint / 3.14159265358979323846);
       const Point3 flat{member.centroid.x, member.centroid.y, 0};

@@ -1,5 +1,5 @@
-// The moments of a study as rows of a table: how they travel from the sun to studies and links. Works with any table that has named
-// columns and rows of numbers and texts, so that the algorithms need not know the declarative layer.
+// The moments of a study as rows of a table: how they travel from the sun to studies and links. Works with any table that has
+// named columns and rows of numbers and texts, so that the algorithms need not know the declarative layer.
 #pragma once
 
 #include <array>

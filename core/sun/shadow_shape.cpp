@@ -12,6 +12,7 @@ namespace bl {
 namespace {
 
 constexpr double kLeastRise = 1e-6;  // of a unit vector to the sun: lower suns throw shadows without end
+constexpr double kLongest = 1e5;     // of a shadow [m]: beyond that the earth is not level any more
 
 // A strict weak order of points, so that equal corners meet whatever mesh they come from.
 struct PointOrder {
@@ -42,6 +43,14 @@ std::vector<Point3> above_ground(const Point3& a, const Point3& b, const Point3&
   }
   if (part.size() < 3) part.clear();
   return part;
+}
+
+// Is there a shadow to draw at all?
+bool has_shape(const Mesh& mesh, const Vector3& toward, double ground) {
+  if (!(toward.z > kLeastRise)) return false;
+  double highest = ground;
+  for (const Point3& vertex : mesh.vertices) highest = std::max(highest, vertex.z);
+  return (highest - ground) * std::hypot(toward.x, toward.y) <= kLongest * toward.z;
 }
 
 double turn(const Point3& a, const Point3& b, const Point3& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
@@ -91,7 +100,7 @@ class MeshWriter {
 }  // namespace
 
 std::vector<Point3> shadow_outline(const Mesh& mesh, const Vector3& toward, double ground) {
-  if (!(toward.z > kLeastRise)) return {};
+  if (!has_shape(mesh, toward, ground)) return {};
   std::vector<Point3> points;
   for (const auto& [a, b, c] : mesh.triangles)
     for (const Point3& corner : above_ground(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], ground))
@@ -100,7 +109,7 @@ std::vector<Point3> shadow_outline(const Mesh& mesh, const Vector3& toward, doub
 }
 
 Mesh shadow_volume(const Mesh& mesh, const Vector3& toward, double ground) {
-  if (!(toward.z > kLeastRise)) return {};
+  if (!has_shape(mesh, toward, ground)) return {};
   MeshWriter writer;
   Walls walls;
   for (const auto& [a, b, c] : mesh.triangles) {

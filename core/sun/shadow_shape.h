@@ -11,7 +11,7 @@ namespace bl {
 
 /// The outline of the shadow on the level plane at `ground`, counter-clockwise: the hull of the projected corners, which is exact
 /// for a convex mesh, and holds the shadow of any other. What lies below the plane casts nothing. Empty where the sun is not
-/// above the horizon, or nothing is above the plane. `toward` points to the sun.
+/// above the horizon, where the shadow would be longer than 100 km, or nothing is above the plane. `toward` points to the sun.
 std::vector<Point3> shadow_outline(const Mesh& mesh, const Vector3& toward, double ground);
 
 /// The shade of a closed mesh down to the level plane at `ground`, as a closed mesh: every point in it has the mesh between

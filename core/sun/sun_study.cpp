@@ -70,7 +70,8 @@ Result<std::vector<SunRecord>> sun_study(std::span<const MeshPointer> casters, s
     SunRecord& record = records.emplace_back();
     record.grid = grid_of(receiver);
     record.hours = sun_hours(*scene, record.grid.points, moments, receiver.mask, pool);
-    if (wish != nullptr && (*wish)()) return Error{ErrorCode::cancelled, "", "the study was stopped: nobody wants its result any more"};
+    if (wish != nullptr && (*wish)())
+      return Error{ErrorCode::cancelled, "", "the study was stopped: nobody wants its result any more"};
     record.judge(receiver.required);
   }
   return records;

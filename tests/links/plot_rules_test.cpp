@@ -1,4 +1,6 @@
 // Plot rules: the limits of one tick by hand, volumes beside the plot, and a scene that comes down to what is allowed.
+#include <string>
+
 #include "tests/links/link_case.h"
 
 namespace bl {
@@ -42,6 +44,39 @@ TEST(PlotRules, SceneComesDownToWhatIsAllowed) {
   EXPECT_LE(world.number("plot", "plot.height_overshoot"), 0.4);
   EXPECT_EQ(world.number("west", "smart_volume.demand"), 6000) << "what is wanted has to stay visible beside what is allowed";
   EXPECT_LT(world.number("west", "smart_volume.wanted"), 3500);
+}
+
+TEST(PlotRules, WhereNothingIsAllowedAndNothingIsThereAllRests) {
+  LinkCase held = rules(0, 0, 5);
+  held.from("plot.gsi_max", 0.0).from("plot.fsi_max", 0.0).read(End::to, "smart_volume.demand_limit", {400.0, 1e9});
+  ASSERT_EQ(held.run(), "");
+  EXPECT_DOUBLE_EQ(held.number(End::to, "smart_volume.demand_limit", 0), 400);
+  LinkCase low = rules(1, 0.06, 5);  // 0.04 too much of the land: answered as 0.04 of a tenth
+  low.from("plot.gsi_max", 0.02);
+  ASSERT_EQ(low.run(), "");
+  EXPECT_DOUBLE_EQ(low.number(End::to, "smart_volume.demand_limit", 0), 1000 * (1 - 0.5 * 0.4));
+}
+
+// Volumes that shrink lift off the ground: what they cover of it goes little by little, and so the limit finds its place.
+TEST(PlotRules, ComesToRestWithSmallGroundSpaceIndices) {
+  for (const char* most : {"0.1", "0.03", "0"}) {
+    World world = World::from_file("scenes/links/plot_rules.json");
+    ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.gsi_max"}, .value = {most}})), "");
+    EXPECT_TRUE(world.settle(1500)) << most;
+    EXPECT_LE(world.number("plot", "plot.gsi"), std::stod(most) + 0.01) << most;
+  }
+}
+
+TEST(PlotRules, SaysWhichVolumeNoSmallerDemandBringsBelowTheHeight) {
+  World world = World::from_file("scenes/links/plot_rules.json");
+  ASSERT_TRUE(world.settle());
+  EXPECT_EQ(world.text("plot", "plot.message"), "");
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.height_max"}, .value = {"3"}})), "");
+  world.tick(20);
+  EXPECT_NE(world.text("plot", "plot.message").find("m above the ground, so that however small it becomes it stands above the "
+                                                    "largest height of 3.0 m"),
+            std::string::npos)
+      << world.text("plot", "plot.message");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ LinkCase right(const std::string& mode, const std::string& caster, double defici
   link.set("mode", mode).set("gain", 0.5).set("tolerance", 0.05);
   link.from("node.id", std::string("garden")).from("node.position", Vector3{0, 0, 0});
   link.from("shadow_receiver.deficit", deficit).from("shadow_receiver.required_sun", 7200.0);
-  link.from("shadow_receiver.sun_possible", 20000.0);
+  link.from("shadow_receiver.sun_possible", 20000.0).from("shadow_receiver.sun_min", 1000.0);
   link.from("shadow_receiver.losses",
             Shared<Table>(Table{{"node", "lost", "shared"}, {{"house", 600.0, 600.0}, {"tower", 2400.0, 2400.0}}}));
   link.to("node.id", caster).to("node.position", Vector3{0, -30, 12}).to("smart_volume.demand", 8000.0);
@@ -105,6 +105,15 @@ TEST(SolarRight, OtherWaysToGiveWaySettleToo) {
     else EXPECT_LT(moved.y, -0.5);
     EXPECT_LT(norm(Vector3{moved.x, 0, 0}), 30) << mode;
   }
+}
+
+// What is left over is what the limit grows by, whatever is tolerated.
+TEST(SolarRight, GrowsByTheSunThatIsLeftOver) {
+  auto far = right("shave", "tower", 0);
+  far.set("tolerance", 0.001).set("gain", 0.1);
+  far.from("shadow_receiver.sun_min", 1.5 * 7200).to("smart_volume.demand_limit", 2000.0);
+  ASSERT_EQ(far.run(), "");
+  EXPECT_NEAR(limit(far), 2000 * (1 + 0.1 * 0.5), 1e-9);
 }
 
 }  // namespace

@@ -76,12 +76,40 @@ TEST(FacadeStyle, TellsWhatIsNoOrientation) {
       << world.node_error("it", "facade_style");
 }
 
-TEST(FacadeStyle, OfTwoStylesWithOneNameTheSecondComplains) {
+TEST(FacadeStyle, OfTwoStylesWithOneNameBothComplain) {
   World world = World::from_text(house_with(
       R"("style": ["s"])", R"({"id": "s1", "types": {"facade_style": {"name": "s"}}}, {"id": "s2", "types": {"facade_style": {"name": "s"}}})"));
   world.tick(10);
-  EXPECT_EQ(world.node_error("s1", "facade_style"), "");
-  EXPECT_NE(world.node_error("s2", "facade_style").find("already belongs to `s1`"), std::string::npos);
+  for (const char* id : {"s1", "s2"})
+    EXPECT_EQ(world.node_error(id, "facade_style"), "nodes/" + std::string(id) +
+                                                        "/facade_style/name: `s1` and `s2` are both called `s`: give one of them "
+                                                        "another name");
+}
+
+// A façade that names a style which may not dress it stands bare, whatever dressed it before, and says why.
+TEST(FacadeStyle, AStyleThatMayNotDressAFacadeClearsIt) {
+  const auto set = [](World& world, const char* node, const char* port, const char* value) {
+    EXPECT_EQ(world.submit(command<SetPort>({.node = node, .port = {port}, .value = {value}})), "");
+  };
+  World world = World::from_file("scenes/nodes/facade_style.json");
+  ASSERT_TRUE(world.settle());
+  for (const char* only : {R"(["flats_1"])", R"(["corner"])"}) {
+    set(world, "glass", "facade_style.volumes", R"(["flats_1"])");
+    set(world, "brick", "facade_style.volumes", only);
+    set(world, "offices", "facade.style", R"(["glass"])");
+    world.tick(3);
+    EXPECT_EQ(world.node_error("glass", "facade_style"), "");
+    EXPECT_EQ(world.text("offices", "facade.style_in_force"), "");
+    EXPECT_EQ(world.number("offices", "facade.facade_area"), 0);
+    EXPECT_EQ(world.number("offices", "facade.cost"), 0);
+    EXPECT_EQ(world.text("offices", "facade.message"),
+              "`glass` is not allowed to dress it: add it to the `volumes` of that style");
+  }
+  set(world, "glass", "facade_style.volumes", R"({"typification": "facade"})");
+  world.tick(1);
+  EXPECT_EQ(world.node_error("glass", "facade_style"), "");
+  EXPECT_EQ(world.text("offices", "facade.style_in_force"), "glass");
+  EXPECT_GT(world.number("offices", "facade.facade_area"), 0);
 }
 
 }  // namespace

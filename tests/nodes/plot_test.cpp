@@ -54,5 +54,38 @@ TEST(Plot, AnEmptyPlotHasNoDensity) {
             "nodes/it/plot/polygon: the polygon meets itself at (2.000, 2.000): redraw it there");
 }
 
+// Beside a volume that stands on the ground one that begins in the upper half of the lowest storey, and one above it.
+TEST(Plot, AFootprintFadesInTheUpperHalfOfTheLowestStorey) {
+  const TypificationDefinition& plot = *full_registry().typification("plot");
+  const auto footprint = [&](double bottom) {
+    std::vector<Value> values;
+    for (const PortDefinition& port : plot.ports) values.push_back(port.default_value);
+    SetValues set;
+    set.members = 1;
+    for (const ReadDefinition& read : plot.sets.front().reads) {
+      const std::string& port = read.path.port;
+      if (read.kind == ValueKind::point) set.reads.emplace_back(Vector3{});
+      else if (read.kind == ValueKind::text) set.reads.emplace_back(std::string("it"));
+      else set.reads.emplace_back(port == "bottom" ? bottom : port == "storey_height" ? 4.0 : 100.0);
+    }
+    std::vector<SetValues> sets{set};
+    EXPECT_TRUE(plot.evaluate(values, sets, Tick{}).ok());
+    return as_number(values[plot.port_index("footprint")]);
+  };
+  EXPECT_EQ(footprint(-3), 100);
+  EXPECT_EQ(footprint(2), 100);
+  EXPECT_DOUBLE_EQ(footprint(3), 50);
+  EXPECT_EQ(footprint(4), 0);
+  EXPECT_EQ(footprint(20), 0);
+}
+
+TEST(Plot, OvershootHasALargestValue) {
+  World world = World::from_file("scenes/nodes/plot.json");
+  for (const char* port : {"plot.gsi_max", "plot.height_max", "plot.fsi_max"})
+    ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {port}, .value = {"1e-300"}})), "");
+  world.tick(3);
+  EXPECT_EQ(world.number("plot", "plot.overshoot"), 1e6);
+}
+
 }  // namespace
 }  // namespace bl

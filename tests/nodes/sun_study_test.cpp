@@ -160,5 +160,64 @@ TEST(SunStudy, Scene) {
   EXPECT_EQ(world.number("study", "sun_study.caster_count"), 4);
 }
 
+TEST(SunStudy, SaysWhenNoSunCounts) {
+  World world = World::from_text(
+      scene_text(kStudy + "," + node_text("sun", "[0, 0, 0]", "sun_and_sky", R"("min_altitude": 90)") + "," + kGarden));
+  ASSERT_TRUE(world.settle());
+  EXPECT_EQ(world.node_error("study", "sun_study"), "");
+  EXPECT_EQ(world.text("study", "sun_study.message"), "no sun counts in the period of `sun`, which says why");
+}
+
+// A node that is both a SmartVolume and an existing building is one caster, with both shapes.
+TEST(SunStudy, ANodeWithTwoShapesIsOneCaster) {
+  const std::string both = R"({"id": "both", "position": [0, -20, 0], "types": {"existing_building": {"height": 20},
+                               "smart_volume": {"demand": 900}, "shadow_caster": {}}})";
+  const std::string receiver = node_text("garden", "[0, 10, 0]", "shadow_receiver", R"("spacing": 4)");
+  World world = World::from_text(scene_text(both + "," + kSun + "," + receiver + "," + kStudy));
+  world.tick(8);  // without a solver the volume has no shape
+  EXPECT_EQ(world.node_error("study", "sun_study"), "");
+  const Table& losses = world.table("garden", "shadow_receiver.losses");
+  ASSERT_EQ(losses.rows.size(), 1u);
+  EXPECT_GT(losses.number(0, "lost"), 0);
+  EXPECT_EQ(world.number("both", "shadow_caster.sun_lost"), losses.number(0, "lost"));
+  EXPECT_EQ(world.table("both", "shadow_caster.taken").rows.size(), 1u);
+  const double alone = losses.number(0, "lost");
+  // With a shape of its own the volume takes as well.
+  World larger = World::from_text(scene_text(
+      both + "," + kSun + "," + receiver + "," + kStudy + "," + kSolver + "," +
+      node_text("site", "[0, 0, 0]", "boundary", R"("form": "plan", "plan": [[-40,-30,0],[40,-30,0],[40,-4,0],[-40,-4,0]], "height": 60)")));
+  ASSERT_EQ(larger.submit(command<SetPort>({.node = "both", .port = {"smart_volume.demand"}, .value = {"30000"}})), "");
+  ASSERT_TRUE(larger.settle(300));
+  EXPECT_EQ(larger.node_error("study", "sun_study"), "");
+  EXPECT_EQ(larger.number("study", "sun_study.caster_count"), 1);
+  EXPECT_GT(larger.number("both", "shadow_caster.sun_lost"), alone + 60);
+}
+
+TEST(SunStudy, TheClocksHandMovesOutlinesOnly) {
+  World world = quarter(kGarden);
+  ASSERT_TRUE(world.settle(200));
+  const Table losses = world.table("garden", "shadow_receiver.losses");
+  const auto outline = [&] {
+    return *std::get<Shared<std::vector<Point3>>>(value_in(world.state(), "tower", "shadow_caster.outline"));
+  };
+  const auto before = outline();
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "sun", .port = {"sun_and_sky.time"}, .value = {"50000"}})), "");
+  world.tick(8);
+  EXPECT_TRUE(outline() != before);
+  EXPECT_EQ(world.table("garden", "shadow_receiver.losses"), losses);
+}
+
+TEST(SunStudy, RefusesMoreRaysThanItCanFollow) {
+  World world = World::from_text(scene_text(
+      kStudy + "," +
+      node_text("sun", "[0, 0, 0]", "sun_and_sky",
+                R"("first_date": "2026-01-01", "last_date": "2026-12-31", "day_step": 1, "step": 400, "min_altitude": 0)") +
+      "," + node_text("garden", "[0, 0, 0]", "shadow_receiver", R"("width": 500, "depth": 500, "spacing": 1)") + "," +
+      node_text("park", "[0, 900, 0]", "shadow_receiver", R"("width": 500, "depth": 500, "spacing": 1)")));
+  world.tick(6);
+  EXPECT_NE(world.node_error("study", "sun_study").find("nodes/study/sun_study/receivers: the study would follow"), std::string::npos)
+      << world.node_error("study", "sun_study");
+}
+
 }  // namespace
 }  // namespace bl

@@ -45,6 +45,21 @@ TEST(Orientations, TurnWithTrueNorth) {
   EXPECT_FALSE(orientation_named("up"));
 }
 
+TEST(Orientations, ACompassTellsTheSameQuickly) {
+  Random random(11);
+  for (const double true_north : {0.0, 12.5, -300.0, 45.0}) {
+    const Compass compass(true_north);
+    for (int i = 0; i < 2000; ++i) {
+      // Half of them within a hair of a border between sectors.
+      const double border = (22.5 + 45 * std::floor(random.uniform(0, 8)) + true_north) * std::numbers::pi / 180;
+      const double bearing = i % 2 == 0 ? random.uniform(0, 7) : border + random.uniform(-2e-11, 2e-11);
+      const Vector3 normal = random.uniform(0.1, 3) * Vector3{std::sin(bearing), std::cos(bearing), random.uniform(-1, 1)};
+      ASSERT_EQ(compass.of(normal), orientation_of(normal, true_north)) << bearing << " " << true_north;
+    }
+  }
+  EXPECT_EQ(Compass(0).of({0, 0, 1}), Orientation::north);
+}
+
 TEST(FacadeSurvey, OfABoxByHand) {
   // One volume that fills 20 x 10 x 9 m: three storeys.
   const auto cells = cells_of(box(20, 10, 9), {{{10, 5, 4}, 1e4}});

@@ -136,5 +136,15 @@ TEST(ShadowShape, WhatStaysUnderTheEnvelopeTakesNoSun) {
   EXPECT_GT(limited, 100);
 }
 
+// A building of 40 m with the sun a hair above the horizon: no outline rather than one of 20 000 km.
+TEST(ShadowShape, IsEmptyWhereItWouldBeLongerThanTheEarthIsLevel) {
+  const Mesh tower = box_mesh({0, 0, 0}, 10, 10, 40);
+  for (const auto& [rise, is_there] : {std::pair{2e-6, false}, {3.9e-4, false}, {4.1e-4, true}}) {
+    const Vector3 toward{0, std::sqrt(1 - rise * rise), rise};
+    EXPECT_EQ(!shadow_outline(tower, toward, 0).empty(), is_there) << rise;
+    EXPECT_EQ(!shadow_volume(tower, toward, 0).triangles.empty(), is_there) << rise;
+  }
+}
+
 }  // namespace
 }  // namespace bl
