@@ -27,7 +27,8 @@ constexpr std::array kAliases = {
           {"height", "measuredheight", "building:height", "bldg_height", "hoehe", "hauteur", "hoogte", "roof_height", "h"}},
     Alias{"levels",
           {"building:levels", "levels", "floors", "storeys", "stories", "num_floors", "bouwlagen", "geschosse", "etages"}},
-    Alias{"base", {"min_height", "base_height", "ground_height", "base"}},
+    Alias{"base", {"min_height"}},                              // from the ground up, below a top that counts from there
+    Alias{"ground", {"ground_height", "base_height", "base"}},  // above the sea, below the height
     Alias{"name", {"name", "title", "naam"}},
     Alias{"use", {"use", "function", "usage", "building:use", "building", "class", "landuse", "natural"}},
     Alias{"id", {"id", "uid", "osm_id", "identificatie", "gml_id", "fid", "gid"}},
@@ -82,6 +83,7 @@ class Importer {
     id_ = properties.get("id");
     if (id_.empty()) id_ = std::to_string(index);
     const std::string shown = feature.place.empty() ? "the feature" : feature.place;
+    row_ = shown;
     if (!feature.polygons.empty()) polygons(feature, properties, shown);
     else if (!feature.lines.empty()) lines(feature, properties, shown);
     else if (!feature.points.empty()) context_.report.skip("feature", shown, "a single place: points are not read");
@@ -148,27 +150,37 @@ class Importer {
         holes.push_back(std::move(hole.ring));
       }
     }
+    if (kind != "area")
+      if (const std::string fault = limit_corners(outer.ring, holes, mended); !fault.empty()) return fault;
     sort_holes(outer.ring, holes, mended);
     if (kind != "building") {
       context_.areas.push_back(
-          {id, properties.get("name"), properties.get("use"), std::move(outer.ring), std::move(holes), kind == "plot"});
+          {id, properties.get("name"), properties.get("use"), std::move(outer.ring), std::move(holes), kind == "plot", row_});
       return {};
     }
-    ContextBuilding& building = context_.buildings.emplace_back();
+    OsmTags tags;
+    for (const auto& [key, ours] : {std::pair{"height", "height"}, {"building:levels", "levels"}, {"min_height", "base"}})
+      if (const std::string value = properties.get(ours); !value.empty()) tags.emplace(key, value);
+    const OsmHeight height = osm_height(tags, options_.storey_height);
+    ContextBuilding building;
+    building.base = height.base;
+    building.height = height.height;
+    building.height_source = height.is_from_levels ? HeightSource::levels : HeightSource::tag;
+    if (!height.fault.empty()) note(mended, "not understood: " + height.fault);
+    if (const std::string ground = properties.get("ground"); !ground.empty()) {
+      const auto level = osm_length(ground);
+      if (level) building.base += *level, building.is_above_sea = true;
+      else note(mended, "not understood: height of its ground " + ground.substr(0, 40));
+    }
+    if (const std::string beyond = out_of_heights(building.base, building.height); !beyond.empty()) return beyond;
     building.id = id;
+    building.row = row_;
     building.name = properties.get("name");
     building.use = properties.get("use");
     if (building.use == "yes") building.use.clear();
     building.outer = std::move(outer.ring);
     building.holes = std::move(holes);
-    OsmTags tags;
-    for (const auto& [key, ours] : {std::pair{"height", "height"}, {"building:levels", "levels"}, {"min_height", "base"}})
-      if (const std::string value = properties.get(ours); !value.empty()) tags.emplace(key, value);
-    const OsmHeight height = osm_height(tags, options_.storey_height);
-    building.base = height.base;
-    building.height = height.height;
-    building.height_source = height.is_from_levels ? HeightSource::levels : HeightSource::tag;
-    if (!height.fault.empty()) note(mended, "not understood: " + height.fault);
+    context_.buildings.push_back(std::move(building));
     return {};
   }
 
@@ -181,6 +193,10 @@ class Importer {
     tags["highway"] = road_class.empty() ? "road" : road_class;
     for (const auto& [key, ours] : {std::pair{"lanes", "lanes"}, {"maxspeed", "speed"}, {"oneway", "oneway"}})
       if (const std::string value = properties.get(ours); !value.empty()) tags[key] = value;
+    // As Geofabrik's extracts have it: forth, to (against the line), both.
+    if (const std::string way = lower_case(tags["oneway"]); way == "f") tags["oneway"] = "yes";
+    else if (way == "t") tags["oneway"] = "-1";
+    else if (way == "b") tags["oneway"] = "no";
     const OsmRoad road = osm_road(tags);
     if (!road.is_road) return context_.report.skip("feature", shown, "street: " + road.why_not, "class=" + road_class);
     std::string mended = road.fault.empty() ? "" : "not understood: " + road.fault, fault;
@@ -198,7 +214,7 @@ class Importer {
       if (line.size() < given) note(mended, std::to_string(given - line.size()) + " repeated points dropped");
       if (road.direction < 0) std::reverse(line.begin(), line.end());
       const std::string id = feature.lines.size() > 1 ? id_ + "/" + std::to_string(i + 1) : id_;
-      raw_.push_back({std::move(line), road, id, properties.get("name")});
+      raw_.push_back({std::move(line), road, id, properties.get("name"), row_});
       ++taken;
     }
     if (taken == 0) return context_.report.skip("feature", shown, "street: " + fault);
@@ -224,6 +240,7 @@ class Importer {
         ContextStreet& street = context_.streets.emplace_back();
         street.id = raw.id + "/" + std::to_string(number++);
         street.name = raw.name;
+        street.row = raw.row;
         street.street_class = raw.road.road_class;
         street.line.assign(raw.line.begin() + static_cast<std::ptrdiff_t>(first),
                            raw.line.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -246,7 +263,7 @@ class Importer {
   struct RawStreet {
     std::vector<Point3> line;
     OsmRoad road;
-    std::string id, name;
+    std::string id, name, row;
   };
 
   static std::array<double, 2> key(const Point3& p) { return {std::round(p.x * 1000), std::round(p.y * 1000)}; }
@@ -260,7 +277,7 @@ class Importer {
   const ContextOptions& options_;
   const LocalFrame& frame_;
   Context& context_;
-  std::string id_;
+  std::string id_, row_;
   std::vector<RawStreet> raw_;
   std::map<std::array<double, 2>, std::size_t> junctions_;
 };

@@ -81,6 +81,7 @@ class Streets {
     street.line = in_.places(nodes, missing);
     if (!out_of_reach(*in_.options, street.line).empty()) return false;
     street.id = "w" + std::to_string(way.id) + "/" + std::to_string(number);
+    street.row = "w" + std::to_string(way.id);
     street.name = tag_of(way.tags, "name");
     street.street_class = road.road_class;
     street.start = junction(nodes.front(), street.line.front());
