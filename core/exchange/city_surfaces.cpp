@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <set>
 #include <utility>
@@ -138,16 +139,19 @@ std::vector<const CitySurface*> ground_of(const std::vector<Point3>& vertices, c
   return !named.empty() ? named : !down.empty() ? down : up;
 }
 
+// Where edges lead from each vertex, in the order that they are taken.
+using Ways = std::map<std::uint32_t, std::deque<std::uint32_t>>;
+
 // Directed edges to rings. Where a way comes back to a place that it has passed, what lies between is a ring of its own, so
 // that rings that touch themselves come apart.
-std::vector<std::vector<std::uint32_t>> chained(std::map<std::uint32_t, std::vector<std::uint32_t>> ways) {
+std::vector<std::vector<std::uint32_t>> chained(Ways ways) {
   std::vector<std::vector<std::uint32_t>> rings;
   while (!ways.empty()) {
     std::vector<std::uint32_t> chain{ways.begin()->first};
     std::map<std::uint32_t, std::size_t> at{{chain.front(), 0}};
     for (auto it = ways.begin(); it != ways.end(); it = ways.find(chain.back())) {
       const std::uint32_t next = it->second.front();
-      it->second.erase(it->second.begin());
+      it->second.pop_front();
       if (it->second.empty()) ways.erase(it);
       const auto known = at.find(next);
       if (known == at.end()) {
@@ -168,7 +172,7 @@ std::vector<std::vector<std::uint32_t>> chained(std::map<std::uint32_t, std::vec
 bool add_floor(Mesh& mesh) {
   double foot = mesh.vertices.front().z;
   for (const Point3& p : mesh.vertices) foot = std::min(foot, p.z);
-  std::map<std::uint32_t, std::vector<std::uint32_t>> ways;
+  Ways ways;
   for (const auto& [edge, sum] : unmatched_edges(mesh)) {
     if (mesh.vertices[edge.first].z > foot + kSameHeight || mesh.vertices[edge.second].z > foot + kSameHeight) return false;
     // The missing face runs along its edges the other way round.
@@ -184,6 +188,17 @@ bool add_floor(Mesh& mesh) {
 }
 
 }  // namespace
+
+double triangles_effort(const std::vector<CitySurface>& surfaces) {
+  constexpr double kHoleCost = 30, kFew = 256;
+  double effort = 0;
+  for (const CitySurface& surface : surfaces) {
+    double corners = 0;
+    for (const auto& ring : surface.rings) corners += static_cast<double>(ring.size());
+    if (corners >= kFew) effort += corners * (corners + kHoleCost * static_cast<double>(surface.rings.size() - 1));
+  }
+  return effort;
+}
 
 CitySolid city_solid(const std::vector<Point3>& vertices, const std::vector<CitySurface>& surfaces) {
   CitySolid solid;
@@ -240,7 +255,7 @@ std::vector<Ring> city_outlines(const std::vector<Point3>& vertices, const std::
         if (a != b) sums[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
       }
   }
-  std::map<std::uint32_t, std::vector<std::uint32_t>> ways;
+  Ways ways;
   for (const auto& [edge, sum] : sums)
     for (int i = 0; i < std::abs(sum); ++i)
       ways[sum > 0 ? edge.first : edge.second].push_back(sum > 0 ? edge.second : edge.first);

@@ -30,6 +30,9 @@ struct CitySolid {
 /// Vertices at one place count as one. Surfaces of several shells may be given together.
 CitySolid city_solid(const std::vector<Point3>& vertices, const std::vector<CitySurface>& surfaces);
 
+/// About how many steps the triangles of the surfaces take: quadratic in the corners of each; 0 for those of few corners.
+double triangles_effort(const std::vector<CitySurface>& surfaces);
+
 /// The outlines of the surfaces in plan: counter-clockwise outer rings and clockwise holes, as chained, unjudged. Of a solid the
 /// ground counts: surfaces called so, else those that look down, else those that look up.
 std::vector<Ring> city_outlines(const std::vector<Point3>& vertices, const std::vector<CitySurface>& surfaces);

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "core/base/text.h"
+#include "core/exchange/box_grid.h"
 #include "core/exchange/cityjson_model.h"
 #include "core/exchange/context_shape.h"
 #include "core/exchange/osm_tags.h"
@@ -14,6 +16,9 @@
 namespace bl {
 
 namespace {
+
+// Some twenty seconds for the large faces of a file; those of real city models take none of it.
+constexpr double kMostEffort = 4e9;
 
 bool is_building(const std::string& type) { return type == "Building" || type == "BuildingPart"; }
 
@@ -35,14 +40,14 @@ void note(std::string& text, const std::string& more) {
 
 class Importer {
  public:
-  Importer(const CityModel& model, const ContextOptions& options, const LocalFrame& frame, Context& context)
+  Importer(const CityModel& model, const ContextOptions& options, const LocalFrame& frame, double height_unit, Context& context)
       : model_(model), options_(options), context_(context) {
     for (const auto& list : model.vertices) {
       auto& local = vertices_.emplace_back();
       local.reserve(list.size());
       for (const Point3& p : list) {
         Point3 place = frame.to_local(p.x, p.y);
-        place.z = p.z;
+        place.z = p.z * height_unit;
         local.push_back(place);
       }
     }
@@ -119,6 +124,17 @@ class Importer {
 
   // The largest ring with the holes in it; the hull of all corners where the surfaces give no simple ring.
   std::vector<Outline> outlines(const CityObject& object, const CityGeometry& geometry, const std::vector<Point3>& points) const {
+    std::vector<Outline> outers = simple_outlines(object, geometry, points);
+    for (Outline& outline : outers) {
+      if (is_building(object.type) && outline.fault.empty())
+        outline.fault = limit_corners(outline.outer, outline.holes, outline.mended);
+      if (outline.fault.empty()) sort_holes(outline.outer, outline.holes, outline.mended);
+    }
+    return outers;
+  }
+
+  std::vector<Outline> simple_outlines(const CityObject& object, const CityGeometry& geometry,
+                                       const std::vector<Point3>& points) const {
     std::vector<Outline> outers;
     std::vector<Ring> holes;
     std::string fault;
@@ -141,13 +157,13 @@ class Importer {
     if (!fault.empty()) note(outers.front().mended, "a ring left out: " + fault);
     std::sort(outers.begin(), outers.end(),
               [](const Outline& a, const Outline& b) { return signed_area(a.outer) > signed_area(b.outer); });
+    const BoxGrid grid = BoxGrid::of(outers, [](const Outline& outline) -> const Ring& { return outline.outer; });
     for (Ring& hole : holes)
-      for (Outline& outline : outers)
-        if (ring_contains(outline.outer, hole.front())) {
-          outline.holes.push_back(std::move(hole));
+      for (const std::size_t home : grid.meeting(plan_box(std::span(&hole.front(), 1))))
+        if (ring_contains(outers[home].outer, hole.front())) {
+          outers[home].holes.push_back(std::move(hole));
           break;
         }
-    for (Outline& outline : outers) sort_holes(outline.outer, outline.holes, outline.mended);
     return outers;
   }
 
@@ -169,10 +185,13 @@ class Importer {
     ContextBuilding made;
     made.id = object.id;
     made.row = next_row();
+    made.is_above_sea = true;
     made.outer = std::move(found.front().outer);
     made.holes = std::move(found.front().holes);
     describe(object, made);
     measure(object, *geometry, points, made, mended);
+    if (const std::string beyond = out_of_heights(made.base, made.height); !beyond.empty())
+      return context_.report.skip(object.type, object.id, beyond, "from " + shortest(made.base) + " m");
     if (found.size() > 1)
       note(mended,
            std::to_string(found.size() - 1) + (made.solid ? " more outlines only in its solid" : " smaller outlines left out"));
@@ -198,13 +217,15 @@ class Importer {
 
   // Base, height and solid from the geometry; from attributes where it is flat.
   void measure(const CityObject& object, const CityGeometry& geometry, const std::vector<Point3>& points, ContextBuilding& made,
-               std::string& mended) const {
+               std::string& mended) {
     const auto [low, high] =
         std::minmax_element(points.begin(), points.end(), [](const Point3& a, const Point3& b) { return a.z < b.z; });
     made.base = low->z;
     if (geometry.level_of_detail >= 1 && high->z - low->z > 0.01) {
       made.height = high->z - low->z;
       made.height_source = HeightSource::geometry;
+      effort_ += triangles_effort(geometry.surfaces);
+      if (effort_ > kMostEffort) return note(mended, "its faces have too many corners: drawn as an extrusion");
       CitySolid solid = city_solid(vertices_[object.vertices], geometry.surfaces);
       if (solid.is_closed && solid.volume > 0) {
         if (solid.had_no_floor) note(mended, "its solid had no floor, which was added");
@@ -247,6 +268,7 @@ class Importer {
   const CityModel& model_;
   const ContextOptions& options_;
   Context& context_;
+  double effort_ = 0;  // steps spent on triangles of large faces
   std::vector<std::vector<Point3>> vertices_;
   std::map<std::string, const CityObject*, std::less<>> by_id_;
 };
@@ -273,7 +295,8 @@ Result<Context> read_cityjson_context(std::string_view bytes, const ContextOptio
   context.reference = frame->reference();
   context.notes = frame->notes();
   context.notes.insert(context.notes.end(), model->notes.begin(), model->notes.end());
-  Importer(*model, options, *frame, context).run();
+  const double unit = context_height_unit(options, 0, model->crs, context.notes);
+  Importer(*model, options, *frame, unit, context).run();
   if (options.watch != nullptr && options.watch->is_stopped) return stopped_error();
   assume_heights(options, context);
   return context;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/exchange/bounded_json.h"
 #include "core/exchange/inflate.h"
 #include "core/exchange/local_frame.h"
 
@@ -58,12 +59,16 @@ Result<Transform> transform_of(const Json& root) {
   return transform;
 }
 
+Error too_many(const std::string& place) {
+  return {ErrorCode::out_of_range, place,
+          "There are more than " + std::to_string(kMostVertices) + " vertices: cut out the part that you need."};
+}
+
 Result<std::vector<Point3>> vertices_of(const Json& root, const Transform& t) {
   const Json* list = member(root, "vertices");
   if (list == nullptr || !list->is_array())
     return Error{ErrorCode::missing, "vertices", "The array `vertices` is missing: is this CityJSON, and is it complete?"};
-  if (list->size() > kMostVertices)
-    return Error{ErrorCode::out_of_range, "vertices", "There are more than " + std::to_string(kMostVertices) + " vertices."};
+  if (list->size() > kMostVertices) return too_many("vertices");
   std::vector<Point3> vertices;
   vertices.reserve(list->size());
   for (std::size_t i = 0; i < list->size(); ++i) {
@@ -156,36 +161,18 @@ CityGeometry geometry_of(const Json& json, std::size_t vertices) {
 class Reader {
  public:
   Result<CityModel> read(const std::string& text) {
-    const std::size_t end = text.find_first_of('\n');
-    Json first = Json::parse(text, nullptr, false);
-    if (!first.is_discarded()) {
-      if (auto done = header(first); !done) return done.error();
-      if (auto done = feature(first, ""); !done) return done.error();
-      return std::move(model_);
-    }
-    first = Json::parse(text.substr(0, end), nullptr, false);
-    if (first.is_discarded() || end == std::string::npos) return where_it_breaks(text);
-    if (auto done = header(first); !done) return done.error().within("line 1");
-    if (auto done = sequence(first, text, end); !done) return done.error();
+    // A sequence is told by its first line, which is a value of its own, and by what follows.
+    const std::size_t end = text.find('\n'), first = end_of_first_value(text);
+    const bool is_sequence = end != std::string::npos && first != std::string_view::npos && first <= end &&
+                             text.find_first_not_of(" \t\r\n", first) != std::string::npos;
+    const auto head = read_bounded_json(is_sequence ? std::string_view(text).substr(0, end) : text, "CityJSON");
+    if (!head) return head.error();
+    if (auto done = header(*head); !done) return is_sequence ? done.error().within("line 1") : done.error();
+    if (auto done = is_sequence ? sequence(*head, text, end) : feature(*head, ""); !done) return done.error();
     return std::move(model_);
   }
 
  private:
-  static Error where_it_breaks(const std::string& text) {
-    try {
-      [[maybe_unused]] const Json unused = Json::parse(text);
-    } catch (const Json::parse_error& error) {
-      const std::string_view before =
-          std::string_view(text).substr(0, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size()));
-      const std::size_t last = before.rfind('\n');
-      return {ErrorCode::parse,
-              "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column " +
-                  std::to_string(before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1),
-              "The text is not valid JSON from here on; is the file complete, and is it CityJSON?"};
-    } catch (const Json::exception&) {}
-    return {ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
-  }
-
   Result<void> header(const Json& root) {
     if (text_of(member(root, "type")) != "CityJSON")
       return Error{ErrorCode::parse, "type", "This is JSON but not CityJSON: its member `type` must be `CityJSON`."};
@@ -212,11 +199,14 @@ class Reader {
       start = stop + 1;
       if (part.find_first_not_of(" \t\r") == std::string_view::npos) continue;
       const std::string place = "line " + std::to_string(line);
-      const Json json = Json::parse(part, nullptr, false);
-      if (json.is_discarded()) return Error{ErrorCode::parse, place, "This line is not valid JSON; is the file complete?"};
-      if (text_of(member(json, "type")) != "CityJSONFeature")
+      const auto json = read_bounded_json(part, "CityJSON");
+      if (!json)
+        return Error{
+            json.error().code, place,
+            json.error().code == ErrorCode::parse ? "This line is not valid JSON; is the file complete?" : json.error().message};
+      if (text_of(member(*json, "type")) != "CityJSONFeature")
         return Error{ErrorCode::parse, place, "Every line after the first must be a CityJSONFeature."};
-      if (auto done = feature(json, place); !done) return done;
+      if (auto done = feature(*json, place); !done) return done;
     }
     return {};
   }
@@ -241,10 +231,13 @@ class Reader {
       if (const Json* list = member(json, "geometry"); list != nullptr && list->is_array())
         for (const Json& geometry : *list) object.geometries.push_back(geometry_of(geometry, vertices->size()));
     }
+    vertices_ += vertices->size();
+    if (vertices_ > kMostVertices) return too_many(place);
     model_.vertices.push_back(std::move(*vertices));
     return {};
   }
 
+  std::size_t vertices_ = 0;
   CityModel model_;
   Transform transform_;
 };

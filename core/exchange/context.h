@@ -38,11 +38,12 @@ struct ContextBuilding {
   double base = 0;          ///< height of the underside [m]
   double height = 0;        ///< from the underside to the top [m]
   HeightSource height_source = HeightSource::assumed;
-  double storey_height = 0;  ///< [m] of this building; 0: not known
-  bool is_part = false;      ///< a part of a building that is drawn by its parts
-  std::string whole;         ///< id of the building that it is a part of; empty: none
-  MeshPointer solid;         ///< closed and outward, where the source has one
-  std::size_t row = kNoRow;  ///< of the report, which it came from
+  double storey_height = 0;   ///< [m] of this building; 0: not known
+  bool is_part = false;       ///< a part of a building that is drawn by its parts
+  std::string whole;          ///< id of the building that it is a part of; empty: none
+  MeshPointer solid;          ///< closed and outward, where the source has one
+  bool is_above_sea = false;  ///< `base` counts from the sea, not from the ground
+  std::size_t row = kNoRow;   ///< of the report, which it came from
 };
 
 struct ContextJunction {
@@ -102,9 +103,10 @@ struct ContextOptions {
   double neighbour_distance = 100;              ///< [m] how near buildings are whose heights are taken over
   std::string feature_kind;                     ///< GeoJSON: "building", "street", "plot", "area"; empty: from the properties
   std::vector<std::pair<std::string, std::string>> properties;  ///< ours and the file's: {"height", "H_MAX"}
-  double level_of_detail = 9;                                   ///< CityJSON: the finest one up to this is taken
-  std::string proj_database;                                    ///< path of proj.db; empty: PROJ finds its own
-  ImportWatch* watch = nullptr;                                 ///< who waits for it; may be null
+  double height_unit = 0;      ///< [m] of one unit of the heights of models and grids; 0: what the CRS says
+  double level_of_detail = 9;  ///< CityJSON: the finest one up to this is taken
+  std::string proj_database;   ///< path of proj.db; empty: PROJ finds its own
+  ImportWatch* watch = nullptr;  ///< who waits for it; may be null
 };
 
 /// No element may lie farther from the origin [m]: over such lengths no flat frame is exact.

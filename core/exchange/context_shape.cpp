@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/exchange/box_grid.h"
 
 namespace bl {
 
@@ -54,6 +55,18 @@ Result<LocalFrame> context_frame(const ContextOptions& options, const std::strin
             ") is no longitude and latitude: the coordinates are probably projected. Give their CRS, such as EPSG:28992."};
   if (options.target && !options.origin) return LocalFrame::into(crs, *options.target, options.proj_database);
   return LocalFrame::make(crs, about[0], about[1], options.proj_database);
+}
+
+double context_height_unit(const ContextOptions& options, double file_unit, const std::string& file_crs,
+                           std::vector<std::string>& notes) {
+  if (options.height_unit > 0) return options.height_unit;
+  const std::string crs = context_crs(options, file_crs);
+  const double unit = file_unit > 0 ? file_unit : height_unit(crs, options.proj_database);
+  if (unit != 1)
+    notes.push_back("One unit of height was taken as " + shortest(unit) + " m, as " +
+                    (file_unit > 0 ? std::string("the file says") : "in " + crs) +
+                    ": if it is another one, give it by the option for the unit of heights.");
+  return unit;
 }
 
 RingCleaning clean_corners(Ring& ring) {
@@ -136,17 +149,37 @@ std::string out_of_reach(const ContextOptions& options, const std::vector<Point3
 void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& dropped) {
   std::vector<Ring> kept;
   std::size_t bad = 0;
+  BoxGrid grid(plan_box(outer), holes.size());
   for (Ring& hole : holes) {
     bool is_sound = !find_crossing(outer, hole) && ring_contains(outer, hole[0]);
-    for (const Ring& other : kept)
-      is_sound = is_sound && !find_crossing(other, hole) && !ring_contains(other, hole[0]) && !ring_contains(hole, other[0]);
-    if (is_sound) kept.push_back(std::move(hole));
+    const PlanBox box = plan_box(hole);
+    if (is_sound)
+      for (const std::size_t other : grid.meeting(box))
+        is_sound = is_sound && !find_crossing(kept[other], hole) && !ring_contains(kept[other], hole[0]) &&
+                   !ring_contains(hole, kept[other][0]);
+    if (is_sound) grid.add(box), kept.push_back(std::move(hole));
     else ++bad;
   }
   holes = std::move(kept);
   if (bad == 0) return;
   dropped += (dropped.empty() ? "" : ", ") + std::to_string(bad) + (bad == 1 ? " hole" : " holes") +
              " that meet another ring or lie outside dropped";
+}
+
+std::string limit_corners(const Ring& outer, std::vector<Ring>& holes, std::string& dropped) {
+  const std::string most = "more than " + std::to_string(kMostBodyCorners) + " corners";
+  if (outer.size() > kMostBodyCorners) return "it has " + most;
+  std::size_t corners = outer.size();
+  for (const Ring& hole : holes) corners += hole.size();
+  if (corners <= kMostBodyCorners) return {};
+  dropped += (dropped.empty() ? "its " : ", its ") + std::to_string(holes.size()) + " holes left out: with them it has " + most;
+  holes.clear();
+  return {};
+}
+
+std::string out_of_heights(double base, double height) {
+  if (base >= kLowestBase && base + height <= kHighestTop) return {};
+  return "its heights lie beyond -10 km or 100 km";
 }
 
 void assume_heights(const ContextOptions& options, Context& context) {

@@ -16,6 +16,10 @@ Result<LocalFrame> context_frame(const ContextOptions& options, const std::strin
 /// The CRS of the options, else that of the file.
 std::string context_crs(const ContextOptions& options, const std::string& file_crs);
 
+/// Metres per unit of height: of the options, else of the file (0: it does not say), else of its CRS; told where it is not 1.
+double context_height_unit(const ContextOptions& options, double file_unit, const std::string& file_crs,
+                           std::vector<std::string>& notes);
+
 /// A ring made sound: closing and repeated points dropped, spikes cut off, turned as wanted.
 struct SoundRing {
   Ring ring;
@@ -34,6 +38,15 @@ std::string out_of_reach(const ContextOptions& options, const std::vector<Point3
 
 /// An outer ring with its holes: holes that cross it, lie outside it or in each other are reported in `dropped`.
 void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& dropped);
+
+/// What is made a body of (a building, a plot) is triangulated, which is quadratic in its corners.
+inline constexpr std::size_t kMostBodyCorners = 10000;
+/// Why a body cannot be made of the outer ring, or nothing; holes that are too many are left out, which `dropped` then says.
+std::string limit_corners(const Ring& outer, std::vector<Ring>& holes, std::string& dropped);
+
+/// Why a body cannot stand between these heights [m], or nothing.
+inline constexpr double kLowestBase = -10000, kHighestTop = 100000;
+std::string out_of_heights(double base, double height);
 
 /// Gives buildings without a height that of their neighbours (median of at least three known ones), or the default, and notes
 /// how many got which. Buildings are those whose height is 0.

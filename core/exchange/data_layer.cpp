@@ -260,6 +260,10 @@ Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOption
       continue;
     }
     if (crs.empty()) crs = feature.crs;
+    if (feature.crs != crs && options.crs.empty())
+      return Error{
+          ErrorCode::conflict, place,
+          "This feature is in " + feature.crs + ", the first point in " + crs + ": split the file, or give one CRS for all."};
     const auto property = std::find_if(feature.properties.begin(), feature.properties.end(),
                                        [&](const auto& p) { return p.first == layer.value_name; });
     const auto number = property == feature.properties.end() ? std::nullopt : parse_number(property->second);
@@ -275,7 +279,7 @@ Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOption
 }
 
 Result<DataLayer> layer_of_grid(const TerrainGrid& grid, const ContextOptions& options, std::size_t most_cells) {
-  auto local = local_terrain(grid, options, most_cells);
+  auto local = local_grid(grid, options, most_cells);
   if (!local) return local.error();
   DataLayer layer;
   layer.source_crs = context_crs(options, grid.crs);

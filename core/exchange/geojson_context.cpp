@@ -27,7 +27,8 @@ constexpr std::array kAliases = {
           {"height", "measuredheight", "building:height", "bldg_height", "hoehe", "hauteur", "hoogte", "roof_height", "h"}},
     Alias{"levels",
           {"building:levels", "levels", "floors", "storeys", "stories", "num_floors", "bouwlagen", "geschosse", "etages"}},
-    Alias{"base", {"min_height", "base_height", "ground_height", "base"}},
+    Alias{"base", {"min_height"}},                              // from the ground up, below a top that counts from there
+    Alias{"ground", {"ground_height", "base_height", "base"}},  // above the sea, below the height
     Alias{"name", {"name", "title", "naam"}},
     Alias{"use", {"use", "function", "usage", "building:use", "building", "class", "landuse", "natural"}},
     Alias{"id", {"id", "uid", "osm_id", "identificatie", "gml_id", "fid", "gid"}},
@@ -161,6 +162,8 @@ class Importer {
         holes.push_back(std::move(hole.ring));
       }
     }
+    if (kind != "area")
+      if (const std::string fault = limit_corners(outer.ring, holes, mended); !fault.empty()) return fault;
     sort_holes(outer.ring, holes, mended);
     if (kind != "building") {
       context_.areas.push_back(
@@ -168,7 +171,21 @@ class Importer {
            next_row()});
       return {};
     }
-    ContextBuilding& building = context_.buildings.emplace_back();
+    OsmTags tags;
+    for (const auto& [key, ours] : {std::pair{"height", "height"}, {"building:levels", "levels"}, {"min_height", "base"}})
+      if (const std::string value = properties.get(ours); !value.empty()) tags.emplace(key, value);
+    const OsmHeight height = osm_height(tags, options_.storey_height);
+    ContextBuilding building;
+    building.base = height.base;
+    building.height = height.height;
+    building.height_source = height.is_from_levels ? HeightSource::levels : HeightSource::tag;
+    if (!height.fault.empty()) note(mended, "not understood: " + height.fault);
+    if (const std::string ground = properties.get("ground"); !ground.empty()) {
+      const auto level = osm_length(ground);
+      if (level) building.base += *level, building.is_above_sea = true;
+      else note(mended, "not understood: height of its ground " + ground.substr(0, 40));
+    }
+    if (const std::string beyond = out_of_heights(building.base, building.height); !beyond.empty()) return beyond;
     building.id = id;
     building.row = next_row();
     building.name = properties.get("name");
@@ -176,14 +193,7 @@ class Importer {
     if (building.use == "yes") building.use.clear();
     building.outer = std::move(outer.ring);
     building.holes = std::move(holes);
-    OsmTags tags;
-    for (const auto& [key, ours] : {std::pair{"height", "height"}, {"building:levels", "levels"}, {"min_height", "base"}})
-      if (const std::string value = properties.get(ours); !value.empty()) tags.emplace(key, value);
-    const OsmHeight height = osm_height(tags, options_.storey_height);
-    building.base = height.base;
-    building.height = height.height;
-    building.height_source = height.is_from_levels ? HeightSource::levels : HeightSource::tag;
-    if (!height.fault.empty()) note(mended, "not understood: " + height.fault);
+    context_.buildings.push_back(std::move(building));
     return {};
   }
 
@@ -196,6 +206,10 @@ class Importer {
     tags["highway"] = road_class.empty() ? "road" : road_class;
     for (const auto& [key, ours] : {std::pair{"lanes", "lanes"}, {"maxspeed", "speed"}, {"oneway", "oneway"}})
       if (const std::string value = properties.get(ours); !value.empty()) tags[key] = value;
+    // As Geofabrik's extracts have it: forth, to (against the line), both.
+    if (const std::string way = lower_case(tags["oneway"]); way == "f") tags["oneway"] = "yes";
+    else if (way == "t") tags["oneway"] = "-1";
+    else if (way == "b") tags["oneway"] = "no";
     const OsmRoad road = osm_road(tags);
     if (!road.is_road) return context_.report.skip("feature", shown, "street: " + road.why_not, "class=" + road_class);
     std::string mended = road.fault.empty() ? "" : "not understood: " + road.fault, fault;

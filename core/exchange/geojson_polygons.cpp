@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/text.h"
+#include "core/exchange/bounded_json.h"
 #include "core/exchange/local_frame.h"
 
 namespace bl {
@@ -169,7 +170,8 @@ Result<void> Reader::read_geometry(const Json& object, const std::string& place,
   return {};
 }
 
-Result<void> Reader::read_places(const Json& coordinates, const std::string& place, const std::string& type, GeoFeature& feature) {
+Result<void> Reader::read_places(const Json& coordinates, const std::string& place, const std::string& type,
+                                 GeoFeature& feature) {
   if (type == "Point") {
     if (coordinates.empty()) return {};  // RFC 7946: an empty one is like none
     auto position = read_position(coordinates, place);
@@ -236,14 +238,10 @@ Result<std::array<double, 2>> Reader::read_position(const Json& position, const 
 
 Result<GeoDocument> read_geojson_polygons(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const auto json = read_bounded_json(text, "GeoJSON");
+  if (!json) return json.error();
   try {
-    return Reader().read(Json::parse(text));
-  } catch (const Json::parse_error& error) {
-    const std::string_view before = text.substr(0, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size()));
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t column = before.size() - (before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1) + 1;
-    return Error{ErrorCode::parse, "line " + std::to_string(line) + ", column " + std::to_string(column),
-                 "The text is not valid JSON from here on; is the file complete, and is it GeoJSON?"};
+    return Reader().read(*json);
   } catch (const Json::exception&) {
     return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
   }

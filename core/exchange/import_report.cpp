@@ -31,6 +31,15 @@ void ImportReport::skip(std::string kind, std::string id, std::string reason, st
   rows_.push_back({ImportOutcome::skipped, std::move(kind), std::move(id), std::move(reason), std::move(detail), count, {}, {}});
 }
 
+void ImportReport::drop(const std::map<std::string, std::string>& unused) {
+  for (ImportRow& row : rows_) {
+    const auto found = unused.find(row.id);
+    if (row.id.empty() || found == unused.end() || row.outcome == ImportOutcome::skipped) continue;
+    row.outcome = ImportOutcome::skipped;
+    row.reason += ": " + found->second;
+  }
+}
+
 std::size_t ImportReport::count(ImportOutcome outcome, std::string_view kind) const {
   std::size_t sum = 0;
   for (const ImportRow& row : rows_)

@@ -181,7 +181,8 @@ Result<LocalFrame> LocalFrame::into(const std::string& crs, const GeoReference& 
     if (transforms.to_target != nullptr) return frame;
   }
   return Error{ErrorCode::parse, "coordinate_system",
-               "The coordinate system of the scene, `" + target.crs + "`, is not understood: set it anew, or import into a scene without one."};
+               "The coordinate system of the scene, `" + target.crs +
+                   "`, is not understood: set it anew, or import into a scene without one."};
 }
 
 Point3 LocalFrame::to_local(double x, double y) const {
@@ -224,22 +225,65 @@ std::string tidy_crs_name(std::string_view name) {
   return code == "4326" ? "OGC:CRS84" : "EPSG:" + code;
 }
 
-std::string horizontal_crs(const std::string& crs, const std::string& database) {
-  PJ_CONTEXT* context = proj_context_create();
-  proj_log_level(context, PJ_LOG_NONE);
-  proj_context_set_enable_network(context, 0);
-  if (!database.empty()) proj_context_set_database_path(context, database.c_str(), nullptr, nullptr);
-  std::string name = crs;
-  PJ* whole = crs.empty() ? nullptr : proj_create(context, crs.c_str());
-  if (whole != nullptr && proj_get_type(whole) == PJ_TYPE_COMPOUND_CRS) {
-    PJ* part = proj_crs_get_sub_crs(context, whole, 0);
-    const char* authority = part ? proj_get_id_auth_name(part, 0) : nullptr;
-    const char* code = part ? proj_get_id_code(part, 0) : nullptr;
-    if (authority != nullptr && code != nullptr) name = tidy_crs_name(std::string(authority) + ":" + code);
-    proj_destroy(part);
+namespace {
+
+// A CRS outside of any frame, with a context of its own.
+class LooseCrs {
+ public:
+  LooseCrs(const std::string& crs, const std::string& database) : context_(proj_context_create()) {
+    proj_log_level(context_, PJ_LOG_NONE);
+    proj_context_set_enable_network(context_, 0);
+    if (!database.empty()) proj_context_set_database_path(context_, database.c_str(), nullptr, nullptr);
+    crs_ = crs.empty() ? nullptr : proj_create(context_, crs.c_str());
   }
-  proj_destroy(whole);
-  proj_context_destroy(context);
+  LooseCrs(const LooseCrs&) = delete;
+  LooseCrs& operator=(const LooseCrs&) = delete;
+  ~LooseCrs() {
+    proj_destroy(crs_);
+    proj_context_destroy(context_);
+  }
+  PJ_CONTEXT* context() const { return context_; }
+  const PJ* get() const { return crs_; }
+  bool is_compound() const { return crs_ != nullptr && proj_get_type(crs_) == PJ_TYPE_COMPOUND_CRS; }
+
+ private:
+  PJ_CONTEXT* context_;
+  PJ* crs_ = nullptr;
+};
+
+// Metres per unit of the last axis, or 0 where that is no length.
+double unit_of_last_axis(PJ_CONTEXT* context, const PJ* crs) {
+  PJ* system = crs != nullptr ? proj_crs_get_coordinate_system(context, crs) : nullptr;
+  const int count = system != nullptr ? proj_cs_get_axis_count(context, system) : 0;
+  double metres = 0;
+  const char* unit = nullptr;
+  const bool is_known =
+      count > 0 && proj_cs_get_axis_info(context, system, count - 1, nullptr, nullptr, nullptr, &metres, &unit, nullptr, nullptr);
+  const std::string name = is_known && unit != nullptr ? unit : "";
+  proj_destroy(system);
+  return name.find("degree") != std::string::npos || name.find("rad") != std::string::npos ? 0 : metres;
+}
+
+}  // namespace
+
+double height_unit(const std::string& crs, const std::string& database) {
+  const LooseCrs whole(crs, database);
+  if (whole.get() == nullptr) return 1;
+  PJ* vertical = whole.is_compound() ? proj_crs_get_sub_crs(whole.context(), whole.get(), 1) : nullptr;
+  const double metres = unit_of_last_axis(whole.context(), vertical != nullptr ? vertical : whole.get());
+  proj_destroy(vertical);
+  return metres > 0 ? metres : 1;
+}
+
+std::string horizontal_crs(const std::string& crs, const std::string& database) {
+  const LooseCrs whole(crs, database);
+  std::string name = crs;
+  if (!whole.is_compound()) return name;
+  PJ* part = proj_crs_get_sub_crs(whole.context(), whole.get(), 0);
+  const char* authority = part ? proj_get_id_auth_name(part, 0) : nullptr;
+  const char* code = part ? proj_get_id_code(part, 0) : nullptr;
+  if (authority != nullptr && code != nullptr) name = tidy_crs_name(std::string(authority) + ":" + code);
+  proj_destroy(part);
   return name;
 }
 

@@ -29,6 +29,10 @@ bool is_longitude_latitude(std::string_view crs);
 /// The part in plan of a CRS with heights: "EPSG:28992" of "EPSG:7415"; any other name as it is.
 std::string horizontal_crs(const std::string& crs, const std::string& database = "");
 
+/// How many metres one unit of height is in a CRS: of its vertical axis where it has one, else of its axes in plan where these
+/// are lengths, since surveys measure heights in the unit of the plan; else 1.
+double height_unit(const std::string& crs, const std::string& database = "");
+
 /// The way from the coordinates of a CRS into the local frame of a site.
 /// A CRS whose units are metres on the ground (within a part in a thousand, not mirrored, see README) is kept and only
 /// shifted by whole metres; any other one goes through longitude and latitude into a transverse Mercator projection of

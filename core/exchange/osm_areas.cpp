@@ -3,11 +3,14 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <span>
 
 #include "core/base/text.h"
+#include "core/exchange/box_grid.h"
 #include "core/exchange/osm_import.h"
 #include "core/exchange/osm_tags.h"
-#include "core/geometry/polygon_triangles.h"
+#include "core/exchange/plan_cover.h"
 
 namespace bl {
 
@@ -50,23 +53,27 @@ struct Joined {
 
 Joined join(std::vector<const OsmWay*> ways) {
   Joined joined;
-  std::multimap<std::int64_t, std::size_t> ends;
+  struct End {
+    std::vector<std::size_t> ways;
+    std::size_t next = 0;  // those before it are used
+  };
+  std::map<std::int64_t, End> ends;
   std::vector<bool> is_used(ways.size(), false);
   for (std::size_t i = 0; i < ways.size(); ++i)
     if (ways[i]->nodes.size() >= 2) {
-      ends.emplace(ways[i]->nodes.front(), i);
-      ends.emplace(ways[i]->nodes.back(), i);
+      ends[ways[i]->nodes.front()].ways.push_back(i);
+      ends[ways[i]->nodes.back()].ways.push_back(i);
     }
   for (std::size_t i = 0; i < ways.size(); ++i) {
     if (is_used[i] || ways[i]->nodes.size() < 2) continue;
     is_used[i] = true;
     std::vector<std::int64_t> chain = ways[i]->nodes;
     while (chain.front() != chain.back()) {
-      const auto [begin, end] = ends.equal_range(chain.back());
-      const auto next = std::find_if(begin, end, [&](const auto& entry) { return !is_used[entry.second]; });
-      if (next == end) break;
-      is_used[next->second] = true;
-      std::vector<std::int64_t> more = ways[next->second]->nodes;
+      End& end = ends.at(chain.back());
+      while (end.next < end.ways.size() && is_used[end.ways[end.next]]) ++end.next;
+      if (end.next == end.ways.size()) break;
+      is_used[end.ways[end.next]] = true;
+      std::vector<std::int64_t> more = ways[end.ways[end.next]]->nodes;
       if (more.front() != chain.back()) std::reverse(more.begin(), more.end());
       chain.insert(chain.end(), more.begin() + 1, more.end());
     }
@@ -74,17 +81,6 @@ Joined join(std::vector<const OsmWay*> ways) {
     else ++joined.open;
   }
   return joined;
-}
-
-// A place inside a ring: the centre of the largest of its triangles.
-Point3 place_inside(const Ring& ring) {
-  Point3 best = ring.front();
-  double largest = -1;
-  for (const auto& [a, b, c] : polygon_triangles(std::span(&ring, 1))) {
-    const double area = std::abs(cross(ring[b] - ring[a], ring[c] - ring[a]).z);
-    if (area > largest) largest = area, best = (ring[a] + ring[b] + ring[c]) / 3;
-  }
-  return best;
 }
 
 double ground_area(const ContextBuilding& building) {
@@ -153,27 +149,31 @@ class Areas {
                                        : "relations of this type are not read",
                     "type=" + type);
     std::vector<const OsmWay*> outer, inner;
-    std::size_t missing = 0;
+    std::size_t missing = 0, repeated = 0;
+    std::set<std::int64_t> known;
     for (const OsmMember& member : relation.members) {
       if (member.kind != 'w') continue;
       const OsmWay* way = in_.store->way(member.id);
-      if (way == nullptr) ++missing;
+      if (!known.insert(member.id).second) ++repeated;
+      else if (way == nullptr) ++missing;
       else (member.role == "inner" ? inner : outer).push_back(way);
     }
     const OsmTags* tags = tags_of(relation, outer);
     if (tags == nullptr) return decide(row, ImportOutcome::skipped, "no building, street or area of ground");
     const std::string word = word_for(*tags);
+    const bool is_body = is_osm_building(*tags) || is_osm_part(*tags);
     std::string mended, fault;
     if (missing > 0) note(mended, std::to_string(missing) + " member ways are not in the file");
+    if (repeated > 0) note(mended, std::to_string(repeated) + " member ways that are listed again left out");
     const Joined outlines = join(outer), courts = join(inner);
     if (outlines.open > 0) note(mended, std::to_string(outlines.open) + " open outer rings left out");
     if (courts.open > 0) note(mended, std::to_string(courts.open) + " open inner rings left out");
-    std::vector<Shape> shapes = shapes_of(outlines, fault, mended);
+    std::vector<Shape> shapes = shapes_of(outlines, is_body, fault, mended);
     if (shapes.empty()) {
       if (fault.empty()) fault = "its outer ring is open";
       return decide(row, ImportOutcome::skipped, word + ": " + fault, mended);
     }
-    deal_courts(courts, shapes, mended);
+    deal_courts(courts, shapes, is_body, mended);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       shapes[i].id = "r" + std::to_string(relation.id) + (shapes.size() > 1 ? "/" + std::to_string(i + 1) : "");
       shapes[i].row = &row;
@@ -189,11 +189,12 @@ class Areas {
       }
   }
 
-  std::vector<Shape> shapes_of(const Joined& outlines, std::string& fault, std::string& mended) const {
+  std::vector<Shape> shapes_of(const Joined& outlines, bool is_body, std::string& fault, std::string& mended) const {
     std::vector<Shape> shapes;
     for (const auto& nodes : outlines.rings) {
       std::string trouble, why;
       Ring ring = ring_of(nodes, true, trouble, why);
+      if (std::vector<Ring> none; is_body && why.empty()) why = limit_corners(ring, none, trouble);
       note(mended, trouble);
       if (why.empty()) {
         shapes.emplace_back().outer = std::move(ring);
@@ -206,7 +207,8 @@ class Areas {
   }
 
   // Each inner ring belongs to the outline that it lies in.
-  void deal_courts(const Joined& courts, std::vector<Shape>& shapes, std::string& mended) const {
+  void deal_courts(const Joined& courts, std::vector<Shape>& shapes, bool is_body, std::string& mended) const {
+    const BoxGrid grid = BoxGrid::of(shapes, [](const Shape& shape) -> const Ring& { return shape.outer; });
     for (const auto& nodes : courts.rings) {
       std::string trouble, why;
       Ring hole = ring_of(nodes, false, trouble, why);
@@ -216,12 +218,16 @@ class Areas {
         continue;
       }
       const Point3 inside = place_inside(hole);
+      const std::vector<std::size_t> near = grid.meeting(plan_box(std::span(&inside, 1)));
       const auto home =
-          std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) { return ring_contains(s.outer, inside); });
-      if (home == shapes.end()) note(mended, "an inner ring outside of all outer ones left out");
-      else home->holes.push_back(std::move(hole));
+          std::find_if(near.begin(), near.end(), [&](std::size_t s) { return ring_contains(shapes[s].outer, inside); });
+      if (home == near.end()) note(mended, "an inner ring outside of all outer ones left out");
+      else shapes[*home].holes.push_back(std::move(hole));
     }
-    for (Shape& shape : shapes) sort_holes(shape.outer, shape.holes, mended);
+    for (Shape& shape : shapes) {
+      if (is_body) limit_corners(shape.outer, shape.holes, mended);
+      sort_holes(shape.outer, shape.holes, mended);
+    }
   }
 
   void read_way(const OsmWay& way) {
@@ -238,6 +244,7 @@ class Areas {
     Shape shape;
     std::string fault;
     shape.outer = ring_of(way.nodes, true, shape.mended, fault);
+    if (is_built && fault.empty()) fault = limit_corners(shape.outer, shape.holes, shape.mended);
     if (!fault.empty()) return decide(row, ImportOutcome::skipped, word + ": " + fault, shape.mended);
     shape.id = "w" + std::to_string(way.id);
     shape.row = &row;
@@ -278,10 +285,11 @@ class Areas {
   // Parts that cover their building take its place; parts of others rise from it.
   void replace_by_parts() {
     std::map<std::size_t, std::vector<std::size_t>> parts_of;
+    const BoxGrid grid = BoxGrid::of(wholes_, [](const Candidate& whole) -> const Ring& { return whole.building.outer; });
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       const Point3 inside = place_inside(parts_[p].building.outer);
       std::optional<std::size_t> home;
-      for (std::size_t w = 0; w < wholes_.size(); ++w)
+      for (const std::size_t w : grid.meeting(plan_box(std::span(&inside, 1))))
         if (ring_contains(wholes_[w].building.outer, inside) &&
             (!home || ground_area(wholes_[w].building) < ground_area(wholes_[*home].building)))
           home = w;
@@ -291,13 +299,20 @@ class Areas {
     for (const auto& [w, list] : parts_of) {
       Candidate& whole = wholes_[w];
       double on_ground = 0;
+      std::vector<PlanShape> grounded;
       for (const std::size_t p : list) {
         parts_[p].building.whole = whole.building.id;
-        if (parts_[p].building.base < kSameHeight) on_ground += ground_area(parts_[p].building);
+        if (parts_[p].building.base < kSameHeight) {
+          on_ground += ground_area(parts_[p].building);
+          grounded.push_back({&parts_[p].building.outer});
+          for (const Ring& hole : parts_[p].building.holes) grounded.back().push_back(&hole);
+        }
         if (parts_[p].building.use.empty()) parts_[p].building.use = whole.building.use;
         if (parts_[p].building.name.empty()) parts_[p].building.name = whole.building.name;
       }
-      if (on_ground >= kCovered * ground_area(whole.building)) {
+      const double wanted = kCovered * ground_area(whole.building);
+      // The lines along which the covered ground is measured are exact to a part in some hundred.
+      if (on_ground >= wanted && covered_area(grounded) >= 0.99 * wanted) {
         whole.is_dropped = true;
         whole.row->reason = "building, drawn by its parts";
         note(whole.row->detail, std::to_string(list.size()) + " parts");

@@ -50,6 +50,8 @@ void report_nodes(const OsmStore& store, const LocalFrame& frame, ImportReport& 
   if (corners > 0) report.take("node", "", "corner of the lines of ways", "", corners);
   if (loose > 0) report.skip("node", "", "neither tags nor a way that uses it", "", loose);
   if (lost > 0) report.skip("node", "", "without a position", "", lost);
+  for (const auto& [kind, id] : store.deleted)
+    report.skip(kind == 'n' ? "node" : kind == 'w' ? "way" : "relation", kind + std::to_string(id), "it is deleted in the file");
   const auto older = [&report](const char* kind, std::size_t count) {
     if (count > 0) report.skip(kind, "", "another version of it comes later in the file", "", count);
   };

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -19,12 +20,14 @@ const std::string& tag_of(const OsmTags& tags, std::string_view key);
 
 struct OsmNode {
   std::int64_t id = 0;
+  bool is_deleted = false;
   double longitude = 0, latitude = 0;  ///< [deg]
   bool has_position = false;
   OsmTags tags;
 };
 struct OsmWay {
   std::int64_t id = 0;
+  bool is_deleted = false;
   std::vector<std::int64_t> nodes;
   OsmTags tags;
   bool is_closed() const { return nodes.size() > 3 && nodes.front() == nodes.back(); }
@@ -36,6 +39,7 @@ struct OsmMember {
 };
 struct OsmRelation {
   std::int64_t id = 0;
+  bool is_deleted = false;
   std::vector<OsmMember> members;
   OsmTags tags;
 };
@@ -46,6 +50,8 @@ struct OsmStore {
   std::vector<OsmWay> ways;
   std::vector<OsmRelation> relations;
   std::size_t older_nodes = 0, older_ways = 0, older_relations = 0;
+  /// Kind and id of those that the last version in the file deletes; they are in no list.
+  std::vector<std::pair<char, std::int64_t>> deleted;
 
   const OsmNode* node(std::int64_t id) const;
   const OsmWay* way(std::int64_t id) const;

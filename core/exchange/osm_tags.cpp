@@ -58,6 +58,11 @@ const RoadClass* road_class(std::string_view name) {
 
 bool is_no(std::string_view value) { return value == "no" || value == "private" || value == "use_sidepath"; }
 
+// Who may drive here does so to the fields, the yard or the shop, and not on through.
+bool is_for_few(std::string_view value) {
+  return value == "agricultural" || value == "forestry" || value == "delivery" || value == "customers";
+}
+
 void read_access(const OsmTags& tags, OsmRoad& road) {
   const auto allow = [&tags](const char* key, bool& mode) {
     const std::string& value = tag_of(tags, key);
@@ -68,8 +73,12 @@ void read_access(const OsmTags& tags, OsmRoad& road) {
     const bool no = is_no(tag_of(tags, key));
     if (no) road.for_cars = road.for_cycles = false;
     if (no && std::string_view(key) == "access") road.for_feet = false;
+    if (is_for_few(tag_of(tags, key))) road.for_cars = false;
   }
-  for (const char* key : {"motor_vehicle", "motorcar"}) allow(key, road.for_cars);
+  for (const char* key : {"motor_vehicle", "motorcar"}) {
+    allow(key, road.for_cars);
+    if (is_for_few(tag_of(tags, key))) road.for_cars = false;
+  }
   allow("bicycle", road.for_cycles);
   allow("foot", road.for_feet);
 }

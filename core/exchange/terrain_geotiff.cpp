@@ -81,6 +81,17 @@ std::string crs_of(TIFF* tiff) {
   return is_found && code > 0 && code != kUserDefined ? tidy_crs_name("EPSG:" + std::to_string(code)) : std::string();
 }
 
+// [m]; 0 where the file does not say.
+double height_unit_of(TIFF* tiff) {
+  GTIF* keys = GTIFNew(tiff);
+  if (keys == nullptr) return 0;
+  unsigned short code = 0;
+  const bool is_found = GTIFKeyGetSHORT(keys, VerticalUnitsGeoKey, &code, 0, 1) == 1;
+  GTIFFree(keys);
+  if (!is_found) return 0;
+  return code == Linear_Meter ? 1 : code == Linear_Foot ? 0.3048 : code == Linear_Foot_US_Survey ? 1200.0 / 3937 : 0;
+}
+
 bool is_pixel_a_point(TIFF* tiff) {
   GTIF* keys = GTIFNew(tiff);
   if (keys == nullptr) return false;
@@ -186,7 +197,15 @@ Result<void> read_blocks(TIFF* tiff, const MemoryFile& file, const Sample& sampl
   return {};
 }
 
-void drop_nodata(TIFF* tiff, TerrainGrid& grid) {
+// The tag is a text of few or of many digits, and what it stands for was rounded to the pixels: a few of their last places count
+// for nothing.
+bool is_nodata(double value, double nodata, bool is_single) {
+  const double slack = is_single ? 4.0 * std::numeric_limits<float>::epsilon() : 1e-12;
+  return value == nodata || std::abs(value - nodata) <= slack * std::abs(nodata);
+}
+
+void drop_nodata(TIFF* tiff, const Sample& sample, TerrainGrid& grid) {
+  const bool is_single = sample.format == SAMPLEFORMAT_IEEEFP && sample.bits == 32;
   std::uint32_t count = 0;
   const char* text = nullptr;
   std::optional<double> nodata;
@@ -198,7 +217,8 @@ void drop_nodata(TIFF* tiff, TerrainGrid& grid) {
     nodata = parse_number(word);
   }
   for (double& value : grid.values)
-    if ((nodata && value == *nodata) || !std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
+    if ((nodata && is_nodata(value, *nodata, is_single)) || !std::isfinite(value))
+      value = std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -229,13 +249,14 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes) {
                  "Pixels of this kind are not read: 8 to 64 bit whole numbers and 32 or 64 bit floating ones are."};
   if (auto placed = place(tiff.get(), grid); !placed) return placed.error();
   grid.crs = crs_of(tiff.get());
+  grid.height_unit = height_unit_of(tiff.get());
   // What the file has room for, unpacked a thousand times at most.
   if (grid.columns * grid.rows / 1000 > bytes.size())
     return Error{ErrorCode::parse, "TIFF", "The header promises more pixels than the file can hold: is it complete?"};
   grid.values.assign(grid.columns * grid.rows, 0);
   if (auto done = read_blocks(tiff.get(), file, sample, grid); !done) return done.error();
   if (sample.per_pixel > 1) grid.notes.push_back("Of " + std::to_string(sample.per_pixel) + " bands the first was read.");
-  drop_nodata(tiff.get(), grid);
+  drop_nodata(tiff.get(), sample, grid);
   summarise(grid);
   return grid;
 }

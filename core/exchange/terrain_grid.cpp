@@ -109,6 +109,8 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
   return grid;
 }
 
+constexpr double kSmallestCell = 0.01;  // [m]
+
 double between(double u, double limit) { return std::clamp(u, 0.0, limit); }
 
 bool is_shift(const LocalFrame& frame, const TerrainGrid& grid) {
@@ -190,7 +192,7 @@ Result<TerrainGrid> read_terrain_grid(std::string_view bytes) {
   return is_tiff ? read_geotiff(*text) : read_ascii(*text);
 }
 
-Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions& options, std::size_t most_cells) {
+Result<LocalTerrain> local_grid(const TerrainGrid& grid, const ContextOptions& options, std::size_t most_cells) {
   const std::array<double, 2> middle{grid.west + grid.cell_x * static_cast<double>(grid.columns - 1) / 2,
                                      grid.north - grid.cell_y * static_cast<double>(grid.rows - 1) / 2};
   ContextOptions flat = options;
@@ -211,7 +213,10 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
   const bool keeps_cells = is_shift(*frame, grid);
   const Point3 near = frame->from_local(0, 0), beside = frame->from_local(1, 0), above = frame->from_local(0, 1);
   const double per_metre = std::max(distance(near, beside) / grid.cell_x, distance(near, above) / grid.cell_y);
-  local.cell = keeps_cells ? grid.cell_x : std::max(0.01, std::round(100 / per_metre) / 100);
+  local.cell = keeps_cells ? grid.cell_x : std::max(kSmallestCell, std::round(100 / per_metre) / 100);
+  if (!(local.cell >= kSmallestCell))
+    return Error{ErrorCode::out_of_range, "header",
+                 "The cells are " + shortest(local.cell) + " m wide, less than a centimetre: check their size and the CRS."};
   double step = 1;
   const auto cells = [&](double length) { return std::floor(length / local.cell + 1e-9) + 1; };
   while (cells(box.east - box.west) * cells(box.north - box.south) > static_cast<double>(most_cells)) local.cell *= 2, step *= 2;
@@ -242,6 +247,22 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
   if (local.is_resampled)
     local.notes.push_back("The grid was sampled anew: " + std::to_string(given) + " cells of the file became " +
                           std::to_string(local.values.size()) + " of " + shortest(local.cell) + " m.");
+  return local;
+}
+
+Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions& options, std::size_t most_cells) {
+  std::vector<std::string> notes;
+  const double unit = context_height_unit(options, grid.height_unit, grid.crs, notes);
+  const auto is_absurd = [unit](double value) { return std::isfinite(value) && std::abs(value * unit) > kHighestTop; };
+  const auto absurd = std::count_if(grid.values.begin(), grid.values.end(), is_absurd);
+  if (absurd > 0)
+    notes.push_back(std::to_string(absurd) +
+                    " cells have heights beyond 100 km and count as without a value: does the file name its own?");
+  if (absurd == 0 && unit == 1) return local_grid(grid, options, most_cells);
+  TerrainGrid metres = grid;
+  for (double& value : metres.values) value = is_absurd(value) ? kNothing : value * unit;
+  auto local = local_grid(metres, options, most_cells);
+  if (local) local->notes.insert(local->notes.end(), notes.begin(), notes.end());
   return local;
 }
 

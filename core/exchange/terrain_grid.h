@@ -19,6 +19,7 @@ struct TerrainGrid {
   std::size_t columns = 0, rows = 0;
   double west = 0, north = 0;     ///< centre of the first cell of the first row
   double cell_x = 1, cell_y = 1;  ///< size of a cell, both positive
+  double height_unit = 0;         ///< [m] of one unit of the values, where the file says so; 0: it does not
   std::vector<double> values;
   std::size_t without_value = 0;
   double lowest = 0, highest = 0;
@@ -46,6 +47,8 @@ struct LocalTerrain {
 };
 
 /// Cells of a metric CRS are kept as they are; all others, and more than `most_cells`, are sampled anew.
+Result<LocalTerrain> local_grid(const TerrainGrid& grid, const ContextOptions& options, std::size_t most_cells);
+/// The same with values that are heights: they are brought to metres, and those beyond 100 km count as none.
 Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions& options, std::size_t most_cells = 1000000);
 
 /// Of terrain_geotiff.cpp.

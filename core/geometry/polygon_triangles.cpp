@@ -99,12 +99,12 @@ class Clipping {
     loop_.insert(loop_.begin() + static_cast<std::ptrdiff_t>(at) + 1, bridge.begin(), bridge.end());
   }
 
-  bool is_ear(std::size_t i) const {
+  bool is_ear(std::size_t i) {
     const std::size_t count = loop_.size();
     const std::uint32_t ia = loop_[(i + count - 1) % count], ib = loop_[i], ic = loop_[(i + 1) % count];
     const Point3 &a = points_[ia], &b = points_[ib], &c = points_[ic];
     if (!(turn(a, b, c) > 0)) return false;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < count; ++k, ++steps_) {
       const std::uint32_t id = loop_[k];
       const Point3& p = points_[id];
       // Corners at the same place (the two ends of a bridge) are on its rim, not in it.
@@ -112,13 +112,17 @@ class Clipping {
       if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
     }
     // A side from the other end of a bridge may begin at a corner of the ear and run right through it.
+    steps_ += count;
     return !crosses(loop_, a, c);
   }
 
   void clip() {
     std::size_t i = 0, tried = 0;
+    // Rings that cross themselves could ask for a cubic number of steps; no sound ring comes near this.
+    const std::size_t most = 1000000 + 40 * loop_.size() * loop_.size();
     while (loop_.size() > 3) {
-      const bool is_forced = tried >= loop_.size();  // degenerate: any corner, so that the mesh stays closed
+      // Degenerate: any corner, so that the mesh stays closed.
+      const bool is_forced = tried >= loop_.size() || steps_ > most;
       if (!is_forced && !is_ear(i)) {
         i = (i + 1) % loop_.size();
         ++tried;
@@ -139,6 +143,7 @@ class Clipping {
   }
 
   std::vector<Point3> points_;
+  std::size_t steps_ = 0;
   Loop loop_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
 };

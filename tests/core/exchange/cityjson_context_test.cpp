@@ -1,6 +1,7 @@
 // CityJSON: solids made by hand, hostile input, and city models of real places against their own counts and published volumes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -231,6 +232,54 @@ TEST(CityJson, DelftHasTheVolumesAndStaysExactFarFromTheOrigin) {
     solids += enclosed_volume(*building.solid);
   }
   EXPECT_NEAR(solids / prisms, 1, 0.01);
+}
+
+// A cube of 100 units of a CRS, at a height.
+std::string cube(const std::string& crs, const std::string& translate, double low) {
+  std::string vertices;
+  for (const double z : {low, low + 100})
+    for (const char* place : {"0,0", "100,0", "100,100", "0,100"})
+      vertices += (vertices.empty() ? "[" : ",[") + std::string(place) + "," + std::to_string(z) + "]";
+  return R"({"type": "CityJSON", "version": "2.0", "transform": {"scale": [1, 1, 1], "translate": [)" + translate +
+         R"(]}, "metadata": {"referenceSystem": ")" + crs + R"("}, "vertices": [)" + vertices +
+         R"(], "CityObjects": {"b": {"type": "Building", "geometry": [{"type": "Solid", "lod": "2", "boundaries":
+         [[[[3,2,1,0]],[[4,5,6,7]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}]}}})";
+}
+
+TEST(CityJson, HeightsHaveTheUnitOfTheCrs) {
+  constexpr double kUsFoot = 1200.0 / 3937;
+  const auto feet = read(cube("EPSG:2263", "985000,200000,0", 100));
+  ASSERT_TRUE(feet.ok()) << feet.error().text();
+  ASSERT_EQ(feet->buildings.size(), 1u);
+  EXPECT_NEAR(area_of(feet->buildings[0]), 30.48 * 30.48, 0.1);
+  EXPECT_NEAR(feet->buildings[0].height, 100 * kUsFoot, 1e-6);
+  EXPECT_NEAR(feet->buildings[0].base, 100 * kUsFoot, 1e-6);
+  EXPECT_TRUE(std::any_of(feet->notes.begin(), feet->notes.end(), [](const std::string& note) {
+    return note.find("One unit of height was taken as 0.3048") != std::string::npos;
+  }));
+  ContextOptions metres;
+  metres.height_unit = 1;
+  EXPECT_NEAR(read_cityjson_context(cube("EPSG:2263", "985000,200000,0", 100), metres)->buildings[0].height, 100, 1e-9);
+  // Metres above the sea over a plan in feet, and a plan in metres.
+  EXPECT_NEAR(read(cube("EPSG:2263+5703", "985000,200000,0", 100))->buildings[0].height, 100, 1e-9);
+  EXPECT_NEAR(read(cube("EPSG:7415", "85000,447000,0", 100))->buildings[0].height, 100, 1e-9);
+}
+
+TEST(CityJson, UnitsOfHeightsAreThoseOfTheLastAxis) {
+  EXPECT_EQ(height_unit("EPSG:28992"), 1);
+  EXPECT_EQ(height_unit("EPSG:7415"), 1);
+  EXPECT_EQ(height_unit("OGC:CRS84"), 1) << "degrees are no heights";
+  EXPECT_EQ(height_unit("EPSG:4979"), 1) << "longitude, latitude and metres";
+  EXPECT_NEAR(height_unit("EPSG:2263"), 1200.0 / 3937, 1e-12);
+  EXPECT_NEAR(height_unit("EPSG:2263+6360"), 1200.0 / 3937, 1e-12);
+  EXPECT_EQ(height_unit("nonsense"), 1);
+}
+
+TEST(CityJson, ABodyBeyondAllHeightsIsARowAndNotTheEndOfTheImport) {
+  const auto high = read(cube("EPSG:28992", "85000,447000,0", 2000000));
+  ASSERT_TRUE(high.ok());
+  EXPECT_TRUE(high->buildings.empty());
+  EXPECT_EQ(reason_of(high->report, "b"), "skipped: its heights lie beyond -10 km or 100 km");
 }
 
 }  // namespace

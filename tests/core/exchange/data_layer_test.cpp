@@ -69,5 +69,18 @@ TEST(DataLayerImport, RealLayersHaveTheirSums) {
   EXPECT_EQ(raster->points.size(), raster->report.count(ImportOutcome::taken, "cell"));
 }
 
+TEST(DataLayer, PointsOfSeveralSystemsAreRefused) {
+  const auto point = [](const std::string& crs, const std::string& place) {
+    return R"({"type": "Feature", "crs": {"type": "name", "properties": {"name": ")" + crs +
+           R"("}}, "properties": {"level": 50}, "geometry": {"type": "Point", "coordinates": )" + place + "}}";
+  };
+  const std::string text = R"({"type": "FeatureCollection", "features": [)" + point("EPSG:28992", "[85000, 447000]") + "," +
+                           point("EPSG:32631", "[593000, 5763000]") + "]}";
+  const auto layer = read_layer_geojson(text, {}, "level");
+  ASSERT_FALSE(layer.ok());
+  EXPECT_EQ(layer.error().place, "features/1");
+  EXPECT_TRUE(read_layer_geojson(text, test::in_crs("EPSG:28992"), "level").ok()) << "the option holds for all";
+}
+
 }  // namespace
 }  // namespace bl

@@ -142,5 +142,43 @@ TEST(GeoJsonContext, AreasAreThoseOfAnIndependentReader) {
   EXPECT_NEAR(signed_area(plot->areas[0].outer), 614625.896, 0.001);
 }
 
+TEST(GeoJsonContext, GroundHeightsAreAboveTheSeaAndMinHeightsAboveTheGround) {
+  const auto context = read_geojson_context(dutch(square(85000, 447000, 10, R"("height": 12, "ground_height": 35.2)") + "," +
+                                                  square(85020, 447000, 10, R"("height": 12, "min_height": 5)") + "," +
+                                                  square(85040, 447000, 10, R"("height": 12, "base": 5, "min_height": 3)") + "," +
+                                                  square(85060, 447000, 10, R"("height": 12, "base": "2e6")") + "," +
+                                                  square(85080, 447000, 10, R"("height": 12, "base": 2000000)")));
+  ASSERT_TRUE(context.ok()) << context.error().text();
+  ASSERT_EQ(context->buildings.size(), 4u);
+  EXPECT_EQ(context->buildings[0].base, 35.2);
+  EXPECT_EQ(context->buildings[0].height, 12);
+  EXPECT_TRUE(context->buildings[0].is_above_sea);
+  EXPECT_EQ(context->buildings[0].height_source, HeightSource::tag);
+  EXPECT_EQ(context->buildings[1].base, 5);
+  EXPECT_EQ(context->buildings[1].height, 7);
+  EXPECT_FALSE(context->buildings[1].is_above_sea);
+  EXPECT_EQ(context->buildings[2].base, 8);
+  EXPECT_EQ(context->buildings[2].height, 9);
+  EXPECT_EQ(reason_of(context->report, "features/3"), "repaired: building") << "its ground is not understood";
+  EXPECT_EQ(reason_of(context->report, "features/4"), "skipped: building: its heights lie beyond -10 km or 100 km");
+}
+
+TEST(GeoJsonContext, DirectionsOfGeofabrik) {
+  const auto line = [](int y, const std::string& oneway) {
+    const std::string at = std::to_string(447000 + y);
+    return R"({"type": "Feature", "properties": {"fclass": "residential", "oneway": ")" + oneway +
+           R"("}, "geometry": {"type": "LineString", "coordinates": [[85000,)" + at + "],[85100," + at + "]]}}";
+  };
+  const auto context = read_geojson_context(dutch(line(0, "F") + "," + line(10, "T") + "," + line(20, "B")));
+  ASSERT_TRUE(context.ok());
+  ASSERT_EQ(context->streets.size(), 3u);
+  EXPECT_TRUE(context->streets[0].is_one_way);
+  EXPECT_LT(context->streets[0].line.front().x, context->streets[0].line.back().x);
+  EXPECT_TRUE(context->streets[1].is_one_way);
+  EXPECT_GT(context->streets[1].line.front().x, context->streets[1].line.back().x);
+  EXPECT_FALSE(context->streets[2].is_one_way);
+  EXPECT_EQ(context->report.count(ImportOutcome::taken), 3u);
+}
+
 }  // namespace
 }  // namespace bl

@@ -330,5 +330,65 @@ TEST(OsmContext, TheSameExtractInTwoFormatsIsTheSame) {
   for (std::size_t i = 0; i < a->buildings.size(); ++i) EXPECT_EQ(a->buildings[i].outer, b->buildings[i].outer);
 }
 
+// The corners of a house of 55.8 by 111.4 m and of parts of it, in the grid of nodes: 1 2 3 / 4 5 6 / 7 8 9.
+TEST(OsmContext, PartsOverEachOtherCoverTheirGroundOnce) {
+  const std::string whole = way(1, {1, 3, 6, 4, 1}, "building=yes;height=12");
+  const std::string podium = way(2, {1, 2, 5, 4, 1}, "building:part=yes;height=6"),
+                    tower = way(3, {1, 2, 5, 4, 1}, "building:part=yes;height=30"),
+                    other = way(4, {2, 3, 6, 5, 2}, "building:part=yes;height=9");
+  const auto half = read_osm_context(osm(whole + podium + tower));
+  ASSERT_TRUE(half.ok());
+  EXPECT_EQ(reason_of(half->report, "w1"), "taken: building") << "the parts leave half of it uncovered";
+  ASSERT_EQ(half->buildings.size(), 2u) << "the building, and the tower above its roof";
+  EXPECT_EQ(half->buildings[1].base, 12);
+  EXPECT_EQ(half->buildings[1].height, 18);
+  const auto all = read_osm_context(osm(whole + podium + tower + other));
+  EXPECT_EQ(reason_of(all->report, "w1"), "taken: building, drawn by its parts");
+  EXPECT_EQ(all->buildings.size(), 3u);
+}
+
+TEST(OsmContext, DeletedElementsAreRowsAndNothingElse) {
+  const std::string text =
+      R"(<?xml version="1.0"?><osm version="0.6">
+    <node id="1" lat="52" lon="4.35"/><node id="2" lat="52" lon="4.3503"/><node id="3" lat="52.0002" lon="4.3503"/>
+    <node id="4" lat="52.0002" lon="4.35"/><node id='5' action='delete' lat="52.1" lon="4.35"/>
+    <way id="5" visible="false" version="3"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/></way>
+    <way id="6" action="delete"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/></way>
+    <way id="7" action="modify"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/>
+      <tag k="note" v="way id=9 action=&quot;delete&quot; action='delete'"/></way>
+    <way id="8" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="building" v="yes"/></way>
+    <way id="8" version="2" visible="false"/>
+    <relation id="3" action="delete"><member type="way" ref="7" role="outer"/><tag k="type" v="multipolygon"/></relation></osm>)";
+  const auto context = read_osm_context(text);
+  ASSERT_TRUE(context.ok()) << context.error().text();
+  ASSERT_EQ(context->buildings.size(), 1u);
+  EXPECT_EQ(context->buildings[0].id, "w7");
+  for (const char* id : {"n5", "w5", "w6", "w8", "r3"})
+    EXPECT_EQ(reason_of(context->report, id), "skipped: it is deleted in the file") << id;
+  EXPECT_EQ(context->report.total("way"), 5u) << "both versions of way 8 have their row";
+  EXPECT_EQ(context->report.total("node"), 5u);
+}
+
+TEST(OsmContext, AWayThatIsListedTwiceIsOneOutline) {
+  const auto context =
+      read_osm_context(osm(way(1, {1, 2, 5, 4, 1}, "") +
+                           R"(<relation id="3"><member type="way" ref="1" role="outer"/><member type="way" ref="1" role="outer"/>
+          <tag k="type" v="multipolygon"/><tag k="building" v="yes"/></relation>)"));
+  ASSERT_TRUE(context.ok());
+  EXPECT_EQ(context->buildings.size(), 1u);
+  EXPECT_EQ(reason_of(context->report, "r3"), "repaired: building");
+}
+
+TEST(OsmTags, RoadsForFewAreNotDrivenThrough) {
+  for (const char* value : {"agricultural", "forestry", "delivery", "customers"}) {
+    const OsmRoad road = osm_road({{"highway", "track"}, {"motor_vehicle", value}});
+    EXPECT_FALSE(road.for_cars) << value;
+    EXPECT_TRUE(road.for_feet && road.for_cycles) << value;
+  }
+  EXPECT_FALSE(osm_road({{"highway", "service"}, {"access", "customers"}}).for_cars);
+  EXPECT_TRUE(osm_road({{"highway", "service"}, {"access", "customers"}, {"motor_vehicle", "yes"}}).for_cars);
+  EXPECT_TRUE(osm_road({{"highway", "residential"}, {"motor_vehicle", "destination"}}).for_cars);
+}
+
 }  // namespace
 }  // namespace bl

@@ -143,7 +143,7 @@ TEST(PlanBoundary, SpikesAreCutOff) {
 TEST(PlanBoundary, DeepNestingIsAnError) {
   const std::string deep = std::string(100000, '[') + std::string(100000, ']');
   EXPECT_EQ(error_of(polygon(deep)),
-            "coordinates/0/0: A position must be an array of two numbers [x, y] (longitude, latitude); this is [...].");
+            "line 1, column 96: The text is nested deeper than 64 levels from here on: no file of this kind is, and it is not read.");
 }
 
 TEST(PlanBoundary, SiteOutsideItsCrsIsNoted) {

@@ -1,7 +1,9 @@
 // Grids: values by hand, local metres, hostile input, and real rasters against an independent reader.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/exchange/data_layer.h"
 #include "core/exchange/inflate.h"
@@ -215,6 +217,91 @@ TEST(TerrainGrid, RealRastersAgreeWithAnIndependentReader) {
     const auto part = read_terrain_grid(luxembourg.substr(0, cut));
     EXPECT_FALSE(part.ok()) << "cut off at byte " << cut;
   }
+}
+
+// A GeoTIFF of five by five pixels of 32 bits, 10 units wide, as GDAL writes it; the one in the middle is `middle`.
+std::string tiff(float others, float middle, const std::string& nodata, int epsg, int vertical_unit = 0) {
+  std::string out, extra;
+  const auto put = [](std::string& text, auto number) { text.append(reinterpret_cast<const char*>(&number), sizeof number); };
+  const std::size_t entries = 15, base = 8 + 2 + entries * 12 + 4;
+  const auto later = [&](const std::string& bytes) {
+    const std::size_t at = base + extra.size();
+    extra += bytes + (bytes.size() % 2 != 0 ? std::string(1, '\0') : "");
+    return static_cast<std::uint32_t>(at);
+  };
+  std::string pixels, scale, tie, keys;
+  for (int i = 0; i < 25; ++i) put(pixels, i == 12 ? middle : others);
+  for (const double number : {10.0, 10.0, 0.0}) put(scale, number);
+  for (const double number : {0.0, 0.0, 0.0, epsg == 2263 ? 985000.0 : 85000.0, epsg == 2263 ? 200000.0 : 447000.0, 0.0})
+    put(tie, number);
+  std::vector<int> words{1, 1, 0, vertical_unit > 0 ? 4 : 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, epsg};
+  if (vertical_unit > 0) words.insert(words.end(), {4099, 0, 1, vertical_unit});
+  for (const int word : words) put(keys, static_cast<std::uint16_t>(word));
+  const std::string tag = nodata + std::string(1, '\0');
+  out = std::string("II*\0", 4);
+  put(out, std::uint32_t{8});
+  put(out, static_cast<std::uint16_t>(entries));
+  const auto entry = [&](int name, int type, std::size_t count, std::uint32_t value) {
+    put(out, static_cast<std::uint16_t>(name));
+    put(out, static_cast<std::uint16_t>(type));
+    put(out, static_cast<std::uint32_t>(count));
+    put(out, value);
+  };
+  entry(256, 4, 1, 5), entry(257, 4, 1, 5), entry(258, 3, 1, 32), entry(259, 3, 1, 1), entry(262, 3, 1, 1);
+  entry(273, 4, 1, later(pixels)), entry(277, 3, 1, 1), entry(278, 4, 1, 5);
+  entry(279, 4, 1, static_cast<std::uint32_t>(pixels.size())), entry(284, 3, 1, 1), entry(339, 3, 1, 3);
+  entry(33550, 12, 3, later(scale)), entry(33922, 12, 6, later(tie));
+  entry(34735, 3, keys.size() / 2, later(keys)), entry(42113, 2, tag.size(), later(tag));
+  put(out, std::uint32_t{0});
+  return out + extra;
+}
+
+TEST(TerrainGrid, NodataOfSinglePixelsIsComparedAsSingle) {
+  const std::pair<float, const char*> rows[] = {{-9999.9f, "-9999.9"},
+                                                {-3.40282346638528859e38f, "-3.4028234660000000e+38"},
+                                                {-3.40282346638528859e38f, "-3.40282346638528859e+38"},
+                                                {-32768.0f, "-32768"}};
+  for (const auto& [value, text] : rows) {
+    const auto grid = read_terrain_grid(tiff(5, value, text, 28992));
+    ASSERT_TRUE(grid.ok()) << grid.error().text();
+    EXPECT_EQ(grid->without_value, 1u) << text;
+    EXPECT_EQ(grid->lowest, 5) << text;
+  }
+  EXPECT_EQ(read_terrain_grid(tiff(5, -9998, "-9999.9", 28992))->without_value, 0u) << "a value of its own";
+}
+
+TEST(TerrainGrid, HeightsNobodyReachesAreNoValues) {
+  const auto grid = read_terrain_grid(tiff(5, -3.4e38f, "", 28992));
+  ASSERT_TRUE(grid.ok()) << grid.error().text();
+  EXPECT_EQ(grid->without_value, 0u) << "a raster of any numbers may have it";
+  const auto terrain = local_terrain(*grid, {});
+  ASSERT_TRUE(terrain.ok()) << terrain.error().text();
+  EXPECT_EQ(terrain->report.count(ImportOutcome::taken), 24u);
+  EXPECT_EQ(terrain->report.count(ImportOutcome::skipped), 1u);
+  EXPECT_TRUE(std::any_of(terrain->notes.begin(), terrain->notes.end(),
+                          [](const std::string& note) { return note.find("1 cells have heights beyond") == 0; }));
+}
+
+TEST(TerrainGrid, HeightsInFeetBecomeMetres) {
+  const auto height = [](const std::string& bytes, double given = 0) {
+    ContextOptions options;
+    options.height_unit = given;
+    const auto grid = read_terrain_grid(bytes);
+    const auto terrain = local_terrain(*grid, options);
+    EXPECT_TRUE(terrain.ok()) << terrain.error().text();
+    return terrain ? *std::find_if(terrain->values.begin(), terrain->values.end(), [](double v) { return std::isfinite(v); }) : 0;
+  };
+  EXPECT_NEAR(height(tiff(100, 100, "-1", 2263)), 100 * 1200.0 / 3937, 1e-6);
+  EXPECT_NEAR(height(tiff(100, 100, "-1", 2263, 9001)), 100, 1e-9) << "the file says that its heights are metres";
+  EXPECT_NEAR(height(tiff(100, 100, "-1", 28992, 9002)), 30.48, 1e-9) << "or feet";
+  EXPECT_NEAR(height(tiff(100, 100, "-1", 2263), 1), 100, 1e-9) << "or the option";
+  EXPECT_NEAR(height(tiff(100, 100, "-1", 28992)), 100, 1e-9);
+}
+
+TEST(TerrainGrid, CellsOfNoWidthAreAnErrorOfTheFile) {
+  const auto grid = read_terrain_grid("ncols 2\nnrows 2\nxllcorner 85000\nyllcorner 447000\ncellsize 1e-9\n1 2\n3 4\n");
+  ASSERT_TRUE(grid.ok());
+  EXPECT_EQ(local_terrain(*grid, test::in_crs("EPSG:28992")).error().place, "header");
 }
 
 }  // namespace

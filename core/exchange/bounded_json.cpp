@@ -1,0 +1,87 @@
+// One look at the brackets before the parser builds anything: a packed file of some kilobytes can unpack to gigabytes of them.
+#include "core/exchange/bounded_json.h"
+
+#include <algorithm>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace bl {
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::string place_of(std::string_view text, std::size_t at) {
+  const std::string_view before = text.substr(0, at);
+  const std::size_t last = before.rfind('\n');
+  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column " +
+         std::to_string(before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1);
+}
+
+// Brackets and commas outside of strings, told to `see` with their places until it has seen enough.
+template <class See>
+void scan(std::string_view text, const See& see) {
+  bool is_in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (is_in_string) {
+      if (c == '\\') ++i;
+      else if (c == '"') is_in_string = false;
+    } else if (c == '"') {
+      is_in_string = true;
+    } else if ((c == '[' || c == '{' || c == ']' || c == '}' || c == ',') && !see(c, i)) {
+      return;
+    }
+  }
+}
+
+Result<void> check_bounds(std::string_view text) {
+  std::size_t depth = 0, values = 1, deep = std::string_view::npos, many = std::string_view::npos;
+  scan(text, [&](char c, std::size_t at) {
+    if (c == '[' || c == '{') {
+      if (++depth > kMostJsonDepth) deep = at;
+    } else if (c != ',' && depth > 0) {
+      --depth;
+    }
+    // Each bracket that opens and each comma begins a value, or less than one.
+    if (c != ']' && c != '}' && ++values > kMostJsonValues) many = at;
+    return deep == std::string_view::npos && many == std::string_view::npos;
+  });
+  if (deep != std::string_view::npos)
+    return Error{ErrorCode::out_of_range, place_of(text, deep),
+                 "The text is nested deeper than " + std::to_string(kMostJsonDepth) +
+                     " levels from here on: no file of this kind is, and it is not read."};
+  if (many != std::string_view::npos)
+    return Error{ErrorCode::out_of_range, place_of(text, many),
+                 "The text holds more than " + std::to_string(kMostJsonValues) + " values: cut out the part that you need."};
+  return {};
+}
+
+}  // namespace
+
+Result<Json> read_bounded_json(std::string_view text, std::string_view format) {
+  if (auto bounded = check_bounds(text); !bounded) return bounded.error();
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    return Error{ErrorCode::parse, place_of(text, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size())),
+                 "The text is not valid JSON from here on; is the file complete, and is it " + std::string(format) + "?"};
+  } catch (const Json::exception&) {
+    return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
+  }
+}
+
+std::size_t end_of_first_value(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos || (text[begin] != '[' && text[begin] != '{')) return std::string_view::npos;
+  std::size_t depth = 0, end = std::string_view::npos;
+  scan(text, [&](char c, std::size_t at) {
+    if (c == '[' || c == '{') ++depth;
+    else if (c != ',' && --depth == 0) end = at + 1;
+    return end == std::string_view::npos;
+  });
+  return end;
+}
+
+}  // namespace bl
