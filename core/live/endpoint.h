@@ -46,6 +46,8 @@ class Endpoint {
   Endpoint& operator=(const Endpoint&) = delete;
 
   void ask_to_end();
+  /// From now on these; the connection stays as it is.
+  void serve(std::vector<Subscriber> subscribers);
   /// The newest message for each path waits until it can go out.
   void send(Outgoing message);
 
@@ -54,7 +56,7 @@ class Endpoint {
   int port() const { return port_; }
   /// "host:port", as sentences name it.
   std::string place() const;
-  const std::vector<Subscriber>& subscribers() const { return subscribers_; }
+  std::vector<Subscriber> subscribers() const;
   bool is_ending() const;
   /// The messages that wait.
   std::vector<Outgoing> outgoing();
@@ -72,7 +74,7 @@ class Endpoint {
 
   const std::string host_;
   const int port_;
-  const std::vector<Subscriber> subscribers_;
+  std::vector<Subscriber> subscribers_;
   const Pauses pauses_;
   mutable std::mutex mutex_;
   std::condition_variable wake_;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 
 #include "core/live/endpoint.h"
 #include "core/live/message.h"
@@ -42,7 +43,9 @@ class Broker {
       if (mosquitto_loop(client_.get(), kSlice, 1) != MOSQ_ERR_SUCCESS)
         return !refusal_.empty() ? refusal_ : endpoint_.place() + " has closed the connection";
       if (!is_greeted_ && looks > kGreetings) return endpoint_.place() + " answers, but not as an MQTT broker does";
-      if (is_greeted_) publish();
+      if (!is_greeted_) continue;
+      follow_topics();
+      publish();
     }
     mosquitto_disconnect(client_.get());
     return "";
@@ -57,9 +60,19 @@ class Broker {
       return;
     }
     is_greeted_ = true;
-    for (const Subscriber& subscriber : endpoint_.subscribers())
-      mosquitto_subscribe(client_.get(), nullptr, subscriber.path.c_str(), kDelivery);
+    follow_topics();
     endpoint_.succeed();
+  }
+
+  // A sensor that comes or goes leaves the topics of the others alone.
+  void follow_topics() {
+    std::set<std::string> wanted;
+    for (const Subscriber& subscriber : endpoint_.subscribers()) wanted.insert(subscriber.path);
+    for (const std::string& topic : wanted)
+      if (!topics_.contains(topic)) mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), kDelivery);
+    for (const std::string& topic : topics_)
+      if (!wanted.contains(topic)) mosquitto_unsubscribe(client_.get(), nullptr, topic.c_str());
+    topics_ = std::move(wanted);
   }
 
   // A retained message may be of any age: it is no reading of now.
@@ -82,6 +95,7 @@ class Broker {
         message.station->line(std::string("a message could not be sent: ") + mosquitto_strerror(done));
         continue;
       }
+      message.station->line("");
       message.station->count(&Traffic::sent);
       unconfirmed_[id] = message.station;
     }
@@ -98,6 +112,7 @@ class Broker {
   std::unique_ptr<mosquitto, decltype(&mosquitto_destroy)> client_;
   bool is_greeted_ = false;
   std::string refusal_;
+  std::set<std::string> topics_;                         // that are subscribed to
   std::map<int, std::shared_ptr<Station>> unconfirmed_;  // by the library's number of the message
 };
 
