@@ -12,6 +12,8 @@ namespace bl {
 
 namespace {
 
+constexpr std::int64_t kNever = -1;  // the tick of a reading that has not come
+
 struct Sensor {
   enum class WhenStale { hold, fallback };
   enum class Quality { never, good, stale, invalid };
@@ -28,7 +30,7 @@ struct Sensor {
     WhenStale when_stale = WhenStale::hold;
     double fallback = 0, reading = 0;
     std::string reading_time, reading_problem, connection;
-    std::int64_t reading_tick = -1;
+    std::int64_t reading_tick = kNever;
     Memory last;
   };
   struct Out {
@@ -78,7 +80,8 @@ struct Sensor {
     t.in(&In::reading_time, "reading_time").doc("When that was, as a text.");
     t.in(&In::reading_problem, "reading_problem").doc("Why the last message holds no number; empty where it does.");
     t.in(&In::connection, "connection").doc("What is wrong with the connection; empty where nothing is known to be.");
-    t.in(&In::reading_tick, "reading_tick").min(-1).doc("The tick of the last reading; -1 before the first one.");
+    t.in(&In::reading_tick, "reading_tick").min(-1e15)
+        .doc("The tick of the last reading; -1 before the first one, and below it where it was measured before the clock began.");
     t.out(&Out::value, "value").unit_from("unit").doc("The last good reading, scaled and filtered, or the fallback.");
     t.out(&Out::age, "age").unit(Unit::second).doc("Time since the last reading; 0 before the first one.");
     t.out(&Out::quality, "quality",
@@ -105,7 +108,7 @@ struct Sensor {
       if (const auto address = parse_live_address(in.address); !address)
         return "the address cannot be used: " + address.error().message;
     if (!in.reading_problem.empty()) return in.reading_problem;
-    if (in.reading_tick < 0) return "";
+    if (in.reading_tick == kNever) return "";
     if (!std::isfinite(value)) return "the scaled reading is too large for a number";
     if (in.has_range && (value < in.lowest || value > in.highest))
       return "the reading " + shortest(value) + " lies outside " + shortest(in.lowest) + " to " + shortest(in.highest);
@@ -117,7 +120,7 @@ struct Sensor {
     const UnitInfo* unit = find_unit(in.unit);
     const double value = (in.reading * in.scale + in.offset) * (unit != nullptr ? unit->scale : 1);
     const std::string problem = problem_of(in, value);
-    const bool has_reading = in.reading_tick >= 0;
+    const bool has_reading = in.reading_tick != kNever;
     // A clock that was set back meets readings of its future: they are as young as can be.
     if (has_reading) out.age = static_cast<double>(std::max<std::int64_t>(0, tick.index - in.reading_tick)) * in.tick_length;
     const bool is_stale = has_reading && in.timeout > 0 && out.age > in.timeout;

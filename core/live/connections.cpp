@@ -1,9 +1,12 @@
 // Compares what the scene wants with what there is, and carries readings and messages between the two.
 #include "core/live/connections.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -20,14 +23,25 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uintmax_t kLongestRecording = 64u << 20;  // [bytes]
+constexpr double kOldest = 1e12;                        // [ticks] that a message can have waited
+constexpr std::int64_t kNeverMeasured = -1;             // of a sensor that has no reading
 constexpr const char *kSensor = "sensor", *kActuator = "actuator";
 
-Result<Recording> read_table(const std::string& folder, const LiveAddress& address) {
-  const std::filesystem::path path = std::filesystem::path(folder) / address.path;
+// Links of the file system are followed first, so that none of them leads out of the folder.
+bool is_below(const std::filesystem::path& folder, const std::filesystem::path& file) {
   std::error_code none;
-  if (std::filesystem::file_size(path, none) > kLongestRecording && !none)
-    return Error{ErrorCode::io, "", "the table is longer than the 64 MiB that are read"};
-  const auto text = read_file(path.string());
+  const auto whole = std::filesystem::weakly_canonical(file, none),
+             top = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, none);
+  const auto [end, rest] = std::mismatch(top.begin(), top.end(), whole.begin(), whole.end());
+  return end == top.end() || (end->empty() && std::next(end) == top.end());
+}
+
+Result<Recording> read_table(const LiveOptions& options, const LiveAddress& address) {
+  const std::filesystem::path path = std::filesystem::path(options.folder) / address.path;
+  if (!options.reads_anywhere && !is_below(options.folder, path))
+    return Error{ErrorCode::io, "",
+                 "it does not lie in the folder of the scene: put it there, or run with --recordings-anywhere if you trust the scene"};
+  const auto text = read_plain_file(path.string(), kLongestRecording);
   if (!text) return text.error();
   return read_recording(*text, address);
 }
@@ -43,19 +57,21 @@ std::string key_of(const LiveAddress& address, const std::string& node, bool is_
 }  // namespace
 
 struct Connections::Sensor {
-  // What the connection follows from; another one is another connection.
-  std::string address, field;
+  std::string address;  // another one is another connection
   double period = 0, tick_length = 0;
 
   LiveAddress parsed;
   std::shared_ptr<Station> station;
   std::string known_line;  // as the scene has it
   Recording recording;
-  std::size_t next = 0;  // of the recording
+  std::size_t next = 0;       // of the recording
+  std::int64_t last_tick = -1;  // that was asked for
+};
 
-  bool is_like(const Sensor& other) const {
-    return address == other.address && field == other.field && period == other.period && tick_length == other.tick_length;
-  }
+// A row that has come, and the tick that it belongs to.
+struct RecordedArrival {
+  Arrival arrival;
+  std::int64_t tick = 0;
 };
 
 struct Connections::Actuator {
@@ -76,31 +92,39 @@ Connections::~Connections() {
 }
 
 void Connections::begin_recording(Sensor& sensor) {
-  auto recording = read_table(options_.folder, sensor.parsed);
+  auto recording = read_table(options_, sensor.parsed);
   if (recording) sensor.recording = std::move(*recording);
   sensor.station->line(recording ? "" : "the recording cannot be played: " + recording.error().text());
 }
 
 bool Connections::follow_sensor(const std::string& id, const PortValues& values) {
-  auto sensor = std::make_unique<Sensor>();
-  sensor->address = value_of<std::string>(values, "address", "");
-  sensor->field = value_of<std::string>(values, "field", "");
-  sensor->period = value_of(values, "period", 10.0);
-  sensor->tick_length = value_of(values, "tick_length", 0.05);
+  const std::string address = value_of<std::string>(values, "address", ""), known_line = value_of<std::string>(values, "connection", "");
   // What is wrong with an address, the sensor itself says.
-  const auto parsed = parse_live_address(sensor->address);
+  const auto parsed = parse_live_address(address);
   const bool is_wanted = parsed && (options_.opens_network || parsed->scheme == LiveAddress::Scheme::replay);
-  if (!is_wanted) return sensors_.erase(id) > 0;
-  auto& slot = sensors_[id];
-  const bool is_new = !slot || !slot->is_like(*sensor);
-  if (is_new) {
-    sensor->parsed = *parsed;
-    sensor->station = std::make_shared<Station>(sensor->field);
-    if (parsed->scheme == LiveAddress::Scheme::replay) begin_recording(*sensor);
-    slot = std::move(sensor);
+  if (!is_wanted) {
+    // What a scene was saved with is of a connection that is no more.
+    if (!known_line.empty()) forgotten_[id] = address;
+    return sensors_.erase(id) > 0;
   }
-  slot->known_line = value_of<std::string>(values, "connection", "");
-  return is_new;
+  auto& slot = sensors_[id];
+  const bool is_new = !slot || slot->address != address;
+  if (is_new) {
+    slot = std::make_unique<Sensor>();
+    slot->address = address;
+    slot->parsed = *parsed;
+    slot->station = std::make_shared<Station>("");
+    if (parsed->scheme == LiveAddress::Scheme::replay) begin_recording(*slot);
+  }
+  // What changes below leaves the connection alone.
+  slot->station->set_field(value_of<std::string>(values, "field", ""));
+  const double period = value_of(values, "period", 10.0), tick_length = value_of(values, "tick_length", 0.05);
+  const bool is_changed = is_new || slot->period != period;
+  if (slot->tick_length != tick_length) slot->last_tick = std::numeric_limits<std::int64_t>::max();  // its rows lie elsewhere now
+  slot->period = period;
+  slot->tick_length = tick_length;
+  slot->known_line = known_line;
+  return is_changed;
 }
 
 bool Connections::follow_actuator(const std::string& id, const PortValues& values) {
@@ -128,6 +152,7 @@ void Connections::follow(const Scene& scene) {
   auto accesses = accesses_of(scene, options_.folder);
   bool is_changed = accesses != accesses_;
   accesses_ = std::move(accesses);
+  forgotten_.clear();
   std::set<std::string> sensors, actuators;
   for (const auto& [id, node] : scene.nodes) {
     if (const PortValues* values = values_of(node, kSensor)) {
@@ -175,8 +200,8 @@ void Connections::follow_endpoints() {
         endpoint.access = access->second;
   const auto is_gone = [&](const auto& entry) {
     const auto found = wanted.find(entry.first);
-    return found == wanted.end() || found->second.subscribers != entry.second->subscribers() ||
-           found->second.access != entry.second->access();
+    if (found == wanted.end() || found->second.access != entry.second->access()) return true;
+    return entry.first.starts_with("http ") && found->second.subscribers.front().path != entry.second->subscribers().front().path;
   };
   for (const auto& entry : endpoints_)
     if (is_gone(entry)) entry.second->ask_to_end();
@@ -185,28 +210,56 @@ void Connections::follow_endpoints() {
   for (auto& [id, actuator] : actuators_)
     if (!endpoints_.contains(key_of(actuator->parsed, id, false))) actuator->sent.reset();
   for (auto& [key, endpoint] : wanted)
-    if (!endpoints_.contains(key))
+    if (const auto found = endpoints_.find(key); found != endpoints_.end()) {
+      if (found->second->subscribers() != endpoint.subscribers) found->second->serve(std::move(endpoint.subscribers));
+    } else {
       endpoints_[key] = std::make_unique<Endpoint>(endpoint.body, endpoint.address.host, endpoint.address.port,
                                                    std::move(endpoint.subscribers), options_.pauses, std::move(endpoint.access));
+    }
+}
+
+bool Connections::has_recordings() const {
+  return std::any_of(sensors_.begin(), sensors_.end(), [](const auto& entry) { return !entry.second->recording.readings.empty(); });
+}
+
+// The newest row up to the tick after `tick`. After the clock was set back, that is the row which holds there, once more.
+std::optional<RecordedArrival> Connections::play(Sensor& sensor, std::int64_t tick) {
+  const auto& rows = sensor.recording.readings;
+  const auto tick_of_row = [&](const RecordedReading& row) { return tick_of(sensor.recording, row, sensor.tick_length); };
+  if (tick < sensor.last_tick) {
+    const auto later = std::partition_point(rows.begin(), rows.end(), [&](const auto& row) { return tick_of_row(row) <= tick; });
+    sensor.next = static_cast<std::size_t>(later - rows.begin());
+    if (sensor.next > 0) --sensor.next;
+  }
+  sensor.last_tick = tick;
+  std::optional<RecordedArrival> newest;
+  for (; sensor.next < rows.size() && tick_of_row(rows[sensor.next]) <= tick + 1; ++sensor.next) {
+    const RecordedReading& row = rows[sensor.next];
+    sensor.station->count(&Traffic::received);
+    if (newest) sensor.station->count(&Traffic::skipped);
+    newest = RecordedArrival{{row.value, row.problem, row.time, {}}, tick_of_row(row)};
+  }
+  return newest;
 }
 
 std::vector<Report> Connections::take(std::int64_t tick) {
   std::vector<Report> reports;
+  for (const auto& [id, address] : forgotten_) reports.push_back({address, command<NoteConnection>({id, ""})});
+  const Clock::time_point now = Clock::now();
   for (auto& [id, sensor] : sensors_) {
     const Station::Taken taken = sensor->station->take();
     if (taken.line && *taken.line != sensor->known_line)
       reports.push_back({sensor->address, command<NoteConnection>({id, *taken.line})});
     std::optional<Arrival> newest = taken.newest;
     std::int64_t measured = tick + 1;
-    const auto& rows = sensor->recording.readings;
-    for (bool is_first = true; sensor->next < rows.size(); ++sensor->next, is_first = false) {
-      const RecordedReading& row = rows[sensor->next];
-      const std::int64_t row_tick = tick_of(sensor->recording, row, sensor->tick_length);
-      if (row_tick > tick + 1) break;
-      newest = Arrival{row.value, row.problem, row.time};
-      measured = row_tick;
-      sensor->station->count(&Traffic::received);
-      if (!is_first) sensor->station->count(&Traffic::skipped);
+    if (newest) {
+      // A message that has waited, because the clock stood or was late, is as old as it is.
+      const double waited = std::chrono::duration<double>(now - newest->came).count();
+      measured -= static_cast<std::int64_t>(std::clamp(waited / sensor->tick_length, 0.0, kOldest));
+      if (measured == kNeverMeasured) --measured;
+    } else if (const auto row = play(*sensor, tick)) {
+      newest = row->arrival;
+      measured = row->tick;
     }
     if (newest)
       reports.push_back({sensor->address, command<Receive>({id, newest->value, newest->time, newest->problem, measured})});
@@ -240,9 +293,11 @@ void Connections::send(const State& state) {
 std::vector<ConnectionStatus> Connections::status() const {
   std::vector<ConnectionStatus> all;
   for (const auto& [id, sensor] : sensors_)
-    all.push_back({id, sensor->address, true, sensor->station->line(), sensor->station->traffic()});
+    all.push_back({id, sensor->address, true, sensor->station->line(), sensor->station->traffic(),
+                   sensor->parsed.scheme == LiveAddress::Scheme::replay, sensor->recording.readings.size(), sensor->next,
+                   sensor->recording.empty, sensor->recording.filtered});
   for (const auto& [id, actuator] : actuators_)
-    all.push_back({id, actuator->address, false, actuator->station->line(), actuator->station->traffic()});
+    all.push_back({id, actuator->address, false, actuator->station->line(), actuator->station->traffic(), false, 0, 0, 0, 0});
   return all;
 }
 

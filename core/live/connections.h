@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct LiveOptions {
   std::string folder;         ///< recordings with relative paths stand here; empty: where the program was started
   bool opens_network = true;  ///< off: recordings are played, and nobody is connected to
   Pauses pauses;
+  /// Off: recordings lie in the folder or below it. A scene from somebody else must not read whatever the computer holds, which
+  /// an actuator of the same scene could send on.
+  bool reads_anywhere = false;
 };
 
 /// A command and who gives it: the address of a sensor, so that nobody's undo takes readings back.
@@ -31,7 +35,12 @@ struct ConnectionStatus {
   bool is_sensor = true;
   std::string line;  ///< what is wrong with the connection; empty where nothing is
   Traffic traffic;
+  // Of recordings: how many of its rows have been played, and what became of the others.
+  bool is_recording = false;
+  std::size_t rows = 0, played = 0, empty = 0, filtered = 0;
 };
+
+struct RecordedArrival;
 
 /// All of it is for one thread, the owner's; the connections have threads of their own. Nothing of the network reaches a state
 /// but through the commands of take().
@@ -44,13 +53,15 @@ class Connections {
 
   /// Starts, changes and ends connections as the sensors and actuators of the scene want it.
   void follow(const Scene& scene);
-  /// What has come for the tick after `tick`: at most one reading for each sensor, in ascending node id.
+  /// What has come for the tick after `tick`: at most one reading for each sensor, in ascending node id. Where the clock was set
+  /// back, recordings go back with it.
   std::vector<Report> take(std::int64_t tick);
   /// Sends what has changed since the last time, where the interval of its actuator allows.
   void send(const State& state);
   /// In ascending node id, sensors before actuators.
   std::vector<ConnectionStatus> status() const;
   bool is_empty() const { return sensors_.empty() && actuators_.empty(); }
+  bool has_recordings() const;
 
  private:
   struct Sensor;
@@ -60,11 +71,13 @@ class Connections {
   bool follow_actuator(const std::string& id, const PortValues& values);
   void follow_endpoints();
   void begin_recording(Sensor& sensor);
+  static std::optional<RecordedArrival> play(Sensor& sensor, std::int64_t tick);
 
   const LiveOptions options_;
   std::map<std::string, std::unique_ptr<Sensor>> sensors_;      // by node
   std::map<std::string, std::unique_ptr<Actuator>> actuators_;  // by node
   std::map<std::string, Access> accesses_;                      // of brokers, by host and port
+  std::map<std::string, std::string> forgotten_;                // by node: addresses of sensors whose last line is out of date
   std::map<std::string, std::unique_ptr<Endpoint>> endpoints_;  // by what they connect to
 };
 

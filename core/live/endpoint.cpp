@@ -40,6 +40,22 @@ void Endpoint::ask_to_end() {
   wake_.notify_all();
 }
 
+std::vector<Subscriber> Endpoint::subscribers() const {
+  const std::lock_guard lock(mutex_);
+  return subscribers_;
+}
+
+void Endpoint::serve(std::vector<Subscriber> subscribers) {
+  std::optional<std::string> line;
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_line_known_) line = line_;
+    subscribers_ = subscribers;
+  }
+  if (line)
+    for (const Subscriber& subscriber : subscribers) subscriber.station->line(*line);
+}
+
 void Endpoint::send(Outgoing message) {
   std::shared_ptr<Station> replaced;
   std::optional<std::string> line;
@@ -81,9 +97,9 @@ void Endpoint::wait_for_work(double seconds) {
 
 void Endpoint::say(const std::string& sentence) {
   std::vector<std::shared_ptr<Station>> told;
-  for (const Subscriber& subscriber : subscribers_) told.push_back(subscriber.station);
   {
     const std::lock_guard lock(mutex_);
+    for (const Subscriber& subscriber : subscribers_) told.push_back(subscriber.station);
     line_ = sentence;
     is_line_known_ = true;
     for (const auto& [path, station] : senders_) told.push_back(station);

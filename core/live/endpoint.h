@@ -47,6 +47,8 @@ class Endpoint {
   Endpoint& operator=(const Endpoint&) = delete;
 
   void ask_to_end();
+  /// From now on these; the connection stays as it is.
+  void serve(std::vector<Subscriber> subscribers);
   /// The newest message for each path waits until it can go out.
   void send(Outgoing message);
 
@@ -55,7 +57,7 @@ class Endpoint {
   int port() const { return port_; }
   /// "host:port", as sentences name it.
   std::string place() const;
-  const std::vector<Subscriber>& subscribers() const { return subscribers_; }
+  std::vector<Subscriber> subscribers() const;
   const Access& access() const { return access_; }
   bool is_ending() const;
   /// The messages that wait.
@@ -74,7 +76,7 @@ class Endpoint {
 
   const std::string host_;
   const int port_;
-  const std::vector<Subscriber> subscribers_;
+  std::vector<Subscriber> subscribers_;
   const Pauses pauses_;
   const Access access_;
   mutable std::mutex mutex_;

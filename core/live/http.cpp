@@ -92,9 +92,9 @@ class Client {
 
 void run_http(Endpoint& endpoint) {
   static const Library kLibrary;
-  const Subscriber& subscriber = endpoint.subscribers().front();
-  Client client(subscriber.path);
+  Client client(endpoint.subscribers().front().path);
   while (!endpoint.is_ending()) {
+    const Subscriber subscriber = endpoint.subscribers().front();  // its period may change
     const auto page = client.ask(endpoint);
     if (endpoint.is_ending()) return;
     if (!page) {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 
 #include "core/live/endpoint.h"
 #include "core/live/message.h"
@@ -45,7 +46,9 @@ class Broker {
       if (const int code = mosquitto_loop(client_.get(), kSlice, 1); code != MOSQ_ERR_SUCCESS)
         return !refusal_.empty() ? refusal_ : unconnected(code);
       if (!is_greeted_ && looks > kGreetings) return endpoint_.place() + " answers, but not as an MQTT broker does";
-      if (is_greeted_) publish();
+      if (!is_greeted_) continue;
+      follow_topics();
+      publish();
     }
     mosquitto_disconnect(client_.get());
     return "";
@@ -104,9 +107,19 @@ class Broker {
       return;
     }
     is_greeted_ = true;
-    for (const Subscriber& subscriber : endpoint_.subscribers())
-      mosquitto_subscribe(client_.get(), nullptr, subscriber.path.c_str(), kDelivery);
+    follow_topics();
     endpoint_.succeed();
+  }
+
+  // A sensor that comes or goes leaves the topics of the others alone.
+  void follow_topics() {
+    std::set<std::string> wanted;
+    for (const Subscriber& subscriber : endpoint_.subscribers()) wanted.insert(subscriber.path);
+    for (const std::string& topic : wanted)
+      if (!topics_.contains(topic)) mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), kDelivery);
+    for (const std::string& topic : topics_)
+      if (!wanted.contains(topic)) mosquitto_unsubscribe(client_.get(), nullptr, topic.c_str());
+    topics_ = std::move(wanted);
   }
 
   // A retained message may be of any age: it is no reading of now.
@@ -129,6 +142,7 @@ class Broker {
         message.station->line(std::string("a message could not be sent: ") + mosquitto_strerror(done));
         continue;
       }
+      message.station->line("");
       message.station->count(&Traffic::sent);
       unconfirmed_[id] = message.station;
     }
@@ -145,6 +159,7 @@ class Broker {
   std::unique_ptr<mosquitto, decltype(&mosquitto_destroy)> client_;
   bool is_greeted_ = false;
   std::string refusal_;
+  std::set<std::string> topics_;                         // that are subscribed to
   std::map<int, std::shared_ptr<Station>> unconfirmed_;  // by the library's number of the message
 };
 

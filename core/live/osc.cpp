@@ -28,9 +28,10 @@ using Message = std::unique_ptr<std::remove_pointer_t<lo_message>, decltype(&lo_
 // Hands one argument over; which one, the field says.
 void hand_over(lo_message message, const Subscriber& subscriber) {
   Station& station = *subscriber.station;
-  const auto index = station.field().empty() ? std::optional(0.0) : parse_number(station.field());
+  const std::string field = station.field();
+  const auto index = field.empty() ? std::optional(0.0) : parse_number(field);
   if (!index || *index < 0 || *index > 1000)
-    return station.problem("the field " + in_quotes(station.field()) + " is no number of an argument: write 0 for the first");
+    return station.problem("the field " + in_quotes(field) + " is no number of an argument: write 0 for the first");
   const int at = static_cast<int>(*index), count = lo_message_get_argc(message);
   if (at >= count)
     return station.problem("the message has " + std::to_string(count) + " arguments, and number " + std::to_string(at) +

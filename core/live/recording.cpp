@@ -16,6 +16,7 @@ namespace {
 struct Columns {
   std::size_t value = 0, time = 0;
   std::optional<std::size_t> day_time;                       // a second column with the time of the day
+  bool are_days_digits = false;                              // 20030131 is a day, and no number of seconds
   std::vector<std::pair<std::size_t, std::string>> filters;  // column, what has to stand there
 };
 
@@ -74,9 +75,24 @@ Result<Columns> columns_of(const CsvText& csv, const LiveAddress& address) {
   return columns;
 }
 
+// One row of digits may be a day or a number; a column in which every row is a day holds days.
+bool are_days_digits(const CsvText& csv, const Columns& columns) {
+  bool has_any = false;
+  for (std::size_t r = 1; r < csv.records.size(); ++r) {
+    if (!is_counted(csv.records[r], columns)) continue;
+    if (!seconds_of_digits(field_of(csv.records[r], columns.time))) return false;
+    has_any = true;
+  }
+  return has_any;
+}
+
 Result<double> time_of(const CsvRecord& record, const Columns& columns) {
   const std::string& text = field_of(record, columns.time);
-  auto seconds = seconds_of_time(text);
+  auto seconds = columns.are_days_digits ? seconds_of_digits(text) : seconds_of_time(text);
+  if (seconds && columns.day_time && !columns.are_days_digits && parse_number(text))
+    return Error{ErrorCode::parse, "line " + std::to_string(record.line),
+                 in_quotes(text) + " is no day to which a time of the day could be added: write days as `2003-01-31` or, in all "
+                                   "rows, as `20030131`"};
   if (!seconds)
     return Error{ErrorCode::parse, "line " + std::to_string(record.line),
                  in_quotes(text) + " is no time such as `2003-01-31 12:00`"};
@@ -97,8 +113,9 @@ Result<Recording> read_recording(std::string_view text, const LiveAddress& addre
   const auto csv = read_csv(text);
   if (!csv) return csv.error();
   if (csv->records.empty()) return Error{ErrorCode::missing, "line 1", "the table is empty"};
-  const auto columns = columns_of(*csv, address);
+  auto columns = columns_of(*csv, address);
   if (!columns) return columns.error();
+  columns->are_days_digits = are_days_digits(*csv, *columns);
   Recording recording;
   for (std::size_t r = 1; r < csv->records.size(); ++r) {
     const CsvRecord& record = csv->records[r];

@@ -10,6 +10,7 @@ namespace bl {
 
 void Station::put(Arrival arrival) {
   arrival.time = utc_now();
+  arrival.came = std::chrono::steady_clock::now();
   const std::lock_guard lock(mutex_);
   ++traffic_.received;
   if (newest_) ++traffic_.skipped;
@@ -17,14 +18,14 @@ void Station::put(Arrival arrival) {
 }
 
 void Station::message(std::string_view payload) {
-  const auto number = number_in(payload, field_);
-  if (number) put({*number, "", ""});
-  else put({0, number.error().message, ""});
+  const auto number = number_in(payload, field());
+  if (number) put({*number, "", "", {}});
+  else put({0, number.error().message, "", {}});
 }
 
-void Station::number(double value) { put({value, "", ""}); }
+void Station::number(double value) { put({value, "", "", {}}); }
 
-void Station::problem(std::string sentence) { put({0, std::move(sentence), ""}); }
+void Station::problem(std::string sentence) { put({0, std::move(sentence), "", {}}); }
 
 void Station::line(const std::string& sentence) {
   const std::lock_guard lock(mutex_);
@@ -43,6 +44,16 @@ Station::Taken Station::take() {
   Taken taken{std::exchange(newest_, std::nullopt), std::nullopt};
   if (std::exchange(is_line_new_, false)) taken.line = line_;
   return taken;
+}
+
+std::string Station::field() const {
+  const std::lock_guard lock(mutex_);
+  return field_;
+}
+
+void Station::set_field(std::string field) {
+  const std::lock_guard lock(mutex_);
+  field_ = std::move(field);
 }
 
 Traffic Station::traffic() const {

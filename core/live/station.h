@@ -1,6 +1,7 @@
 // Where a connection's thread and the owner of the scene meet: one for each sensor and actuator.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -13,6 +14,7 @@ namespace bl {
 struct Arrival {
   double value = 0;
   std::string problem, time;
+  std::chrono::steady_clock::time_point came{};  ///< how long it has waited until it is taken, follows from this
 };
 
 /// How much has passed through; nothing is lost without being counted.
@@ -36,7 +38,7 @@ class Station {
   /// What is wrong with the connection; empty where it stands.
   void line(const std::string& sentence);
   void count(std::int64_t Traffic::*what);
-  const std::string& field() const { return field_; }
+  std::string field() const;
 
   // Of the owner's.
   struct Taken {
@@ -44,13 +46,15 @@ class Station {
     std::optional<std::string> line;  ///< where it has changed
   };
   Taken take();
+  /// Which part of the messages holds the number, from the next message on.
+  void set_field(std::string field);
   Traffic traffic() const;
   std::string line() const;
 
  private:
   void put(Arrival arrival);
 
-  const std::string field_;
+  std::string field_;
   mutable std::mutex mutex_;
   std::optional<Arrival> newest_;
   std::optional<std::string> line_;  // nothing as long as nobody knows

@@ -40,21 +40,29 @@ std::optional<double> days(int year, int month, int day) {
   return 365.0 * y + std::floor(y / 4.0) - std::floor(y / 100.0) + std::floor(y / 400.0) + since_march - 719468;
 }
 
+// No day is longer than 24 hours; the last second of one may be a leap second.
+bool is_clock(int hour, int minute, double second) {
+  if (hour == 24) return minute == 0 && second == 0;
+  const double longest = hour == 23 && minute == 59 ? 61 : 60;
+  return hour < 24 && minute < 60 && second < longest;
+}
+
 // hh:mm[:ss[.f]] off the front.
 std::optional<double> clock(std::string_view& text) {
   const auto hour = digits(text, 2);
-  if (!hour || *hour > 24 || !take(text, ':')) return std::nullopt;
+  if (!hour || !take(text, ':')) return std::nullopt;
   const auto minute = digits(text, 2);
-  if (!minute || *minute > 59) return std::nullopt;
+  if (!minute) return std::nullopt;
   double second = 0;
   if (take(text, ':')) {
     std::size_t length = 0;
     while (length < text.size() && ((text[length] >= '0' && text[length] <= '9') || text[length] == '.')) ++length;
     const auto number = parse_number(text.substr(0, length));
-    if (!number || *number >= 61) return std::nullopt;
+    if (!number) return std::nullopt;
     second = *number;
     text.remove_prefix(length);
   }
+  if (!is_clock(*hour, *minute, second)) return std::nullopt;
   return 3600.0 * *hour + 60.0 * *minute + second;
 }
 
@@ -66,7 +74,8 @@ std::optional<double> zone(std::string_view text) {
   const auto hours = digits(text, 2);
   take(text, ':');
   const auto minutes = text.empty() ? std::optional(0) : digits(text, 2);
-  if (!hours || !minutes || !text.empty()) return std::nullopt;
+  // No clock on Earth is further from UTC than 14 hours.
+  if (!hours || !minutes || !text.empty() || *minutes > 59 || 60 * *hours + *minutes > 14 * 60) return std::nullopt;
   return sign * (3600.0 * *hours + 60.0 * *minutes);
 }
 
@@ -110,6 +119,18 @@ std::optional<double> seconds_of_time(std::string_view text) {
   const auto day = digits(text, 2);
   const auto number = day ? days(*year, *month, *day) : std::nullopt;
   return number ? rest_of(*number, text) : std::nullopt;
+}
+
+std::optional<double> seconds_of_digits(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() < 8 || text.size() > 14 || text.size() % 2 != 0) return std::nullopt;
+  const auto year = digits(text, 4), month = digits(text, 2), day = digits(text, 2);
+  if (!year || !month || !day || *year < 1900 || *year > 2199) return std::nullopt;
+  const auto number = days(*year, *month, *day);
+  const auto part = [&] { return text.empty() ? std::optional(0) : digits(text, 2); };
+  const auto hour = part(), minute = part(), second = part();
+  if (!number || !hour || !minute || !second || !is_clock(*hour, *minute, *second)) return std::nullopt;
+  return 86400 * *number + 3600.0 * *hour + 60.0 * *minute + *second;
 }
 
 std::optional<double> seconds_of_day(std::string_view text) {

@@ -1,7 +1,9 @@
 // The library: chosen functions of Lua's own, and replacements for those that are slow, unstable or show addresses.
 #include "core/script/library.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <initializer_list>
 #include <string_view>
 
@@ -9,6 +11,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/random.h"
+#include "core/script/machine.h"
 
 namespace bl {
 
@@ -21,11 +24,11 @@ char globals_key, point_key, ends_key, parameters_key;
 //   pairs      walks in sorted order: Lua's own follows hashes that differ from run to run;
 //   sort       is stable: Lua's own takes its pivots from the clock;
 //   insert, remove, concat, unpack: Lua's own run through a whole table within one instruction;
-//   tostring, format: never show an address.
+//   tostring: never shows an address.
 // Patterns (find, match, gmatch, gsub) can run for ever within one instruction, and are left out, as is rep.
 constexpr char kLibrary[] = R"lua(
 local raw = ...
-local type, tostring, error, select, unpack, byte, format = raw.type, raw.tostring, raw.error, raw.select, raw.unpack, raw.byte, raw.format
+local type, tostring, error, select, unpack = raw.type, raw.tostring, raw.error, raw.select, raw.unpack
 
 local function plain_less(a, b) return a < b end
 
@@ -84,22 +87,15 @@ local function safe_tostring(value)
   return kind
 end
 
-local function safe_format(pattern, ...)
-  for i = 1, #pattern - 1 do
-    if byte(pattern, i) == 37 and byte(pattern, i + 1) == 112 then error("format knows no %p", 2) end
-  end
-  for i = 1, select("#", ...) do
-    local kind = type((select(i, ...)))
-    if kind ~= "number" and kind ~= "string" and kind ~= "boolean" then error("format takes numbers and texts", 2) end
-  end
-  return format(pattern, ...)
-end
-
 local lists = {sort = sort}
-function lists.insert(list, at, value)
-  local count = #list
-  if value == nil then at, value = count + 1, at end
-  if at < 1 or at > count + 1 then error("insert: there is no place " .. tostring(at), 2) end
+function lists.insert(list, ...)
+  local count, given, at, value = #list, select("#", ...), ...
+  if given == 1 then
+    at, value = count + 1, at
+  elseif given ~= 2 then
+    error("insert takes a list, a place where it is not the end, and a value", 2)
+  end
+  if type(at) ~= "number" or at < 1 or at > count + 1 then error("insert: there is no place " .. safe_tostring(at), 2) end
   for i = count, at, -1 do list[i + 1] = list[i] end
   list[at] = value
 end
@@ -111,9 +107,10 @@ function lists.remove(list, at)
   for i = at, count do list[i] = list[i + 1] end
   return value
 end
-function lists.concat(list, between)
+function lists.concat(list, between, from, to)
+  from, to = from or 1, to or #list
   local text = ""
-  for i = 1, #list do text = text .. (i > 1 and between or "") .. list[i] end
+  for i = from, to do text = text .. (i > from and between or "") .. list[i] end
   return text
 end
 function lists.unpack(list, from, to)
@@ -175,7 +172,7 @@ function methods.dot(a, b)
 end
 function methods.length(a) return raw.sqrt(a.x * a.x + a.y * a.y + a.z * a.z) end
 
-return strict("ends"), strict("params"), meta, {pairs = pairs, tostring = safe_tostring, point = point}, lists, {format = safe_format}
+return strict("ends"), strict("params"), meta, {pairs = pairs, tostring = safe_tostring, point = point}, lists
 )lua";
 
 // random(...): a number from 0 to below 1 that follows from the arguments alone: ids, tick.index, counters.
@@ -199,6 +196,59 @@ int random_of(lua_State* lua) {
   return 1;
 }
 
+// What the values from `first` to the top cost beyond the one instruction that hands them on: texts by their bytes.
+std::int64_t cost_of(lua_State* lua, int first, std::size_t bytes_per_instruction) {
+  std::int64_t cost = 0;
+  for (int i = first; i <= lua_gettop(lua); ++i)
+    cost += 1 + (lua_type(lua, i) == LUA_TSTRING ? static_cast<std::int64_t>(lua_rawlen(lua, i) / bytes_per_instruction) : 0);
+  return cost;
+}
+
+// Lua's own function, the first upvalue, with its work counted: it would run through a whole text or a long list of arguments
+// for the price of one call. What it makes must not hold a zero byte (see push_text in lua_values).
+int counted(lua_State* lua) {
+  charge(lua, cost_of(lua, 1, 8));
+  const int results = lua_tocfunction(lua, lua_upvalueindex(1))(lua);
+  const int first = lua_gettop(lua) - results + 1;
+  for (int i = first; i <= lua_gettop(lua); ++i)
+    if (lua_type(lua, i) == LUA_TSTRING && std::memchr(lua_tostring(lua, i), 0, lua_rawlen(lua, i)) != nullptr)
+      return luaL_error(lua, "a text cannot hold a zero byte");
+  charge(lua, cost_of(lua, first, 4));
+  return results;
+}
+
+// format(pattern, ...): refuses what shows an address (%p) or how this system writes a number (%a, also within %q), as Lua itself
+// reads the pattern: after % come flags, width and precision, then the letter.
+int format_of(lua_State* lua) {
+  std::size_t length = 0;
+  const char* text = luaL_checklstring(lua, 1, &length);
+  const std::string_view pattern(text, length);
+  for (std::size_t i = pattern.find('%'); i < pattern.size(); i = pattern.find('%', i + 1)) {
+    i = pattern.find_first_not_of("-+ #0123456789.", i + 1);
+    if (i >= pattern.size()) break;
+    if (std::string_view("paAq").find(pattern[i]) != std::string_view::npos)
+      return luaL_error(lua, "format knows no %%%c", pattern[i]);
+  }
+  for (int i = 2; i <= lua_gettop(lua); ++i) {
+    const int type = lua_type(lua, i);
+    if (type != LUA_TNUMBER && type != LUA_TSTRING && type != LUA_TBOOLEAN)
+      return luaL_error(lua, "format takes numbers and texts");
+  }
+  return counted(lua);
+}
+
+// byte(text, from, to): at most a hundred values, as unpack gives.
+int byte_of(lua_State* lua) {
+  constexpr lua_Integer kMost = 100;
+  std::size_t length = 0;
+  luaL_checklstring(lua, 1, &length);
+  const auto count = static_cast<lua_Integer>(length);
+  const auto place = [count](lua_Integer at) { return at >= 0 ? at : at < -count ? 0 : count + at + 1; };
+  const lua_Integer from = place(luaL_optinteger(lua, 2, 1)), to = place(luaL_optinteger(lua, 3, from));
+  if (std::min(to, count) - std::max<lua_Integer>(from, 1) >= kMost) return luaL_error(lua, "byte gives at most 100 values");
+  return counted(lua);
+}
+
 int refuse_change(lua_State* lua) { return luaL_error(lua, "the library cannot be changed"); }
 
 // The functions of `names` out of the table at `from` into that at `to`; positive indices.
@@ -207,6 +257,18 @@ void take(lua_State* lua, int from, int to, std::initializer_list<const char*> n
     lua_getfield(lua, from, name);
     lua_setfield(lua, to, name);
   }
+}
+
+// Puts `function`, which calls what stands there now, in the place of an entry of the table at `to`.
+void wrap(lua_State* lua, int to, const char* name, lua_CFunction function) {
+  lua_getfield(lua, to, name);
+  lua_pushcclosure(lua, function, 1);
+  lua_setfield(lua, to, name);
+}
+
+// The same for each C function among `names`.
+void count_all(lua_State* lua, int to, std::initializer_list<const char*> names) {
+  for (const char* name : names) wrap(lua, to, name, counted);
 }
 
 // All entries of the table on top go into the one at `to`; pops it.
@@ -235,12 +297,11 @@ void shield(lua_State* lua) {
 }
 
 // Pushes what the Lua part of the library is made from.
-void push_raw(lua_State* lua, int base, int text, int list, int math) {
+void push_raw(lua_State* lua, int base, int list, int math) {
   lua_newtable(lua);
   const int raw = lua_gettop(lua);
   take(lua, base, raw, {"type", "tostring", "error", "select", "next", "setmetatable"});
   take(lua, list, raw, {"unpack"});
-  take(lua, text, raw, {"byte", "format"});
   take(lua, math, raw, {"sqrt"});
 }
 
@@ -256,14 +317,19 @@ int open_library(lua_State* lua) {
   lua_newtable(lua);                                // 7: table
   lua_newtable(lua);                                // 8: math
   take(lua, 1, 5, {"assert", "error", "ipairs", "select", "tonumber", "type"});
-  take(lua, 2, 6, {"byte", "char", "len", "lower", "reverse", "sub", "upper"});
+  take(lua, 2, 6, {"byte", "char", "format", "len", "lower", "reverse", "sub", "upper"});
   take(lua, 4, 8,
        {"abs", "acos", "asin",       "atan",       "ceil", "cos", "deg", "exp",  "floor",     "fmod", "huge", "log", "max",
         "min", "modf", "maxinteger", "mininteger", "pi",   "rad", "sin", "sqrt", "tointeger", "tan",  "type", "ult"});
+  count_all(lua, 5, {"select", "tonumber"});
+  count_all(lua, 6, {"char", "len", "lower", "reverse", "sub", "upper"});
+  wrap(lua, 6, "byte", byte_of);
+  wrap(lua, 6, "format", format_of);
+  count_all(lua, 8, {"abs",  "acos", "asin", "atan", "ceil", "cos", "deg",  "exp", "floor",     "fmod", "log",
+                     "max",  "min",  "modf", "rad",  "sin",  "sqrt", "tan", "tointeger", "ult"});
   if (luaL_loadbufferx(lua, kLibrary, sizeof kLibrary - 1, "=(library)", "t") != LUA_OK) return lua_error(lua);
-  push_raw(lua, 1, 2, 3, 4);
-  lua_call(lua, 1, 6);
-  pour(lua, 6);
+  push_raw(lua, 1, 3, 4);
+  lua_call(lua, 1, 5);
   pour(lua, 7);
   pour(lua, 5);
   lua_rawsetp(lua, LUA_REGISTRYINDEX, &point_key);
@@ -271,6 +337,7 @@ int open_library(lua_State* lua) {
   lua_rawsetp(lua, LUA_REGISTRYINDEX, &ends_key);
   lua_pushcfunction(lua, random_of);
   lua_setfield(lua, 5, "random");
+  count_all(lua, 5, {"random"});
   // ("text"):upper() looks into the chosen functions, too.
   lua_pushliteral(lua, "");
   lua_createtable(lua, 0, 2);

@@ -1,7 +1,6 @@
 // Makes a script's declaration a link kind, and its evaluate the kind's: machines are lent to whoever evaluates.
 #include "core/script/link_script.h"
 
-#include <cstring>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -79,7 +78,7 @@ void push_ends(lua_State* lua, const Call& call) {
   for (std::size_t r = 0; r < call.reads.values.size(); ++r) {
     const auto& values = call.reads.values[r];
     if (call.script.read_whole[r]) {
-      lua_createtable(lua, static_cast<int>(values.size()), 0);
+      lua_createtable(lua, list_places(values.size()), 0);
       for (std::size_t i = 0; i < values.size(); ++i) {
         push_value(lua, *values[i]);
         lua_rawseti(lua, -2, static_cast<lua_Integer>(i + 1));
@@ -100,7 +99,7 @@ void check_answer(lua_State* lua, const Call& call) {
     bool is_known = false;
     if (lua_type(lua, -1) == LUA_TSTRING)
       for (const std::string& name : call.script.proposes)
-        is_known = is_known || std::strcmp(name.c_str(), lua_tostring(lua, -1)) == 0;
+        is_known = is_known || name == std::string_view(lua_tostring(lua, -1), lua_rawlen(lua, -1));
     if (is_known) continue;
     if (lua_type(lua, -1) == LUA_TSTRING)
       luaL_error(lua, "evaluate answers `%s`, which `proposes` does not declare", lua_tostring(lua, -1));

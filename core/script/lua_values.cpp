@@ -9,13 +9,19 @@
 #include <lua.hpp>
 
 #include "core/script/library.h"
+#include "core/script/link_script.h"
 #include "core/script/utf8.h"
 
 namespace bl {
 
 namespace {
 
-void push_text(lua_State* lua, const std::string& text) { lua_pushlstring(lua, text.data(), text.size()); }
+// Lua compares two texts piece by piece between their zero bytes: thousands of pieces in one instruction. So scripts know no
+// texts with zero bytes: neither from ports, nor from their own source (machine), nor made by the library.
+void push_text(lua_State* lua, const std::string& text) {
+  if (text.find('\0') != std::string::npos) luaL_error(lua, "a text that the link reads holds a zero byte");
+  lua_pushlstring(lua, text.data(), text.size());
+}
 
 void push_scalar(lua_State* lua, const Scalar& scalar) {
   if (const double* number = std::get_if<double>(&scalar)) lua_pushnumber(lua, *number);
@@ -23,7 +29,7 @@ void push_scalar(lua_State* lua, const Scalar& scalar) {
 }
 
 void push_table(lua_State* lua, const Table& table) {
-  lua_createtable(lua, static_cast<int>(table.rows.size()), 0);
+  lua_createtable(lua, list_places(table.rows.size()), 0);
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     lua_createtable(lua, 0, static_cast<int>(table.columns.size()));
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
@@ -57,7 +63,7 @@ void push_value(lua_State* lua, const Value& value) {
   if (const Vector3* point = std::get_if<Vector3>(&value)) return push_point(lua, point->x, point->y, point->z);
   if (const auto* table = std::get_if<Shared<Table>>(&value)) return push_table(lua, **table);
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) {
-    lua_createtable(lua, static_cast<int>((*points)->size()), 0);
+    lua_createtable(lua, list_places((*points)->size()), 0);
     for (std::size_t i = 0; i < (*points)->size(); ++i) {
       push_point(lua, (**points)[i].x, (**points)[i].y, (**points)[i].z);
       lua_rawseti(lua, -2, static_cast<lua_Integer>(i + 1));
@@ -65,7 +71,7 @@ void push_value(lua_State* lua, const Value& value) {
     return;
   }
   if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&value)) {
-    lua_createtable(lua, static_cast<int>((*texts)->size()), 0);
+    lua_createtable(lua, list_places((*texts)->size()), 0);
     for (std::size_t i = 0; i < (*texts)->size(); ++i) {
       push_text(lua, (**texts)[i]);
       lua_rawseti(lua, -2, static_cast<lua_Integer>(i + 1));
@@ -82,11 +88,16 @@ Value texts_at(lua_State* lua, int index, const char* name) {
   if (lua_type(lua, index) != LUA_TTABLE)
     luaL_error(lua, "`%s` needs a list of texts, not a %s", name, luaL_typename(lua, index));
   const auto count = static_cast<lua_Integer>(lua_rawlen(lua, index));
+  std::size_t whole = 0;
   for (lua_Integer i = 1; i <= count; ++i) {
     if (lua_rawgeti(lua, index, i) != LUA_TSTRING)
       luaL_error(lua, "`%s` needs a list of texts; one is a %s", name, luaL_typename(lua, -1));
     std::size_t length = 0;
     const char* text = lua_tolstring(lua, -1, &length);
+    // One long text may stand in a list many times.
+    whole += length;
+    if (whole > ScriptLimits::kPiece)
+      luaL_error(lua, "the texts of `%s` have more than %d KiB", name, static_cast<int>(ScriptLimits::kPiece >> 10));
     if (!is_utf8({text, length})) luaL_error(lua, "a text of `%s` is no UTF-8", name);
     lua_pop(lua, 1);
   }

@@ -1,6 +1,7 @@
 // Values of ports to Lua and back.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "core/define/value.h"
@@ -8,6 +9,9 @@
 struct lua_State;
 
 namespace bl {
+
+/// Places for a list of so many values: an odd number, which no table of names has, whose size makes instructions dearer (machine).
+inline int list_places(std::size_t values) { return static_cast<int>(values | 1); }
 
 /// Can scripts read ports of this kind?
 bool is_readable(ValueKind kind);

@@ -1,6 +1,8 @@
 // The sandbox: allocator, instruction hook, library and protected runs of one Lua machine.
 #include "core/script/machine.h"
 
+#include <locale.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +24,47 @@ constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 // Garbage that waits until it is collected between two evaluations [byte].
 constexpr std::size_t kGarbage = std::size_t{512} << 10;
 
+// A place for a name in a table of Lua: value, key, and the next place with the same remainder [byte].
+constexpr std::size_t kNameBytes = 24;
+
 enum class Stop { none, instructions, memory, piece, text };
+
+// The order of texts, the decimal point and the letters of upper() are those of C, whatever the rest of the program has set.
+class PlainLocale {
+ public:
+  PlainLocale() : earlier_(uselocale(plain())) {}
+  ~PlainLocale() { uselocale(earlier_); }
+  PlainLocale(const PlainLocale&) = delete;
+  PlainLocale& operator=(const PlainLocale&) = delete;
+
+ private:
+  static locale_t plain() {
+    static const locale_t kPlain = newlocale(LC_ALL_MASK, "C", locale_t{});
+    return kPlain;
+  }
+  const locale_t earlier_;
+};
+
+// Where a text of the script may get a zero byte: such a byte itself, or \0, \x00 or \u{0} behind an odd number of backslashes.
+// Comments and long texts are not told apart: what reads the source another way than Lua does could be deceived.
+std::size_t zero_byte_in(std::string_view source) {
+  std::size_t slashes = 0;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    if (source[i] == 0) return i;
+    const std::string_view rest = source.substr(i);
+    if (slashes % 2 == 1) {
+      const std::size_t number = std::min<std::size_t>(3, std::min(rest.find_first_not_of("0123456789"), rest.size()));
+      if (number > 0 && rest.substr(0, number).find_first_not_of('0') == std::string_view::npos) return i;
+      if (rest.starts_with("x00")) return i;
+      if (rest.starts_with("u{0")) {
+        const std::size_t end = rest.find_first_not_of('0', 2);
+        if (end != std::string_view::npos && rest[end] == '}') return i;
+      }
+    }
+    slashes = source[i] == '\\' ? slashes + 1 : 0;
+  }
+  return std::string_view::npos;
+}
 
 }  // namespace
 
@@ -33,6 +75,7 @@ struct Machine::Box {
   std::size_t base = 0;           // held after the last collection
   std::size_t left = kUnlimited;  // memory that may still be taken
   std::int64_t instructions = 0;  // that may still run
+  std::int64_t price = 1;         // of an instruction; see watch_names
   bool is_limited = false;
   Stop stop = Stop::none;
   int blamed_line = 0;   // of errors that no code of the script is running at
@@ -66,6 +109,7 @@ struct Machine::Box {
   static void* allocate(void* box, void* piece, std::size_t old_size, std::size_t new_size) {
     Box& self = *static_cast<Box*>(box);
     const bool is_text = piece == nullptr && old_size == LUA_TSTRING;  // for a new piece Lua tells its type instead
+    if (piece == nullptr && old_size == 0) self.watch_names(new_size);
     if (piece == nullptr) old_size = 0;
     if (new_size == 0) {
       self.held -= old_size;
@@ -77,19 +121,29 @@ struct Machine::Box {
     if (moved != nullptr) self.held += new_size - old_size;
     return moved;
   }
+  // The stack gets its size here: grown by and by, its last size, and so the depth at which a script is stopped, would follow from
+  // the runs before. It doubles when it grows, which is beyond kPiece.
+  void fix_stack() { lua_checkstack(lua, ScriptLimits::kStack); }
+  // Numbers can be chosen such that all names of a table lie in one chain, which an instruction then walks from end to end. So
+  // large tables of names make instructions dearer. Their pieces are powers of two of places; lists are moved when they grow.
+  void watch_names(std::size_t size) {
+    if (size % kNameBytes != 0) return;
+    const std::size_t names = size / kNameBytes;
+    if ((names & (names - 1)) == 0) price = std::max(price, static_cast<std::int64_t>(names / ScriptLimits::kNames));
+  }
+  void pay(lua_State* on, std::int64_t count) {
+    instructions -= count * price;
+    if (instructions > 0) return;
+    note(Stop::instructions);
+    lua_pushliteral(on, "stopped");
+    lua_error(on);
+  }
   static Box& of(lua_State* lua) {
     void* box = nullptr;
     lua_getallocf(lua, &box);
     return *static_cast<Box*>(box);
   }
-  static void count(lua_State* lua, lua_Debug*) {
-    Box& self = of(lua);
-    self.instructions -= kHookStep;
-    if (self.instructions > 0) return;
-    self.note(Stop::instructions);
-    lua_pushliteral(lua, "stopped");
-    lua_error(lua);
-  }
+  static void count(lua_State* lua, lua_Debug*) { of(lua).pay(lua, kHookStep); }
   // Puts file and line before errors that were raised outside the script's own code (in the library).
   static int handle(lua_State* lua) {
     Box& self = of(lua);
@@ -206,6 +260,10 @@ int run_text(lua_State* lua) {
 }  // namespace
 
 void blame_line(lua_State* lua, int line) { Machine::Box::of(lua).blamed_line = line; }
+void charge(lua_State* lua, std::int64_t instructions) {
+  Machine::Box& self = Machine::Box::of(lua);
+  if (self.is_limited) self.pay(lua, instructions);
+}
 
 Machine::Machine(std::unique_ptr<Box> box) : box_(std::move(box)) {}
 Machine::~Machine() = default;
@@ -221,6 +279,11 @@ Result<std::unique_ptr<Machine>> Machine::compile(const std::string& name, std::
   if (text.size() > ScriptLimits::kSource)
     return Error{ErrorCode::out_of_range, "",
                  self.file + ": the script is longer than " + std::to_string(ScriptLimits::kSource >> 10) + " KiB"};
+  if (const std::size_t zero = zero_byte_in(text); zero != std::string_view::npos)
+    return Error{ErrorCode::parse, "",
+                 self.file + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(zero), '\n')) +
+                     ": a text of a script cannot hold a zero byte; write no `\\0`"};
+  const PlainLocale locale;
   lua_gc(self.lua, LUA_GCSTOP);
   lua_pushcfunction(self.lua, open_library);
   if (const int status = lua_pcall(self.lua, 0, 0, 0); status != LUA_OK) return machine->failure(status);
@@ -248,7 +311,10 @@ Error Machine::failure(int status) {
       return {ErrorCode::cancelled, "",
               place + "stopped after " + std::to_string(ScriptLimits::kInstructions) + " instructions in one evaluation, or " +
                   std::to_string(ScriptLimits::kInstructionsPerTick) +
-                  " of one link in one tick; look for a loop that does not end, or read the end `whole`"};
+                  " of one link in one tick; look for a loop that does not end, or read the end `whole`" +
+                  (self.price > 1 ? " (a table has more than " + std::to_string(ScriptLimits::kNames) +
+                                        " names, which makes each instruction count for " + std::to_string(self.price) + ")"
+                                  : "")};
     case Stop::memory:
       return {ErrorCode::cancelled, "",
               place + "stopped when it had taken " + std::to_string(ScriptLimits::kMemory >> 20) +
@@ -270,7 +336,10 @@ Error Machine::failure(int status) {
 
 // Stack: the compiled text at 1; the handler of errors goes to 2.
 int Machine::call(int (*use)(lua_State*, void*), void* context, bool lifts_limits) {
+  const PlainLocale locale;
   Box& self = *box_;
+  self.price = 1;
+  self.fix_stack();
   Use what{use, context, lifts_limits, &self.is_limited};
   lua_sethook(self.lua, Box::count, LUA_MASKCOUNT, kHookStep);
   lua_pushcfunction(self.lua, Box::handle);

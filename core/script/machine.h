@@ -21,6 +21,7 @@ struct ScriptBudget {
 class Machine {
  public:
   friend void blame_line(lua_State* lua, int line);
+  friend void charge(lua_State* lua, std::int64_t instructions);
 
   /// Compiles the text; nothing of it has run yet.
   static Result<std::unique_ptr<Machine>> compile(const std::string& name, std::string_view text);
@@ -49,5 +50,8 @@ class Machine {
 
 /// For a `use`: errors that it raises from now on are said to be at this line of the script.
 void blame_line(lua_State* lua, int line);
+
+/// For C functions that scripts can call: their work counts as so many instructions.
+void charge(lua_State* lua, std::int64_t instructions);
 
 }  // namespace bl

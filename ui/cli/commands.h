@@ -23,6 +23,7 @@ struct RunOptions {
   int threads = 1;
   std::string log, report, json, save;
   std::vector<std::string> set, scripts;
+  bool reads_anywhere = false;  ///< recordings may lie outside the folder of the scene
   bool is_live = false;  ///< connects to sensors and actuators, and ticks in real time until it is stopped
   double rate = 0;       ///< ticks per second of a live run; 0: as the sensors say
 };

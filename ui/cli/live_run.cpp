@@ -45,12 +45,21 @@ double tick_length(const Scene& scene) {
   return shortest_tick > 0 ? shortest_tick : kUsualTick;
 }
 
+// Rows that were not played are told of, since a scene may settle before a recording ends.
+std::string rows_of(const ConnectionStatus& status) {
+  std::string text = "; " + std::to_string(status.played) + " of " + std::to_string(status.rows) + " rows played";
+  if (status.played < status.rows) text += ", " + std::to_string(status.rows - status.played) + " come after the end of the run";
+  if (status.empty > 0) text += ", besides " + std::to_string(status.empty) + " without a reading";
+  if (status.filtered > 0) text += (status.empty > 0 ? " and " : ", besides ") + std::to_string(status.filtered) + " of others";
+  return text;
+}
+
 }  // namespace
 
-LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate)
+LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere)
     : is_live_(is_live),
       rate_(rate),
-      connections_({std::filesystem::path(scene_file).parent_path().string(), is_live, {}}),
+      connections_({std::filesystem::path(scene_file).parent_path().string(), is_live, {}, reads_anywhere}),
       due_(Clock::now()) {}
 
 void LiveRun::before_tick(Session& session) {
@@ -80,7 +89,7 @@ void LiveRun::tell_readings(const State& state) {
 
 void LiveRun::tell() {
   for (const ConnectionStatus& status : connections_.status()) {
-    std::string& told = told_[status.node];
+    std::string& told = told_[call(status)];
     if (told == status.line) continue;
     told = status.line;
     print_error(call(status), {ErrorCode::io, status.address, status.line.empty() ? "is connected" : status.line});
@@ -103,7 +112,8 @@ void LiveRun::sum_up(const State& state) const {
     if (status.is_sensor)
       text += counted(static_cast<std::size_t>(t.received), "message") + ", " + std::to_string(t.skipped) +
               " of them skipped; at the end " + reading_of(state, status.node);
-    else
+    if (status.is_recording && status.rows > 0) text += rows_of(status);
+    if (!status.is_sensor)
       text += counted(static_cast<std::size_t>(t.sent), "message") + " sent, " + std::to_string(t.acknowledged) + " acknowledged, " +
               std::to_string(t.replaced) + " replaced by newer ones";
     print_line(text);

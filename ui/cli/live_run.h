@@ -13,7 +13,7 @@ namespace bl::cli {
 class LiveRun {
  public:
   /// `rate` in ticks per second; 0 for the pace that the sensors' tick lengths say.
-  LiveRun(const std::string& scene_file, bool is_live, double rate);
+  LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere = false);
 
   /// Hands the session what has come for its next tick.
   void before_tick(Session& session);

@@ -57,6 +57,8 @@ void declare_run(CLI::App& app, RunOptions& o) {
   auto* live = c.add_flag("--live", o.is_live,
                           "Connects to the sensors and actuators of the scene, and ticks in real time until Ctrl-C or --ticks. "
                           "Without it, recorded tables are played, and nothing is connected to.");
+  c.add_flag("--recordings-anywhere", o.reads_anywhere,
+             "Plays recorded tables that lie outside the folder of the scene, too; for scenes that you trust.");
   c.add_option("--rate", o.rate, "Ticks per second of a live run. Default: as the tick length of its sensors says.")
       ->type_name("R")
       ->needs(live)

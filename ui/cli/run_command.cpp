@@ -29,7 +29,7 @@ constexpr long long kTicksPerCheck = 60;
 
 class Run {
  public:
-  explicit Run(const RunOptions& options) : options_(options), live_(options.scene, options.is_live, options.rate) {}
+  explicit Run(const RunOptions& options) : options_(options), live_(options.scene, options.is_live, options.rate, options.reads_anywhere) {}
 
   int execute() {
     if (!start()) return kBadInput;

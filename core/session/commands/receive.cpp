@@ -17,7 +17,8 @@ void Receive::declare(CommandBuilder<Receive>& c) {
   c.argument(&In::time, "time").doc("When it was measured or came, as a text for people.");
   c.argument(&In::problem, "problem")
       .doc("Why the message holds no number, as a sentence. The reading before it then stays, and its age goes on.");
-  c.argument(&In::tick, "tick").min(-1).doc("The tick that it was measured in; its age counts from there. -1: never.");
+  c.argument(&In::tick, "tick").min(-1e15)
+      .doc("The tick that it was measured in; its age counts from there. -1: never; below it: before the clock began.");
   c.argument(&In::whole, "whole").doc("When on, all of it is taken as given, as an undo needs it.");
 }
 

@@ -87,6 +87,32 @@ TEST(Mqtt, ConnectionsFollowTheScene) {
   EXPECT_EQ(live.status("s").node, "");
 }
 
+TEST(Mqtt, AnEditOfOneSensorLosesNoMessageOfTheOthers) {
+  Broker broker;
+  broker.start();
+  LiveWorld live(sensor("a", broker.address("one")) + "," + sensor("b", broker.address("two")));
+  ASSERT_TRUE(live.hears(broker, "one", "1", [&] { return live.number("a") == 1; }));
+  ASSERT_TRUE(live.hears(broker, "two", "1", [&] { return live.number("b") == 1; }));
+  const std::int64_t before = live.status("a").traffic.received;
+  constexpr int kEdits = 10;
+  for (int i = 0; i < kEdits; ++i) {
+    ASSERT_EQ(live.world().submit(command<SetPort>({"b", {"sensor.field"}, {"\"f" + std::to_string(i) + "\""}})), "");
+    live.step();
+    broker.publish("one", std::to_string(i));
+  }
+  ASSERT_TRUE(live.steps_until([&] { return live.number("a") == kEdits - 1; }));
+  EXPECT_EQ(live.status("a").traffic.received, before + kEdits);
+  broker.publish("two", R"({"f9": 9})");
+  EXPECT_TRUE(live.steps_until([&] { return live.number("b") == 9; }));
+  // Another topic is another subscription of the same connection.
+  ASSERT_EQ(live.world().submit(command<SetPort>({"b", {"sensor.address"}, {"\"" + broker.address("three") + "\""}})), "");
+  ASSERT_TRUE(live.hears(broker, "three", R"({"f9": 3})", [&] { return live.number("b") == 3; }));
+  broker.publish("two", R"({"f9": 2})");
+  broker.publish("one", "7");
+  ASSERT_TRUE(live.steps_until([&] { return live.number("a") == 7; }));
+  EXPECT_EQ(live.number("b"), 3);
+}
+
 TEST(Mqtt, MessagesOfUnknownAgeAreNoReadings) {
   Broker broker;
   broker.start();

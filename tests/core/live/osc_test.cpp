@@ -103,6 +103,35 @@ TEST(Osc, NoiseIsSaidAndHarmsNobody) {
   EXPECT_EQ(osc.live.replayed(1), osc.live.hash());
 }
 
+// A paused or late clock must not make an old message a young one.
+TEST(Osc, AMessageIsAsOldAsItHasWaited) {
+  const int port = Loopback(SOCK_DGRAM).port();
+  const Loopback hand(SOCK_DGRAM);
+  LiveWorld live(sensor("s", "osc://" + std::to_string(port) + "/x", R"(, "timeout": 0.02, "tick_length": 0.001)"));
+  live.step();
+  ASSERT_TRUE(test::eventually([&] {
+    hand.send(port, packet("/x", "i", word(2)));
+    return live.status("s").traffic.received > 0;
+  }));
+  const auto came = std::chrono::steady_clock::now();
+  const auto waited = [&] { return std::chrono::steady_clock::now() - came > std::chrono::milliseconds(60); };
+  ASSERT_TRUE(test::eventually(waited));
+  live.step();
+  EXPECT_EQ(live.quality("s"), "stale");
+  EXPECT_GE(live.number("s", "sensor.age"), 0.055);
+  EXPECT_EQ(live.replayed(2), live.hash());
+}
+
+// What was saved of a connection is of that run.
+TEST(Osc, AnOldLineIsForgottenWhereNobodyIsConnectedTo) {
+  LiveWorld live(sensor("s", "osc://9000/x", R"(, "connection": "the server refuses")"), "", {"", false, {}});
+  live.step();
+  EXPECT_FALSE(live.says("s", "refuses")) << live.message("s");
+  EXPECT_EQ(live.reports(), 1);
+  live.step();
+  EXPECT_EQ(live.reports(), 1);
+}
+
 TEST(Osc, ATakenPortIsASentenceAndIsTriedAgain) {
   auto taken = std::make_unique<Loopback>(SOCK_DGRAM);
   const int port = taken->port();

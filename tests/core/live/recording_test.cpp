@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include <sys/stat.h>
+
 #include <gtest/gtest.h>
 
 #include "core/file/file_io.h"
@@ -106,6 +108,79 @@ TEST(Recording, RowsThatShareATickAreCountedAndTheLastOneCounts) {
   EXPECT_EQ(live.number("s"), 4);
 }
 
+TEST(TimeText, RefusesWhatNoClockShows) {
+  for (const char* text : {"2003-01-31T24:59:60", "2003-01-31T24:01", "2003-01-31T12:00:60", "2003-01-31T12:00+99:99",
+                           "2003-01-31T12:00+14:30", "2003-01-31T12:00-01:60"})
+    EXPECT_FALSE(seconds_of_time(text)) << text;
+  EXPECT_EQ(seconds_of_time("2003-01-31T24:00"), seconds_of_time("2003-02-01"));
+  EXPECT_TRUE(seconds_of_time("2016-12-31T23:59:60Z"));
+  EXPECT_EQ(seconds_of_digits("20030131"), seconds_of_time("2003-01-31"));
+  EXPECT_EQ(seconds_of_digits("2003013112"), seconds_of_time("2003-01-31 12:00"));
+  EXPECT_EQ(seconds_of_digits("200301311230"), seconds_of_time("2003-01-31 12:30"));
+  EXPECT_EQ(seconds_of_digits("20030131123015"), seconds_of_time("2003-01-31 12:30:15"));
+  for (const char* text : {"20030229", "18991231", "22000101", "200301311", "2003013125", "2003-131", "200301311260", "1724567400"})
+    EXPECT_FALSE(seconds_of_digits(text)) << text;
+}
+
+TEST(Recording, ReadsDaysOfDigitsAsWeatherTablesWriteThem) {
+  const auto recording = read("replay:d.csv?time=date+hour#count", "date,hour,count\n20110131,1,10\n20110131,2,20\n20110201,1,30\n");
+  ASSERT_TRUE(recording.ok()) << recording.error().text();
+  const std::int64_t ticks[] = {1, 2, 25};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(tick_of(*recording, recording->readings[i], 3600), ticks[i]);
+  // A column in which not every row is a day holds seconds, to which no hour can be added.
+  const auto seconds = read("replay:d.csv?time=t#v", "t,v\n20110131,1\n20110132,2\n");
+  ASSERT_TRUE(seconds.ok());
+  EXPECT_EQ(tick_of(*seconds, seconds->readings[1], 1), 2);
+  EXPECT_EQ(read("replay:d.csv?time=t+h#v", "t,h,v\n20110131,1,1\n20110132,1,2\n").error().text(),
+            "line 2: `20110131` is no day to which a time of the day could be added: write days as `2003-01-31` or, in all rows, "
+            "as `20030131`");
+}
+
+TEST(Recording, ReadsPlainFilesOfItsFolderOnly) {
+  const Folder folder;
+  std::filesystem::create_directory(folder.path("inner"));
+  folder.write("secret.csv", "time,v\n0,1\n");
+  folder.write("inner/t.csv", "time,v\n0,2\n");
+  std::filesystem::create_symlink(folder.path("secret.csv"), folder.path("inner/link.csv"));
+  ASSERT_EQ(mkfifo(folder.path("inner/pipe").c_str(), 0600), 0);
+  const auto message = [&](const std::string& file, bool reads_anywhere) {
+    LiveWorld live(sensor("s", "replay:" + file + "#v"), "", {folder.path("inner"), false, {}, reads_anywhere});
+    live.step();
+    return live.message("s");
+  };
+  for (const std::string& file : {folder.path("secret.csv"), std::string("../secret.csv"), std::string("link.csv")}) {
+    EXPECT_NE(message(file, false).find("does not lie in the folder of the scene"), std::string::npos) << file;
+    EXPECT_EQ(message(file, true), "") << file;
+  }
+  EXPECT_EQ(message("t.csv", false), "");
+  EXPECT_EQ(message("../inner/t.csv", false), "");
+  // Neither a pipe nor a device is waited for.
+  EXPECT_NE(message("pipe", false).find("is a device or a pipe"), std::string::npos);
+  EXPECT_NE(message("/dev/zero", true).find("is a device or a pipe"), std::string::npos);
+  EXPECT_NE(message("/dev/stdin", true).find("cannot be played"), std::string::npos);
+}
+
+TEST(Recording, GoesBackWithTheClock) {
+  const Folder folder;
+  folder.write("scene.csv", "time,v\n0,1\n10,2\n20,3\n30,4\n");
+  Connections connections({folder.path(), false, {}});
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [)" +
+                                            sensor("s", "replay:scene.csv#v", R"(, "tick_length": 10)") + R"(], "links": []})");
+  connections.follow(world.session().scene());
+  const auto value = [&](std::int64_t tick) {
+    const auto reports = connections.take(tick);
+    return reports.empty() ? 0.0 : as_number(reports.front().command.arguments.at("value"));
+  };
+  EXPECT_EQ(value(0), 1);
+  EXPECT_EQ(value(1), 2);
+  EXPECT_EQ(value(3), 4);
+  EXPECT_EQ(connections.status().front().played, 4u);
+  EXPECT_EQ(value(4), 0);
+  EXPECT_EQ(value(1), 2);
+  EXPECT_EQ(value(2), 3);
+  EXPECT_EQ(value(0), 1);
+}
+
 TEST(Recording, AMissingFileIsASentence) {
   LiveWorld live(sensor("s", "replay:nowhere.csv#v"));
   live.step();
@@ -146,7 +221,7 @@ TEST(Recording, PublishedTablesPlayAndReplay) {
   LiveWorld live(
       sensor("no2", "replay:" + air + "#no2", R"(, "tick_length": 3600, "timeout": 3600)") + "," +
           sensor("leq", "replay:" + noise + "?deveui=4a6#Leq", R"(, "tick_length": 900, "smoothing": 1800, "timeout": 900)"),
-      "", {"", false, {}});
+      "", {"", false, {}, true});
   for (int hour = 0; hour < 744; ++hour) live.step();
   const Traffic traffic = live.status("no2").traffic;
   EXPECT_EQ(traffic.skipped, 0);

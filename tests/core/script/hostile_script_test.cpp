@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 
 #include "core/script/link_script.h"
@@ -26,6 +27,11 @@ std::string body(const std::string& lines) {
 std::string declaring(const std::string& reads) {
   return "return {id = 'bad', doc = 'Bad.',\nreads = {" + reads +
          "},\nproposes = {move = {at = 'from', port = 'node.position'}},\nevaluate = function() return {} end}\n";
+}
+
+std::string tags(const std::string& lines) {
+  return "return {id = 'bad', doc = 'Bad.',\n\nproposes = {tags = {at = 'from', port = 'facade.style'}},\n"
+         "evaluate = function(params, ends, tick)\n" + lines + "\nend}\n";
 }
 
 std::vector<Hostile> hostile_scripts() {
@@ -117,6 +123,25 @@ std::vector<Hostile> hostile_scripts() {
       {"default out of range",
        "return {id = 'bad', doc = 'x',\nparams = {{id = 'size', default = 5, max = 3, doc = 'x'}},\nproposes = {}, evaluate = 3}",
        "bad.lua:2: |at most 3"},
+      {"an address", body("error(string.format('%20p', 'some text that is long enough to lie on the heap'))"),
+       "bad.lua:5: |format knows no %p"},
+      {"an address with a flag", body("error(('%-p'):format('a'))"), "bad.lua:5: |format knows no %p"},
+      {"an address behind a percent sign", body("error(('%%%9.3p'):format('a'))"), "bad.lua:5: |format knows no %p"},
+      {"the system's own numbers", body("error(('%a'):format(1))"), "bad.lua:5: |format knows no %a"},
+      {"format of a table", body("error(('%s'):format({}))"), "bad.lua:5: |format takes numbers and texts"},
+      {"a percent sign", body("error(('%%p %d'):format(3))"), "bad.lua:5: |%p 3"},
+      {"a zero byte", body("return {move = '\\0'}"), "bad.lua:5: |zero byte"},
+      {"a zero byte in hexadecimal", body("return {['move\\x00typo'] = point()}"), "bad.lua:5: |zero byte"},
+      {"a zero byte as a character", body("return {move = '\\u{000}'}"), "bad.lua:5: |zero byte"},
+      {"a zero byte as it is", body("return {move = '" + std::string(1, '\0') + "'}"), "bad.lua:5: |zero byte"},
+      {"no zero byte", body("error('\\\\0 \\01 \\0011')"), "bad.lua:5: |\\0 "},
+      {"a zero byte made", body("local s = string.char(65, 0)"), "bad.lua:5: |zero byte"},
+      {"a zero byte formatted", body("local s = ('%c'):format(0)"), "bad.lua:5: |zero byte"},
+      {"many bytes", body("local s = 'x'\nfor i = 1, 11 do s = s .. s end\nwhile true do local _ = s:byte(1, -1) end"),
+       "bad.lua:7: |byte gives at most 100 values"},
+      {"insert of too much", body("table.insert({}, 1, 2, 3)"), "bad.lua:5: |insert takes"},
+      {"too many texts", tags("local s, t = 'x', {}\nfor i = 1, 11 do s = s .. s end\nfor i = 1, 300 do t[i] = s end\nreturn {tags = t}"),
+       "bad.lua:4: |more than 256 KiB"},
       {"too long a script", "return '" + std::string(300000, 'x') + "'", "bad.lua: |longer than 256 KiB"},
       {"a deep table in the text", "return " + std::string(1000, '{') + std::string(1000, '}'), "bad.lua: |C stack overflow"},
   };
@@ -156,6 +181,58 @@ TEST(HostileScript, LeavesNothingBehind) {
   EXPECT_NE(link.from("node.position", Vector3{2, 0, 0}).run(), "");
   EXPECT_EQ(link.from("node.position", Vector3{1, 0, 0}).run(), "");
   expect_near(link.move(End::from), {1, 0, 0});
+}
+
+// Each of these asks much of one instruction or one call; what a tick may run is bounded in time all the same.
+TEST(HostileScript, NoInstructionRunsLong) {
+  const std::string long_text = "local z = ' ' for i = 1, 11 do z = z .. z end z = z .. z:sub(1, 1900)\n";
+  const std::string many = "local function many(n, ...) if n == 0 then return ... end return many(n - 1, n, ...) end\n";
+  // The length of this table is looked for among powers of two, and each of them lies at the end of a chain.
+  std::string sparse = "{1, 2, 3, 4, [5] = 1";
+  for (int i = 3; i < 62; ++i) sparse += ", [" + std::to_string(std::int64_t{1} << i) + "] = 1";
+  for (int i = 0; i < 8; ++i)
+    for (int k = 1; k <= 23; ++k) sparse += ", [" + std::to_string((1 << i) + 255 * 64 * k) + "] = 1";
+  sparse += "}";
+  const std::string chain = "local t = {} for i = 0, 7 do t[2 ^ i // 1 | 0] = 1 end for i = 1, 1e9 do t[i * 8191] = i end\n";
+  const std::pair<const char*, std::string> cases[] = {
+      {"lower", long_text + "while true do local _ = z:lower() end"},
+      {"tonumber", long_text + "while true do local _ = tonumber(z, 10) end"},
+      {"sine of spaces", long_text + "while true do local _ = math.sin(z .. 1) end"},
+      {"for over spaces", long_text + "z = z .. 1 while true do for i = 1, z do end end"},
+      {"formatting", "local p = '%.99f' p = p .. p .. p .. p p = p .. p while true do "
+                     "local _ = p:format(1e300, 1e300, 1e300, 1e300, 1e300, 1e300, 1e300, 1e300) end"},
+      {"random of texts", long_text + "while true do local _ = random(z, z, z, z, z, z, z, z, z, z, z, z, z, z, z, z) end"},
+      {"handing on", many + "local function use() end local function all(...) while true do use(...) use(...) use(...) end end "
+                            "all(many(8000))"},
+      {"largest of many", many + "local function all(...) while true do local _ = math.max(...) end end all(many(8000))"},
+      {"returning many", "local function grow(n) if n > 0 then return n, grow(n - 1) end end while true do grow(150) end"},
+      {"a chain of names", chain},
+      {"a chain of names that is read",
+       "local t = {} for i = 1, 2000 do t[i * 2047] = i end while true do local _ = t[0] end"},
+      {"a short chain", "local t = {} for i = 1, 250 do t[i * 255] = i end while true do local _ = t[0] end"},
+      {"the length of a chain", "local t = " + sparse + " while true do local _ = #t end"},
+      {"sparse pairs", "local t = {} for i = 1, 250 do t[i * 255] = i end while true do for k in pairs(t) do end end"},
+  };
+  for (const auto& [name, lines] : cases) {
+    const auto begin = std::clock();
+    const std::string said = said_by(body(lines));
+    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    EXPECT_NE(said, "") << name;
+    EXPECT_LT(seconds, 2) << name << ": " << said;
+    if (std::getenv("BL_SENTENCES") != nullptr) std::printf("%-32s %.3f s  %s\n", name, seconds, said.c_str());
+  }
+}
+
+// A text of a port with a zero byte is refused before the script can compare it.
+TEST(HostileScript, GetsNoZeroBytesFromPorts) {
+  const auto kind = read_link_script(
+      "bad", "return {id = 'bad', doc = 'x', params = {{id = 'word', default = 'a', doc = 'x'}},\n"
+             "proposes = {move = {at = 'from', port = 'node.position'}},\nevaluate = function(params) return {} end}",
+      full_registry());
+  ASSERT_TRUE(kind.ok()) << kind.error().text();
+  LinkCase link(*kind);
+  EXPECT_EQ(link.set("word", std::string("ab")).run(), "");
+  EXPECT_NE(link.set("word", std::string("a\0b", 3)).run().find("zero byte"), std::string::npos);
 }
 
 }  // namespace

@@ -33,6 +33,41 @@ TEST(Live, RecordedTablesArePlayedAndTheirLogReplaysWithoutThem) {
   EXPECT_NE(place.text("run.log").find("\"author\": \"replay:t.csv#demand\""), std::string::npos) << place.text("run.log");
 }
 
+TEST(Live, RowsThatAreNotPlayedAreToldOf) {
+  const Workplace place;
+  place.write("t.csv", "time,site,demand\n0,a,1000\n500,a,1100\n600,a,\n650,b,7\n700,a,1200\n");
+  place.write("scene.json", scene("replay:t.csv?site=a#demand"));
+  const Outcome played = run(place, "run scene.json --ticks 3");
+  EXPECT_NE(played.out.find("1 of 3 rows played, 2 come after the end of the run, besides 1 without a reading and 1 of others"),
+            std::string::npos)
+      << played.out;
+}
+
+// A recording must not hold a run for good, nor read what lies outside the scene's folder unasked.
+TEST(Live, RecordingsArePlainFilesBesideTheScene) {
+  const Workplace place;
+  std::filesystem::create_directory(place.path("inner"));
+  place.write("t.csv", "time,demand\n0,1000\n");
+  place.write("inner/scene.json", scene("replay:../t.csv#demand"));
+  const Outcome refused = run(place, "run inner/scene.json --ticks 2");
+  EXPECT_NE(refused.err.find("does not lie in the folder of the scene"), std::string::npos) << refused.err;
+  EXPECT_NE(run(place, "run inner/scene.json --ticks 2 --recordings-anywhere").out.find("sensor s: 1 messages"), std::string::npos);
+  place.write("device.json", scene("replay:/dev/zero#demand"));
+  const Outcome device = run(place, "run device.json --ticks 2 --recordings-anywhere");
+  EXPECT_NE(device.err.find("is a device or a pipe"), std::string::npos) << device.err;
+}
+
+// A node that is sensor and actuator says what is wrong with each once.
+TEST(Live, SensorAndActuatorOfOneNodeSpeakForThemselves) {
+  const Workplace place;
+  place.write("scene.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "s", "types": {
+    "sensor": {"address": "mqtt://127.0.0.1:1/t"}, "actuator": {"address": "osc://127.0.0.1:9/a"}}}], "links": []})");
+  const Outcome live = run(place, "run scene.json --live --ticks 60 --rate 100");
+  std::size_t lines = 0;
+  for (std::size_t at = live.err.find("refuses"); at != std::string::npos; at = live.err.find("refuses", at + 1)) ++lines;
+  EXPECT_EQ(lines, 1u) << live.err;
+}
+
 TEST(Live, ConnectionsNeedToBeAskedFor) {
   const Workplace place;
   place.write("scene.json", scene("mqtt://127.0.0.1:1/t"));

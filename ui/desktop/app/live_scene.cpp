@@ -14,19 +14,29 @@ void LiveScene::frame(Editor& editor) {
     connections_.reset();
     editor.deliveries.clear();
     tick_ = -1;
+    entries_ = 0;
     if (number != 0) connections_ = std::make_unique<Connections>(LiveOptions{folder, is_live_, {}});
   }
-  if (!connections_ || !editor.moment || !editor.moment->is_playing || editor.moment->state->tick == tick_) return;
-  tick_ = editor.moment->state->tick;
+  if (!connections_ || !editor.moment) return;
   LiveSession& session = editor.document->session();
-  connections_->follow(session.scene());
-  for (const Report& report : connections_->take(tick_)) {
+  follow(session);
+  std::int64_t tick = editor.moment->state->tick;
+  if (session.do_ticks_wait()) {
+    const auto unserved = session.unserved_tick();
+    if (!unserved) return;
+    tick = *unserved;
+  } else if (!editor.moment->is_playing || tick == tick_) {
+    return;
+  }
+  tick_ = tick;
+  for (const Report& report : connections_->take(tick)) {
     LogEntry entry;
     entry.gesture = session.new_gesture();
     entry.author = report.author;
     entry.command = report.command;
     if (auto done = session.replay(std::move(entry)); !done) editor.tell(NoticeKind::warning, done.error().text());
   }
+  session.serve(tick);
   connections_->send(*editor.moment->state);
   note_deliveries(editor);
 }
@@ -44,6 +54,14 @@ void LiveScene::note_deliveries(Editor& editor) const {
     delivery.problem = status.line;
   }
   editor.deliveries = std::move(now);
+}
+
+void LiveScene::follow(LiveSession& session) {
+  if (entries_ == session.log().size() + 1) return;
+  entries_ = session.log().size() + 1;
+  connections_->follow(session.scene());
+  const bool is_waiting = connections_->has_recordings();
+  if (is_waiting != session.do_ticks_wait()) session.make_ticks_wait(is_waiting);
 }
 
 }  // namespace bl::desktop

@@ -9,20 +9,26 @@
 
 namespace bl::desktop {
 
+// What a recording says belongs to a tick, however fast ticks and frames are: so with recordings, ticks wait for a frame each.
 class LiveScene {
  public:
-  explicit LiveScene(bool is_live) : is_live_(is_live) {}
+  explicit LiveScene(bool is_live) : is_live_(is_live) { ++LiveSession::servers; }
+  ~LiveScene() { --LiveSession::servers; }
+  LiveScene(const LiveScene&) = delete;
+  LiveScene& operator=(const LiveScene&) = delete;
   /// Once for each frame of the window.
   void frame(Editor& editor);
 
  private:
   void note_deliveries(Editor& editor) const;
+  void follow(LiveSession& session);
 
   bool is_live_;
   std::uint64_t document_ = 0;  // its number; 0: none
   std::unique_ptr<Connections> connections_;
-  std::string folder_;      // where the recordings of its sensors are
-  std::int64_t tick_ = -1;  // the last one that was served
+  std::string folder_;       // where the recordings of its sensors are
+  std::int64_t tick_ = -1;   // the last one that was served
+  std::size_t entries_ = 0;  // of the log, when the connections last followed it
 };
 
 }  // namespace bl::desktop

@@ -25,6 +25,16 @@ constexpr std::size_t kKeptStates = 400;
 // New ticks count so much in the smoothed times.
 constexpr double kSmoothing = 0.15;
 
+bool has_recordings(const Scene& scene) {
+  return std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const auto& entry) {
+    const auto sensor = entry.second.types.find("sensor");
+    if (sensor == entry.second.types.end()) return false;
+    const auto address = sensor->second.find("address");
+    const auto* text = address != sensor->second.end() ? std::get_if<std::string>(&address->second) : nullptr;
+    return text != nullptr && text->starts_with("replay:");
+  });
+}
+
 double seconds_now() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
 }  // namespace
@@ -44,6 +54,8 @@ struct LiveSession::Shared {
   int holds = 0;  // people's thread waits for the pause between two ticks; no tick begins meanwhile
   std::int64_t rewind_by = 0;
   bool is_playing = false, is_ending = false, is_ticking = false;
+  bool do_ticks_wait = false;  // for somebody who serves them
+  std::int64_t served = -1;    // the last tick that was
   double wanted_rate = 20;
   std::size_t shown_entries = 0;         // of the log: what they have said is in what is published
   std::shared_ptr<const State> preview;  // the last tick's state with what people have changed since; none where they have not
@@ -61,6 +73,7 @@ struct LiveSession::Shared {
   void run();
   bool tick(std::unique_lock<std::mutex>& lock);
   void go_back(std::int64_t ticks);
+  bool is_held_up() const { return do_ticks_wait && served != simulation.state()->tick; }
   bool is_news() const { return !is_playing && steps_due == 0 && shown_entries != ledger.log().size(); }
   void show_changes(std::unique_lock<std::mutex>& lock);
   void gather_changes();
@@ -186,6 +199,7 @@ void LiveSession::Shared::run() {
     if (rewind_by > 0) {
       go_back(std::exchange(rewind_by, 0));
       preview = nullptr;
+      served = -1;
       shown_entries = 0;
       next_tick = simulation.state()->tick;
       publish();
@@ -194,7 +208,7 @@ void LiveSession::Shared::run() {
     // A clock that has been set to go faster does not wait as long as it was to wait before.
     const auto step = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / wanted_rate));
     due = std::min(due, last_tick + step);
-    const bool is_due = steps_due > 0 || (is_playing && Clock::now() >= due);
+    const bool is_due = !is_held_up() && (steps_due > 0 || (is_playing && Clock::now() >= due));
     if (is_due) {
       // A late tick is not made up for: the clock goes on from now, so that ticks never queue behind themselves.
       due = std::max(Clock::now(), due + step);
@@ -208,7 +222,7 @@ void LiveSession::Shared::run() {
       continue;
     }
     done.notify_all();
-    if (is_playing) wake.wait_until(lock, due);
+    if (is_playing && !is_held_up()) wake.wait_until(lock, due);
     else wake.wait(lock);
   }
 }
@@ -225,6 +239,7 @@ Result<std::unique_ptr<LiveSession>> LiveSession::start(const Registry& registry
   if (state != nullptr)
     if (auto restored = shared.simulation.restore_state(*state); !restored) return restored.error();
   shared.next_tick = shared.simulation.state()->tick;
+  shared.do_ticks_wait = servers > 0 && has_recordings(scene);
   shared.publish();
   shared.thread = std::thread([&shared] { shared.run(); });
   return session;
@@ -292,6 +307,35 @@ void LiveSession::step(int ticks) {
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->steps_due += std::max(0, ticks);
+  }
+  shared_->wake.notify_all();
+}
+
+void LiveSession::make_ticks_wait(bool is_waiting) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->do_ticks_wait = is_waiting;
+  }
+  shared_->wake.notify_all();
+}
+
+bool LiveSession::do_ticks_wait() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->do_ticks_wait;
+}
+
+std::optional<std::int64_t> LiveSession::unserved_tick() const {
+  const std::lock_guard lock(shared_->mutex);
+  const Shared& shared = *shared_;
+  const bool is_wanted = shared.is_playing || shared.steps_due > 0;
+  if (shared.is_ticking || shared.rewind_by > 0 || !is_wanted || !shared.is_held_up()) return std::nullopt;
+  return shared.simulation.state()->tick;
+}
+
+void LiveSession::serve(std::int64_t tick) {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->served = tick;
   }
   shared_->wake.notify_all();
 }

@@ -1,9 +1,11 @@
 // A scene that ticks on a thread of its own while a window edits it: commands take effect at once, ticks never wait for people.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,15 @@ class LiveSession {
   void set_rate(double ticks_per_second);
   /// So many ticks, whether it plays or not.
   void step(int ticks);
+  /// Where ticks wait to be served: each begins only when serve() has been called for the tick before it, as recordings need it
+  /// that say for each tick what is read in it. Scenes with recordings begin like this
+  /// as long as there are `servers`.
+  void make_ticks_wait(bool is_waiting);
+  bool do_ticks_wait() const;
+  /// The tick after which one is due that waits; nothing where none is, or none waits.
+  std::optional<std::int64_t> unserved_tick() const;
+  void serve(std::int64_t tick);
+  static inline std::atomic<int> servers = 0;
   /// Goes back to a tick that is still kept, or to the oldest that is; the scene stays as it is. `on_rewind` hears of it.
   void rewind(std::int64_t ticks);
   void on_rewind(std::function<void()> listener) { rewound_ = std::move(listener); }

@@ -17,6 +17,7 @@ namespace bl::desktop {
 namespace {
 
 constexpr std::int64_t kMostPixels = 120'000'000;
+constexpr std::uintmax_t kMostBytes = 1u << 30;
 
 // Every two by two pixels become one.
 void halve(DecodedPicture& picture) {
@@ -44,7 +45,7 @@ void halve(DecodedPicture& picture) {
 DecodedPicture decode_picture(const std::string& path) {
   DecodedPicture picture;
   picture.standing = DecodedPicture::Standing::failed;
-  const auto bytes = read_file(path);
+  const auto bytes = read_plain_file(path, kMostBytes);
   if (!bytes) {
     picture.reason = bytes.error().message;
     return picture;
