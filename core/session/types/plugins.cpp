@@ -114,7 +114,7 @@ Error nothing_in(const std::string& folder) {
   return refused(ErrorCode::missing, folder,
                  std::string("there is no plugin (.so) in this folder") +
                      (!inside.empty() ? "; " + inside + " has one"
-                      : has_sources   ? "; these are sources: build them by `./bl plugin " + folder + "`, which says where the library is"
+                      : has_sources   ? "; these are sources: build them by `./bl plugin '" + folder + "'`, which says where the library is"
                                       : "; build one by `./bl plugin FOLDER`, which says where it is"));
 }
 
