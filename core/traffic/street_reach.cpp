@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/traffic/district_turns.h"
 #include "core/traffic/reach.h"
 
 namespace bl {
@@ -14,7 +15,6 @@ namespace {
 
 // Where one comes from; junctions are told apart from it by their prefix.
 constexpr const char* kOrigin = "origin";
-std::string junction_name(const std::string& id) { return "j:" + id; }
 
 TrafficLink way(std::string id, std::string from, std::string to, double seconds) {
   TrafficLink link;
@@ -27,22 +27,39 @@ TrafficLink way(std::string id, std::string from, std::string to, double seconds
   return link;
 }
 
-Result<TrafficNetwork> network_of(std::span<const ReachStreet> streets, std::span<const ReachEntry> entries) {
+std::vector<ForbiddenTurn> turns_of(std::span<const ReachStreet> streets, std::span<const TrafficLink> links,
+                                    std::span<const DistrictRules> rules) {
+  std::vector<DistrictStreet> known;
+  for (const ReachStreet& street : streets) {
+    DistrictStreet& one = known.emplace_back();
+    one.id = street.id;
+    one.start = street.start;
+    one.end = street.end;
+    one.is_one_way = !std::isfinite(street.back);
+  }
+  std::vector<DistrictResult::Rules> unread;  // the network of the scene has told what does not hold
+  return forbidden_turns(rules, known, links, unread);
+}
+
+Result<TrafficNetwork> network_of(std::span<const ReachStreet> streets, std::span<const ReachEntry> entries,
+                                  std::span<const DistrictRules> rules) {
   std::set<std::string> junctions;
   std::vector<TrafficLink> links;
   for (const ReachStreet& street : streets) {
     if (street.start == street.end) continue;
     junctions.insert({street.start, street.end});
-    const std::string start = junction_name(street.start), end = junction_name(street.end);
+    const std::string start = junction_node(street.start), end = junction_node(street.end);
     if (std::isfinite(street.forth)) links.push_back(way(street.id + ":forth", start, end, street.forth));
     if (std::isfinite(street.back)) links.push_back(way(street.id + ":back", end, start, street.back));
   }
+  const std::vector<ForbiddenTurn> turns = turns_of(streets, links, rules);
   std::vector<TrafficNode> nodes{{kOrigin, false}};
-  for (const std::string& id : junctions) nodes.push_back({junction_name(id), true});
+  for (const std::string& id : junctions) nodes.push_back({junction_node(id), true});
   std::set<std::string> entered;
   for (const ReachEntry& entry : entries)
     if (junctions.contains(entry.junction) && entered.insert(entry.junction).second)
-      links.push_back(way(":" + entry.junction, kOrigin, junction_name(entry.junction), entry.seconds));
+      links.push_back(way(":" + entry.junction, kOrigin, junction_node(entry.junction), entry.seconds));
+  if (auto split = forbid_turns(nodes, links, turns); !split) return split.error();
   return TrafficNetwork::make(std::move(nodes), std::move(links));
 }
 
@@ -76,8 +93,8 @@ void lay_over(std::size_t street, std::span<const std::array<double, 2>> shares,
 }  // namespace
 
 Result<std::vector<ReachedPart>> reached_parts(std::span<const ReachStreet> streets, std::span<const ReachEntry> entries,
-                                               std::span<const double> times) {
-  const auto network = network_of(streets, entries);
+                                               std::span<const double> times, std::span<const DistrictRules> rules) {
+  const auto network = network_of(streets, entries, rules);
   if (!network) return network.error();
   std::vector<double> costs;
   for (std::uint32_t l = 0; l < network->link_count(); ++l) costs.push_back(network->cost(l, 0));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/traffic/district.h"
 #include "core/traffic/shortest_paths.h"
 
 namespace bl {
@@ -30,8 +31,8 @@ struct ReachedPart {
 };
 
 /// Ascending street and share; what is out of reach is left out. `times` ascending [s]. Entries at junctions that no street has
-/// lead nowhere. An error's place is the id of what is wrong.
+/// lead nowhere. Rules of turning hold as they do for the trips of a district. An error's place is the id of what is wrong.
 Result<std::vector<ReachedPart>> reached_parts(std::span<const ReachStreet> streets, std::span<const ReachEntry> entries,
-                                               std::span<const double> times);
+                                               std::span<const double> times, std::span<const DistrictRules> rules = {});
 
 }  // namespace bl

@@ -44,6 +44,17 @@ TEST(StreetReach, OneWayStreetsAreReachedFromTheirStartOnly) {
   EXPECT_EQ(parts_of(streets, {{"b", 0}}, {50}), Parts{});
 }
 
+TEST(StreetReach, ForbiddenTurnsAreNotTaken) {
+  const std::vector<ReachStreet> streets{{"in", "a", "b", 100, 100}, {"left", "b", "c", 100, 100}, {"on", "b", "d", 100, 100}};
+  const std::vector<ReachEntry> entries{{"a", 0}};
+  const std::vector<double> times{150};
+  const std::vector<DistrictRules> rules{{"b", {{"in", "left", "no"}}}};
+  EXPECT_EQ(*reached_parts(streets, entries, times), (Parts{{0, 0, 0, 1}, {1, 0, 0, 0.5}, {2, 0, 0, 0.5}}));
+  EXPECT_EQ(*reached_parts(streets, entries, times, rules), (Parts{{0, 0, 0, 1}, {2, 0, 0, 0.5}}));
+  const std::vector<ReachEntry> there{{"b", 0}};
+  EXPECT_EQ(reached_parts(streets, there, times, rules)->size(), 3u) << "who sets out there may go anywhere";
+}
+
 TEST(StreetReach, BrokenNumbersAreAnErrorWithAPlace) {
   const auto parts = reached_parts(std::vector<ReachStreet>{{"s", "a", "b", -5, kUnreached}}, std::vector<ReachEntry>{{"a", 0}},
                                    std::vector<double>{50});

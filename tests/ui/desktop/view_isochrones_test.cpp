@@ -61,7 +61,26 @@ class ViewIsochrones : public ::testing::Test {
 
 TEST_F(ViewIsochrones, AgreeOnFootWithTheTimesThatTheZoneLists) { EXPECT_GT(compare(false), 100u); }
 
-TEST_F(ViewIsochrones, AgreeByCarWithTheTimesAtTheFlowsOfTheTick) { EXPECT_GT(compare(true), 100u); }
+TEST_F(ViewIsochrones, AgreeByCarWithTheTimesAtTheFlowsOfTheTick) {
+  EXPECT_GT(compare(true), 100u);
+  set("j_nw", "junction.delay", "25");
+  desktop.ticks(3);
+  EXPECT_GT(compare(true), 100u) << "with a wait at a junction";
+}
+
+TEST_F(ViewIsochrones, MindTheRulesOfTurning) {
+  const auto bands = [&] { return isochrones_of(state(), index("library"), true)->parts.size(); };
+  const std::size_t before = bands();
+  ASSERT_TRUE(editor().submit(command<Typify>({"j_nw", "turn_rules", {"{}"}})));
+  std::string rows;
+  for (const StreetFacts& from : streets())
+    for (const StreetFacts& to : streets())
+      if ((from.start == index("j_nw") || from.end == index("j_nw")) && (to.start == index("j_nw") || to.end == index("j_nw")))
+        rows += (rows.empty() ? "" : ", ") + ("{\"from\": \"" + from.id + "\", \"to\": \"" + to.id + "\"}");
+  set("j_nw", "turn_rules.turns", "[" + rows + "]");
+  desktop.ticks(3);
+  EXPECT_LT(bands(), before) << "nobody goes on from that corner";
+}
 
 TEST_F(ViewIsochrones, BeginAtJunctionsAsWellAndNowhereElse) {
   const auto gate = isochrones_of(state(), index("j_w"), false);

@@ -53,6 +53,19 @@ ReachStreet way_along(const State& state, std::uint32_t street, bool by_car, dou
   return way;
 }
 
+// Turns are forbidden to cars alone.
+std::vector<DistrictRules> rules_of(const State& state, const std::vector<std::uint32_t>& junctions) {
+  std::vector<DistrictRules> all;
+  for (const std::uint32_t junction : junctions) {
+    const Table* turns = report::table_at(state, junction, "turn_rules", "turns");
+    if (turns == nullptr) continue;
+    DistrictRules& rules = all.emplace_back(DistrictRules{state.plan->nodes[junction].id, {}});
+    for (std::size_t row = 0; row < turns->rows.size(); ++row)
+      rules.turns.push_back({turns->text(row, "from"), turns->text(row, "to"), turns->text(row, "rule")});
+  }
+  return all;
+}
+
 std::vector<ReachEntry> entries_of(const State& state, std::uint32_t node, double walking_speed) {
   const std::string& own = state.plan->nodes[node].id;
   const auto* access = shared_at<std::vector<std::string>>(state, node, kZone, "access");
@@ -96,7 +109,9 @@ std::shared_ptr<const Isochrones> isochrones_of(const State& state, std::uint32_
   std::vector<ReachStreet> ways;
   for (const std::uint32_t street : streets) ways.push_back(way_along(state, street, by_car, found->walking_speed));
   const std::vector<ReachEntry> entries = entries_of(state, node, found->walking_speed);
-  const auto parts = reached_parts(ways, entries, found->times);
+  const auto parts =
+      reached_parts(ways, entries, found->times,
+                    by_car ? rules_of(state, members_of(plan, network, "junctions")) : std::vector<DistrictRules>{});
   if (!parts) found->reason = "`" + parts.error().place + "`: " + parts.error().message;
   else
     for (const ReachedPart& part : *parts) found->parts.push_back({streets[part.street], part.begin, part.end, part.band});
