@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/demand_limit.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 #include "core/geometry/plan_ring.h"
@@ -63,7 +64,7 @@ struct PlotRules {
     out.limits.values.resize(count);
     if (ends.polygon.size() < 3) return out;
     std::vector<bool> is_on_plot;
-    double share = kLeast;
+    double share = kLeastGranted;
     for (std::size_t i = 0; i < count; ++i) {
       is_on_plot.push_back(ring_contains(ends.polygon, ends.centroids.values[i]));
       if (is_on_plot[i]) share = std::max(share, granted(ends, i));
@@ -74,23 +75,17 @@ struct PlotRules {
     for (std::size_t i = 0; i < count; ++i) {
       if (!is_on_plot[i]) continue;
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
-      double limit = std::max(kLeast, share * (1 + in.gain * (room - 1)));
+      double limit = share * (1 + in.gain * (room - 1));
       const double top = ends.bottoms.values[i] + ends.heights.values[i] - ends.ground;
       if (in.hold_height)
-        limit = std::min(limit, std::max(kLeast, granted(ends, i) * (1 + in.gain * (allowed(ends.height_max, top) - 1))));
-      out.limits.values[i] = ends.demands.values[i] * limit;
+        limit = std::min(limit, granted(ends, i) * (1 + in.gain * (allowed(ends.height_max, top) - 1)));
+      out.limits.values[i] = limit_that_grants(ends.demands.values[i], limit);
     }
     return out;
   }
 
  private:
-  static constexpr double kLeast = 1e-6;  // never quite nothing, so that it can grow again
-
-  // The share of its demand that a volume's limit leaves it now.
-  static double granted(const Ends& ends, std::size_t i) {
-    const double demand = ends.demands.values[i];
-    return demand > 0 ? std::clamp(ends.limits.values[i] / demand, kLeast, 1.0) : kLeast;
-  }
+  static double granted(const Ends& ends, std::size_t i) { return granted_share(ends.demands.values[i], ends.limits.values[i]); }
 
   // How many times what there is now is allowed, at most twice.
   static double allowed(double most, double now) { return now > 0 ? std::min(most / now, 2.0) : 2; }

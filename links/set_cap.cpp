@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/base/demand_limit.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -54,17 +55,17 @@ struct SetCap {
     if (!(ends.total > 0)) return out;
     const double answer = 1 + in.gain * (std::min(in.cap / ends.total, 2.0) - 1);
     const double share = share_granted(ends) * answer;
-    for (std::size_t i = 0; i < out.limits.values.size(); ++i) out.limits.values[i] = ends.demands.values[i] * share;
+    for (std::size_t i = 0; i < out.limits.values.size(); ++i) out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
     return out;
   }
 
  private:
   // The proportion of the demands that the limits leave now: that of the least limited volume, because limits of others may
-  // hold back some. Never quite nothing, so that it can grow again.
+  // hold back some.
   static double share_granted(const Ends& ends) {
-    double share = 1e-6;
+    double share = kLeastGranted;
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
-      if (ends.demands.values[i] > 0) share = std::max(share, std::min(1.0, ends.limits.values[i] / ends.demands.values[i]));
+      share = std::max(share, granted_share(ends.demands.values[i], ends.limits.values[i]));
     return share;
   }
 };

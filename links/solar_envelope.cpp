@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/demand_limit.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 #include "core/sun/shadow_shape.h"
@@ -92,8 +93,8 @@ struct SolarEnvelope {
     if (in.mode == Mode::move) return beyond > 0 ? Out{normal * (-in.gain * beyond * ends.radius), {}} : Out{};
     // Between half the tolerance and all of it the limit rests; below it the volume may grow again.
     const double room = std::min(0.5, std::max(0.0, -beyond - 0.5 * in.tolerance));
-    const double now = std::max(1e-6 * ends.demand, std::min(ends.limit, ends.demand));
-    return Out{{}, now * (1 - in.gain * std::clamp(beyond, 0.0, 0.5)) * (1 + in.gain * room)};
+    const double answer = (1 - in.gain * std::clamp(beyond, 0.0, 0.5)) * (1 + in.gain * room);
+    return Out{{}, limit_that_grants(ends.demand, granted_share(ends.demand, ends.limit) * answer)};
   }
 };
 

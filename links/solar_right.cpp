@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/base/direction.h"
+#include "core/base/demand_limit.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -33,8 +34,8 @@ struct SolarRight {
         .label("Solar right")
         .doc(
             "Defends the sun that a receiver needs. While points of it are short of it, the volumes in the way give way: the "
-            "worst "
-            "one most, the others in proportion to what they take, and none once the need is met.");
+            "worst one most, the others in proportion to what they take, and none once the need is met. Who takes next to nothing "
+            "is not held back.");
     l.param(&In::mode, "mode",
             {{Mode::lower, "lower", "The volume's position sinks, no lower than the foot of its shape: it grows wide, not high."},
              {Mode::move, "move", "The volume moves away in plan."},
@@ -64,6 +65,8 @@ struct SolarRight {
     l.proposes(&Out::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
+  static constexpr double kLittle = 0.05;  // of what the worst one takes
+
   // What is missing beyond the tolerance, as a share of what is required; what no caster takes cannot be asked of one.
   static double shortage(const In& in, const Ends& ends) {
     const double unavoidable = std::max(0.0, ends.required - ends.possible);
@@ -90,17 +93,16 @@ struct SolarRight {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     if (!(ends.required > 0)) return Out{};
-    const double missing = shortage(in, ends), answer = in.gain * std::max(0.0, missing) * share_of(ends);
+    const double share = share_of(ends), missing = shortage(in, ends), answer = in.gain * std::max(0.0, missing) * share;
     if (in.mode == Mode::lower) {
       const double fall = answer * std::max(0.0, ends.position.z - ends.bottom);
       return fall > 0 ? Out{Vector3{0, 0, -fall}, {}} : Out{};
     }
     if (in.mode == Mode::move) return answer * ends.radius > 0 ? Out{away(ends) * (answer * ends.radius), {}} : Out{};
-    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Never
-    // quite nothing, so that the volume can grow again.
-    const double room = std::max(0.0, -missing - 0.5 * in.tolerance);
-    const double now = std::max(1e-6 * ends.demand, std::min(ends.limit, ends.demand));
-    return Out{{}, now * (1 - answer) * (1 + in.gain * room)};
+    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Who
+    // takes little may grow nevertheless: what others limit, or limited once, is not ours to hold.
+    const double room = std::max({0.0, -missing - 0.5 * in.tolerance, 1 - share / kLittle});
+    return Out{{}, limit_that_grants(ends.demand, granted_share(ends.demand, ends.limit) * (1 - answer) * (1 + in.gain * room))};
   }
 };
 

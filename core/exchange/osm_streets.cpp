@@ -32,7 +32,8 @@ class Streets {
       ++visits_[way->nodes.front()];
       ++visits_[way->nodes.back()];
     }
-    for (const auto& [way, road] : roads) cut(*way, road);
+    for (std::size_t i = 0; i < roads.size() && in_.goes_on("streets", i, roads.size()); ++i)
+      cut(*roads[i].first, roads[i].second);
     for (std::size_t i = 0; i < in_.store->relations.size(); ++i)
       if (tag_of(in_.store->relations[i].tags, "type") == "restriction") restrict(in_.store->relations[i], in_.relations[i]);
   }
@@ -81,6 +82,7 @@ class Streets {
     street.line = in_.places(nodes, missing);
     if (!out_of_reach(*in_.options, street.line).empty()) return false;
     street.id = "w" + std::to_string(way.id) + "/" + std::to_string(number);
+    street.row = in_.index_of(in_.row_of(way));
     street.name = tag_of(way.tags, "name");
     street.street_class = road.road_class;
     street.start = junction(nodes.front(), street.line.front());

@@ -80,8 +80,7 @@ class Compiler {
     link.is_muted = record.is_muted;
     link.strength = record.strength;
     if (link.definition == nullptr) {
-      link.error =
-          Error{ErrorCode::unknown_type, "links/" + link.id, "unknown link kind `" + record.kind + "`: kept as it is, not run"};
+      link.error = Error{ErrorCode::unknown_type, "links/" + link.id, why_it_rests(record.kind)};
       return;
     }
     std::vector<Value> values;
@@ -100,6 +99,15 @@ class Compiler {
     }
     link.is_symmetric = link.nodes[0] == link.nodes[1] && link.nodes[0].size() > 1;
     if (auto ports = resolve_ports(link, values); !ports) link.error = ports.error().within("links/" + link.id);
+  }
+
+  std::string why_it_rests(const std::string& kind) const {
+    if (registry_.link(kind) != nullptr)
+      return "the link does not fit its kind `" + kind + "`: kept as it is, not run; correct it in the scene file";
+    std::string guess = did_you_mean(kind, keys_of(registry_.links()));
+    return "unknown link kind `" + kind + "`: kept as it is, not run" +
+           (guess.empty() ? "; a Lua file of yours is put into the scene by `script` or --script, a library is named by --plugins FOLDER"
+                          : guess);
   }
 
   // Every path of the declaration at this end, with parameters put in for chosen ones.
@@ -138,12 +146,19 @@ class Compiler {
           return Error{ErrorCode::missing, "", "choose the port that `" + link.definition->id + "` works on"};
         return Error{ErrorCode::conflict, std::string(name_of(end)),
                      "the node `" + id + "` has no `" + path.typification + "." + path.port + "`, which `" + link.definition->id +
-                         "` needs"};
+                         "` needs" + nearest_port(path)};
       }
     }
     if (nodes.empty())
       return Error{ErrorCode::not_found, std::string(name_of(end)), "no node fits this end; the link does nothing"};
     return nodes;
+  }
+
+  // ", did you mean `radius`?" for a misspelt port of a known typification.
+  std::string nearest_port(const PortPath& path) const {
+    const TypificationDefinition* type = registry_.typification(path.typification);
+    if (type == nullptr) return did_you_mean(path.typification, keys_of(registry_.typifications()));
+    return type->find_port(path.port) != nullptr ? "" : did_you_mean(path.port, port_ids(*type));
   }
 
   Result<void> check_units(std::uint32_t node, const std::vector<std::pair<PortPath, const std::optional<Unit>*>>& wanted) const {

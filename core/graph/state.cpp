@@ -76,7 +76,7 @@ std::uint64_t hash_of(const State& state) {
 }
 
 SavedState save(const State& state) {
-  SavedState saved{state.tick, state.calm, {}, {}, {}};
+  SavedState saved{state.tick, state.calm, {}, {}, {}, {}};
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
     auto& values = saved.nodes[state.plan->nodes[n].id];
     for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t) {
@@ -104,6 +104,12 @@ SavedState save(const State& state) {
                                                      now.running_inputs,
                                                      now.running ? now.running->result() : AnalysisResult{}};
   }
+  // What a failing solver leaves standing cannot be made again from inputs that it refuses.
+  for (const SetPlan& set : state.plan->sets)
+    if (state.nodes[set.node].types[set.type].error)
+      for (const PortRef& ref : set.writes)
+        if (const auto* mesh = std::get_if<MeshPointer>(&state.value(ref)); mesh != nullptr && *mesh)
+          saved.meshes[{state.plan->nodes[ref.node].id, state.plan->path_text(ref)}] = *mesh;
   return saved;
 }
 
@@ -127,8 +133,12 @@ void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& af
                 const std::set<std::string>& placed) {
   for (std::size_t p = 0; p < after.definition->ports.size(); ++p) {
     const PortDefinition& port = after.definition->ports[p];
+    // What links have agreed on is a part of what runs: a limit that is tightened tick by tick reads itself. An edit elsewhere
+    // must not let it go; an edit of the port itself starts from what people say.
+    const bool is_agreed = port.rule != CombineRule::none && before.is_locked[p] == after.is_locked[p] &&
+                           before.set_values[p] == after.set_values[p];
     // What nobody computes any more goes back to its defaults, which say so.
-    const bool is_lasting = (port.is_computed && after.is_served) || port.rule == CombineRule::sum;
+    const bool is_lasting = (port.is_computed && after.is_served) || port.rule == CombineRule::sum || is_agreed;
     if (is_lasting && !placed.contains(port.id)) fresh.values[p] = old.values[p];
   }
   fresh.error = old.error;
@@ -207,6 +217,13 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
       if (!ref) return ref.error();
       state.nodes[ref->node].types[ref->type].values[ref->port] = value;
     }
+  for (const auto& [target, mesh] : saved.meshes) {
+    const auto ref = find(target.first, target.second);
+    if (!ref) return ref.error();
+    if (state.plan->port(*ref).kind != ValueKind::mesh)
+      return Error{ErrorCode::wrong_kind, "state/meshes/" + target.first, "`" + target.second + "` is no mesh"};
+    state.nodes[ref->node].types[ref->type].values[ref->port] = mesh;
+  }
   for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
     const auto held = saved.held.find(state.plan->links[l].id);
     if (held == saved.held.end()) continue;
@@ -216,6 +233,8 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
       if (!ref) return ref.error();
       state.links[l].voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
     }
+    std::sort(state.links[l].voices.begin(), state.links[l].voices.end(),
+              [](const Voice& a, const Voice& b) { return a.target < b.target; });
   }
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const auto kept = saved.analyses.find(analysis_name(*state.plan, a));

@@ -14,6 +14,13 @@ namespace bl {
 
 namespace {
 
+// Streets that let pass fewer are closed [1/h]: nobody could wait for them.
+constexpr double kLeastCapacity = 1e-9;
+// A pair with a smaller share of what leaves a zone has no trips: halved tick by tick, it would never come to an end.
+constexpr double kLeastShare = 1e-9;
+// Where a smaller share of the trips wants to go elsewhere, all stay: else the last digits would never come to rest.
+constexpr double kRest = 1e-7;
+
 std::string zone_name(const std::string& id) { return "z:" + id; }
 
 class District {
@@ -31,14 +38,17 @@ class District {
     if (auto made = make_network(); !made) return made.error();
     find_indices();
     const std::vector<TripDemand> before = trips_of(last);
-    equilibrium_ = std::make_unique<Equilibrium>(*network_, before, flows_of(last));
+    const std::vector<OriginFlow> flows = flows_of(last);
+    equilibrium_ = std::make_unique<Equilibrium>(*network_, before, flows);
     equilibrium_->set_demands(trips_wanted(before));
     for (int i = 0; i < settings_.steps && equilibrium_->figures().gap > settings_.gap; ++i) equilibrium_->iterate();
     read_totals();
     for (std::size_t s = 0; s < streets_.size(); ++s) read_street(s);
     read_zones();
     if (auto read = read_reach(); !read) return read.error();
-    remember();
+    out_.is_at_rest = has_same_trips_ && out_.iterations == 0 && before.size() == last.trips.size() && flows.size() == last.flows.size();
+    if (out_.is_at_rest) out_.state = last;
+    else remember();
     return std::move(out_);
   }
 
@@ -87,15 +97,16 @@ class District {
         street.length > 0 ? street.length : distance(junctions_[start->second].position, junctions_[end->second].position);
     if (!street.is_for_cars) result.reason = "it is for walking only";
     else if (!street.is_open) result.reason = "it is closed";
+    else if (street.capacity < kLeastCapacity) result.reason = "its capacity is next to nothing, so that it counts as closed";
     if (!result.reason.empty()) return;
     const double time = result.length / street.speed;
     links.push_back({street.id + ":forth", junction_node(street.start), junction_node(street.end),
-                     time + junctions_[end->second].delay, street.capacity, settings_.alpha, settings_.beta, result.length,
-                     street.toll, true});
+                     time, street.capacity, settings_.alpha, settings_.beta, result.length, street.toll, true,
+                     junctions_[end->second].delay});
     if (street.is_one_way) return;
     links.push_back({street.id + ":back", junction_node(street.end), junction_node(street.start),
-                     time + junctions_[start->second].delay, street.capacity, settings_.alpha, settings_.beta, result.length,
-                     street.toll, true});
+                     time, street.capacity, settings_.alpha, settings_.beta, result.length, street.toll, true,
+                     junctions_[start->second].delay});
   }
 
   // On foot between a zone and its junctions.
@@ -121,7 +132,7 @@ class District {
       access_.push_back(in);
     }
     if (!unknown.empty()) out_.zones[z].reason = "its access " + unknown + " is no junction of this network";
-    else if (!is_attached) out_.zones[z].reason = "it has no access: lay a link to a junction";
+    else if (!is_attached) out_.zones[z].reason = "it has no access: lay a link to a junction, or allow a longer walk to one";
   }
 
   void find_indices() {
@@ -170,23 +181,29 @@ class District {
     measure_times();
     const TripDistribution wanted = distribute_trips(times_, leaving, arriving, settings_.fade, settings_.constraint);
     for (const TripDemand& trip : before) last[zone_at_[trip.origin] * n + zone_at_[trip.destination]] += trip.trips;
-    double apart = 0, all = 0;
+    double apart = 0, all = 0, changed = 0;
     std::vector<TripDemand> trips;
     for (std::size_t i = 0; i < n; ++i) {
       // A zone whose sum has changed follows at once; only where its trips go is approached.
       double sum = 0, aim = 0;
-      for (std::size_t j = 0; j < n; ++j) sum += last[i * n + j], aim += wanted.trips[i * n + j];
+      for (std::size_t j = 0; j < n; ++j) {
+        // Who cannot be reached any more is not waited for: those trips end elsewhere at once.
+        if (times_[i * n + j] == kUnreached) last[i * n + j] = 0;
+        sum += last[i * n + j], aim += wanted.trips[i * n + j];
+      }
       for (std::size_t j = 0; j < n; ++j) {
         const double goal = wanted.trips[i * n + j], held = sum > 0 ? last[i * n + j] * (aim / sum) : goal;
         apart += std::abs(goal - held);
         all += goal;
+        changed += std::abs(last[i * n + j] - held);
         const double trip = held + settings_.haste * (goal - held);
-        if (trip > 0) trips.push_back({zone_nodes_[i], zone_nodes_[j], trip});
+        if (trip > kLeastShare * aim) trips.push_back({zone_nodes_[i], zone_nodes_[j], trip});
       }
       tell_lost(i, wanted.lost[i]);
     }
     out_.restlessness = all > 0 ? apart / all : 0;
-    return trips;
+    has_same_trips_ = apart <= kRest * all && changed <= kRest * all && trips.size() == before.size();
+    return has_same_trips_ ? before : trips;
   }
 
   void tell_lost(std::size_t z, double lost) {
@@ -258,7 +275,8 @@ class District {
     for (TrafficLink& link : links) link.length = link.free_time * settings_.walking_speed;
     for (std::size_t s = 0; s < streets_.size(); ++s) {
       const DistrictStreet& street = streets_[s];
-      if (!street.is_open || out_.streets[s].length <= 0) continue;
+      const bool has_ends = junction_at_.contains(street.start) && junction_at_.contains(street.end) && street.start != street.end;
+      if (!street.is_open || !has_ends) continue;
       const std::string start = junction_node(street.start), end = junction_node(street.end);
       links.push_back({street.id + ":forth", start, end, 0, 0, 0, 1, out_.streets[s].length, 0, true});
       links.push_back({street.id + ":back", end, start, 0, 0, 0, 1, out_.streets[s].length, 0, true});
@@ -304,6 +322,7 @@ class District {
   std::vector<std::uint32_t> zone_nodes_;
   std::map<std::uint32_t, std::size_t> zone_at_;  // the other way round
   std::vector<double> times_;                     // from zone i to zone j at [i · zones + j]
+  bool has_same_trips_ = false;  // as in the last step
   DistrictResult out_;
 };
 

@@ -48,13 +48,17 @@ TEST(SolarRight, TheNeedMetNobodyGivesWay) {
     ASSERT_EQ(nearly.run(), "");
     EXPECT_LT(norm(nearly.move(End::to)), 0.01) << mode;
   }
-  auto rests = right("shave", "tower", 300), grows = right("shave", "tower", 0), stranger = right("shave", "shed");
+  auto rests = right("shave", "tower", 300), grows = right("shave", "tower", 0), stranger = right("shave", "shed"),
+       freed = right("shave", "shed");
+  freed.to("smart_volume.demand_limit", 5000.0);
   rests.to("smart_volume.demand_limit", 5000.0);
   grows.to("smart_volume.demand_limit", 5000.0);
-  for (LinkCase* link : {&rests, &grows, &stranger}) ASSERT_EQ(link->run(), "");
+  for (LinkCase* link : {&rests, &grows, &stranger, &freed}) ASSERT_EQ(link->run(), "");
   EXPECT_EQ(limit(rests), 5000);
   EXPECT_NEAR(limit(grows), 5000 * (1 + 0.5 * 0.025), 1e-9);
-  EXPECT_EQ(limit(stranger), 8000);  // takes nothing, so nothing is asked of it
+  // Takes nothing, so nothing is asked of it; what held it back once is let go though the garden is still short.
+  EXPECT_FALSE(stranger.proposed(End::to, "smart_volume.demand_limit").has_value());
+  EXPECT_DOUBLE_EQ(limit(freed), 5000 * (1 + 0.5));
 }
 
 TEST(SolarRight, WhatNoCasterTakesIsAskedOfNone) {

@@ -31,6 +31,7 @@ int run_command(const RunOptions& options);
 struct ScriptOptions {
   std::string scene, out, extract;
   std::vector<std::string> files, removed;
+  bool is_forced = false;
 };
 int script_command(const ScriptOptions& options);
 
@@ -64,6 +65,7 @@ struct PlaceOptions {
   std::string into, out;
   std::vector<double> at;  ///< nothing, or x, y, z [m]
   MediaOptions media;
+  bool is_forced = false;
 };
 int place_command(const PlaceOptions& options);
 

@@ -1,6 +1,5 @@
 // `compare`: runs two scenes and tells every indicator that differs, with what people set differently.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "core/base/text.h"
@@ -8,8 +7,8 @@
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
+#include "ui/cli/live_run.h"
 #include "ui/cli/report/comparison.h"
-#include "ui/cli/report/figures.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/settle_watch.h"
 #include "ui/cli/terminal.h"
@@ -22,21 +21,21 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 constexpr std::size_t kMostRows = 30;
 
-std::shared_ptr<const State> outcome_of(const std::string& file, const CompareOptions& options) {
-  auto reading = load_scene(file);
-  if (!reading) return nullptr;
-  auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options.threads);
+std::shared_ptr<const State> outcome_of(const std::string& file, const SceneReading& reading, const CompareOptions& options) {
+  auto session = Session::start(full_registry(), reading.scene, reading.state ? &*reading.state : nullptr, options.threads);
   if (!session) {
     print_error(file, session.error());
     return nullptr;
   }
   const long long most = options.ticks >= 0 ? options.ticks : options.max_ticks;
   SettleWatch watch;
+  LiveRun recordings(file, false, 0);
   Progress progress;
   std::shared_ptr<const State> before;
   for (long long done = 0; done < most && !is_interrupted(); ++done) {
     if (options.ticks < 0 && (*session)->state()->is_settled()) break;
     before = (*session)->state();
+    recordings.before_tick(**session);
     (*session)->tick();
     if (progress.is_due()) progress.show(file + ": tick " + std::to_string((*session)->state()->tick));
     if (options.ticks < 0 && watch.is_hopeless(*(*session)->state())) break;
@@ -52,12 +51,7 @@ void print_rows(const std::vector<report::IndicatorRow>& rows, std::size_t most)
   TextTable table({{"node"}, {"indicator"}, {"first", true}, {"second", true}, {"difference", true}});
   for (std::size_t k = 0; k < std::min(rows.size(), most); ++k) {
     const report::IndicatorRow& row = rows[k];
-    const auto figure = [&](double value) {
-      return row.unit == Unit::ratio ? report::percent(value) : report::quantity(value, row.unit);
-    };
-    table.add({row.node.empty() ? "all" : row.name, row.label, figure(row.before), figure(row.after),
-               row.before != 0 ? report::signed_percent((row.after - row.before) / std::abs(row.before))
-                               : figure(row.after - row.before)});
+    table.add({row.node.empty() ? "all" : row.name, row.label, row.figure(row.before), row.figure(row.after), row.difference()});
   }
   table.print();
   if (rows.size() > most) print_line("... and " + std::to_string(rows.size() - most) + " more; --report has them all");
@@ -72,7 +66,7 @@ void print_comparison(const report::Comparison& comparison) {
   if (comparison.inputs.empty() && comparison.only_before.empty() && comparison.only_after.empty()) print_line("  nothing");
   std::vector<report::IndicatorRow> totals;
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
-               [](const report::IndicatorRow& row) { return row.share() > kLeastShare; });
+               [](const report::IndicatorRow& row) { return row.is_seen(kLeastShare); });
   print_line();
   print_rows(totals, totals.size());
   print_line();
@@ -85,9 +79,12 @@ void print_comparison(const report::Comparison& comparison) {
 
 int compare_command(const CompareOptions& options) {
   catch_interrupts();
-  const auto before = outcome_of(options.first, options);
+  // Both are read before either runs: a name that is wrong is said at once.
+  const auto first = load_scene(options.first), second = load_scene(options.second);
+  if (!first || !second) return kBadInput;
+  const auto before = outcome_of(options.first, *first, options);
   if (!before) return kBadInput;
-  const auto after = outcome_of(options.second, options);
+  const auto after = outcome_of(options.second, *second, options);
   if (!after) return kBadInput;
   if (is_interrupted()) return interrupt_exit_code();
   const report::Comparison comparison = report::compare(*before, *after, kLeastShare);

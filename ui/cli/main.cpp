@@ -43,7 +43,8 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->type_name("N")
       ->check(CLI::Range(1ll, 1000000000ll));
   c.add_option("--set", o.set,
-               "Sets a value before the first tick, as often as needed; VALUE is JSON or a quantity such as \"12 m\".")
+               "Sets a value before the first tick, as often as needed; VALUE is JSON or a quantity such as \"12 m\"; "
+               "LINK/PARAMETER=VALUE sets a parameter of a link.")
       ->type_name("NODE/TYPIFICATION.PORT=VALUE")
       ->expected(1)
       ->take_all();
@@ -217,6 +218,9 @@ int run_program(int count, char** arguments) {
     if (error.get_exit_code() == 0) return app.exit(error);
     const auto chosen = app.get_subcommands();
     complain(error.what());
+    const auto is_plugins = [](const char* argument) { return std::string_view(argument).starts_with("--plugins"); };
+    if (!chosen.empty() && plugins.empty() && std::any_of(arguments + 1, arguments + count, is_plugins))
+      complain("--plugins FOLDER stands before the task: behaviourlinks --plugins FOLDER " + chosen.front()->get_name() + " ...");
     complain("`behaviourlinks " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help` explains.");
     return kBadInput;
   }

@@ -160,6 +160,25 @@ TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
   EXPECT_EQ(place.text("there.json"), "x");
 }
 
+TEST_F(Import, WhatTakesNothingIsSaid) {
+  const Outcome far = place.run({"import", "houses.geojson", "--origin", "447000,85000", "--radius", "50", "--out", "out.json"});
+  EXPECT_EQ(far.code, 2) << far.out;
+  EXPECT_NE(far.err.find("nothing of the files was taken, and nothing was written"), std::string::npos) << far.err;
+  EXPECT_FALSE(std::filesystem::exists(place.path("out.json")));
+  ASSERT_EQ(place.run({"import", "houses.geojson", "--out", "a.json"}).code, 0);
+  const std::string there = R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
+    {"type": "Feature", "properties": {"gid": 9}, "geometry": {"type": "Polygon",
+     "coordinates": [[[185000, 447000], [185020, 447000], [185020, 447010], [185000, 447010], [185000, 447000]]]}}]})";
+  place.write("there.geojson", there);
+  const Outcome into = place.run({"import", "there.geojson", "--into", "a.json", "--out", "b.json", "--radius", "500"});
+  EXPECT_EQ(into.code, 2) << into.out;
+  EXPECT_EQ(into.err.find("batch"), std::string::npos) << into.err;
+  EXPECT_NE(into.err.find("nothing of the files was taken"), std::string::npos) << into.err;
+  const Outcome both = place.run({"import", "houses.geojson", "there.geojson", "--radius", "500", "--out", "c.json"});
+  EXPECT_EQ(both.code, 0) << both.err;
+  EXPECT_NE(both.out.find("there.geojson: nothing of this file was taken"), std::string::npos) << both.out;
+}
+
 TEST_F(Import, RealCityModelsBecomeScenes) {
   const auto village = shared_file("data/osm/small_village.osm"),
              city = shared_file("data/cityjson/denhaag_DH01_subset_v11.city.json");
