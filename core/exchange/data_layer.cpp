@@ -161,7 +161,7 @@ class TableReader {
       if (is_numeric(i)) numeric.push_back(i);
     }
     if (!wanted_.empty())
-      return Error{ErrorCode::not_found, line, "There is no column `" + wanted_ + "`" + did_you_mean(wanted_, names) + "."};
+      return Error{ErrorCode::not_found, line, "There is no column `" + wanted_ + "`" + (did_you_mean(wanted_, names).empty() ? "." : did_you_mean(wanted_, names))};
     if (numeric.size() == 1) {
       value_ = numeric.front();
       return {};

@@ -113,7 +113,7 @@ Result<void> Matcher::take_chosen(const std::map<std::string, std::string>& chos
     if (info == nullptr)
       return Error{
           ErrorCode::unknown_field, "columns",
-          "`" + name + "` is no column of a programme" + did_you_mean(name, ours) + " There are: " + list_of(ours) + "."};
+          "`" + name + "` is no column of a programme" + (did_you_mean(name, ours).empty() ? "." : did_you_mean(name, ours)) + " There are: " + list_of(ours) + "."};
     std::size_t index = record_.fields.size();
     for (std::size_t i = record_.fields.size(); i-- > 0;)
       if (record_.fields[i] == wanted ||

@@ -45,7 +45,8 @@ Format format_of(const std::string& path, std::string_view text) {
   if (ends({".csv", ".tsv", ".txt"})) return Format::table;
   if (ends({".city.json", ".jsonl"})) return Format::cityjson;
   const std::string_view head = text.substr(0, kHead);
-  if (head.find("\"CityJSON\"") != std::string_view::npos) return Format::cityjson;
+  // Writers that sort their keys say so behind all of the geometry.
+  if (text.find("\"CityJSON\"") != std::string_view::npos) return Format::cityjson;
   if (ends({".geojson"}) || head.find_first_of("{[") == head.find_first_not_of(" \t\r\n\xEF\xBB\xBF")) return Format::geojson;
   if (head.find("<osm") != std::string_view::npos || head.substr(0, 64).find("OSMHeader") != std::string_view::npos)
     return Format::osm;
@@ -161,6 +162,8 @@ class Import {
     const std::string name = file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1);
     making_ = {o_.source.empty() ? name : o_.source, o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets};
     const Format format = format_of(file, *text);
+    if (text->substr(0, 4096).find("\"behaviourlinks\"") != std::string::npos)
+      return fail(file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
     if (format == Format::grid) return read_grid(file, *text);
     if (format == Format::table || o_.kind == "layer") return read_layer(file, *text, format);
     if (o_.kind == "terrain")
@@ -173,6 +176,8 @@ class Import {
             : Result<Context>(Error{ErrorCode::parse, "",
                                     "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
     if (!told(file, context)) return;
+    if (!o_.kind.empty() && format != Format::geojson)
+      result_.notes.push_back(file + ": --as " + o_.kind + " was not needed: the file says what its elements are");
     take(file, context->report, context->notes, context->reference);
     nodes_.add(*context, making_, result_.reports.back().second);
   }

@@ -157,6 +157,8 @@ TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
   refused({"houses.geojson", "noise.osm", "--out", "out.json"}, "noise.osm");
   refused({"houses.geojson", "--out", "there.json"}, "exists already");
   refused({"houses.geojson", "--into", "noise.osm", "--out", "out.json"}, "noise.osm");
+  place.write("scene.json", moving_scene());
+  refused({"scene.json", "--out", "out.json"}, "this is a scene of BehaviourLinks; the scene that is added to is named by --into");
   EXPECT_EQ(place.text("there.json"), "x");
 }
 
