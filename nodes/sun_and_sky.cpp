@@ -96,7 +96,7 @@ struct SunAndSky {
     t.in(&In::day_step, "day_step").range(1, 366).doc("Every so many days of the period count.");
     t.in(&In::step, "step").unit(Unit::second).range(10, 21600).soft(300, 3600).doc("Time between two moments of a day.");
     t.in(&In::from_time, "from_time").unit(Unit::second).range(0, 86400).doc("Sun before this time of the day does not count.");
-    t.in(&In::to_time, "to_time").unit(Unit::second).range(0, 86400).doc("Sun after this time of the day does not count.");
+    t.in(&In::to_time, "to_time").unit(Unit::second).range(0, 86400).doc("Sun after this time of the day does not count; it comes after `from_time`.");
     t.in(&In::min_altitude, "min_altitude")
         .unit(Unit::degree)
         .range(0, 90)
@@ -116,7 +116,7 @@ struct SunAndSky {
     t.out(&Out::sunset, "sunset").unit(Unit::second).doc("Local time at which it sets; 0 where it does not.");
     t.out(&Out::day_length, "day_length").unit(Unit::second).doc("How long it is above the horizon on that day.");
     t.out(&Out::transit_altitude, "transit_altitude").unit(Unit::degree).doc("Its height at the transit.");
-    t.out(&Out::note, "note").doc("Says so where the sun does not rise or not set on that day; else empty.");
+    t.out(&Out::note, "note").doc("Says so where the sun does not rise or not set on that day, or where no sun of the period counts; else empty.");
     t.out(&Out::possible, "possible").unit(Unit::second).doc("Sun per day of the period on open ground: the mean of its days.");
     t.out(&Out::moments, "moments")
         .column({.id = "x", .doc = "First component of the unit vector to the sun."})
@@ -163,6 +163,8 @@ struct SunAndSky {
     out.transit_altitude = today.transit_altitude;
     if (!today.sunrise || !today.sunset)
       out.note = today.day_length > 43200 ? "the sun does not set on this day" : "the sun does not rise on this day";
+    if (moments->empty())
+      out.note += std::string(out.note.empty() ? "" : "; ") + "no sun of the period counts: at no time of its days between `from_time` and `to_time` does it stand as high as `min_altitude`";
     out.possible = possible_sun(*moments);
     out.moments.columns = {"x", "y", "z", "seconds"};
     for (const SunMoment& moment : *moments)

@@ -1,12 +1,13 @@
 // A sun study: measures the receivers of a scene among its casters, and writes to both who takes how much sun from whom.
-#include <algorithm>
-#include <cmath>
+#include <map>
+#include <optional>
 
 #include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
+#include "core/sun/moment_table.h"
 #include "core/sun/shadow_shape.h"
-#include "core/sun/sun_study.h"
+#include "core/sun/study_cache.h"
 
 namespace bl {
 namespace {
@@ -40,11 +41,12 @@ struct SunStudyNode {
     std::vector<Caster> volumes, buildings;
     std::vector<Receiver> receivers;
   };
+  // Nothing for who is answered as a member of the other set.
   struct CasterReply {
-    double lost = 0, shared = 0;
-    std::string worst;
-    Table taken;
-    std::vector<Point3> outline;
+    std::optional<double> lost, shared;
+    std::optional<std::string> worst;
+    std::optional<Table> taken;
+    std::optional<std::vector<Point3>> outline;
   };
   struct ReceiverReply {
     Vector3 half_across, half_up;
@@ -64,8 +66,8 @@ struct SunStudyNode {
     t.id("sun_study").label("Sun study");
     t.doc(
         "Follows rays from the points of all receivers to the sun, at the moments of the sun's period, and tells each receiver "
-        "what "
-        "sun it has and who takes it, and each caster what it takes.");
+        "what sun it has and who takes it, and each caster what it takes. Receivers for which nothing has changed keep their "
+        "figures; studies of more than 200 million rays are refused.");
     t.in(&In::sun, "sun").doc("The sun whose period is studied. Exactly one node has to result.");
     t.in(&In::volumes, "volumes")
         .doc("The SmartVolumes that cast shadow; nodes without the role of a shadow caster do not count.");
@@ -86,9 +88,9 @@ struct SunStudyNode {
     t.out(&Out::area, "area").unit(Unit::square_metre).doc("Area of all receivers.");
     t.out(&Out::sun_mean, "sun_mean").unit(Unit::second).doc("Direct sun per day, as the mean over that area.");
     t.out(&Out::sun_possible, "sun_possible").unit(Unit::second).doc("The same if there were no casters.");
-    t.out(&Out::share_met, "share_met").unit(Unit::ratio).doc("Share of that area that has the sun that is required of it.");
+    t.out(&Out::share_met, "share_met").unit(Unit::ratio).soft(0, 1).doc("Share of that area that has the sun that is required of it.");
     t.out(&Out::message, "message")
-        .doc("Who takes most from whom, and names that no caster bears; empty where there is neither.");
+        .doc("Who takes most from whom, names that no caster bears, and whether any sun counts; empty where there is nothing.");
     t.set("sun", &Sets::suns)
         .reads(&Sun::id, "node.id")
         .reads(&Sun::direction, "sun_and_sky.direction")
@@ -130,15 +132,39 @@ struct SunStudyNode {
     if (suns.size() > 1)
       return Error{ErrorCode::conflict, "sun",
                    "`" + suns[0].id + "` and `" + suns[1].id + "` are both suns: choose the one that is studied here"};
-    const Table& table = *suns.front().moments;
-    std::vector<SunMoment> moments;
-    for (std::size_t row = 0; row < table.rows.size(); ++row)
-      moments.push_back({.toward = {table.number(row, "x"), table.number(row, "y"), table.number(row, "z")},
-                         .seconds = table.number(row, "seconds")});
-    return moments;
+    return moments_in(*suns.front().moments);
   }
 
-  static SunReceiver receiver_of(const Receiver& from, const std::vector<Caster>& casters, std::string& message) {
+  // All that casts, each node once: one may be a SmartVolume and an existing building, and casts with both shapes.
+  struct Casters {
+    std::vector<SunCaster> list;  // as the volumes stand, then the buildings that are none of them
+    std::vector<std::size_t> of_buildings;
+    std::map<std::string, std::size_t> index;
+
+    explicit Casters(const Sets& sets) {
+      for (const Caster& caster : sets.volumes) add(caster);
+      for (const Caster& caster : sets.buildings) of_buildings.push_back(add(caster));
+    }
+    std::size_t add(const Caster& caster) {
+      const bool has_shape = caster.casts && caster.mesh && !caster.mesh->triangles.empty();
+      const auto [it, is_new] = index.emplace(caster.id, list.size());
+      if (is_new) list.push_back({caster.id, nullptr});
+      MeshPointer& mesh = list[it->second].mesh;
+      if (has_shape) mesh = mesh ? both(*mesh, *caster.mesh) : caster.mesh;
+      return it->second;
+    }
+    static MeshPointer both(const Mesh& one, const Mesh& other) {
+      auto mesh = std::make_shared<Mesh>();
+      mesh->vertices = one.vertices;
+      mesh->triangles = one.triangles;
+      const auto first = static_cast<std::uint32_t>(one.vertices.size());
+      mesh->vertices.insert(mesh->vertices.end(), other.vertices.begin(), other.vertices.end());
+      for (const auto& [a, b, c] : other.triangles) mesh->triangles.push_back({first + a, first + b, first + c});
+      return mesh;
+    }
+  };
+
+  static SunReceiver receiver_of(const Receiver& from, const Casters& casters, std::string& message) {
     SunReceiver receiver;
     receiver.centre = from.position + Vector3{0, 0, from.raised};
     receiver.spacing = from.spacing;
@@ -146,16 +172,16 @@ struct SunStudyNode {
     if (from.upright) upright_axes(from.width, from.depth, from.azimuth, receiver);
     else level_axes(from.width, from.depth, from.rotation, receiver);
     if (from.casters.empty()) return receiver;
-    receiver.mask.resize(casters.size(), 0);
+    receiver.mask.resize(casters.list.size(), 0);
     for (const std::string& name : from.casters) {
-      const auto it = std::find_if(casters.begin(), casters.end(), [&](const Caster& caster) { return caster.id == name; });
-      if (it != casters.end()) receiver.mask[static_cast<std::size_t>(it - casters.begin())] = 1;
+      const auto it = casters.index.find(name);
+      if (it != casters.index.end()) receiver.mask[it->second] = 1;
       else message += "`" + from.id + "` names the caster `" + name + "`, which this study does not know; ";
     }
     return receiver;
   }
 
-  static ReceiverReply reply_of(const SunReceiver& receiver, const SunRecord& record, const std::vector<Caster>& casters) {
+  static ReceiverReply reply_of(const SunReceiver& receiver, const SunRecord& record, const std::vector<SunCaster>& casters) {
     ReceiverReply reply{receiver.half_across,
                         receiver.half_up,
                         4 * norm(receiver.half_across) * norm(receiver.half_up),
@@ -171,7 +197,7 @@ struct SunStudyNode {
                         static_cast<std::int64_t>(record.grid.rows)};
     for (std::size_t k = 0; k < casters.size(); ++k)
       if (const SunLoss& loss = record.hours.casters[k]; loss.shared > 0)
-        reply.losses.rows.push_back({casters[k].id, loss.lost, loss.shared});
+        reply.losses.rows.push_back({casters[k].name, loss.lost, loss.shared});
     for (std::size_t i = 0; i < record.grid.points.size(); ++i) {
       const Point3& place = record.grid.points[i].place;
       reply.map.rows.push_back({place.x, place.y, place.z, record.hours.seconds[i]});
@@ -181,35 +207,37 @@ struct SunStudyNode {
 
   // What each caster takes, from all receivers; returns the largest single loss as a sentence.
   static std::string deal_out(const std::vector<SunRecord>& records, const std::vector<Receiver>& receivers,
-                              const std::vector<Caster>& casters, Out& out, std::vector<CasterReply>& replies) {
+                              const std::vector<SunCaster>& casters, Out& out, std::vector<CasterReply>& replies) {
     std::string sentence;
     double worst = 0;
     for (std::size_t k = 0; k < casters.size(); ++k) {
       CasterReply& reply = replies[k];
-      reply.taken.columns = {"receiver", "lost", "shared"};
+      reply.taken->columns = {"receiver", "lost", "shared"};
       double most = 0;
       for (std::size_t r = 0; r < records.size(); ++r) {
         const SunLoss& loss = records[r].hours.casters[k];
         if (!(loss.shared > 0)) continue;
         const double share = out.receivers[r].area / out.area;
-        reply.lost += loss.lost * share;
-        reply.shared += loss.shared * share;
-        reply.taken.rows.push_back({receivers[r].id, loss.lost, loss.shared});
+        *reply.lost += loss.lost * share;
+        *reply.shared += loss.shared * share;
+        reply.taken->rows.push_back({receivers[r].id, loss.lost, loss.shared});
         if (loss.shared <= most) continue;
         most = loss.shared;
         reply.worst = receivers[r].id;
       }
       if (most <= worst) continue;
       worst = most;
-      sentence = "`" + casters[k].id + "` takes most: " + fixed(worst / 60, 0) + " min of sun a day from `" + reply.worst + "`";
+      sentence =
+          "`" + casters[k].name + "` takes most: " + fixed(worst / 60, 0) + " min of sun a day from `" + *reply.worst + "`";
     }
     return sentence;
   }
 
   // The algorithm names a caster by its index.
-  static Error named(Error error, const std::vector<Caster>& casters) {
-    if (const auto index = parse_number(error.place); index && *index < static_cast<double>(casters.size()))
-      error.message = "`" + casters[static_cast<std::size_t>(*index)].id + "`: " + error.message;
+  static Error named(Error error, const std::vector<SunCaster>& casters) {
+    const auto index = parse_number(error.place);
+    if (!index || !(*index < static_cast<double>(casters.size()))) return error;
+    error.message = "`" + casters[static_cast<std::size_t>(*index)].name + "`: " + error.message;
     error.place = "volumes";
     return error;
   }
@@ -218,39 +246,40 @@ struct SunStudyNode {
     const auto moments = moments_of(sets.suns);
     if (!moments) return moments.error();
     Out out;
-    std::vector<Caster> casters = sets.volumes;
-    casters.insert(casters.end(), sets.buildings.begin(), sets.buildings.end());
+    if (moments->empty()) out.message = "no sun counts in the period of `" + sets.suns.front().id + "`, which says why; ";
+    const Casters casters(sets);
     std::vector<CasterReply> replies;
-    std::vector<MeshPointer> meshes;
-    for (const Caster& caster : casters) {
-      const bool has_shape = caster.casts && caster.mesh && !caster.mesh->triangles.empty();
-      meshes.push_back(has_shape ? caster.mesh : nullptr);
-      CasterReply& reply = replies.emplace_back();
-      if (has_shape) reply.outline = shadow_outline(*caster.mesh, sets.suns.front().direction, in.ground);
-      out.caster_count += has_shape ? 1 : 0;
+    for (const SunCaster& caster : casters.list) {
+      out.caster_count += caster.mesh ? 1 : 0;
+      auto outline =
+          caster.mesh ? shadow_outline(*caster.mesh, sets.suns.front().direction, in.ground) : std::vector<Point3>{};
+      replies.push_back({0.0, 0.0, "", Table{}, std::move(outline)});
     }
-    std::vector<SunReceiver> receivers;
-    for (const Receiver& receiver : sets.receivers) receivers.push_back(receiver_of(receiver, casters, out.message));
-    const auto records = sun_study(meshes, *moments, receivers, tick.pool);
-    if (!records) return named(records.error(), casters);
-    for (std::size_t r = 0; r < receivers.size(); ++r) {
+    std::vector<SunCase> cases;
+    for (const Receiver& receiver : sets.receivers) cases.push_back({receiver.id, receiver_of(receiver, casters, out.message)});
+    SunStudyCache own;
+    SunStudyCache& cache = tick.memo != nullptr ? tick.memo->of<SunStudyCache>() : own;
+    const auto records = cache.of(casters.list, *moments, cases, tick.pool);
+    if (!records) return named(records.error(), casters.list);
+    for (std::size_t r = 0; r < cases.size(); ++r) {
       const SunRecord& record = (*records)[r];
-      const ReceiverReply& reply = out.receivers.emplace_back(reply_of(receivers[r], record, casters));
+      const ReceiverReply& reply = out.receivers.emplace_back(reply_of(cases[r].receiver, record, casters.list));
       out.area += reply.area;
       out.sun_mean += reply.area * record.mean;
       out.sun_possible += reply.area * record.hours.possible;
       out.share_met += reply.area * record.share_met;
       out.ray_count += static_cast<std::int64_t>(record.grid.points.size() * moments->size());
     }
-    out.receiver_count = static_cast<std::int64_t>(receivers.size());
+    out.receiver_count = static_cast<std::int64_t>(cases.size());
     out.moment_count = static_cast<std::int64_t>(moments->size());
     if (out.area > 0) {
       for (double* mean : {&out.sun_mean, &out.sun_possible, &out.share_met}) *mean /= out.area;
-      out.message += deal_out(*records, sets.receivers, casters, out, replies);
+      out.message += deal_out(*records, sets.receivers, casters.list, out, replies);
     }
-    const auto buildings = replies.begin() + static_cast<std::ptrdiff_t>(sets.volumes.size());
-    out.volumes.assign(replies.begin(), buildings);
-    out.buildings.assign(buildings, replies.end());
+    if (out.message.ends_with("; ")) out.message.resize(out.message.size() - 2);
+    out.volumes.assign(replies.begin(), replies.begin() + static_cast<std::ptrdiff_t>(sets.volumes.size()));
+    for (const std::size_t caster : casters.of_buildings)
+      out.buildings.push_back(caster < sets.volumes.size() ? CasterReply{} : std::move(replies[caster]));
     return out;
   }
 };

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
+
+#include "core/facade/ball_pieces.h"
 
 namespace bl {
 
 namespace {
 
 using Polygon = std::vector<Point3>;
+using Corners = std::span<const Point3>;
 
 // The few corners of a small piece, without memory of their own: there are thousands of pieces.
 class Piece {
@@ -18,10 +20,7 @@ class Piece {
   void push_back(const Point3& p) {
     if (count_ < at_.size()) at_[count_++] = p;
   }
-  std::size_t size() const { return count_; }
-  const Point3& operator[](std::size_t k) const { return at_[k]; }
-  const Point3* begin() const { return at_.data(); }
-  const Point3* end() const { return at_.data() + count_; }
+  operator Corners() const { return std::span(at_).first(count_); }
 
  private:
   std::array<Point3, 8> at_;  // a clipped triangle has at most six, and a level cut adds one
@@ -32,27 +31,44 @@ using Plane2 = std::array<double, 2>;
 
 // Steeper than 45 degrees is façade: |n.z| <= cos 45°.
 constexpr double kSteep = 0.70710678118654757;
-// Rows of small triangles in each coarse one, for what lies on the ball: its area comes out within some parts in a thousand
-// before scaling.
-constexpr int kParts = 6;
 constexpr double kMostStoreys = 10000;
 
-template <class Corners>
-Corners below(const Corners& polygon, double height) {
-  Corners out;
+template <class Part>
+Part below(Corners polygon, double height) {
+  Part out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const Point3 &a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
     if (a.z <= height) out.push_back(a);
     if ((a.z < height && b.z > height) || (a.z > height && b.z < height)) out.push_back(a + ((height - a.z) / (b.z - a.z)) * (b - a));
   }
   return out;
 }
 
-double flat_area(const auto& polygon, const Vector3& normal) {
-  double doubled = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    doubled += dot(normal, cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
-  return std::max(0.0, 0.5 * doubled);
+double flat_area(Corners polygon, const Vector3& normal) { return std::max(0.0, 0.5 * doubled_area(polygon, normal)); }
+
+// What a piece of surface counts as, and where it looks to if it is façade.
+struct Facing {
+  enum class Side { facade, roof, underside } side = Side::facade;
+  Orientation orientation = Orientation::north;
+};
+
+Facing facing_of(const Vector3& normal, const Compass& compass) {
+  if (normal.z > kSteep) return {Facing::Side::roof};
+  if (normal.z < -kSteep) return {Facing::Side::underside};
+  return {Facing::Side::facade, compass.of(normal)};
+}
+
+// Of a piece of the ball: by comparing squares where these leave no doubt, without roots and divisions.
+Facing facing_of(const BallPieces& round, Corners polygon, const Compass& compass) {
+  if (const auto about = round.about_outward(polygon)) {
+    const double squared = squared_norm(*about), steepness = about->z * about->z - kSteep * kSteep * squared;
+    constexpr double kDoubtful = 1e-8;
+    if (steepness > kDoubtful * squared) return {about->z > 0 ? Facing::Side::roof : Facing::Side::underside};
+    if (steepness < -kDoubtful * squared)
+      if (const auto orientation = compass.of_about(*about)) return {Facing::Side::facade, *orientation};
+  }
+  const Vector3 outward = round.outward(polygon);
+  return facing_of(outward / norm(outward), compass);
 }
 
 // A face in its plane, with the disc that the ball cuts out of it.
@@ -71,7 +87,7 @@ struct Disc {
     disc.across = cross(normal, disc.along);
     return disc;
   }
-  double area(const Polygon& polygon) const {
+  double area(Corners polygon) const {
     if (!(squared > 0)) return 0;
     std::vector<Plane2> corners;
     for (const Point3& p : polygon) corners.push_back({dot(along, p - foot), dot(across, p - foot)});
@@ -81,27 +97,28 @@ struct Disc {
 
 class Surveyor {
  public:
-  explicit Surveyor(const SurveyOptions& options) : options_(options) {}
+  explicit Surveyor(const SurveyOptions& options) : options_(options), compass_(options.true_north) {}
+  const Compass& compass() const { return compass_; }
 
-  /// Adds the polygon; `area` gives that of any part of it.
-  template <class Corners, class Area>
-  void add(const Corners& polygon, const Vector3& normal, double scale, const Area& area) {
-    const double whole = scale * area(polygon);
+  /// Adds the polygon, whose whole area is given; `area` gives that of any part of it, which is held as `Part`.
+  template <class Part, class Area>
+  void add(Corners polygon, const Facing& facing, double whole, double scale, const Area& area) {
     if (!(whole > 0)) return;
     double low = polygon[0].z, high = low;
     for (const Point3& p : polygon) {
       low = std::min(low, p.z);
       high = std::max(high, p.z);
     }
-    if (normal.z > kSteep) out_.roof += whole;
-    else if (normal.z < -kSteep) (high <= options_.ground + kOnGround ? out_.ground : out_.underside) += whole;
-    else add_facade(polygon, low, high, orientation_of(normal, options_.true_north), whole, scale, area);
+    if (facing.side == Facing::Side::facade) add_facade<Part>(polygon, low, high, facing.orientation, whole, scale, area);
+    else if (facing.side == Facing::Side::roof) out_.roof += whole;
+    else (high <= options_.ground + kOnGround ? out_.ground : out_.underside) += whole;
   }
 
   FacadeSurvey take() {
-    for (const auto& [place, row] : rows_) {
-      out_.rows.push_back(row);
-      out_.facade += row.area();
+    for (const Row& row : rows_) {
+      if (!row.is_there) continue;
+      out_.rows.push_back(row.content);
+      out_.facade += row.content.area();
     }
     return std::move(out_);
   }
@@ -110,13 +127,13 @@ class Surveyor {
  private:
   static constexpr double kOnGround = 1e-6;  // [m]
 
-  template <class Corners, class Area>
-  void add_facade(const Corners& polygon, double low, double high, Orientation orientation, double whole, double scale,
+  template <class Part, class Area>
+  void add_facade(Corners polygon, double low, double high, Orientation orientation, double whole, double scale,
                   const Area& area) {
     // The area below each height; what lies between two heights is the difference, so that all of them add up to the whole.
     double done = 0;
     const auto up_to = [&](double height) {
-      const double reached = height >= high ? whole : height <= low ? 0 : std::min(whole, scale * area(below(polygon, height)));
+      const double reached = height >= high ? whole : height <= low ? 0 : std::min(whole, scale * area(below<Part>(polygon, height)));
       return std::max(0.0, reached - std::exchange(done, std::max(done, reached)));
     };
     out_.ground += up_to(options_.ground);
@@ -127,17 +144,28 @@ class Surveyor {
     double storey = std::max(0.0, std::floor((begin - options_.base) / height));
     for (; done < whole && storey < kMostStoreys; ++storey) {
       const double floor = options_.base + storey * height;
-      FacadeRow& row = rows_[{static_cast<int>(storey), orientation}];
-      row.storey = static_cast<int>(storey);
-      row.orientation = orientation;
+      FacadeRow& row = row_of(static_cast<int>(storey), orientation);
       row.below += up_to(floor + std::clamp(band.sill, 0.0, height));
       row.band += up_to(floor + std::clamp(band.head, 0.0, height));
       row.above += up_to(storey + 1 < kMostStoreys ? options_.base + (storey + 1) * height : high);
     }
   }
 
+  FacadeRow& row_of(int storey, Orientation orientation) {
+    const std::size_t index = static_cast<std::size_t>(storey) * kOrientations + static_cast<std::size_t>(orientation);
+    if (rows_.size() <= index) rows_.resize((static_cast<std::size_t>(storey) + 1) * kOrientations);
+    Row& row = rows_[index];
+    if (!row.is_there) row = {true, {storey, orientation}};
+    return row.content;
+  }
+
+  struct Row {
+    bool is_there = false;
+    FacadeRow content;
+  };
   const SurveyOptions& options_;
-  std::map<std::pair<int, Orientation>, FacadeRow> rows_;
+  Compass compass_;
+  std::vector<Row> rows_;  // storey by storey, with a place for each orientation
   FacadeSurvey out_;
 };
 
@@ -149,93 +177,22 @@ void survey_flat(const Mesh& mesh, std::span<const ShapeFace> faces, Surveyor& s
     if (!mesh.wrap)
       for (const std::size_t corner : {1u, 2u}) polygon.push_back(mesh.vertices[mesh.triangles[face.first][corner]]);
     const Disc disc = mesh.wrap ? Disc::of(*mesh.wrap, face.normal, face.middle) : Disc{};
-    const auto area = [&](const Polygon& part) { return mesh.wrap ? disc.area(part) : flat_area(part, face.normal); };
+    const auto area = [&](Corners part) { return mesh.wrap ? disc.area(part) : flat_area(part, face.normal); };
     if (face.is_shared) surveyor.out().shared += area(polygon);
-    else surveyor.add(polygon, face.normal, 1, area);
+    else surveyor.add<Polygon>(polygon, facing_of(face.normal, surveyor.compass()), area(polygon), 1, area);
   }
-}
-
-// What of a small triangle lies beyond the ball, moved onto it: as make_mesh does it.
-struct Projection {
-  Point3 centre, from;  // of the ball, and what vertices move towards
-  double squared = 0;
-
-  double beyond(const Point3& p) const { return squared_norm(p - centre) - squared; }
-  Point3 on_ball(const Point3& p) const {
-    const Vector3 way = p - from, start = from - centre;
-    const double a = squared_norm(way), b = dot(way, start), rest = std::max(0.0, squared - squared_norm(start));
-    const double root = std::sqrt(b * b + a * rest), t = b > 0 ? rest / (b + root) : (root - b) / a;
-    return from + std::min(1.0, t) * way;
-  }
-  // Where the ball's surface crosses an edge with one end on each side.
-  Point3 crossing(const Point3& a, const Point3& b) const {
-    const Vector3 way = b - a, start = a - centre;
-    const double p = squared_norm(way), q = dot(way, start), c = beyond(a), root = std::sqrt(std::max(0.0, q * q - p * c));
-    const double t = c < 0 ? (-q + root) / p : (-q - root) / p;
-    return a + std::clamp(t, 0.0, 1.0) * way;
-  }
-  Piece piece(const std::array<Point3, 3>& corners) const {
-    Piece out;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point3 &a = corners[i], &b = corners[(i + 1) % 3];
-      const double here = beyond(a), there = beyond(b);
-      if (here >= 0) out.push_back(on_ball(a));
-      if ((here < 0) != (there < 0)) out.push_back(crossing(a, b));
-    }
-    return out;
-  }
-};
-
-struct RoundPiece {
-  Piece polygon;
-  Vector3 flat_normal, ball_normal;
-  double area = 0;
-};
-
-void add_pieces(const std::array<Point3, 3>& corners, const Projection& projection, std::vector<RoundPiece>& pieces) {
-  if (std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return projection.beyond(p) < 0; })) return;
-  const auto at = [&](int row, int i) {
-    const double a = static_cast<double>(row - i) / kParts, b = static_cast<double>(i) / kParts;
-    return corners[0] + a * (corners[1] - corners[0]) + b * (corners[2] - corners[0]);
-  };
-  for (int row = 0; row < kParts; ++row)
-    for (int i = 0; i < 2 * row + 1; ++i) {
-      const int k = i / 2;
-      const std::array<Point3, 3> small = i % 2 == 0
-                                              ? std::array<Point3, 3>{at(row, k), at(row + 1, k), at(row + 1, k + 1)}
-                                              : std::array<Point3, 3>{at(row, k), at(row + 1, k + 1), at(row, k + 1)};
-      RoundPiece piece{projection.piece(small), {}, {}, 0};
-      if (piece.polygon.size() < 3) continue;
-      Point3 middle;
-      Vector3 doubled;
-      for (std::size_t c = 0; c < piece.polygon.size(); ++c) {
-        middle += piece.polygon[c] / static_cast<double>(piece.polygon.size());
-        if (c >= 2) doubled += cross(piece.polygon[c - 1] - piece.polygon[0], piece.polygon[c] - piece.polygon[0]);
-      }
-      const double size = norm(doubled), reach = distance(middle, projection.centre);
-      if (!(size > 0) || !(reach > 0)) continue;
-      piece.area = 0.5 * size;
-      piece.flat_normal = doubled / size;
-      piece.ball_normal = (middle - projection.centre) / reach;
-      pieces.push_back(std::move(piece));
-    }
 }
 
 void survey_round(const Mesh& mesh, const SurveyOptions& options, Surveyor& surveyor) {
-  const MeshWrap& wrap = *mesh.wrap;
-  std::vector<RoundPiece> pieces;
-  std::size_t t = 0;
-  for (const MeshWrap::Part& part : wrap.parts)
-    for (std::uint32_t k = 0; k < part.triangles && t < mesh.triangles.size(); ++k, ++t) {
-      const auto& triangle = mesh.triangles[t];
-      add_pieces({mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]},
-                 {wrap.ball_centre, part.centre, wrap.radius * wrap.radius}, pieces);
-    }
+  const BallPieces round = ball_pieces(mesh);
   double measured = 0;
-  for (const RoundPiece& piece : pieces) measured += piece.area;
+  for (const BallPiece& piece : round.pieces) measured += piece.area;
   const double scale = options.spherical_area >= 0 && measured > 0 ? options.spherical_area / measured : 1;
-  for (const RoundPiece& piece : pieces)
-    surveyor.add(piece.polygon, piece.ball_normal, scale, [&](const Piece& p) { return flat_area(p, piece.flat_normal); });
+  for (const BallPiece& piece : round.pieces) {
+    const Corners polygon = round.of(piece);
+    surveyor.add<Piece>(polygon, facing_of(round, polygon, surveyor.compass()), scale * piece.flat_area, scale,
+                        [&](Corners part) { return flat_area(part, piece.flat_normal); });
+  }
 }
 
 }  // namespace

@@ -23,4 +23,16 @@ std::optional<Orientation> orientation_named(std::string_view name);
 /// clockwise one has it.
 Orientation orientation_of(const Vector3& normal, double true_north);
 
+/// The same for many normals: away from the borders of sectors two comparisons tell them apart.
+class Compass {
+ public:
+  explicit Compass(double true_north);
+  Orientation of(const Vector3& normal) const;
+  /// Of a normal of any length that is known to a billionth only; nothing near the border of two sectors.
+  std::optional<Orientation> of_about(const Vector3& normal) const;
+
+ private:
+  double true_north_, sine_, cosine_;
+};
+
 }  // namespace bl

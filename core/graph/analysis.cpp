@@ -1,6 +1,9 @@
 // Working analyses out on a thread of their own.
 #include "core/graph/analysis.h"
 
+#include <exception>
+#include <new>
+
 namespace bl {
 
 namespace {
@@ -18,7 +21,12 @@ void add_input(Hash& hash, const Value& value) {
 
 AnalysisResult worked_out(AnalysisInput& input) {
   const TypificationDefinition& definition = *input.definition;
-  const auto done = definition.evaluate(input.values, input.sets, Tick{.index = input.tick});
+  // One that somebody else has at the moment is not waited for.
+  Memo none;
+  std::unique_lock<std::mutex> lock;
+  if (input.memo) lock = std::unique_lock(input.memo->mutex, std::try_to_lock);
+  Memo& memo = lock ? input.memo->memo : none;
+  const auto done = definition.evaluate(input.values, input.sets, Tick{.index = input.tick, .memo = &memo});
   AnalysisResult result;
   if (!done) {
     result.error = done.error();
@@ -50,27 +58,47 @@ std::uint64_t hash_of(const AnalysisInput& input) {
   return hash.value();
 }
 
-void Analysis::run() {
+void Analysis::run(const StopWish& is_unwanted) {
   {
     const std::lock_guard lock(mutex_);
     if (is_claimed_) return;
     is_claimed_ = true;
   }
-  AnalysisResult result = worked_out(input_);
+  // What may be stopped works on a copy: values and tables are shared, so that this costs next to nothing. Nobody else could catch
+  // an exception: this may be a thread of its own, and others wait for the result.
+  AnalysisResult result;
+  try {
+    if (is_unwanted) {
+      AnalysisInput input = input_;
+      const StopScope scope(is_unwanted);
+      result = worked_out(input);
+    } else {
+      result = worked_out(input_);
+    }
+  } catch (const std::bad_alloc&) {
+    result = {{}, Error{ErrorCode::out_of_range, "", "memory ran out in this analysis: ask for less, such as fewer or coarser points"}};
+  } catch (const std::exception& thrown) {
+    result = {{}, Error{ErrorCode::internal, "", std::string("the analysis failed: ") + thrown.what()}};
+  }
   {
     const std::lock_guard lock(mutex_);
-    result_ = std::move(result);
-    input_ = {};
-    is_done_ = true;
+    is_done_ = !(is_unwanted && is_unwanted());
+    is_claimed_ = is_done_;
+    if (is_done_) {
+      result_ = std::move(result);
+      input_ = {};
+    }
   }
   done_.notify_all();
 }
 
 const AnalysisResult& Analysis::result() {
-  run();
-  std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return is_done_; });
-  return result_;
+  for (;;) {
+    run();
+    std::unique_lock lock(mutex_);
+    done_.wait(lock, [this] { return is_done_ || !is_claimed_; });
+    if (is_done_) return result_;
+  }
 }
 
 AnalysisRunner::~AnalysisRunner() {
@@ -96,7 +124,8 @@ void AnalysisRunner::work() {
     const std::shared_ptr<Analysis> next = waiting_.front().lock();
     waiting_.pop_front();
     lock.unlock();
-    if (next) next->run();
+    // Unwanted is what no state holds any more: nobody can come back to it then.
+    if (next) next->run([&] { return is_ending_ || next.use_count() == 1; });
     lock.lock();
   }
 }

@@ -1,6 +1,7 @@
 // Long analyses that run beside the loop: begun with the data of one tick, taken in a declared number of ticks later.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -11,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/stop.h"
 #include "core/define/definition.h"
 
 namespace bl {
@@ -27,7 +29,14 @@ struct AnalysisResult {
   std::optional<Error> error;
 };
 
-/// What an analysis was given. Its result depends on this alone.
+/// What the analyses of a node keep for the next one, which runs on any thread: one evaluation at a time has it,
+/// another one meanwhile goes without.
+struct AnalysisMemo {
+  std::mutex mutex;
+  Memo memo;
+};
+
+/// What an analysis was given. Its result depends on this alone, less the memo, which only saves work.
 struct AnalysisInput {
   std::shared_ptr<const void> plan;  ///< whose types the definition is one of: the scene may have others before it is done
   const TypificationDefinition* definition = nullptr;
@@ -37,6 +46,7 @@ struct AnalysisInput {
   std::vector<SetValues> sets;
   std::vector<std::vector<std::string>> members;      ///< node ids, per set
   std::vector<std::vector<std::string>> write_paths;  ///< per set, as its declared writes
+  std::shared_ptr<AnalysisMemo> memo;                 ///< may be nullptr
 };
 /// Of the data that the result depends on, meshes included.
 std::uint64_t hash_of(const AnalysisInput& input);
@@ -48,8 +58,9 @@ class Analysis {
   /// One that was done before the scene was saved.
   explicit Analysis(AnalysisResult result) : is_claimed_(true), is_done_(true), result_(std::move(result)) {}
 
-  /// Works it out unless somebody has begun to.
-  void run();
+  /// Works it out unless somebody has begun to. Where `is_unwanted` comes true meanwhile the work is dropped, and left to whoever
+  /// wants the result after all.
+  void run(const StopWish& is_unwanted = {});
   /// Waits until it is done, or does it.
   const AnalysisResult& result();
 
@@ -61,13 +72,14 @@ class Analysis {
   AnalysisResult result_;
 };
 
-/// One thread that works analyses off in the order in which they were begun. Those that nobody waits for any more are left out.
+/// One thread that works analyses off in the order in which they were begun. Those that nobody waits for any more are left out, or
+/// stopped on the way.
 class AnalysisRunner {
  public:
   AnalysisRunner() = default;
   AnalysisRunner(const AnalysisRunner&) = delete;
   AnalysisRunner& operator=(const AnalysisRunner&) = delete;
-  /// Waits for the one that is running; the others are dropped.
+  /// Stops the one that is running; the others are dropped. Whoever still holds one works it out.
   ~AnalysisRunner();
   void begin(const std::shared_ptr<Analysis>& analysis);
 
@@ -77,7 +89,7 @@ class AnalysisRunner {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<std::weak_ptr<Analysis>> waiting_;
-  bool is_ending_ = false;
+  std::atomic<bool> is_ending_ = false;
   std::thread thread_;  ///< started with the first analysis: most scenes have none
 };
 

@@ -13,6 +13,7 @@
 #include "core/base/live_address.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "core/live/port_values.h"
 #include "core/live/recording.h"
 
 namespace bl {
@@ -25,18 +26,6 @@ constexpr std::uintmax_t kLongestRecording = 64u << 20;  // [bytes]
 constexpr double kOldest = 1e12;                        // [ticks] that a message can have waited
 constexpr std::int64_t kNeverMeasured = -1;             // of a sensor that has no reading
 constexpr const char *kSensor = "sensor", *kActuator = "actuator";
-
-const PortValues* values_of(const NodeRecord& node, const char* type) {
-  const auto found = node.types.find(type);
-  return found != node.types.end() ? &found->second : nullptr;
-}
-
-template <class T>
-T value_of(const PortValues& values, const char* port, T otherwise) {
-  const auto found = values.find(port);
-  const T* content = found != values.end() ? std::get_if<T>(&found->second) : nullptr;
-  return content != nullptr ? *content : otherwise;
-}
 
 // Links of the file system are followed first, so that none of them leads out of the folder.
 bool is_below(const std::filesystem::path& folder, const std::filesystem::path& file) {
@@ -160,7 +149,9 @@ bool Connections::follow_actuator(const std::string& id, const PortValues& value
 }
 
 void Connections::follow(const Scene& scene) {
-  bool is_changed = false;
+  auto accesses = accesses_of(scene, options_.folder);
+  bool is_changed = accesses != accesses_;
+  accesses_ = std::move(accesses);
   forgotten_.clear();
   std::set<std::string> sensors, actuators;
   for (const auto& [id, node] : scene.nodes) {
@@ -183,6 +174,7 @@ void Connections::follow_endpoints() {
     Endpoint::Body body = nullptr;
     LiveAddress address;
     std::vector<Subscriber> subscribers;
+    Access access;
   };
   std::map<std::string, Wanted> wanted;
   for (const auto& [id, sensor] : sensors_) {
@@ -201,10 +193,15 @@ void Connections::follow_endpoints() {
     endpoint.address = address;
     endpoint.body = address.scheme == LiveAddress::Scheme::mqtt ? run_mqtt : run_osc_output;
   }
+  for (auto& [key, endpoint] : wanted)
+    if (endpoint.body == run_mqtt)
+      if (const auto access = accesses_.find(endpoint.address.host + ":" + std::to_string(endpoint.address.port));
+          access != accesses_.end())
+        endpoint.access = access->second;
   const auto is_gone = [&](const auto& entry) {
     const auto found = wanted.find(entry.first);
-    return found == wanted.end() ||
-           (entry.first.starts_with("http ") && found->second.subscribers.front().path != entry.second->subscribers().front().path);
+    if (found == wanted.end() || found->second.access != entry.second->access()) return true;
+    return entry.first.starts_with("http ") && found->second.subscribers.front().path != entry.second->subscribers().front().path;
   };
   for (const auto& entry : endpoints_)
     if (is_gone(entry)) entry.second->ask_to_end();
@@ -217,7 +214,7 @@ void Connections::follow_endpoints() {
       if (found->second->subscribers() != endpoint.subscribers) found->second->serve(std::move(endpoint.subscribers));
     } else {
       endpoints_[key] = std::make_unique<Endpoint>(endpoint.body, endpoint.address.host, endpoint.address.port,
-                                                   std::move(endpoint.subscribers), options_.pauses);
+                                                   std::move(endpoint.subscribers), options_.pauses, std::move(endpoint.access));
     }
 }
 

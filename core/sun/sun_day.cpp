@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text.h"
+
 namespace bl {
 
 namespace {
@@ -127,6 +129,10 @@ SunDay sun_day(const SunPlace& place, DayNumber day) {
 Result<std::vector<SunMoment>> sun_moments(const SunPlace& place, const SunPeriod& period) {
   if (period.last < period.first)
     return Error{ErrorCode::out_of_range, "last_date", "the last day is before the first: exchange them"};
+  if (!(period.from_time < period.to_time))
+    return Error{ErrorCode::out_of_range, "to_time",
+                 "no sun would count: the window of the day has to end after it begins, which is " +
+                     fixed(period.from_time / 3600, 2) + " h after midnight; exchange the two, or take an earlier `from_time`"};
   const auto days = (period.last - period.first) / std::max(1, period.day_step) + 1;
   const double steps = kDay / std::max(1.0, period.step);
   constexpr double kMost = 100000;

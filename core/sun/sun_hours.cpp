@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop.h"
+
 namespace bl {
 
 namespace {
@@ -38,7 +40,9 @@ SunHours sun_hours(const ShadowScene& scene, std::span<const SunPoint> points, s
   hours.casters.resize(scene.casters());
   if (points.empty()) return hours;
   std::vector<Account> accounts((points.size() + kGrain - 1) / kGrain);
+  const StopWish* wish = stop_wish();
   const auto measure = [&](std::size_t begin, std::size_t end) {
+    if (wish != nullptr && (*wish)()) return;
     std::vector<std::uint32_t> found;
     Account& account = accounts[begin / kGrain];
     account.casters.resize(scene.casters());

@@ -29,7 +29,8 @@ struct SunHours {
   std::vector<SunLoss> casters;  ///< for each caster of the scene; `shared` adds up to what is missing
 };
 
-/// The same bits with any number of threads: points are taken in fixed chunks, and added up in their order.
+/// The same bits with any number of threads: points are taken in fixed chunks, and added up in their order. A stop wish leaves out
+/// the chunks that have not begun.
 SunHours sun_hours(const ShadowScene& scene, std::span<const SunPoint> points, std::span<const SunMoment> moments,
                    ShadowScene::Mask mask = {}, ThreadPool* pool = nullptr);
 

@@ -1,5 +1,4 @@
-// A whole study: rectangles that want sun, casters in the way, and what each has and takes; works out again only what has
-// changed.
+// A whole study: rectangles that want sun, casters in the way, and what each has and takes.
 #pragma once
 
 #include <span>
@@ -29,12 +28,20 @@ struct SunRecord {
   double least = 0, mean = 0, most = 0;  ///< [s per day]
   double share_met = 0;                  ///< of the points that have what is required
   double deficit = 0;                    ///< mean of what the points are short of it [s per day]
+  /// Fills in the last five from the hours.
+  void judge(double required);
 };
 
 /// The most points of one receiver; their spacing grows until there are no more.
 inline constexpr std::size_t kMostSunPoints = 4096;
 
-/// One record for each receiver. An empty mesh casts nothing.
+/// The most rays of one study, which are some twenty seconds of one processor: pairs of points and moments.
+inline constexpr double kMostSunRays = 2e8;
+/// An error where there would be more.
+Result<void> check_sun_rays(std::span<const SunReceiver> receivers, std::size_t moments);
+
+/// One record for each receiver. An empty mesh casts nothing. Errors: a mesh that is not finite (the place is the index of its
+/// caster), more rays than `kMostSunRays`, and `cancelled` where a stop wish came true.
 Result<std::vector<SunRecord>> sun_study(std::span<const MeshPointer> casters, std::span<const SunMoment> moments,
                                          std::span<const SunReceiver> receivers, ThreadPool* pool = nullptr);
 

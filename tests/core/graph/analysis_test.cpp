@@ -1,6 +1,9 @@
 // Analyses beside the loop: results come with a declared latency and are the same whatever thread, save or rewind.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "core/define/typification_builder.h"
 #include "core/file/scene_file.h"
 #include "core/graph/simulation.h"
@@ -202,6 +205,70 @@ TEST(Analysis, LatencyZeroIsWithinTheTick) {
   Course run(quick);
   run.ticks(4);
   EXPECT_EQ(run.number("survey", "survey.tick"), 4);
+}
+
+// Evaluates without end, unless it is told to stop; only the second attempt, which nobody may stop, comes to an end.
+struct Endless {
+  std::atomic<int> begun = 0;
+  TypificationDefinition definition;
+  Endless() {
+    definition.id = "endless";
+    definition.evaluate = [this](std::span<Value>, std::span<SetValues>, const Tick&) -> Result<void> {
+      ++begun;
+      while (stop_wish() != nullptr && !(*stop_wish())()) std::this_thread::yield();
+      if (stop_wish() != nullptr) return Error{ErrorCode::cancelled, "", "was stopped"};
+      return Error{ErrorCode::conflict, "", "came to its end"};
+    };
+  }
+  std::shared_ptr<Analysis> analysis() {
+    AnalysisInput input;
+    input.definition = &definition;
+    return std::make_shared<Analysis>(std::move(input));
+  }
+  void wait_until_begun() const {
+    while (begun == 0) std::this_thread::yield();
+  }
+};
+
+TEST(Analysis, IsStoppedWhenNobodyWantsItAnyMore) {
+  Endless endless;
+  AnalysisRunner runner;
+  auto unwanted = endless.analysis();
+  runner.begin(unwanted);
+  endless.wait_until_begun();
+  const std::weak_ptr<Analysis> watched = unwanted;
+  unwanted.reset();
+  while (!watched.expired()) std::this_thread::yield();
+}
+
+TEST(Analysis, StoppedByTheEndOfTheRunnerItIsLeftToWhoeverHoldsIt) {
+  Endless endless;
+  const auto held = endless.analysis();
+  {
+    AnalysisRunner runner;
+    runner.begin(held);
+    endless.wait_until_begun();
+  }
+  ASSERT_TRUE(held->result().error.has_value());
+  EXPECT_EQ(held->result().error->message, "came to its end");
+  EXPECT_EQ(endless.begun, 2);
+}
+
+// What an evaluation keeps is there for the next one of the same node.
+TEST(Analysis, KeepsAMemoForTheNextOne) {
+  int last = 0;
+  TypificationDefinition definition;
+  definition.evaluate = [&](std::span<Value>, std::span<SetValues>, const Tick& tick) -> Result<void> {
+    last = ++tick.memo->of<int>();
+    return {};
+  };
+  AnalysisInput input;
+  input.definition = &definition;
+  input.memo = std::make_shared<AnalysisMemo>();
+  for (int k = 1; k <= 3; ++k) {
+    Analysis(input).run();
+    EXPECT_EQ(last, k);
+  }
 }
 
 }  // namespace

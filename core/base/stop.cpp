@@ -1,0 +1,20 @@
+// One wish for each thread.
+#include "core/base/stop.h"
+
+#include <utility>
+
+namespace bl {
+
+namespace {
+
+thread_local const StopWish* innermost = nullptr;
+
+}  // namespace
+
+StopScope::StopScope(StopWish wish) : wish_(std::move(wish)), outer_(std::exchange(innermost, &wish_)) {}
+
+StopScope::~StopScope() { innermost = outer_; }
+
+const StopWish* stop_wish() { return innermost; }
+
+}  // namespace bl
