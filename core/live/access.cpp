@@ -12,6 +12,7 @@ namespace bl {
 
 namespace {
 
+constexpr std::uintmax_t kLongestCertificates = 16u << 20;  // [bytes]
 constexpr std::uintmax_t kLongestPassword = 65535;  // [bytes] the protocol has no longer ones
 
 }  // namespace
@@ -30,7 +31,7 @@ Result<std::string> Access::password() const {
   std::error_code none;
   if (std::filesystem::file_size(path, none) > kLongestPassword && !none)
     return Error{ErrorCode::io, "", "the file `" + source->name + "` is too long for a password"};
-  const auto text = read_file(path.string());
+  const auto text = read_plain_file(path.string(), kLongestPassword);
   if (!text) return Error{ErrorCode::io, "", "the file `" + source->name + "` cannot be read"};
   return text->substr(0, text->find_first_of("\r\n"));
 }
@@ -38,7 +39,7 @@ Result<std::string> Access::password() const {
 Result<std::string> Access::certificates() const {
   if (ca_file.empty()) return std::string();
   const std::string path = (std::filesystem::path(folder) / ca_file).string();
-  if (const auto text = read_file(path); !text || text->find("-----BEGIN CERTIFICATE-----") == std::string::npos)
+  if (const auto text = read_plain_file(path, kLongestCertificates); !text || text->find("-----BEGIN CERTIFICATE-----") == std::string::npos)
     return Error{
         ErrorCode::io, "",
         text ? "the file `" + ca_file + "` holds no certificate in PEM form" : "the file `" + ca_file + "` cannot be read"};

@@ -76,8 +76,8 @@ class Connections {
   const LiveOptions options_;
   std::map<std::string, std::unique_ptr<Sensor>> sensors_;      // by node
   std::map<std::string, std::unique_ptr<Actuator>> actuators_;  // by node
-  std::map<std::string, Access> accesses_;                      // of brokers, by host and port
   std::map<std::string, std::string> forgotten_;                // by node: addresses of sensors whose last line is out of date
+  std::map<std::string, Access> accesses_;                      // of brokers, by host and port
   std::map<std::string, std::unique_ptr<Endpoint>> endpoints_;  // by what they connect to
 };
 

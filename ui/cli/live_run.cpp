@@ -110,10 +110,9 @@ void LiveRun::sum_up(const State& state) const {
     const Traffic& t = status.traffic;
     std::string text = call(status) + ": ";
     if (status.is_sensor)
-      text += counted(static_cast<std::size_t>(t.received), "message") + ", " + std::to_string(t.skipped) +
-              " of them skipped; at the end " + reading_of(state, status.node);
-    if (status.is_recording && status.rows > 0) text += rows_of(status);
-    if (!status.is_sensor)
+      text += counted(static_cast<std::size_t>(t.received), "message") + ", " + std::to_string(t.skipped) + " of them skipped" +
+              (status.is_recording && status.rows > 0 ? rows_of(status) : "") + "; at the end " + reading_of(state, status.node);
+    else
       text += counted(static_cast<std::size_t>(t.sent), "message") + " sent, " + std::to_string(t.acknowledged) + " acknowledged, " +
               std::to_string(t.replaced) + " replaced by newer ones";
     print_line(text);

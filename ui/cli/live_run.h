@@ -31,7 +31,8 @@ class LiveRun {
   bool is_live_;
   double rate_;
   Connections connections_;
-  std::map<std::string, std::string> told_, read_;  // by node: the last sentences about its connection, and about its value
+  std::map<std::string, std::string> told_;  // by sensor or actuator: the last sentence about its connection
+  std::map<std::string, std::string> read_;  // by node: the last sentence about its value
   std::chrono::steady_clock::time_point told_readings_;
   std::chrono::steady_clock::time_point due_;
 };

@@ -51,7 +51,7 @@ TEST(Live, RecordingsArePlainFilesBesideTheScene) {
   place.write("inner/scene.json", scene("replay:../t.csv#demand"));
   const Outcome refused = run(place, "run inner/scene.json --ticks 2");
   EXPECT_NE(refused.err.find("does not lie in the folder of the scene"), std::string::npos) << refused.err;
-  EXPECT_NE(run(place, "run inner/scene.json --ticks 2 --recordings-anywhere").out.find("sensor s: 1 messages"), std::string::npos);
+  EXPECT_NE(run(place, "run inner/scene.json --ticks 2 --recordings-anywhere").out.find("sensor s: 1 message"), std::string::npos);
   place.write("device.json", scene("replay:/dev/zero#demand"));
   const Outcome device = run(place, "run device.json --ticks 2 --recordings-anywhere");
   EXPECT_NE(device.err.find("is a device or a pipe"), std::string::npos) << device.err;
