@@ -2,7 +2,7 @@
 # bl_plugin_abi(variable SOURCE folder SANITIZE text): headers of the declarations, compiler, machine, standard, sanitizers.
 function(bl_plugin_abi variable)
   cmake_parse_arguments(ARG "" "SOURCE;SANITIZE" "" ${ARGN})
-  file(GLOB headers ${ARG_SOURCE}/core/base/*.h ${ARG_SOURCE}/core/define/*.h)
+  file(GLOB headers CONFIGURE_DEPENDS ${ARG_SOURCE}/core/base/*.h ${ARG_SOURCE}/core/define/*.h)
   list(SORT headers)
   set(all "")
   foreach(header ${headers})

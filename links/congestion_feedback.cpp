@@ -20,7 +20,7 @@ struct CongestionFeedback {
     Shared<Table> loads;
     std::string id;
     std::vector<std::string> access;
-    double demand = 0, demand_limit = 0;
+    double demand = 0, demand_limit = 0, served = 0, lost = 0;
   };
   struct Out {
     std::optional<double> demand_limit;
@@ -29,8 +29,8 @@ struct CongestionFeedback {
   static void declare(LinkBuilder<CongestionFeedback>& l) {
     l.id("congestion_feedback").label("Congestion feedback");
     l.doc(
-        "Limits what a volume asks for while a street at its access carries more than a share of its capacity, tick by tick, and "
-        "loosens the limit again when there is room. With `request_traffic` this is a loop: the streets say how large the volume "
+        "Limits what a volume asks for while a street at its access carries more than a share of its capacity, or most of its "
+        "trips find no way, tick by tick, and loosens the limit again when there is room. With `request_traffic` this is a loop: the streets say how large the volume "
         "may be.");
     l.param(&In::limit, "limit")
         .unit(Unit::ratio)
@@ -48,6 +48,8 @@ struct CongestionFeedback {
         .doc("Share of the demand that no congestion takes away: it may be caused by others.");
     l.reads(&Ends::loads, End::from, "traffic_network.loads");
     l.reads(&Ends::id, End::to, "node.id").reads(&Ends::access, End::to, "traffic_zone.access");
+    l.reads(&Ends::served, End::to, "traffic_zone.trips_served", Unit::per_hour);
+    l.reads(&Ends::lost, End::to, "traffic_zone.trips_lost", Unit::per_hour);
     l.reads(&Ends::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.proposes(&Out::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
@@ -59,9 +61,11 @@ struct CongestionFeedback {
     for (const std::string& junction : ends.access.empty() ? own : ends.access)
       if (const std::size_t row = ends.loads->row_of("junction", junction); row < ends.loads->rows.size())
         load = std::max(load, ends.loads->number(row, "volume_over_capacity"));
-    if (!(ends.demand > 0) || !(load > 0)) return Out{};
-    // From the share that the limit leaves now; one tick answers to at most a halving or a doubling.
-    const double answer = 1 + in.gain * (std::clamp(in.limit / load, 0.5, 2.0) - 1);
+    if (!(ends.demand > 0)) return Out{};
+    // From the share that the limit leaves now; one tick answers to at most a halving or a doubling. Where most trips find no way
+    // at all, the access is as bad as can be.
+    const double room = ends.lost > ends.served ? 0.5 : load > 0 ? std::clamp(in.limit / load, 0.5, 2.0) : 2;
+    const double answer = 1 + in.gain * (room - 1);
     const double share = granted_share(ends.demand, ends.demand_limit) * answer;
     return Out{limit_that_grants(ends.demand, std::max(share, in.least))};
   }

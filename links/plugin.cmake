@@ -7,6 +7,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/abi.cmake)
 function(bl_plugin name)
   set(declarations "")
   set(calls "")
+  set(stems "")
   set(sources "")
   foreach(source ${ARGN})
     get_filename_component(source ${source} ABSOLUTE)
@@ -22,6 +23,7 @@ function(bl_plugin name)
     endif()
     string(APPEND declarations "void register_${noun}_${stem}(Registry& registry);\n")
     string(APPEND calls "  bl::register_${noun}_${stem}(registry);\n")
+    string(APPEND stems "${stem} ")
     list(APPEND sources ${source})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
   endforeach()
@@ -36,6 +38,7 @@ namespace bl {
 ${declarations}}  // namespace bl
 extern \"C\" {
 __attribute__((visibility(\"default\"), used)) extern const char behaviourlinks_abi[] = \"BEHAVIOURLINKS-PLUGIN-ABI:${abi}\";
+__attribute__((visibility(\"default\"), used)) extern const char behaviourlinks_files[] = \"${stems}\";
 __attribute__((visibility(\"default\"))) void behaviourlinks_register(bl::Registry& registry) {
 ${calls}}
 }

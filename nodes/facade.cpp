@@ -49,7 +49,7 @@ struct Facade {
     t.out(&Out::opaque_area, "opaque_area").unit(Unit::square_metre).doc("Area of wall.");
     t.out(&Out::roof_area, "roof_area").unit(Unit::square_metre).doc("Surface flatter than 45 degrees that looks up.");
     t.out(&Out::shared_area, "shared_area").unit(Unit::square_metre).doc("Surface that neighbours cover.");
-    t.out(&Out::glazing_ratio, "glazing_ratio").unit(Unit::ratio).doc("Glazed share of the façade; 0 where there is none.");
+    t.out(&Out::glazing_ratio, "glazing_ratio").unit(Unit::ratio).soft(0, 1).doc("Glazed share of the façade; 0 where there is none.");
     t.out(&Out::cost, "cost").unit(Unit::euro).doc("Cost of the façade by the prices of its style.");
     t.out(&Out::panels, "panels").unit(Unit::count).doc("Number of modules, one storey high; parts of modules count as parts.");
     t.out(&Out::true_north, "true_north")

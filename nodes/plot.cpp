@@ -72,7 +72,7 @@ struct Plot {
             "Built ground: the footprints of the volumes that begin within the lowest storey, since others stand on these. What "
             "begins in the upper half of it counts less and less.");
     t.out(&Out::fsi, "fsi").unit(Unit::ratio).doc("Floor space index: floor area over the area of the plot.");
-    t.out(&Out::gsi, "gsi").unit(Unit::ratio).doc("Ground space index: built ground over the area of the plot.");
+    t.out(&Out::gsi, "gsi").unit(Unit::ratio).soft(0, 1).doc("Ground space index: built ground over the area of the plot.");
     t.out(&Out::osr, "osr").unit(Unit::ratio).doc("Open space ratio, (1 - GSI) / FSI; 0 where nothing is built.");
     t.out(&Out::layers, "layers").unit(Unit::ratio).doc("Mean number of storeys, FSI / GSI; 0 where no ground is built on.");
     t.out(&Out::top, "top").unit(Unit::metre).doc("How high above the ground the highest volume reaches.");

@@ -90,7 +90,7 @@ struct ShadowReceiver {
     t.out(&Out::sun_mean, "sun_mean").unit(Unit::second).doc("Direct sun per day, as the mean over all points.");
     t.out(&Out::sun_max, "sun_max").unit(Unit::second).doc("Direct sun per day at the point that has most.");
     t.out(&Out::sun_possible, "sun_possible").unit(Unit::second).doc("The mean that it would have without any caster.");
-    t.out(&Out::share_met, "share_met").unit(Unit::ratio).doc("Share of the area that has at least the required sun.");
+    t.out(&Out::share_met, "share_met").unit(Unit::ratio).soft(0, 1).doc("Share of the area that has at least the required sun.");
     t.out(&Out::deficit, "deficit")
         .unit(Unit::second)
         .doc("What the points are short of the required sun, as the mean over all points: 0 where each has enough.");

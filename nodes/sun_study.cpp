@@ -88,7 +88,7 @@ struct SunStudyNode {
     t.out(&Out::area, "area").unit(Unit::square_metre).doc("Area of all receivers.");
     t.out(&Out::sun_mean, "sun_mean").unit(Unit::second).doc("Direct sun per day, as the mean over that area.");
     t.out(&Out::sun_possible, "sun_possible").unit(Unit::second).doc("The same if there were no casters.");
-    t.out(&Out::share_met, "share_met").unit(Unit::ratio).doc("Share of that area that has the sun that is required of it.");
+    t.out(&Out::share_met, "share_met").unit(Unit::ratio).soft(0, 1).doc("Share of that area that has the sun that is required of it.");
     t.out(&Out::message, "message")
         .doc("Who takes most from whom, names that no caster bears, and whether any sun counts; empty where there is nothing.");
     t.set("sun", &Sets::suns)

@@ -1,5 +1,6 @@
 // The traffic network: puts the trips of its zones on its streets, tick by tick, until nobody gains by another way.
 #include <algorithm>
+#include <optional>
 
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
@@ -11,14 +12,14 @@ namespace {
 struct TrafficNetworkNode {
   // What the next tick starts from: flow by zone and link, and trips by pair of zones.
   struct Memory {
-    Table flows{{"origin", "link", "flow"}, {}}, trips{{"origin", "destination", "trips"}, {}};
+    Shared<Table> flows{Table{{"origin", "link", "flow"}, {}}}, trips{Table{{"origin", "destination", "trips"}, {}}};
   };
   struct In {
     Selection streets{{}, "street", {}}, junctions{{}, "junction", {}}, zones{{}, "traffic_zone", {}};
     double alpha = 0.15, beta = 4, peak_share = 0.1, toll_factor = 180, distance_factor = 0, walking_speed = 1.34;
     TripConstraint distribution = TripConstraint::origins;
-    double fade = 600, haste = 0.5, gap = 1e-4;
-    int steps = 4;
+    double fade = 600, haste = 0.5, gap = 1e-4, isochrone_step = 300;
+    int steps = 4, isochrone_bands = 3;
     Memory last;
   };
   struct Street {
@@ -32,6 +33,10 @@ struct TrafficNetworkNode {
     Point3 position;
     double delay = 0;
   };
+  struct Rules {
+    std::string id;
+    Table turns;
+  };
   struct Zone {
     std::string id;
     Point3 position;
@@ -42,6 +47,7 @@ struct TrafficNetworkNode {
   struct Sets {
     std::vector<Street> streets;
     std::vector<Crossing> junctions;
+    std::vector<Rules> rules;
     std::vector<Zone> zones;
   };
   struct CrossingReply {
@@ -61,6 +67,7 @@ struct TrafficNetworkNode {
     Memory memory;
     std::vector<DistrictResult::Street> streets;
     std::vector<CrossingReply> junctions;
+    std::vector<DistrictResult::Rules> rules;
     std::vector<ZoneReply> zones;
   };
   using Builder = TypificationBuilder<TrafficNetworkNode>;
@@ -103,7 +110,13 @@ struct TrafficNetworkNode {
         .unit(Unit::metre_per_second)
         .range(0.1, 10)
         .soft(0.8, 2)
-        .doc("Speed on foot between a zone and the junctions of its access.");
+        .doc("Speed on foot: between a zone and the junctions of its access, and along streets.");
+    t.in(&In::isochrone_step, "isochrone_step")
+        .unit(Unit::second)
+        .range(10, 36000)
+        .soft(60, 900)
+        .doc("Time from isochrone to isochrone.");
+    t.in(&In::isochrone_bands, "isochrone_bands").range(1, 6).doc("Isochrones that are drawn around a chosen node.");
     t.in(&In::distribution, "distribution",
          {{TripConstraint::origins, "singly", "What leaves each zone holds; what ends where follows attraction and time."},
           {TripConstraint::both, "doubly", "What ends in each zone holds as well, in proportion."}})
@@ -144,15 +157,17 @@ struct TrafficNetworkNode {
     t.out(&Out::objective, "objective")
         .doc("Beckmann's objective: the sum of the areas under the curves of time over flow. Equilibrium is its least.");
     t.out(&Out::largest_load, "largest_load").unit(Unit::ratio).doc("The largest volume over capacity of all streets.");
-    t.out(&Out::message, "message").doc("Which streets and zones are left out, and why; empty where none are.");
+    t.out(&Out::message, "message").doc("Which streets, zones and turn rules are left out, and why; empty where none are.");
     t.out(&Out::loads, "loads")
         .column({.id = "junction", .is_text = true, .default_value = std::string(), .doc = "Id of the junction."})
         .column({.id = "volume_over_capacity", .unit = Unit::ratio, .doc = "The largest of the streets there."})
         .doc("How far the streets at each junction are used, in ascending id.");
     t.memory(&Out::memory, &In::last, &Memory::flows, "flows")
         .column({.id = "origin", .is_text = true, .default_value = std::string(), .doc = "The zone that the trips come from."})
-        .column(
-            {.id = "link", .is_text = true, .default_value = std::string(), .doc = "Street and direction, or zone and access."})
+        .column({.id = "link",
+                 .is_text = true,
+                 .default_value = std::string(),
+                 .doc = "Street and direction, zone and access, or turn."})
         .column({.id = "flow", .unit = Unit::per_hour, .doc = "Trips per hour."})
         .doc("Where the trips of each zone are: what the next tick starts from.");
     t.memory(&Out::memory, &In::last, &Memory::trips, "pairs")
@@ -179,6 +194,10 @@ struct TrafficNetworkNode {
     junctions.reads(&Crossing::id, "node.id").reads(&Crossing::position, "node.position", Unit::metre);
     junctions.reads(&Crossing::delay, "junction.delay").writes(&CrossingReply::streets, "junction.streets");
     junctions.writes(&CrossingReply::flow, "junction.flow").writes(&CrossingReply::load, "junction.volume_over_capacity");
+    auto rules = t.set("junctions", &Sets::rules, &Out::rules);  // those of the junctions that have any
+    rules.reads(&Rules::id, "node.id").reads(&Rules::turns, "turn_rules.turns");
+    rules.writes(&DistrictResult::Rules::forbidden, "turn_rules.forbidden");
+    rules.writes(&DistrictResult::Rules::reason, "turn_rules.reason");
     auto zones = t.set("zones", &Sets::zones, &Out::zones);
     zones.reads(&Zone::id, "node.id").reads(&Zone::position, "node.position", Unit::metre);
     zones.reads(&Zone::trips_out, "traffic_zone.trips_out").reads(&Zone::trips_in, "traffic_zone.trips_in");
@@ -193,21 +212,47 @@ struct TrafficNetworkNode {
 
   static DistrictState recalled(const Memory& last) {
     DistrictState state;
-    for (std::size_t r = 0; r < last.flows.rows.size(); ++r)
-      state.flows.push_back({last.flows.text(r, "origin"), last.flows.text(r, "link"), last.flows.number(r, "flow")});
-    for (std::size_t r = 0; r < last.trips.rows.size(); ++r)
-      state.trips.push_back({last.trips.text(r, "origin"), last.trips.text(r, "destination"), last.trips.number(r, "trips")});
+    for (std::size_t r = 0; r < last.flows->rows.size(); ++r)
+      state.flows.push_back({last.flows->text(r, "origin"), last.flows->text(r, "link"), last.flows->number(r, "flow")});
+    for (std::size_t r = 0; r < last.trips->rows.size(); ++r)
+      state.trips.push_back({last.trips->text(r, "origin"), last.trips->text(r, "destination"), last.trips->number(r, "trips")});
     return state;
   }
 
-  static Memory kept(const DistrictState& state) {
-    Memory memory;
-    for (const auto& row : state.flows) memory.flows.rows.push_back({row.origin, row.link, row.flow});
-    for (const auto& row : state.trips) memory.trips.rows.push_back({row.origin, row.destination, row.trips});
-    return memory;
+  static Memory remembered(const DistrictState& state) {
+    Table flows = *Memory().flows, trips = *Memory().trips;
+    for (const auto& row : state.flows) flows.rows.push_back({row.origin, row.link, row.flow});
+    for (const auto& row : state.trips) trips.rows.push_back({row.origin, row.destination, row.trips});
+    return {std::move(flows), std::move(trips)};
   }
 
-  static Result<DistrictResult> stepped(const In& in, const Sets& sets) {
+  static std::vector<DistrictRules> rules_of(const Sets& sets) {
+    std::vector<DistrictRules> all;
+    for (const Rules& rules : sets.rules) {
+      all.push_back({rules.id, {}});
+      for (std::size_t r = 0; r < rules.turns.rows.size(); ++r)
+        all.back().turns.push_back({rules.turns.text(r, "from"), rules.turns.text(r, "to"), rules.turns.text(r, "rule")});
+    }
+    return all;
+  }
+
+  // All that a step depends on.
+  struct Step {
+    std::vector<DistrictStreet> streets;
+    std::vector<DistrictJunction> junctions;
+    std::vector<DistrictRules> rules;
+    std::vector<DistrictZone> zones;
+    DistrictSettings settings;
+    Shared<Table> flows, trips;
+    bool operator==(const Step&) const = default;
+  };
+  // The last step and what came of it: a network at rest is asked the same in every tick.
+  struct Kept {
+    Step step;
+    std::optional<Out> out;
+  };
+
+  static Step step_of(const In& in, const Sets& sets) {
     std::vector<DistrictStreet> streets;
     for (const Street& s : sets.streets) {
       const double capacity = s.lanes * s.capacity_per_lane * s.open;
@@ -220,11 +265,21 @@ struct TrafficNetworkNode {
     for (const Zone& z : sets.zones) zones.push_back({z.id, z.position, z.trips_out, z.trips_in, z.access, z.list_reach});
     const DistrictSettings settings{in.alpha, in.beta,         in.toll_factor, in.distance_factor, in.walking_speed,
                                     in.fade,  in.distribution, in.gap,         in.steps,           in.haste};
-    return step_district(junctions, streets, zones, settings, recalled(in.last));
+    return {std::move(streets), std::move(junctions), rules_of(sets), std::move(zones), settings, in.last.flows, in.last.trips};
   }
 
-  static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
-    auto result = stepped(in, sets);
+  static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
+    Kept own;
+    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
+    Step step = step_of(in, sets);
+    if (kept.out && kept.step == step) return *kept.out;
+    auto out = worked_out(in, sets, step);
+    kept = {std::move(step), out ? std::optional<Out>(*out) : std::nullopt};
+    return out;
+  }
+
+  static Result<Out> worked_out(const In& in, const Sets& sets, const Step& step) {
+    auto result = step_district(step.junctions, step.streets, step.rules, step.zones, step.settings, recalled(in.last));
     if (!result) return Error{result.error().code, "streets", "`" + result.error().place + "`: " + result.error().message};
     Out out;
     out.relative_gap = result->gap;
@@ -241,13 +296,15 @@ struct TrafficNetworkNode {
       out.largest_load = std::max(out.largest_load, result->streets[s].load);
       left_out(sets.streets[s].id, result->streets[s].reason);
     }
+    out.rules = std::move(result->rules);
+    for (std::size_t j = 0; j < out.rules.size(); ++j) left_out(sets.rules[j].id, out.rules[j].reason);
     for (std::size_t z = 0; z < result->zones.size(); ++z) left_out(sets.zones[z].id, result->zones[z].reason);
     for (std::size_t j = 0; j < result->junctions.size(); ++j) {
       const DistrictResult::Junction& junction = result->junctions[j];
       out.junctions.push_back({junction.streets, junction.flow, junction.load});
       out.loads.rows.push_back({sets.junctions[j].id, junction.load});
     }
-    out.memory = kept(result->state);
+    out.memory = result->is_at_rest ? in.last : remembered(result->state);
     out.streets = std::move(result->streets);
     for (const DistrictResult::Zone& zone : result->zones) {
       ZoneReply& reply = out.zones.emplace_back(ZoneReply{

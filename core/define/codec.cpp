@@ -295,6 +295,15 @@ Result<Value> value_from_json(const PortDefinition& port, const Json& json, cons
   return value;
 }
 
+Result<Value> running_value_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
+  const bool has_range = port.kind == ValueKind::number || port.kind == ValueKind::integer || port.kind == ValueKind::point ||
+                         port.kind == ValueKind::points;
+  if (!has_range) return value_from_json(port, json, place);
+  auto value = decode(port, json, place);
+  if (value && !is_finite(*value)) return Error{ErrorCode::not_finite, place, "must be a finite number"};
+  return value;
+}
+
 Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type, const Json& json, const std::string& place) {
   if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"port\": value, ...}, found " + shown(json)};
   std::map<std::string, Value> values;

@@ -18,6 +18,8 @@ inline constexpr double kCoordinateLimit = 1e7, kNumberLimit = 1e15;
 Json value_to_json(const Value& value, const PortDefinition& port);
 /// A value of the declared kind, inside the hard range, finite; otherwise an error at `place`.
 Result<Value> value_from_json(const PortDefinition& port, const Json& json, const std::string& place);
+/// The same without the ranges of settings, beyond which figures that a run has worked out may lie.
+Result<Value> running_value_from_json(const PortDefinition& port, const Json& json, const std::string& place);
 /// The checks that a value from code must pass too: range, choices, columns, finite numbers.
 Result<void> check_value(const PortDefinition& port, const Value& value, const std::string& place);
 

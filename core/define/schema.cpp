@@ -166,7 +166,8 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
   const Json object = {{"type", "object"}};
   const Json objects = {{"type", "object"}, {"additionalProperties", object}};
   const Json state = {{"type", "object"},
-                      {"properties", {{"tick", tick}, {"calm", tick}, {"nodes", objects}, {"held", objects}, {"analyses", objects}}},
+                      {"properties",
+                       {{"tick", tick}, {"calm", tick}, {"nodes", objects}, {"held", objects}, {"analyses", objects}, {"meshes", objects}}},
                       {"additionalProperties", false}};
   const Json properties = {{"format", {{"const", "behaviourlinks"}}},
                            {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},

@@ -50,10 +50,13 @@ class Importer {
   }
 
   void run() {
-    for (const CityObject& object : model_.objects) {
+    for (std::size_t i = 0; i < model_.objects.size(); ++i) {
+      const CityObject& object = model_.objects[i];
+      if (i % 64 == 0 && !goes_on(options_.watch, "city objects", i, model_.objects.size())) return;
       if (is_building(object.type)) building(object);
       else if (is_ground(object.type)) ground(object);
       else context_.report.skip(object.type, object.id, "objects of this type are not read");
+      context_.report.locate(place(object));
     }
   }
 
@@ -81,6 +84,24 @@ class Importer {
       return child != by_id_.end() && child->second->type == "BuildingPart" && choose(*child->second, none) != nullptr;
     });
   }
+
+  // Of whatever geometry it has, or its parts have.
+  std::optional<std::array<double, 2>> place(const CityObject& object) const {
+    std::vector<Point3> points;
+    const auto add = [&](const CityObject& one) {
+      for (const CityGeometry& geometry : one.geometries) {
+        const std::vector<Point3> more = corners(one, geometry);
+        points.insert(points.end(), more.begin(), more.end());
+      }
+    };
+    add(object);
+    for (const std::string& id : object.children)
+      if (const auto child = by_id_.find(id); child != by_id_.end() && points.empty()) add(*child->second);
+    return place_of(points);
+  }
+
+  // Each object has one row: the next one is that of the object which is being read.
+  std::size_t next_row() const { return context_.report.rows().size(); }
 
   std::vector<Point3> corners(const CityObject& object, const CityGeometry& geometry) const {
     std::vector<Point3> points;
@@ -147,6 +168,7 @@ class Importer {
     note(mended, found.front().mended);
     ContextBuilding made;
     made.id = object.id;
+    made.row = next_row();
     made.outer = std::move(found.front().outer);
     made.holes = std::move(found.front().holes);
     describe(object, made);
@@ -216,7 +238,7 @@ class Importer {
       const std::string id = found.size() > 1 ? object.id + "/" + std::to_string(i + 1) : object.id;
       const std::string use = attribute(object, {"function", "class", "usage"});
       context_.areas.push_back({id, attribute(object, {"name"}), use.empty() ? object.type : object.type + "=" + use,
-                                std::move(found[i].outer), std::move(found[i].holes), false});
+                                std::move(found[i].outer), std::move(found[i].holes), false, next_row()});
     }
     if (mended.empty()) context_.report.take(object.type, object.id, "area of ground");
     else context_.report.repair(object.type, object.id, "area of ground", mended);
@@ -252,6 +274,7 @@ Result<Context> read_cityjson_context(std::string_view bytes, const ContextOptio
   context.notes = frame->notes();
   context.notes.insert(context.notes.end(), model->notes.begin(), model->notes.end());
   Importer(*model, options, *frame, context).run();
+  if (options.watch != nullptr && options.watch->is_stopped) return stopped_error();
   assume_heights(options, context);
   return context;
 }

@@ -11,6 +11,7 @@
 
 #include "core/base/mesh.h"
 #include "core/exchange/import_report.h"
+#include "core/exchange/import_watch.h"
 #include "core/exchange/local_frame.h"
 #include "core/geometry/plan_ring.h"
 
@@ -26,6 +27,9 @@ enum class HeightSource {
 };
 std::string_view name_of(HeightSource source);
 
+/// Of an element that no row of the report speaks of.
+inline constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
+
 /// All lengths in local metres.
 struct ContextBuilding {
   std::string id, name, use;
@@ -38,6 +42,7 @@ struct ContextBuilding {
   bool is_part = false;      ///< a part of a building that is drawn by its parts
   std::string whole;         ///< id of the building that it is a part of; empty: none
   MeshPointer solid;         ///< closed and outward, where the source has one
+  std::size_t row = kNoRow;  ///< of the report, which it came from
 };
 
 struct ContextJunction {
@@ -56,6 +61,7 @@ struct ContextStreet {
   bool is_lanes_assumed = true, is_speed_assumed = true;
   bool is_one_way = false;  ///< from `start` to `end`
   bool for_cars = true, for_cycles = true, for_feet = true;
+  std::size_t row = kNoRow;  ///< of the report
 };
 
 /// A turn that is forbidden, or the only one allowed, at a junction.
@@ -69,7 +75,8 @@ struct ContextArea {
   std::string id, name, use;  ///< use: "landuse=grass", "natural=water"
   Ring outer;
   std::vector<Ring> holes;
-  bool is_plot = false;  ///< a parcel of land
+  bool is_plot = false;      ///< a parcel of land
+  std::size_t row = kNoRow;  ///< of the report
 };
 
 struct Context {
@@ -97,6 +104,7 @@ struct ContextOptions {
   std::vector<std::pair<std::string, std::string>> properties;  ///< ours and the file's: {"height", "H_MAX"}
   double level_of_detail = 9;                                   ///< CityJSON: the finest one up to this is taken
   std::string proj_database;                                    ///< path of proj.db; empty: PROJ finds its own
+  ImportWatch* watch = nullptr;                                 ///< who waits for it; may be null
 };
 
 /// No element may lie farther from the origin [m]: over such lengths no flat frame is exact.

@@ -45,7 +45,7 @@ Result<LocalFrame> context_frame(const ContextOptions& options, const std::strin
   const std::string crs = context_crs(options, file_crs);
   if (crs.empty())
     return Error{ErrorCode::missing, "crs",
-                 "The file does not say in which CRS its coordinates are. Give it, such as EPSG:28992."};
+                 "The file does not say in which CRS its coordinates are. Give it by --crs, such as EPSG:28992."};
   const std::array<double, 2> about = options.origin.value_or(middle);
   if (is_longitude_latitude(crs) && !(std::abs(about[0]) <= 180 && std::abs(about[1]) <= 90))
     return Error{
@@ -189,6 +189,19 @@ void assume_heights(const ContextOptions& options, Context& context) {
     context.notes.push_back("The heights of " + std::to_string(by_default) +
                             " buildings are not known: " + shortest(options.default_height) + " m were assumed.");
 }
+
+std::optional<std::array<double, 2>> place_of(const std::vector<Point3>& points) {
+  double west = INFINITY, east = -INFINITY, south = INFINITY, north = -INFINITY;
+  for (const Point3& p : points) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+    west = std::min(west, p.x), east = std::max(east, p.x);
+    south = std::min(south, p.y), north = std::max(north, p.y);
+  }
+  if (west > east) return std::nullopt;
+  return std::array{west / 2 + east / 2, south / 2 + north / 2};
+}
+
+Error stopped_error() { return {ErrorCode::cancelled, "", "The import was stopped; nothing was added."}; }
 
 std::optional<std::array<double, 2>> middle_of(std::vector<std::array<double, 2>> points) {
   if (points.empty()) return std::nullopt;

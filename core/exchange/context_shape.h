@@ -39,6 +39,11 @@ void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& droppe
 /// how many got which. Buildings are those whose height is 0.
 void assume_heights(const ContextOptions& options, Context& context);
 
+/// The middle of the box around those points that have a place; nothing where none has.
+std::optional<std::array<double, 2>> place_of(const std::vector<Point3>& points);
+/// What an importer answers that was stopped.
+Error stopped_error();
+
 /// The middle (median of x and of y) of points; nothing where there are none.
 std::optional<std::array<double, 2>> middle_of(std::vector<std::array<double, 2>> points);
 

@@ -25,8 +25,14 @@ struct RawPoint {
   double x = 0, y = 0, value = 0;
 };
 
-Result<void> place_points(std::vector<RawPoint> raw, const ContextOptions& options, const std::string& crs, const char* kind,
-                          DataLayer& layer) {
+// An element that was skipped, although it has a place: the row that speaks of it.
+struct SkippedPoint {
+  std::size_t row = 0;
+  double x = 0, y = 0;
+};
+
+Result<void> place_points(std::vector<RawPoint> raw, const std::vector<SkippedPoint>& skipped, const ContextOptions& options,
+                          const std::string& crs, const char* kind, DataLayer& layer) {
   std::vector<std::array<double, 2>> positions;
   for (const RawPoint& point : raw) positions.push_back({point.x, point.y});
   const auto middle = middle_of(std::move(positions));
@@ -39,14 +45,16 @@ Result<void> place_points(std::vector<RawPoint> raw, const ContextOptions& optio
   layer.source_crs = context_crs(options, crs);
   layer.reference = frame->reference();
   layer.notes.insert(layer.notes.end(), frame->notes().begin(), frame->notes().end());
-  for (const RawPoint& point : raw) {
+  for (const SkippedPoint& point : skipped) layer.report.locate(point.row, place_of({frame->to_local(point.x, point.y)}));
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    if (i % 1024 == 0 && !goes_on(options.watch, "points", i, raw.size())) return stopped_error();
+    const RawPoint& point = raw[i];
     const Point3 at = frame->to_local(point.x, point.y);
-    if (const std::string far = out_of_reach(options, {at}); !far.empty()) {
-      layer.report.skip(kind, point.place, far);
-      continue;
-    }
-    layer.points.push_back({at.x, at.y, point.value});
-    layer.report.take(kind, point.place, "point with a value");
+    const std::string far = out_of_reach(options, {at});
+    if (far.empty()) layer.points.push_back({at.x, at.y, point.value});
+    if (far.empty()) layer.report.take(kind, point.place, "point with a value");
+    else layer.report.skip(kind, point.place, far);
+    layer.report.locate(place_of({at}));
   }
   return {};
 }
@@ -80,7 +88,7 @@ class TableReader {
     return choose_value(header, line);
   }
 
-  Result<std::vector<RawPoint>> read(ImportReport& report) const {
+  Result<std::vector<RawPoint>> read(ImportReport& report, std::vector<SkippedPoint>& skipped) const {
     std::array<Column, 3> columns;
     for (const auto& [i, index] : {std::pair{0u, *x_}, {1u, *y_}, {2u, value_}}) {
       auto decimal = decimal_of(index);
@@ -94,8 +102,10 @@ class TableReader {
       point.place = "line " + std::to_string(record.line);
       const auto x = number(record, columns[0]), y = number(record, columns[1]), value = number(record, columns[2]);
       if (!x || !y) report.skip("record", point.place, "no coordinates");
-      else if (!value) report.skip("record", point.place, "no value", text(record, value_).substr(0, 40));
-      else {
+      else if (!value) {
+        skipped.push_back({report.rows().size(), *x, *y});
+        report.skip("record", point.place, "no value", text(record, value_).substr(0, 40));
+      } else {
         point.x = *x, point.y = *y, point.value = *value;
         points.push_back(std::move(point));
       }
@@ -193,6 +203,13 @@ Result<std::string> value_property(const GeoDocument& document) {
                          : "Several properties are numbers (" + list + "): say which one is the value."};
 }
 
+std::optional<std::array<double, 2>> first_position(const GeoFeature& feature) {
+  if (!feature.polygons.empty() && !feature.polygons.front().rings.front().empty())
+    return feature.polygons.front().rings.front().front();
+  if (!feature.lines.empty() && !feature.lines.front().points.empty()) return feature.lines.front().points.front();
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<DataLayer> read_layer_csv(std::string_view bytes, const ContextOptions& options, const std::string& value) {
@@ -207,11 +224,13 @@ Result<DataLayer> read_layer_csv(std::string_view bytes, const ContextOptions& o
   if (auto matched = reader.match(); !matched) return matched.error();
   DataLayer layer;
   layer.notes = csv->notes;
-  auto points = reader.read(layer.report);
+  std::vector<SkippedPoint> skipped;
+  auto points = reader.read(layer.report, skipped);
   if (!points) return points.error();
   layer.value_name = reader.value_name();
   layer.unit = normal_header(layer.value_name).unit;
-  if (auto placed = place_points(std::move(*points), options, reader.is_degrees ? "OGC:CRS84" : "", "record", layer); !placed)
+  if (auto placed = place_points(std::move(*points), skipped, options, reader.is_degrees ? "OGC:CRS84" : "", "record", layer);
+      !placed)
     return placed.error();
   return layer;
 }
@@ -230,11 +249,13 @@ Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOption
     layer.value_name = *found;
   }
   std::vector<RawPoint> points;
+  std::vector<SkippedPoint> skipped;
   std::string crs;
   for (std::size_t i = 0; i < document->features.size(); ++i) {
     const GeoFeature& feature = document->features[i];
     const std::string place = feature.place.empty() ? "the feature" : feature.place;
     if (feature.points.empty()) {
+      if (const auto at = first_position(feature)) skipped.push_back({layer.report.rows().size(), (*at)[0], (*at)[1]});
       layer.report.skip("feature", place, "it is no point");
       continue;
     }
@@ -242,12 +263,14 @@ Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOption
     const auto property = std::find_if(feature.properties.begin(), feature.properties.end(),
                                        [&](const auto& p) { return p.first == layer.value_name; });
     const auto number = property == feature.properties.end() ? std::nullopt : parse_number(property->second);
-    if (!number)
+    if (!number) {
+      const auto& at = feature.points.front().position;
+      skipped.push_back({layer.report.rows().size(), at[0], at[1]});
       layer.report.skip("feature", place, "no value", property == feature.properties.end() ? "" : property->second.substr(0, 40));
-    else
+    } else
       for (const GeoPoint& point : feature.points) points.push_back({place, point.position[0], point.position[1], *number});
   }
-  if (auto placed = place_points(std::move(points), options, crs, "feature", layer); !placed) return placed.error();
+  if (auto placed = place_points(std::move(points), skipped, options, crs, "feature", layer); !placed) return placed.error();
   return layer;
 }
 

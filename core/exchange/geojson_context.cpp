@@ -86,6 +86,7 @@ class Importer {
     else if (!feature.lines.empty()) lines(feature, properties, shown);
     else if (!feature.points.empty()) context_.report.skip("feature", shown, "a single place: points are not read");
     else context_.report.skip("feature", shown, "it has no geometry");
+    context_.report.locate(place_of(all_points(feature)));
   }
 
   std::size_t unsure = 0;  // polygons whose properties did not say what they are
@@ -97,6 +98,18 @@ class Importer {
     for (const auto& p : raw) points.push_back(frame_.to_local(p[0], p[1]));
     return points;
   }
+
+  std::vector<Point3> all_points(const GeoFeature& feature) const {
+    std::vector<std::array<double, 2>> raw;
+    for (const GeoPolygon& polygon : feature.polygons)
+      raw.insert(raw.end(), polygon.rings.front().begin(), polygon.rings.front().end());
+    for (const GeoLine& line : feature.lines) raw.insert(raw.end(), line.points.begin(), line.points.end());
+    for (const GeoPoint& point : feature.points) raw.push_back(point.position);
+    return local(raw);
+  }
+
+  // Each feature has one row: the next one is that of the feature which is being read.
+  std::size_t next_row() const { return context_.report.rows().size(); }
 
   std::string kind_of(const Properties& p) {
     if (!options_.feature_kind.empty()) return options_.feature_kind;
@@ -151,11 +164,13 @@ class Importer {
     sort_holes(outer.ring, holes, mended);
     if (kind != "building") {
       context_.areas.push_back(
-          {id, properties.get("name"), properties.get("use"), std::move(outer.ring), std::move(holes), kind == "plot"});
+          {id, properties.get("name"), properties.get("use"), std::move(outer.ring), std::move(holes), kind == "plot",
+           next_row()});
       return {};
     }
     ContextBuilding& building = context_.buildings.emplace_back();
     building.id = id;
+    building.row = next_row();
     building.name = properties.get("name");
     building.use = properties.get("use");
     if (building.use == "yes") building.use.clear();
@@ -198,7 +213,7 @@ class Importer {
       if (line.size() < given) note(mended, std::to_string(given - line.size()) + " repeated points dropped");
       if (road.direction < 0) std::reverse(line.begin(), line.end());
       const std::string id = feature.lines.size() > 1 ? id_ + "/" + std::to_string(i + 1) : id_;
-      raw_.push_back({std::move(line), road, id, properties.get("name")});
+      raw_.push_back({std::move(line), road, id, properties.get("name"), next_row()});
       ++taken;
     }
     if (taken == 0) return context_.report.skip("feature", shown, "street: " + fault);
@@ -224,6 +239,7 @@ class Importer {
         ContextStreet& street = context_.streets.emplace_back();
         street.id = raw.id + "/" + std::to_string(number++);
         street.name = raw.name;
+        street.row = raw.row;
         street.street_class = raw.road.road_class;
         street.line.assign(raw.line.begin() + static_cast<std::ptrdiff_t>(first),
                            raw.line.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -247,6 +263,7 @@ class Importer {
     std::vector<Point3> line;
     OsmRoad road;
     std::string id, name;
+    std::size_t row = kNoRow;
   };
 
   static std::array<double, 2> key(const Point3& p) { return {std::round(p.x * 1000), std::round(p.y * 1000)}; }
@@ -299,12 +316,15 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   context.notes = document->notes;
   context.notes.insert(context.notes.end(), frame->notes().begin(), frame->notes().end());
   Importer importer(options, *frame, context);
-  for (std::size_t i = 0; i < document->features.size(); ++i) importer.read(document->features[i], i);
+  for (std::size_t i = 0; i < document->features.size(); ++i) {
+    if (i % 256 == 0 && !goes_on(options.watch, "features", i, document->features.size())) return stopped_error();
+    importer.read(document->features[i], i);
+  }
   importer.cut_streets();
   if (importer.unsure > 0)
     context.notes.push_back(
         "The properties of " + std::to_string(importer.unsure) +
-        " polygons do not say what they are: they were taken as buildings. Say so if they are plots or areas.");
+        " polygons do not say what they are: they were taken as buildings. Say so by `--as plot` or `--as area` if they are something else.");
   assume_heights(options, context);
   return context;
 }

@@ -31,6 +31,24 @@ Error cut_off(const char* what) {
   return {ErrorCode::parse, "", std::string("this ") + what + " ends before it says how large it is: the file is cut off"};
 }
 
+constexpr const char* kCutOff = "the file is cut off: its lower part is missing";
+
+// A PNG ends with its chunk IEND, a JPEG with the marker EOI, after which cameras may append something of their own.
+bool is_complete_png(std::string_view bytes) { return bytes.substr(bytes.size() < 64 ? 0 : bytes.size() - 64).find("IEND") != std::string_view::npos; }
+
+// From where the picture's own data begin: pictures in miniature within EXIF have an end of their own.
+bool is_complete_jpeg(std::string_view bytes) {
+  std::size_t at = 2;
+  while (at + 2 <= bytes.size() && bytes[at] == '\xff') {
+    const unsigned marker = big_endian(bytes, at + 1, 1);
+    if (marker == 0xd9) return true;
+    if (at + 4 > bytes.size()) return false;
+    if (marker == 0xda) return bytes.find("\xff\xd9", at) != std::string_view::npos;
+    at += marker == 0xff ? 1 : marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8) ? 2 : 2 + big_endian(bytes, at + 2, 2);
+  }
+  return false;
+}
+
 Result<void> read_png_size(std::string_view bytes, ImageFacts& facts) {
   if (bytes.size() < 24) return cut_off("PNG");
   facts.width = static_cast<int>(std::min<std::uint32_t>(big_endian(bytes, 16, 4), kMostPixels + 1));
@@ -186,6 +204,7 @@ Result<ImageFacts> read_image_facts(std::string_view bytes) {
     return Error{ErrorCode::out_of_range, "",
                  "this picture says that it is " + std::to_string(facts.width) + " x " + std::to_string(facts.height) +
                      " pixels large; between 1 and 65535 are taken"};
+  if (is_png ? !is_complete_png(bytes) : !is_complete_jpeg(bytes)) facts.notes.emplace_back(kCutOff);
   if (!is_jpeg) return facts;
   const Tags tags(bytes);
   if (!tags.is_there()) return facts;

@@ -1,8 +1,13 @@
-// Counts and the CSV form of import reports.
+// Counts and the CSV form of import reports, there and back.
 #include "core/exchange/import_report.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <utility>
 
+#include "core/base/text.h"
+#include "core/exchange/csv_reader.h"
 #include "core/exchange/csv_table.h"
 
 namespace bl {
@@ -17,13 +22,13 @@ std::string_view name_of(ImportOutcome outcome) {
 }
 
 void ImportReport::take(std::string kind, std::string id, std::string reason, std::string detail, std::size_t count) {
-  rows_.push_back({ImportOutcome::taken, std::move(kind), std::move(id), std::move(reason), std::move(detail), count});
+  rows_.push_back({ImportOutcome::taken, std::move(kind), std::move(id), std::move(reason), std::move(detail), count, {}, {}});
 }
 void ImportReport::repair(std::string kind, std::string id, std::string reason, std::string detail) {
-  rows_.push_back({ImportOutcome::repaired, std::move(kind), std::move(id), std::move(reason), std::move(detail), 1});
+  rows_.push_back({ImportOutcome::repaired, std::move(kind), std::move(id), std::move(reason), std::move(detail), 1, {}, {}});
 }
 void ImportReport::skip(std::string kind, std::string id, std::string reason, std::string detail, std::size_t count) {
-  rows_.push_back({ImportOutcome::skipped, std::move(kind), std::move(id), std::move(reason), std::move(detail), count});
+  rows_.push_back({ImportOutcome::skipped, std::move(kind), std::move(id), std::move(reason), std::move(detail), count, {}, {}});
 }
 
 std::size_t ImportReport::count(ImportOutcome outcome, std::string_view kind) const {
@@ -43,13 +48,80 @@ std::map<std::tuple<ImportOutcome, std::string, std::string>, std::size_t> Impor
   return sums;
 }
 
-std::string import_csv(const std::vector<std::pair<std::string, ImportReport>>& reports) {
-  const std::vector<std::string> header{"file", "outcome", "kind", "id", "reason", "detail", "count"};
+namespace {
+
+const std::vector<std::string>& csv_header() {
+  static const std::vector<std::string> header{"file", "outcome", "kind", "id", "reason", "detail", "count", "x", "y", "made"};
+  return header;
+}
+
+// Millimetres are finer than anybody looks.
+std::string metres(double number) { return shortest(std::round(number * 1000) / 1000 + 0.0); }
+
+std::vector<std::string> words(std::string_view text) {
+  std::vector<std::string> list;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    if (end > 0) list.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return list;
+}
+
+std::optional<ImportRow> row_of(const CsvRecord& record) {
+  if (record.fields.size() != csv_header().size()) return std::nullopt;
+  ImportRow row;
+  const std::string& outcome = record.fields[1];
+  if (outcome == "repaired") row.outcome = ImportOutcome::repaired;
+  else if (outcome == "skipped") row.outcome = ImportOutcome::skipped;
+  else if (outcome != "taken") return std::nullopt;
+  row.kind = record.fields[2];
+  row.id = record.fields[3];
+  row.reason = record.fields[4];
+  row.detail = record.fields[5];
+  const std::string& count = record.fields[6];
+  const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), row.count);
+  if (problem != std::errc() || end != count.data() + count.size()) return std::nullopt;
+  const auto x = parse_number(record.fields[7]), y = parse_number(record.fields[8]);
+  if (x && y) row.place = {*x, *y};
+  else if (!record.fields[7].empty() || !record.fields[8].empty()) return std::nullopt;
+  row.made = words(record.fields[9]);
+  return row;
+}
+
+}  // namespace
+
+std::string import_csv(const ImportReports& reports) {
   std::vector<std::vector<CsvCell>> cells;
   for (const auto& [file, report] : reports)
-    for (const ImportRow& row : report.rows())
-      cells.push_back({file, name_of(row.outcome), row.kind, row.id, row.reason, row.detail, row.count});
-  return write_csv(header, cells);
+    for (const ImportRow& row : report.rows()) {
+      std::string made;
+      for (const std::string& id : row.made) made += (made.empty() ? "" : " ") + id;
+      cells.push_back({file, name_of(row.outcome), row.kind, row.id, row.reason, row.detail, row.count,
+                       row.place ? metres((*row.place)[0]) : "", row.place ? metres((*row.place)[1]) : "", made});
+    }
+  return write_csv(csv_header(), cells);
+}
+
+Result<ImportReports> read_import_csv(std::string_view text) {
+  auto csv = read_csv(text, ',');
+  if (!csv) return csv.error();
+  if (csv->records.empty() || csv->records.front().fields != csv_header())
+    return Error{ErrorCode::parse, "line 1", "This is no import report: its header is not that of one."};
+  if (!text.ends_with('\n'))
+    return Error{ErrorCode::parse, "line " + std::to_string(csv->records.back().line),
+                 "The report ends within this line: is it complete?"};
+  ImportReports reports;
+  for (std::size_t r = 1; r < csv->records.size(); ++r) {
+    const CsvRecord& record = csv->records[r];
+    auto row = row_of(record);
+    if (!row)
+      return Error{ErrorCode::parse, "line " + std::to_string(record.line),
+                   "This is no row of an import report: it was changed."};
+    if (reports.empty() || reports.back().first != record.fields[0]) reports.emplace_back(record.fields[0], ImportReport());
+    reports.back().second.add(std::move(*row));
+  }
+  return reports;
 }
 
 }  // namespace bl

@@ -1,13 +1,17 @@
 // What became of every element of an imported file: taken, repaired or skipped, each with its id and the reason.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include "core/base/result.h"
 
 namespace bl {
 
@@ -22,6 +26,8 @@ struct ImportRow {
   std::string reason;  ///< few different ones, so that they can be counted: "building", "street", "its line is open"
   std::string detail;  ///< what is special about this element; may be empty
   std::size_t count = 1;
+  std::optional<std::array<double, 2>> place;  ///< x and y of its middle [m, local]; nothing: it has none, or nobody knows it
+  std::vector<std::string> made;               ///< ids of what was made of it, where somebody has made something
 };
 
 /// Every element of the file has exactly one row; repaired ones were taken, after something was mended.
@@ -31,6 +37,11 @@ class ImportReport {
   void repair(std::string kind, std::string id, std::string reason, std::string detail = "");
   void skip(std::string kind, std::string id, std::string reason, std::string detail = "", std::size_t count = 1);
   void add(ImportRow row) { rows_.push_back(std::move(row)); }
+  /// Where the element of the newest row lies.
+  void locate(const std::optional<std::array<double, 2>>& place) { rows_.back().place = place; }
+  void locate(std::size_t row, const std::optional<std::array<double, 2>>& place) { rows_[row].place = place; }
+  /// Says what was made of the element of a row.
+  void made(std::size_t row, const std::string& id) { rows_[row].made.push_back(id); }
 
   const std::vector<ImportRow>& rows() const { return rows_; }
   /// Elements of a kind with that outcome; an empty kind means all.
@@ -43,7 +54,13 @@ class ImportReport {
   std::vector<ImportRow> rows_;
 };
 
-/// The rows of several files as CSV: file, outcome, kind, id, reason, detail, count.
-std::string import_csv(const std::vector<std::pair<std::string, ImportReport>>& reports);
+/// Each file with the report about it.
+using ImportReports = std::vector<std::pair<std::string, ImportReport>>;
+
+/// The rows of several files as CSV: file, outcome, kind, id, reason, detail, count, x, y, made. Places are in local metres;
+/// several ids in `made` have a blank between them.
+std::string import_csv(const ImportReports& reports);
+/// Reads that again.
+Result<ImportReports> read_import_csv(std::string_view text);
 
 }  // namespace bl

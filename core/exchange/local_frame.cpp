@@ -155,7 +155,7 @@ Result<LocalFrame> LocalFrame::make(const std::string& crs, double x, double y, 
     if (std::abs(east - 1) > 1e-4)
       frame.notes_.push_back("Lengths are those of " + crs + ": 1 m on the ground is " + fixed(east, 5) + " m in it.");
   } else {
-    frame.notes_.push_back("1 m on the ground is " + shortest(whole(east, 1e-6)) + " (east) by " + shortest(whole(north, 1e-6)) +
+    frame.notes_.push_back("1 m on the ground is " + fixed(east, 5) + " (east) by " + fixed(north, 5) +
                            " (north) units of " + crs + ": the plan was projected anew in metres about its middle.");
   }
   return frame;

@@ -98,8 +98,10 @@ class Areas {
   explicit Areas(OsmImport& import) : in_(import) {}
 
   void run() {
-    for (std::size_t i = 0; i < in_.store->relations.size(); ++i) read_relation(in_.store->relations[i], in_.relations[i]);
-    for (const OsmWay& way : in_.store->ways) read_way(way);
+    const std::size_t relations = in_.store->relations.size(), ways = in_.store->ways.size();
+    for (std::size_t i = 0; i < relations && in_.goes_on("outlines of relations", i, relations); ++i)
+      read_relation(in_.store->relations[i], in_.relations[i]);
+    for (std::size_t i = 0; i < ways && in_.goes_on("outlines of ways", i, ways); ++i) read_way(in_.store->ways[i]);
     replace_by_parts();
     for (Candidate& candidate : wholes_)
       if (!candidate.is_dropped) in_.context->buildings.push_back(std::move(candidate.building));
@@ -247,7 +249,8 @@ class Areas {
   void take(const Shape& shape) {
     const OsmTags& tags = *shape.tags;
     if (!is_osm_building(tags) && !is_osm_part(tags)) {
-      in_.context->areas.push_back({shape.id, tag_of(tags, "name"), osm_ground(tags), shape.outer, shape.holes, false});
+      in_.context->areas.push_back({shape.id, tag_of(tags, "name"), osm_ground(tags), shape.outer, shape.holes, false,
+                                    in_.index_of(*shape.row)});
       return;
     }
     Candidate candidate;
@@ -267,6 +270,7 @@ class Areas {
       note(shape.row->detail, "not understood: " + height.fault);
       shape.row->outcome = ImportOutcome::repaired;
     }
+    building.row = in_.index_of(*shape.row);
     candidate.row = shape.row;
     (building.is_part ? parts_ : wholes_).push_back(std::move(candidate));
   }

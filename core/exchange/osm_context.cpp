@@ -2,6 +2,7 @@
 #include "core/exchange/osm_context.h"
 
 #include <array>
+#include <functional>
 #include <set>
 
 #include "core/exchange/osm_import.h"
@@ -31,7 +32,7 @@ std::optional<std::array<double, 2>> middle(const OsmStore& store) {
   return middle_of(std::move(points));
 }
 
-void report_nodes(const OsmStore& store, ImportReport& report) {
+void report_nodes(const OsmStore& store, const LocalFrame& frame, ImportReport& report) {
   std::set<std::int64_t> used;
   for (const OsmWay& way : store.ways) used.insert(way.nodes.begin(), way.nodes.end());
   std::size_t corners = 0, loose = 0, lost = 0;
@@ -40,9 +41,11 @@ void report_nodes(const OsmStore& store, ImportReport& report) {
     if (!node.has_position) ++lost;
     else if (is_used) ++corners;
     else if (node.tags.empty()) ++loose;
-    else
+    else {
       report.skip("node", "n" + std::to_string(node.id), "a single place: points are not read",
                   node.tags.begin()->first + "=" + node.tags.begin()->second);
+      report.locate(place_of({frame.to_local(node.longitude, node.latitude)}));
+    }
   }
   if (corners > 0) report.take("node", "", "corner of the lines of ways", "", corners);
   if (loose > 0) report.skip("node", "", "neither tags nor a way that uses it", "", loose);
@@ -72,7 +75,39 @@ void decide_rest(OsmImport& import) {
   }
 }
 
+// Where each way and relation lies, as far as its nodes are in the file.
+void locate(OsmImport& import) {
+  const auto places_of = [&import](const OsmWay& way) {
+    std::size_t missing = 0;
+    return import.places(way.nodes, missing);
+  };
+  for (const OsmWay& way : import.store->ways) import.row_of(way).place = place_of(places_of(way));
+  for (std::size_t i = 0; i < import.relations.size(); ++i) {
+    std::vector<Point3> points;
+    for (const OsmMember& member : import.store->relations[i].members) {
+      std::size_t missing = 0;
+      const OsmWay* way = member.kind == 'w' ? import.store->way(member.id) : nullptr;
+      const std::vector<Point3> more = way != nullptr      ? places_of(*way)
+                                       : member.kind == 'n' ? import.places({member.id}, missing)
+                                                            : std::vector<Point3>();
+      points.insert(points.end(), more.begin(), more.end());
+    }
+    import.relations[i].place = place_of(points);
+  }
+}
+
 }  // namespace
+
+std::size_t OsmImport::index_of(const ImportRow& row) const {
+  for (std::size_t i = 0; const std::vector<ImportRow>* list : {&ways, &relations}) {
+    // Addresses within one list count; std::less orders those of different ones as well.
+    const std::less<const ImportRow*> before;
+    if (!list->empty() && !before(&row, list->data()) && before(&row, list->data() + list->size()))
+      return i + static_cast<std::size_t>(&row - list->data());
+    i += list->size();
+  }
+  return kNoRow;
+}
 
 std::vector<Point3> OsmImport::places(const std::vector<std::int64_t>& nodes, std::size_t& missing) const {
   std::vector<Point3> places;
@@ -86,7 +121,7 @@ std::vector<Point3> OsmImport::places(const std::vector<std::int64_t>& nodes, st
 }
 
 Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& options) {
-  auto store = read_osm(bytes);
+  auto store = read_osm(bytes, options.watch);
   if (!store) return store.error();
   if (!options.crs.empty() && !is_longitude_latitude(tidy_crs_name(options.crs)))
     return Error{ErrorCode::conflict, "crs", "OpenStreetMap files are in longitude and latitude always: leave the CRS out."};
@@ -100,15 +135,17 @@ Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& o
   context.notes = frame->notes();
   OsmImport import{&*store, &options, &*frame, &context, {}, {}};
   for (const OsmWay& way : store->ways)
-    import.ways.push_back({ImportOutcome::taken, "way", "w" + std::to_string(way.id), "", "", 1});
+    import.ways.push_back({ImportOutcome::taken, "way", "w" + std::to_string(way.id), "", "", 1, {}, {}});
   for (const OsmRelation& relation : store->relations)
-    import.relations.push_back({ImportOutcome::taken, "relation", "r" + std::to_string(relation.id), "", "", 1});
+    import.relations.push_back({ImportOutcome::taken, "relation", "r" + std::to_string(relation.id), "", "", 1, {}, {}});
   read_osm_areas(import);
   read_osm_streets(import);
+  if (options.watch != nullptr && options.watch->is_stopped) return stopped_error();
   decide_rest(import);
+  locate(import);
   for (const std::vector<ImportRow>* rows : {&import.ways, &import.relations})
     for (const ImportRow& row : *rows) context.report.add(row);
-  report_nodes(*store, context.report);
+  report_nodes(*store, *frame, context.report);
   assume_heights(options, context);
   return context;
 }

@@ -19,6 +19,12 @@ struct OsmImport {
   std::vector<ImportRow> ways, relations;
 
   ImportRow& row_of(const OsmWay& way) { return ways[static_cast<std::size_t>(&way - store->ways.data())]; }
+  /// Of a row in one of the lists: where it will stand in the report.
+  std::size_t index_of(const ImportRow& row) const;
+  /// Have people lost patience? `done` of `total` elements are through.
+  bool goes_on(const char* step, std::size_t done, std::size_t total) const {
+    return done % 256 != 0 || bl::goes_on(options->watch, step, done, total);
+  }
   /// The nodes' places in local metres; `missing` counts those that the file does not hold.
   std::vector<Point3> places(const std::vector<std::int64_t>& nodes, std::size_t& missing) const;
 };

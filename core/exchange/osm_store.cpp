@@ -78,14 +78,16 @@ std::string format_of(std::string_view bytes) {
   return head.find("<osm") != std::string_view::npos || head.find("<?xml") != std::string_view::npos ? "osm" : "";
 }
 
-Result<OsmStore> read(const std::string& bytes, const std::string& format) {
+Result<OsmStore> read(const std::string& bytes, const std::string& format, ImportWatch* watch) {
   OsmStore store;
   osmium::thread::Pool pool{1};
   osmium::io::File file{bytes.data(), bytes.size(), format};
   osmium::io::Reader reader{file, pool, osmium::osm_entity_bits::nwr};
   while (const osmium::memory::Buffer buffer = reader.read()) {
     take(buffer, store);
-    if (store.nodes.size() + store.ways.size() + store.relations.size() > kMostOsmElements)
+    const std::size_t count = store.nodes.size() + store.ways.size() + store.relations.size();
+    if (!goes_on(watch, "reading elements", count, 0)) return Error{ErrorCode::cancelled, "", "The import was stopped."};
+    if (count > kMostOsmElements)
       return Error{ErrorCode::out_of_range, "",
                    "The file holds more than " + std::to_string(kMostOsmElements) +
                        " elements, the most that is read: cut out the part that you need."};
@@ -108,7 +110,7 @@ const std::string& tag_of(const OsmTags& tags, std::string_view key) {
 const OsmNode* OsmStore::node(std::int64_t id) const { return find_in(nodes, id); }
 const OsmWay* OsmStore::way(std::int64_t id) const { return find_in(ways, id); }
 
-Result<OsmStore> read_osm(std::string_view bytes) {
+Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch) {
   auto text = unpacked(bytes);
   if (!text) return text.error();
   if (text->empty()) return Error{ErrorCode::missing, "byte 0", "The file is empty: an OpenStreetMap extract is needed."};
@@ -116,7 +118,7 @@ Result<OsmStore> read_osm(std::string_view bytes) {
   if (format.empty())
     return Error{ErrorCode::parse, "byte 0", "This is no OpenStreetMap file: neither XML that begins with <osm> nor PBF."};
   try {
-    return read(*text, format);
+    return read(*text, format, watch);
   } catch (const osmium::xml_error& error) {
     return Error{ErrorCode::parse, "line " + std::to_string(error.line) + ", column " + std::to_string(error.column),
                  std::string("The XML cannot be read from here on: ") + error.what() + ". Is the file complete?"};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/exchange/import_watch.h"
 
 namespace bl {
 
@@ -54,6 +55,6 @@ struct OsmStore {
 inline constexpr std::size_t kMostOsmElements = 20000000;
 
 /// .osm, .osm.gz and .osm.pbf, told apart by their first bytes; read by libosmium.
-Result<OsmStore> read_osm(std::string_view bytes);
+Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch = nullptr);
 
 }  // namespace bl

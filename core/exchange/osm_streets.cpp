@@ -32,7 +32,8 @@ class Streets {
       ++visits_[way->nodes.front()];
       ++visits_[way->nodes.back()];
     }
-    for (const auto& [way, road] : roads) cut(*way, road);
+    for (std::size_t i = 0; i < roads.size() && in_.goes_on("streets", i, roads.size()); ++i)
+      cut(*roads[i].first, roads[i].second);
     for (std::size_t i = 0; i < in_.store->relations.size(); ++i)
       if (tag_of(in_.store->relations[i].tags, "type") == "restriction") restrict(in_.store->relations[i], in_.relations[i]);
   }
@@ -81,6 +82,7 @@ class Streets {
     street.line = in_.places(nodes, missing);
     if (!out_of_reach(*in_.options, street.line).empty()) return false;
     street.id = "w" + std::to_string(way.id) + "/" + std::to_string(number);
+    street.row = in_.index_of(in_.row_of(way));
     street.name = tag_of(way.tags, "name");
     street.street_class = road.road_class;
     street.start = junction(nodes.front(), street.line.front());
@@ -110,41 +112,76 @@ class Streets {
     decide(row, missing > 0 || !road.fault.empty() ? ImportOutcome::repaired : ImportOutcome::taken, "street", detail);
   }
 
-  // The piece of a way that ends at a junction, or the number of streets where there is none or more than one.
-  std::size_t piece_at(std::int64_t way, std::size_t via) const {
-    const std::size_t none = in_.context->streets.size();
+  // The piece of a way by which one comes to a junction, or leaves it.
+  Result<std::size_t> piece_at(std::int64_t way, std::size_t via, bool is_from) const {
+    const std::string name = "w" + std::to_string(way);
     const auto pieces = pieces_of_.find(way);
-    if (pieces == pieces_of_.end()) return none;
-    std::size_t found = none;
+    if (pieces == pieces_of_.end())
+      return Error{ErrorCode::not_found, name, "its streets are not in the file, or none for driving"};
+    std::vector<std::size_t> found;
+    bool is_against = false;
     for (const std::size_t index : pieces->second) {
       const ContextStreet& street = in_.context->streets[index];
       if (street.start != via && street.end != via) continue;
-      if (found != none) return none;
-      found = index;
+      if (!street.is_one_way || (is_from ? street.end : street.start) == via) found.push_back(index);
+      else is_against = true;
     }
-    return found;
+    if (found.size() == 1) return found.front();
+    if (found.empty())
+      return Error{ErrorCode::conflict, name,
+                   is_against ? "it runs against a one-way street" : "its streets do not end at its junction"};
+    return Error{ErrorCode::conflict, name, "one of its streets passes its junction, so that its side is not known"};
+  }
+
+  // The rule for cars: "no_left_turn" and the like, or why there is none.
+  static Result<std::string> rule_of(const OsmTags& tags) {
+    std::string key = "restriction";
+    for (const char* vehicle : {"restriction:motor_vehicle", "restriction:motorcar"})
+      if (!tag_of(tags, vehicle).empty()) key = vehicle;
+    const std::string& rule = tag_of(tags, key);
+    if (rule.empty()) {
+      for (const auto& [name, value] : tags)
+        if (name.starts_with("restriction:"))
+          return Error{ErrorCode::conflict, name + "=" + value, "it is not for all cars at all times"};
+    }
+    if (!rule.starts_with("no_") && !rule.starts_with("only_"))
+      return Error{ErrorCode::parse, key + "=" + rule, "its rule is not understood"};
+    std::string except = ";" + tag_of(tags, "except") + ";";
+    std::erase(except, ' ');
+    for (const char* vehicle : {";motorcar;", ";motor_vehicle;", ";vehicle;"})
+      if (except.find(vehicle) != std::string::npos)
+        return Error{ErrorCode::conflict, "except=" + tag_of(tags, "except"), "it is not for all cars at all times"};
+    return rule;
   }
 
   void restrict(const OsmRelation& relation, ImportRow& row) {
-    const std::string& rule = tag_of(relation.tags, "restriction");
     const auto skip = [&row](const std::string& why, const std::string& detail = "") {
       decide(row, ImportOutcome::skipped, "turn restriction: " + why, detail);
     };
-    if (!rule.starts_with("no_") && !rule.starts_with("only_")) return skip("its rule is not understood", "restriction=" + rule);
+    const auto rule = rule_of(relation.tags);
+    if (!rule) return skip(rule.error().message, rule.error().place);
     std::vector<const OsmMember*> from, via, to;
     for (const OsmMember& member : relation.members) {
       if (member.role == "from") from.push_back(&member);
       if (member.role == "via") via.push_back(&member);
       if (member.role == "to") to.push_back(&member);
     }
-    if (from.size() != 1 || to.size() != 1 || via.size() != 1) return skip("it does not have one from, one via and one to");
+    // Several streets may be closed to one, or one to several; all else is between two.
+    if (from.empty() || to.empty() || via.size() != 1 || (from.size() > 1 && *rule != "no_entry") ||
+        (to.size() > 1 && *rule != "no_exit"))
+      return skip("it does not have one from, one via and one to");
     if (via[0]->kind != 'n') return skip("it runs via a way");
     const auto junction = junctions_.find(via[0]->id);
     if (junction == junctions_.end()) return skip("its junction is not among the streets");
-    const std::size_t start = piece_at(from[0]->id, junction->second), end = piece_at(to[0]->id, junction->second);
-    const std::size_t none = in_.context->streets.size();
-    if (start == none || end == none) return skip("its streets do not end at its junction, or are not in the file");
-    in_.context->restrictions.push_back({"r" + std::to_string(relation.id), rule, start, end, junction->second});
+    std::vector<ContextRestriction> all;
+    for (const OsmMember* start : from)
+      for (const OsmMember* end : to) {
+        const auto a = piece_at(start->id, junction->second, true), b = piece_at(end->id, junction->second, false);
+        if (!a) return skip(a.error().message, a.error().place);
+        if (!b) return skip(b.error().message, b.error().place);
+        all.push_back({"r" + std::to_string(relation.id), *rule, *a, *b, junction->second});
+      }
+    in_.context->restrictions.insert(in_.context->restrictions.end(), all.begin(), all.end());
     decide(row, ImportOutcome::taken, "turn restriction");
   }
 

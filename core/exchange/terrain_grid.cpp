@@ -223,7 +223,8 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
   local.is_resampled = !keeps_cells || step > 1;
   std::size_t nothing = 0;
   local.values.reserve(local.columns * local.rows);
-  for (std::size_t row = 0; row < local.rows; ++row)
+  for (std::size_t row = 0; row < local.rows; ++row) {
+    if (!goes_on(options.watch, "rows of the grid", row, local.rows)) return stopped_error();
     for (std::size_t column = 0; column < local.columns; ++column) {
       const Point3 at = frame->from_local(local.west + local.cell * static_cast<double>(column),
                                           local.north - local.cell * static_cast<double>(row));
@@ -231,6 +232,7 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
       local.values.push_back(value.value_or(kNothing));
       nothing += value ? 0 : 1;
     }
+  }
   local.report.take("cell", "", local.is_resampled ? "height sampled anew" : "height as in the file", "",
                     local.values.size() - nothing);
   if (nothing > 0) local.report.skip("cell", "", "no value, or outside the grid", "", nothing);

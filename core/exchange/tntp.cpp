@@ -135,6 +135,8 @@ Result<TntpNetwork> read_tntp_network(std::string_view text) {
   std::int64_t last = std::max(*zones, *nodes), loops = 0;
   for (const TntpLine& line : split->lines) {
     auto link = link_of(line, places, twins);
+    if (!link && out.links.empty())
+      return Error{link.error().code, link.error().place, link.error().message + "; is this the `_net` file?"};
     if (!link) return link.error();
     for (const std::string* end : {&link->from, &link->to}) last = std::max(last, static_cast<std::int64_t>(*parse_number(*end)));
     if (link->from == link->to) ++loops;

@@ -160,4 +160,26 @@ Result<LinkRecord> link_from_json(const Json& json, const Registry& registry, co
   return link;
 }
 
+std::vector<Problem> unfit_links(const Scene& scene, const Registry& registry) {
+  const Registry& types = scene.scripts.types(registry);
+  std::vector<Problem> problems;
+  for (const auto& [id, link] : scene.links) {
+    if (link.ghost.empty() || types.link(link.kind) == nullptr) continue;
+    const std::string place = "links/" + id;
+    const auto json = parse_json(link.ghost);
+    const auto fresh = json ? link_from_json(*json, types, place) : Result<LinkRecord>(json.error());
+    if (!fresh) {
+      problems.push_back({true, fresh.error()});
+      continue;
+    }
+    for (const End end : {End::from, End::to})
+      for (const std::string& node : (end == End::from ? fresh->from : fresh->to).ids)
+        if (!scene.nodes.contains(node))
+          problems.push_back({true,
+                              {ErrorCode::not_found, place + "/" + std::string(name_of(end)),
+                               "there is no node `" + node + "`" + did_you_mean(node, keys_of(scene.nodes))}});
+  }
+  return problems;
+}
+
 }  // namespace bl

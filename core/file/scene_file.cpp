@@ -8,6 +8,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "core/file/mesh_json.h"
 
 namespace bl {
 
@@ -172,12 +173,12 @@ class Reader {
     if (!port) return port.error().within(place);
     if (!record->second.types.contains(parsed->typification))
       return Error{ErrorCode::not_found, place, "the node is not a `" + parsed->typification + "`"};
-    return value_from_json(**port, json, place);
+    return running_value_from_json(**port, json, place);
   }
 
   void read_state(const Json& json) {
     if (!json.is_object()) return fail({ErrorCode::wrong_kind, "state", "expects an object"});
-    if (!note(check_keys(json, {"tick", "calm", "nodes", "held", "analyses"}, "state"))) return;
+    if (!note(check_keys(json, {"tick", "calm", "nodes", "held", "analyses", "meshes"}, "state"))) return;
     SavedState state;
     if (!read_tick(json, "tick", "state", state.tick) || !read_tick(json, "calm", "state", state.calm)) return;
     const Json nodes = json.value("nodes", Json::object());
@@ -186,6 +187,7 @@ class Reader {
     });
     if (!is_read || !read_held(json.value("held", Json::object()), state)) return;
     if (!read_analyses(json.value("analyses", Json::object()), state)) return;
+    if (!read_meshes(json.value("meshes", Json::object()), state)) return;
     reading_.state = std::move(state);
   }
 
@@ -282,6 +284,22 @@ class Reader {
     return true;
   }
 
+  // {"node": {"typification.port": {"vertices": [[x, y, z], ...], "triangles": [[a, b, c], ...]}}, ...}
+  bool read_meshes(const Json& nodes, SavedState& state) {
+    const std::string place = "state/meshes";
+    bool is_good = nodes.is_object();
+    for (auto node = nodes.begin(); is_good && node != nodes.end(); ++node) {
+      is_good = node->is_object();
+      for (auto path = node->begin(); is_good && path != node->end(); ++path) {
+        MeshPointer mesh = mesh_from_json(*path);
+        is_good = mesh != nullptr;
+        state.meshes[{node.key(), path.key()}] = std::move(mesh);
+      }
+    }
+    if (!is_good) fail({ErrorCode::wrong_kind, place, "expects meshes with `vertices` and `triangles` by node and port"});
+    return is_good;
+  }
+
   const Registry& program_;
   const Registry* registry_;  // with the kinds of the scene's scripts
   SceneReading reading_;
@@ -340,6 +358,7 @@ Json state_to_json(const SavedState& state, const Registry& registry) {
       if (port_of(output.path).kind != ValueKind::mesh)
         analysis["outputs"][output.node][output.path] = value_to_json(output.value, port_of(output.path));
   }
+  for (const auto& [target, mesh] : state.meshes) json["meshes"][target.first][target.second] = mesh_to_json(*mesh);
   return json;
 }
 

@@ -31,6 +31,10 @@ SceneReading read_scene(std::string_view text, const Registry& registry);
 /// fixed order of keys, ids ascending, only values that differ from their defaults, ends with a line feed.
 std::string write_scene(const Scene& scene, const Registry& registry, const SavedState* state = nullptr);
 
+/// Links that were kept as they are although their kind is known: what is wrong with each. So it is with links of a kind that was
+/// added after they were read, and that they do not fit.
+std::vector<Problem> unfit_links(const Scene& scene, const Registry& registry);
+
 /// One node or link as it stands in a file, without its id: what add_node and add_link take.
 Json node_to_json(const NodeRecord& node, const Registry& registry);
 Result<NodeRecord> node_from_json(const Json& json, const Registry& registry, const std::string& place);

@@ -58,10 +58,12 @@ class LinkRun {
     for (const LinkRead& read : definition_.reads) reads_.values.emplace_back(read.is_whole ? count(read.end) : 1);
     for (const LinkWrite& write : definition_.proposes) writes_.values.emplace_back(write.is_whole ? count(write.end) : 1);
     collected_.resize(plan.targets.size());
+    has_failed_.resize(plan.targets.size());
   }
 
-  // Every pair once; an end that is read whole takes part in one evaluation for all of its nodes.
-  Result<void> run(const Tick& tick) {
+  // Every pair once; an end that is read whole takes part in one evaluation for all of its nodes. A pair that fails does not stop
+  // the others, unless the link as a whole has used up what it may.
+  void run(const Tick& tick) {
     const std::size_t from_count = definition_.is_whole(End::from) ? 1 : count(End::from);
     const std::size_t to_count = definition_.is_whole(End::to) ? 1 : count(End::to);
     const bool is_pairwise = !definition_.is_whole(End::from) && !definition_.is_whole(End::to);
@@ -69,43 +71,88 @@ class LinkRun {
       for (std::size_t t = 0; t < to_count; ++t) {
         if (is_pairwise && plan_.nodes[0][f] == plan_.nodes[1][t] && (from_count > 1 || to_count > 1)) continue;
         if (is_pairwise && plan_.is_symmetric && f > t) continue;
-        if (auto done = evaluate(f, t, tick); !done) return done;
+        if (is_stopped_) fail(f, t);
+        else if (auto done = evaluate(f, t, tick); !done) note(f, t, done.error());
       }
-    return {};
   }
 
-  std::vector<Voice> voices() const {
+  // What the first pair that failed says, and how many others there are; nothing where all is well.
+  std::optional<Error> error() const {
+    std::optional<Error> error = first_error_;
+    if (failures_ > 1 && !is_stopped_) error->message += " (and " + std::to_string(failures_ - 1) + " more of its pairs fail)";
+    return error;
+  }
+
+  // Ascending, as the targets are. A wanted value of the last good tick stays in force where all that has failed; a push must not
+  // go on for ever.
+  std::vector<Voice> voices(const std::vector<Voice>& last) const {
     std::vector<Voice> voices;
-    for (std::size_t i = 0; i < collected_.size(); ++i)
-      if (collected_[i].count > 0)
-        voices.push_back(collected_[i].voice(plan_.targets[i], frozen_.plan->port(plan_.targets[i]), plan_.strength));
+    for (std::size_t i = 0; i < collected_.size(); ++i) {
+      const PortRef target = plan_.targets[i];
+      const PortDefinition& port = frozen_.plan->port(target);
+      if (collected_[i].count > 0) {
+        voices.push_back(collected_[i].voice(target, port, plan_.strength));
+      } else if (has_failed_[i] && port.rule != CombineRule::sum) {
+        const auto held = std::lower_bound(last.begin(), last.end(), target,
+                                           [](const Voice& voice, const PortRef& ref) { return voice.target < ref; });
+        if (held != last.end() && held->target == target) voices.push_back(*held);
+      }
+    }
     return voices;
   }
 
  private:
   std::size_t count(End end) const { return plan_.nodes[static_cast<int>(end)].size(); }
 
+  void note(std::size_t f, std::size_t t, const Error& error) {
+    if (!first_error_) first_error_ = error;
+    ++failures_;
+    is_stopped_ = error.code == ErrorCode::cancelled;
+    fail(f, t);
+  }
+
+  void fail(std::size_t f, std::size_t t) {
+    for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
+      const LinkWrite& write = definition_.proposes[w];
+      const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
+      for (std::size_t i = 0; i < writes_.values[w].size(); ++i) has_failed_[plan_.writes[w][first + i]] = true;
+    }
+  }
+
+  // A figure that does not follow any more must not be answered to tick by tick.
+  bool is_of_the_past(PortRef ref) const {
+    return ref.type != PortRef::kNodeId && frozen_.nodes[ref.node].types[ref.type].error && frozen_.plan->port(ref).is_computed;
+  }
+
   Result<void> evaluate(std::size_t f, std::size_t t, const Tick& tick) {
     for (std::size_t r = 0; r < definition_.reads.size(); ++r) {
       const LinkRead& read = definition_.reads[r];
       const std::size_t first = read.is_whole ? 0 : (read.end == End::from ? f : t);
       for (std::size_t i = 0; i < reads_.values[r].size(); ++i) reads_.values[r][i] = &frozen_.value(plan_.reads[r][first + i]);
+      if (!read.is_whole && is_of_the_past(plan_.reads[r][first]))
+        return Error{ErrorCode::missing, "",
+                     "`" + frozen_.plan->nodes[plan_.reads[r][first].node].id + "` has an error, so that its `" +
+                         frozen_.plan->path_text(plan_.reads[r][first]) + "` is of the past. What was proposed last stays in force"};
     }
     for (auto& values : writes_.values) std::fill(values.begin(), values.end(), std::nullopt);
     if (auto done = definition_.evaluate(plan_.parameters.get(), reads_, writes_, tick); !done) return done;
     for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
       const LinkWrite& write = definition_.proposes[w];
       const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
-      for (std::size_t i = 0; i < writes_.values[w].size(); ++i) {
-        const auto& value = writes_.values[w][i];
-        if (!value) continue;
-        const std::uint32_t target = plan_.writes[w][first + i];
-        if (!is_finite(*value))
-          return Error{
-              ErrorCode::not_finite, "",
-              "proposed a value that is not a finite number for `" + frozen_.plan->nodes[plan_.targets[target].node].id + "`"};
-        collected_[target].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
-      }
+      for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
+        if (const auto& value = writes_.values[w][i]; value && !is_finite(*value))
+          return Error{ErrorCode::not_finite, "",
+                       "proposed a value that is not a finite number for `" +
+                           frozen_.plan->nodes[plan_.targets[plan_.writes[w][first + i]].node].id + "`"};
+    }
+    for (std::size_t w = 0; w < definition_.proposes.size(); ++w) {
+      const LinkWrite& write = definition_.proposes[w];
+      const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
+      for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
+        if (const auto& value = writes_.values[w][i]) {
+          const std::uint32_t target = plan_.writes[w][first + i];
+          collected_[target].add(*value, frozen_.plan->port(plan_.targets[target]).rule);
+        }
     }
     return {};
   }
@@ -115,28 +162,29 @@ class LinkRun {
   const LinkDefinition& definition_;
   LinkReads reads_;
   LinkWrites writes_;
-  std::vector<Collected> collected_;
+  std::vector<Collected> collected_;   // by target
+  std::vector<bool> has_failed_;       // by target: a pair that would have spoken to it
+  std::optional<Error> first_error_;
+  std::size_t failures_ = 0;
+  bool is_stopped_ = false;
 };
 
 void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
   const LinkPlan& plan = frozen.plan->links[index];
   next = {};
   if (!plan.is_enabled) return;
-  std::optional<Error> error = plan.error;
-  if (!error) {
-    LinkRun run(frozen, plan);
-    Memo memo;
-    if (auto done = run.run(Tick{.index = frozen.tick, .memo = &memo}); done) {
-      next.voices = run.voices();
-      return;
-    } else {
-      error = done.error().within("links/" + plan.id);
-    }
+  const std::vector<Voice>& last = frozen.links[index].voices;
+  if (plan.error) {
+    next.error = plan.error;
+    for (const Voice& voice : last)
+      if (frozen.plan->port(voice.target).rule != CombineRule::sum) next.voices.push_back(voice);
+    return;
   }
-  next.error = std::move(error);
-  // A wanted value of the last good tick stays in force; a push must not go on for ever.
-  for (const Voice& voice : frozen.links[index].voices)
-    if (frozen.plan->port(voice.target).rule != CombineRule::sum) next.voices.push_back(voice);
+  LinkRun run(frozen, plan);
+  Memo memo;
+  run.run(Tick{.index = frozen.tick, .memo = &memo});
+  next.voices = run.voices(last);
+  if (const auto error = run.error()) next.error = error->within("links/" + plan.id);
 }
 
 }  // namespace

@@ -80,8 +80,7 @@ class Compiler {
     link.is_muted = record.is_muted;
     link.strength = record.strength;
     if (link.definition == nullptr) {
-      link.error =
-          Error{ErrorCode::unknown_type, "links/" + link.id, "unknown link kind `" + record.kind + "`: kept as it is, not run"};
+      link.error = Error{ErrorCode::unknown_type, "links/" + link.id, why_it_rests(record.kind)};
       return;
     }
     std::vector<Value> values;
@@ -100,6 +99,15 @@ class Compiler {
     }
     link.is_symmetric = link.nodes[0] == link.nodes[1] && link.nodes[0].size() > 1;
     if (auto ports = resolve_ports(link, values); !ports) link.error = ports.error().within("links/" + link.id);
+  }
+
+  std::string why_it_rests(const std::string& kind) const {
+    if (registry_.link(kind) != nullptr)
+      return "the link does not fit its kind `" + kind + "`: kept as it is, not run; correct it in the scene file";
+    std::string guess = did_you_mean(kind, keys_of(registry_.links()));
+    return "unknown link kind `" + kind + "`: kept as it is, not run" +
+           (guess.empty() ? "; a Lua file of yours is put into the scene by `script` or --script, a library is named by --plugins FOLDER"
+                          : guess);
   }
 
   // Every path of the declaration at this end, with parameters put in for chosen ones.
@@ -138,12 +146,19 @@ class Compiler {
           return Error{ErrorCode::missing, "", "choose the port that `" + link.definition->id + "` works on"};
         return Error{ErrorCode::conflict, std::string(name_of(end)),
                      "the node `" + id + "` has no `" + path.typification + "." + path.port + "`, which `" + link.definition->id +
-                         "` needs"};
+                         "` needs" + nearest_port(path)};
       }
     }
     if (nodes.empty())
       return Error{ErrorCode::not_found, std::string(name_of(end)), "no node fits this end; the link does nothing"};
     return nodes;
+  }
+
+  // ", did you mean `radius`?" for a misspelt port of a known typification.
+  std::string nearest_port(const PortPath& path) const {
+    const TypificationDefinition* type = registry_.typification(path.typification);
+    if (type == nullptr) return did_you_mean(path.typification, keys_of(registry_.typifications()));
+    return type->find_port(path.port) != nullptr ? "" : did_you_mean(path.port, port_ids(*type));
   }
 
   Result<void> check_units(std::uint32_t node, const std::vector<std::pair<PortPath, const std::optional<Unit>*>>& wanted) const {
@@ -262,11 +277,17 @@ class Compiler {
         set.members.push_back(node);
         set.reads.insert(set.reads.end(), reads.begin(), reads.end());
         set.writes.insert(set.writes.end(), writes.begin(), writes.end());
-      } else if (!selection.is_query()) {
+      } else if (!selection.is_query() && !is_further(*type.definition, s)) {
         set.error = Error{ErrorCode::conflict, place, "the node `" + id + "` has no `" + missing + "`"};
       }
     }
     return set;
+  }
+
+  // Of several sets over one selection the first says what its nodes must have; a further one takes those that have more.
+  static bool is_further(const TypificationDefinition& definition, std::uint32_t s) {
+    return std::any_of(definition.sets.begin(), definition.sets.begin() + s,
+                       [&](const SetDefinition& set) { return set.selection == definition.sets[s].selection; });
   }
 
   std::shared_ptr<Plan> plan_;

@@ -1,6 +1,7 @@
 // Phase 6: solvers over sets of nodes, within the tick or beside it, and their replies.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/graph/phases.h"
 
@@ -76,6 +77,9 @@ void evaluate_now(State& next, SetCase& one, ThreadPool& pool, SetMemos& memos, 
 // Results that came from nodes which have gone since are for nobody.
 void take_result(State& next, const SetCase& one, const AnalysisResult& result, std::vector<Reply>& replies) {
   TypeState& state = next.nodes[one.node()].types[one.type()];
+  // Whoever has left the sets since gets nothing any more.
+  std::set<PortRef> members;
+  for (const SetPlan& plan : one.plans) members.insert(plan.writes.begin(), plan.writes.end());
   state.error.reset();
   if (result.error) state.error = result.error->within(place_of(next, one.node(), one.type()));
   state.is_evaluated = !result.error;
@@ -84,7 +88,7 @@ void take_result(State& next, const SetCase& one, const AnalysisResult& result, 
     const auto path = parse_port_path(output.path);
     if (node == next.plan->nodes.size() || !path) continue;
     const auto ref = next.plan->find(node, *path);
-    if (!ref) continue;
+    if (!ref || (!members.contains(*ref) && (ref->node != one.node() || ref->type != one.type()))) continue;
     if (!is_finite(output.value)) {
       state.error = Error{ErrorCode::not_finite, place_of(next, one.node(), one.type()),
                           "`" + output.path + "` of `" + output.node + "` came out as a number that is not finite"};
@@ -124,17 +128,19 @@ std::shared_ptr<AnalysisMemo> memo_of(Memo& memo) {
 
 void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& memo, std::vector<Reply>& replies) {
   AnalysisState& analysis = next.analyses[one.analysis];
+  std::vector<Reply> own;
   if (analysis.running && next.tick >= analysis.due) {
-    take_result(next, one, analysis.running->result(), replies);
+    take_result(next, one, analysis.running->result(), own);
     analysis = {analysis.begun, next.tick, analysis.running_inputs, -1, -1, 0, nullptr};
   }
-  if (analysis.running) return;
+  const auto hand_on = [&] { std::move(own.begin(), own.end(), std::back_inserter(replies)); };
+  if (analysis.running) return hand_on();
   const std::int64_t latency = static_cast<std::int64_t>(as_number(one.values[next.plan->analyses[one.analysis].latency]));
   AnalysisInput input = input_of(next, one);
   const std::uint64_t inputs = hash_of(input);
   if (analysis.as_of >= 0 && inputs == analysis.inputs) {
     analysis.as_of = next.tick;
-    return;
+    return hand_on();
   }
   input.memo = memo_of(memo);
   const auto begun = std::make_shared<Analysis>(std::move(input));
@@ -145,9 +151,11 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& m
     analysis.running = begun;
     runner.begin(begun);
   } else {
-    take_result(next, one, begun->result(), replies);
+    own.clear();  // of an older one that was due in the same tick
+    take_result(next, one, begun->result(), own);
     analysis = {next.tick, next.tick, inputs, -1, -1, 0, nullptr};
   }
+  hand_on();
 }
 
 // Where two write to one port the first one has it, and the other one says so.
@@ -200,6 +208,7 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
       for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w)
         if (auto& value = one.sets[s].writes[w]; value && std::holds_alternative<MeshPointer>(*value)) {
           const PortRef target = one.plans[s].writes[w];
+          if (std::get<MeshPointer>(state.value(target))) continue;  // saved, because its solver failed
           state.nodes[target.node].types[target.type].values[target.port] = std::move(*value);
         }
   }

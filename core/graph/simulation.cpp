@@ -1,6 +1,8 @@
 // Runs the phases of a tick in their order.
 #include "core/graph/simulation.h"
 
+#include "core/graph/amend.h"
+
 namespace bl {
 
 Simulation::Simulation(const Registry& registry, int threads, double (*now)()) : registry_(&registry), pool_(threads), now_(now) {
@@ -9,7 +11,8 @@ Simulation::Simulation(const Registry& registry, int threads, double (*now)()) :
 
 std::shared_ptr<const State> Simulation::with_scene(const Scene& scene,
                                                     const std::set<std::pair<std::string, std::string>>& placed) const {
-  auto plan = compile(scene, *registry_);
+  auto plan = state_ ? amend(*state_->plan, scene) : nullptr;
+  if (!plan) plan = compile(scene, *registry_);
   return std::make_shared<State>(state_ ? carry(*state_, std::move(plan), placed) : initial_state(std::move(plan)));
 }
 

@@ -76,7 +76,7 @@ std::uint64_t hash_of(const State& state) {
 }
 
 SavedState save(const State& state) {
-  SavedState saved{state.tick, state.calm, {}, {}, {}};
+  SavedState saved{state.tick, state.calm, {}, {}, {}, {}};
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
     auto& values = saved.nodes[state.plan->nodes[n].id];
     for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t) {
@@ -104,10 +104,19 @@ SavedState save(const State& state) {
                                                      now.running_inputs,
                                                      now.running ? now.running->result() : AnalysisResult{}};
   }
+  // What a failing solver leaves standing cannot be made again from inputs that it refuses.
+  for (const SetPlan& set : state.plan->sets)
+    if (state.nodes[set.node].types[set.type].error)
+      for (const PortRef& ref : set.writes)
+        if (const auto* mesh = std::get_if<MeshPointer>(&state.value(ref)); mesh != nullptr && *mesh)
+          saved.meshes[{state.plan->nodes[ref.node].id, state.plan->path_text(ref)}] = *mesh;
   return saved;
 }
 
-State initial_state(std::shared_ptr<const Plan> plan) {
+namespace {
+
+// As initial_state() gives it, but for the hash.
+State fresh_state(std::shared_ptr<const Plan> plan) {
   State state;
   for (const NodePlan& node : plan->nodes) {
     NodeState& fresh = state.nodes.emplace_back();
@@ -117,11 +126,8 @@ State initial_state(std::shared_ptr<const Plan> plan) {
   state.links.resize(plan->links.size());
   state.analyses.resize(plan->analyses.size());
   state.plan = std::move(plan);
-  state.hash = hash_of(state);
   return state;
 }
-
-namespace {
 
 void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& after, TypeState& fresh,
                 const std::set<std::string>& placed) {
@@ -151,20 +157,28 @@ void carry_link(const State& old, std::size_t from, const Plan& plan, LinkState&
 
 }  // namespace
 
+State initial_state(std::shared_ptr<const Plan> plan) {
+  State state = fresh_state(std::move(plan));
+  state.hash = hash_of(state);
+  return state;
+}
+
 State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed) {
-  State state = initial_state(std::move(plan));
+  State state = fresh_state(std::move(plan));
   state.tick = old.tick;
   for (std::size_t n = 0; n < state.nodes.size(); ++n) {
     const NodePlan& node = state.plan->nodes[n];
     const std::uint32_t before = old.plan->node_index(node.id);
     if (before == old.plan->nodes.size()) continue;
+    const auto first = placed.lower_bound({node.id, ""});
+    const bool is_placed = first != placed.end() && first->first == node.id;
     for (std::size_t t = 0; t < node.types.size(); ++t)
       for (std::size_t o = 0; o < old.plan->nodes[before].types.size(); ++o) {
         const TypePlan& type = old.plan->nodes[before].types[o];
         if (type.definition->id != node.types[t].definition->id) continue;
         std::set<std::string> ports;
         for (const PortDefinition& port : type.definition->ports)
-          if (placed.contains({node.id, type.definition->id + "." + port.id})) ports.insert(port.id);
+          if (is_placed && placed.contains({node.id, type.definition->id + "." + port.id})) ports.insert(port.id);
         carry_type(type, old.nodes[before].types[o], node.types[t], state.nodes[n].types[t], ports);
       }
   }
@@ -203,6 +217,13 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
       if (!ref) return ref.error();
       state.nodes[ref->node].types[ref->type].values[ref->port] = value;
     }
+  for (const auto& [target, mesh] : saved.meshes) {
+    const auto ref = find(target.first, target.second);
+    if (!ref) return ref.error();
+    if (state.plan->port(*ref).kind != ValueKind::mesh)
+      return Error{ErrorCode::wrong_kind, "state/meshes/" + target.first, "`" + target.second + "` is no mesh"};
+    state.nodes[ref->node].types[ref->type].values[ref->port] = mesh;
+  }
   for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
     const auto held = saved.held.find(state.plan->links[l].id);
     if (held == saved.held.end()) continue;
@@ -212,6 +233,8 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
       if (!ref) return ref.error();
       state.links[l].voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
     }
+    std::sort(state.links[l].voices.begin(), state.links[l].voices.end(),
+              [](const Voice& a, const Voice& b) { return a.target < b.target; });
   }
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const auto kept = saved.analyses.find(analysis_name(*state.plan, a));

@@ -89,6 +89,8 @@ struct SavedState {
   std::map<std::string, std::vector<std::pair<std::pair<std::string, std::string>, Voice>>>
       held;                                                               ///< by link: (node, path), voice
   std::map<std::pair<std::string, std::string>, SavedAnalysis> analyses;  ///< by node and typification
+  /// By node and path: those that a solver which fails now has made before. All others follow from the values.
+  std::map<std::pair<std::string, std::string>, MeshPointer> meshes;
 };
 SavedState save(const State& state);
 

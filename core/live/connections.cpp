@@ -10,6 +10,7 @@
 #include "core/base/live_address.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "core/live/port_values.h"
 #include "core/live/recording.h"
 
 namespace bl {
@@ -20,18 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uintmax_t kLongestRecording = 64u << 20;  // [bytes]
 constexpr const char *kSensor = "sensor", *kActuator = "actuator";
-
-const PortValues* values_of(const NodeRecord& node, const char* type) {
-  const auto found = node.types.find(type);
-  return found != node.types.end() ? &found->second : nullptr;
-}
-
-template <class T>
-T value_of(const PortValues& values, const char* port, T otherwise) {
-  const auto found = values.find(port);
-  const T* content = found != values.end() ? std::get_if<T>(&found->second) : nullptr;
-  return content != nullptr ? *content : otherwise;
-}
 
 Result<Recording> read_table(const std::string& folder, const LiveAddress& address) {
   const std::filesystem::path path = std::filesystem::path(folder) / address.path;
@@ -136,7 +125,9 @@ bool Connections::follow_actuator(const std::string& id, const PortValues& value
 }
 
 void Connections::follow(const Scene& scene) {
-  bool is_changed = false;
+  auto accesses = accesses_of(scene, options_.folder);
+  bool is_changed = accesses != accesses_;
+  accesses_ = std::move(accesses);
   std::set<std::string> sensors, actuators;
   for (const auto& [id, node] : scene.nodes) {
     if (const PortValues* values = values_of(node, kSensor)) {
@@ -158,6 +149,7 @@ void Connections::follow_endpoints() {
     Endpoint::Body body = nullptr;
     LiveAddress address;
     std::vector<Subscriber> subscribers;
+    Access access;
   };
   std::map<std::string, Wanted> wanted;
   for (const auto& [id, sensor] : sensors_) {
@@ -176,9 +168,15 @@ void Connections::follow_endpoints() {
     endpoint.address = address;
     endpoint.body = address.scheme == LiveAddress::Scheme::mqtt ? run_mqtt : run_osc_output;
   }
+  for (auto& [key, endpoint] : wanted)
+    if (endpoint.body == run_mqtt)
+      if (const auto access = accesses_.find(endpoint.address.host + ":" + std::to_string(endpoint.address.port));
+          access != accesses_.end())
+        endpoint.access = access->second;
   const auto is_gone = [&](const auto& entry) {
     const auto found = wanted.find(entry.first);
-    return found == wanted.end() || found->second.subscribers != entry.second->subscribers();
+    return found == wanted.end() || found->second.subscribers != entry.second->subscribers() ||
+           found->second.access != entry.second->access();
   };
   for (const auto& entry : endpoints_)
     if (is_gone(entry)) entry.second->ask_to_end();
@@ -189,7 +187,7 @@ void Connections::follow_endpoints() {
   for (auto& [key, endpoint] : wanted)
     if (!endpoints_.contains(key))
       endpoints_[key] = std::make_unique<Endpoint>(endpoint.body, endpoint.address.host, endpoint.address.port,
-                                                   std::move(endpoint.subscribers), options_.pauses);
+                                                   std::move(endpoint.subscribers), options_.pauses, std::move(endpoint.access));
 }
 
 std::vector<Report> Connections::take(std::int64_t tick) {

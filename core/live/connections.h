@@ -64,6 +64,7 @@ class Connections {
   const LiveOptions options_;
   std::map<std::string, std::unique_ptr<Sensor>> sensors_;      // by node
   std::map<std::string, std::unique_ptr<Actuator>> actuators_;  // by node
+  std::map<std::string, Access> accesses_;                      // of brokers, by host and port
   std::map<std::string, std::unique_ptr<Endpoint>> endpoints_;  // by what they connect to
 };
 

@@ -8,8 +8,13 @@
 
 namespace bl {
 
-Endpoint::Endpoint(Body body, std::string host, int port, std::vector<Subscriber> subscribers, Pauses pauses)
-    : host_(std::move(host)), port_(port), subscribers_(std::move(subscribers)), pauses_(pauses), pause_(pauses.first) {
+Endpoint::Endpoint(Body body, std::string host, int port, std::vector<Subscriber> subscribers, Pauses pauses, Access access)
+    : host_(std::move(host)),
+      port_(port),
+      subscribers_(std::move(subscribers)),
+      pauses_(pauses),
+      access_(std::move(access)),
+      pause_(pauses.first) {
   thread_ = std::thread([this, body] { run(body); });
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/live/access.h"
 #include "core/live/station.h"
 
 namespace bl {
@@ -39,7 +40,7 @@ class Endpoint {
   /// What the thread does until is_ending().
   using Body = void (*)(Endpoint&);
 
-  Endpoint(Body body, std::string host, int port, std::vector<Subscriber> subscribers, Pauses pauses);
+  Endpoint(Body body, std::string host, int port, std::vector<Subscriber> subscribers, Pauses pauses, Access access);
   /// Waits for the thread; ask_to_end() several of them first, and they end at the same time.
   ~Endpoint();
   Endpoint(const Endpoint&) = delete;
@@ -55,6 +56,7 @@ class Endpoint {
   /// "host:port", as sentences name it.
   std::string place() const;
   const std::vector<Subscriber>& subscribers() const { return subscribers_; }
+  const Access& access() const { return access_; }
   bool is_ending() const;
   /// The messages that wait.
   std::vector<Outgoing> outgoing();
@@ -74,6 +76,7 @@ class Endpoint {
   const int port_;
   const std::vector<Subscriber> subscribers_;
   const Pauses pauses_;
+  const Access access_;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   bool is_ending_ = false;

@@ -1,5 +1,6 @@
 // A connection to an MQTT broker: subscribes to the topics of sensors, publishes what actuators say.
 #include <mosquitto.h>
+#include <mqtt_protocol.h>
 
 #include <map>
 #include <memory>
@@ -36,11 +37,13 @@ class Broker {
     mosquitto_publish_callback_set(client_.get(), [](mosquitto*, void* self, int id) { of(self).confirmed(id); });
     // Asked first by ourselves: the library waits for silent hosts for minutes, and does not say what is wrong.
     if (const auto answer = knock(endpoint_); !answer) return answer.error().message;
-    if (mosquitto_connect(client_.get(), endpoint_.host().c_str(), endpoint_.port(), kKeepAlive) != MOSQ_ERR_SUCCESS)
-      return endpoint_.place() + " cannot be connected to";
+    if (const auto secured = enter(); !secured) return secured.error().message;
+    if (const int code = mosquitto_connect(client_.get(), endpoint_.host().c_str(), endpoint_.port(), kKeepAlive);
+        code != MOSQ_ERR_SUCCESS)
+      return unconnected(code);
     for (int looks = 0; !endpoint_.is_ending(); ++looks) {
-      if (mosquitto_loop(client_.get(), kSlice, 1) != MOSQ_ERR_SUCCESS)
-        return !refusal_.empty() ? refusal_ : endpoint_.place() + " has closed the connection";
+      if (const int code = mosquitto_loop(client_.get(), kSlice, 1); code != MOSQ_ERR_SUCCESS)
+        return !refusal_.empty() ? refusal_ : unconnected(code);
       if (!is_greeted_ && looks > kGreetings) return endpoint_.place() + " answers, but not as an MQTT broker does";
       if (is_greeted_) publish();
     }
@@ -51,9 +54,53 @@ class Broker {
  private:
   static Broker& of(void* self) { return *static_cast<Broker*>(self); }
 
+  // Says who we are, and secures the connection, before it is made.
+  Result<void> enter() {
+    const Access& access = endpoint_.access();
+    const auto at_node = [&](const Error& error) {
+      return Error{error.code, "", error.message + " (node `" + access.node + "`, for " + endpoint_.place() + ")"};
+    };
+    const auto password = access.password();
+    if (!password) return at_node(password.error());
+    if (!access.user.empty())
+      mosquitto_username_pw_set(client_.get(), access.user.c_str(), access.password_from.empty() ? nullptr : password->c_str());
+    if (!access.is_encrypted) return {};
+    const auto certificates = access.certificates();
+    if (!certificates) return at_node(certificates.error());
+    const int code = certificates->empty()
+                         ? mosquitto_int_option(client_.get(), MOSQ_OPT_TLS_USE_OS_CERTS, 1)
+                         : mosquitto_tls_set(client_.get(), certificates->c_str(), nullptr, nullptr, nullptr, nullptr);
+    if (code != MOSQ_ERR_SUCCESS)
+      return at_node({ErrorCode::io, "", std::string("the connection cannot be encrypted: ") + mosquitto_strerror(code)});
+    return {};
+  }
+
+  std::string unconnected(int code) const {
+    const Access& access = endpoint_.access();
+    if (access.is_encrypted && !is_greeted_)
+      return endpoint_.place() +
+             " cannot be connected to by TLS: it speaks without, or its certificate is made out to another name "
+             "or vouched for by nobody whom node `" +
+             access.node + "` trusts";
+    if (code != MOSQ_ERR_CONN_LOST || is_greeted_) return endpoint_.place() + " has closed the connection";
+    return endpoint_.place() + " has closed the connection; it may want an encrypted one: " + who_to_ask();
+  }
+
+  // Where people say who we are at this broker.
+  std::string who_to_ask() const {
+    const Access& access = endpoint_.access();
+    return access.node.empty() ? "a node typified as `mqtt_broker` for this host and port says how it is entered"
+                               : "see node `" + access.node + "`";
+  }
+
   void greeted(int code) {
     if (code != 0) {
+      const bool is_name = code == CONNACK_REFUSED_BAD_USERNAME_PASSWORD || code == CONNACK_REFUSED_NOT_AUTHORIZED;
+      const Access& access = endpoint_.access();
       refusal_ = "the broker " + endpoint_.place() + " refuses the connection: " + mosquitto_connack_string(code);
+      if (is_name && !access.user.empty())
+        refusal_ += " The user `" + access.user + "` or the password of node `" + access.node + "` is not the right one.";
+      else if (is_name) refusal_ += " It wants a user and a password: " + who_to_ask() + ".";
       return;
     }
     is_greeted_ = true;

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/script/lua_values.h"
+#include "core/script/text_lines.h"
 #include "core/script/utf8.h"
 
 namespace bl {
@@ -21,7 +22,7 @@ namespace {
 class Declaration {
  public:
   Declaration(lua_State* lua, const std::string& file, std::string_view text, const Registry& types)
-      : lua_(lua), file_(file), text_(text), types_(types) {}
+      : lua_(lua), file_(file), lines_(text), types_(types) {}
 
   Result<ScriptDeclaration> run() {
     if (!lua_istable(lua_, -1))
@@ -32,15 +33,10 @@ class Declaration {
   }
 
  private:
-  // `token` is the word in the text that the message is about; the line where it first stands is named.
+  // `token` is the word that the message is about; its line within the part that is read is named, or that of the part.
   void fail(std::string_view token, std::string message, ErrorCode code = ErrorCode::parse) {
     if (error_) return;
-    std::size_t at = token.empty() ? text_.find("return") : text_.find("\"" + std::string(token) + "\"");
-    if (at == std::string_view::npos) at = text_.find("'" + std::string(token) + "'");
-    if (at == std::string_view::npos) at = text_.find(token);
-    const auto line =
-        at == std::string_view::npos ? 1 : 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(at), '\n');
-    error_ = Error{code, "", file_ + ":" + std::to_string(line) + ": " + message};
+    error_ = Error{code, "", file_ + ":" + std::to_string(lines_.line_of(part_, token)) + ": " + message};
   }
 
   // --- Tables. The table that is read stands on top of the stack.
@@ -56,9 +52,15 @@ class Declaration {
     return found;
   }
   void check_keys(const std::string& where, const std::vector<std::string>& known) {
-    for (const std::string& key : keys(where))
-      if (std::find(known.begin(), known.end(), key) == known.end())
-        fail(key, "`" + where + "` knows no `" + key + "`" + did_you_mean(key, known), ErrorCode::unknown_field);
+    const bool is_phrase = where.find(' ') != std::string::npos;
+    for (const std::string& key : keys(where)) {
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      const bool is_end = key == "end" && std::find(known.begin(), known.end(), "at") != known.end();
+      fail(key,
+           (is_phrase ? where : "`" + where + "`") + " knows no `" + key + "`" +
+               (is_end ? "; the field is called `at`, because `end` is a word of Lua's own" : did_you_mean(key, known)),
+           ErrorCode::unknown_field);
+    }
   }
   std::optional<std::string> text(const std::string& where, const char* key, bool is_required = false) {
     lua_getfield(lua_, -1, key);
@@ -126,6 +128,7 @@ class Declaration {
   template <class Read>
   void for_list(const char* key, Read read_one) {
     lua_getfield(lua_, -1, key);
+    part_.emplace_back(key);
     if (lua_istable(lua_, -1)) {
       const auto count = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
       lua_pushnil(lua_);
@@ -135,30 +138,37 @@ class Declaration {
       }
       for (lua_Integer i = 1; i <= count; ++i) {
         lua_rawgeti(lua_, -1, i);
+        part_.push_back("#" + std::to_string(i));
         if (lua_istable(lua_, -1)) read_one(std::string(key) + " " + std::to_string(i));
         else fail(key, "`" + std::string(key) + "` is a list of tables: {{id = ...}, {id = ...}}", ErrorCode::wrong_kind);
+        part_.pop_back();
         lua_pop(lua_, 1);
       }
     } else if (!lua_isnil(lua_, -1)) {
       fail(key, "`" + std::string(key) + "` must be a list", ErrorCode::wrong_kind);
     }
+    part_.pop_back();
     lua_pop(lua_, 1);
   }
   template <class Read>
   void for_names(const char* key, Read read_one) {
     lua_getfield(lua_, -1, key);
+    part_.emplace_back(key);
     if (lua_istable(lua_, -1)) {
       for (const std::string& name : keys(key)) {
         lua_getfield(lua_, -1, name.c_str());
+        part_.push_back(name);
         if (lua_istable(lua_, -1)) read_one(name);
         else
           fail(name, "`" + name + "` must be a table such as {at = \"from\", port = \"smart_volume.volume\", unit = \"m3\"}",
                ErrorCode::wrong_kind);
+        part_.pop_back();
         lua_pop(lua_, 1);
       }
     } else if (!lua_isnil(lua_, -1)) {
       fail(key, "`" + std::string(key) + "` must be a table {name = {...}, ...}", ErrorCode::wrong_kind);
     }
+    part_.pop_back();
     lua_pop(lua_, 1);
   }
 
@@ -280,14 +290,16 @@ class Declaration {
     is_open_ = true;
     write.end = path_of(name, write.path, write.kind, write.unit, write.is_whole);
     if (!is_open_ || write.path.port == "id" || !is_proposable(write.kind))
-      fail(name, "`" + write.path.typification + "." + write.path.port + "` cannot be changed by links", ErrorCode::conflict);
+      fail(write.path.typification + "." + write.path.port,
+           "`" + write.path.typification + "." + write.path.port + "` cannot be changed by links", ErrorCode::conflict);
     proposes_.push_back(name);
     link_.proposes.push_back(std::move(write));
   }
 
   lua_State* lua_;
   const std::string& file_;
-  std::string_view text_;
+  TextLines lines_;
+  std::vector<std::string> part_;  // the keys that lead to what is read now
   const Registry& types_;
   LinkDefinition link_;
   std::vector<std::string> reads_, proposes_;

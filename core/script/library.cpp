@@ -15,7 +15,7 @@ namespace bl {
 namespace {
 
 // Places in Lua's registry, by address.
-char globals_key, point_key;
+char globals_key, point_key, ends_key, parameters_key;
 
 // Written in Lua, so that the instructions of all of it are counted. Why each stands here:
 //   pairs      walks in sorted order: Lua's own follows hashes that differ from run to run;
@@ -122,22 +122,60 @@ function lists.unpack(list, from, to)
   return unpack(list, from, to)
 end
 
+-- `ends` and `params` hold what was declared; another name is a slip.
+local function strict(name)
+  return {__metatable = false, __index = function(list, key)
+    local names = ""
+    for known in pairs(list) do names = names .. (names == "" and "; it has `" or "`, `") .. known end
+    error("`" .. name .. "` has no `" .. safe_tostring(key) .. "`" .. (names == "" and "" or names .. "`"), 2)
+  end}
+end
+
+-- Points for both sides; the error is that of the line that calculates.
+local function check_point(value, what)
+  if type(value) == "table" and type(value.x) == "number" and type(value.y) == "number" and type(value.z) == "number" then return end
+  local found = value == nil and "nil, a name that holds nothing" or "a " .. type(value)
+  error(what .. " needs a point on both sides; one is " .. found, 3)
+end
+local function check_number(value, what)
+  if type(value) ~= "number" then
+    error("a point is " .. what .. " by a number, not by a " .. (type(value) == "table" and "point" or type(value)) .. "; a:dot(b) multiplies two points", 3)
+  end
+end
+
 local methods, meta = {}, {__metatable = false}
 meta.__index = methods
 local function point(x, y, z) return raw.setmetatable({x = x or 0, y = y or 0, z = z or 0}, meta) end
-function meta.__add(a, b) return point(a.x + b.x, a.y + b.y, a.z + b.z) end
-function meta.__sub(a, b) return point(a.x - b.x, a.y - b.y, a.z - b.z) end
+function meta.__add(a, b)
+  check_point(a, "a sum")
+  check_point(b, "a sum")
+  return point(a.x + b.x, a.y + b.y, a.z + b.z)
+end
+function meta.__sub(a, b)
+  check_point(a, "a difference")
+  check_point(b, "a difference")
+  return point(a.x - b.x, a.y - b.y, a.z - b.z)
+end
 function meta.__unm(a) return point(-a.x, -a.y, -a.z) end
 function meta.__mul(a, b)
   if type(a) == "number" then return point(a * b.x, a * b.y, a * b.z) end
+  check_number(b, "multiplied")
   return point(a.x * b, a.y * b, a.z * b)
 end
-function meta.__div(a, b) return point(a.x / b, a.y / b, a.z / b) end
+function meta.__div(a, b)
+  if type(a) == "number" then error("a number cannot be divided by a point", 2) end
+  check_number(b, "divided")
+  return point(a.x / b, a.y / b, a.z / b)
+end
 function meta.__eq(a, b) return a.x == b.x and a.y == b.y and a.z == b.z end
-function methods.dot(a, b) return a.x * b.x + a.y * b.y + a.z * b.z end
+function methods.dot(a, b)
+  check_point(a, "dot")
+  check_point(b, "dot")
+  return a.x * b.x + a.y * b.y + a.z * b.z
+end
 function methods.length(a) return raw.sqrt(a.x * a.x + a.y * a.y + a.z * a.z) end
 
-return meta, {pairs = pairs, tostring = safe_tostring, point = point}, lists, {format = safe_format}
+return strict("ends"), strict("params"), meta, {pairs = pairs, tostring = safe_tostring, point = point}, lists, {format = safe_format}
 )lua";
 
 // random(...): a number from 0 to below 1 that follows from the arguments alone: ids, tick.index, counters.
@@ -224,11 +262,13 @@ int open_library(lua_State* lua) {
         "min", "modf", "maxinteger", "mininteger", "pi",   "rad", "sin", "sqrt", "tointeger", "tan",  "type", "ult"});
   if (luaL_loadbufferx(lua, kLibrary, sizeof kLibrary - 1, "=(library)", "t") != LUA_OK) return lua_error(lua);
   push_raw(lua, 1, 2, 3, 4);
-  lua_call(lua, 1, 4);
+  lua_call(lua, 1, 6);
   pour(lua, 6);
   pour(lua, 7);
   pour(lua, 5);
   lua_rawsetp(lua, LUA_REGISTRYINDEX, &point_key);
+  lua_rawsetp(lua, LUA_REGISTRYINDEX, &parameters_key);
+  lua_rawsetp(lua, LUA_REGISTRYINDEX, &ends_key);
   lua_pushcfunction(lua, random_of);
   lua_setfield(lua, 5, "random");
   // ("text"):upper() looks into the chosen functions, too.
@@ -269,6 +309,11 @@ void push_point(lua_State* lua, double x, double y, double z) {
   lua_pushnumber(lua, z);
   lua_setfield(lua, -2, "z");
   lua_rawgetp(lua, LUA_REGISTRYINDEX, &point_key);
+  lua_setmetatable(lua, -2);
+}
+
+void make_strict(lua_State* lua, Declared what) {
+  lua_rawgetp(lua, LUA_REGISTRYINDEX, what == Declared::ends ? &ends_key : &parameters_key);
   lua_setmetatable(lua, -2);
 }
 

@@ -14,5 +14,8 @@ int open_library(lua_State* lua);
 void push_globals(lua_State* lua);
 /// Pushes a point with its arithmetic.
 void push_point(lua_State* lua, double x, double y, double z);
+/// Makes the table on top say which names it has where a script asks it for another one.
+enum class Declared { ends, parameters };
+void make_strict(lua_State* lua, Declared what);
 
 }  // namespace bl

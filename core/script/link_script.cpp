@@ -10,6 +10,7 @@
 #include <lua.hpp>
 
 #include "core/script/declaration.h"
+#include "core/script/library.h"
 #include "core/script/lua_values.h"
 #include "core/script/machine.h"
 #include "core/script/utf8.h"
@@ -70,6 +71,7 @@ void push_parameters(lua_State* lua, const Call& call) {
     push_value(lua, call.parameters[p]);
     lua_setfield(lua, -2, call.script.parameters[p].c_str());
   }
+  make_strict(lua, Declared::parameters);
 }
 
 void push_ends(lua_State* lua, const Call& call) {
@@ -87,6 +89,7 @@ void push_ends(lua_State* lua, const Call& call) {
     }
     lua_setfield(lua, -2, call.script.reads[r].c_str());
   }
+  make_strict(lua, Declared::ends);
 }
 
 // Every field of the answer has to be a declared one; nothing that a script says is passed over.
@@ -105,6 +108,22 @@ void check_answer(lua_State* lua, const Call& call) {
   }
 }
 
+// Whatever is in a list for a whole end has to be of a node.
+void check_list(lua_State* lua, const char* name, ValueKind kind, std::size_t count) {
+  lua_pushnil(lua);
+  while (lua_next(lua, -2) != 0) {
+    lua_pop(lua, 1);
+    if (lua_isinteger(lua, -1) != 0) {
+      const lua_Integer at = lua_tointeger(lua, -1);
+      if (at < 1 || at > static_cast<lua_Integer>(count))
+        luaL_error(lua, "`%s` answers a value for node %d of an end of %d nodes", name, static_cast<int>(at), static_cast<int>(count));
+      continue;
+    }
+    if (kind == ValueKind::point) luaL_error(lua, "`%s` needs a list of points, one for each node, not a point", name);
+    luaL_error(lua, "`%s` needs a list with a value for each node; it has an entry with a name", name);
+  }
+}
+
 void take_answer(lua_State* lua, const Call& call, std::size_t w) {
   const char* name = call.script.proposes[w].c_str();
   auto& values = call.writes.values[w];
@@ -116,6 +135,7 @@ void take_answer(lua_State* lua, const Call& call, std::size_t w) {
     if (lua_rawlen(lua, -1) > count)
       luaL_error(lua, "`%s` answers %d values for an end of %d nodes", name, static_cast<int>(lua_rawlen(lua, -1)),
                  static_cast<int>(count));
+    check_list(lua, name, call.script.write_kinds[w], count);
     for (std::size_t i = 0; i < count; ++i) {
       lua_rawgeti(lua, -1, static_cast<lua_Integer>(i + 1));
       values[i] = proposal_at(lua, -1, call.script.write_kinds[w], name);

@@ -97,7 +97,7 @@ struct Machine::Box {
     const char* text = lua_type(lua, 1) == LUA_TSTRING ? lua_tostring(lua, 1) : "the script raised an error that is no text";
     const std::size_t length = self.file.size();
     if (std::strncmp(text, self.file.c_str(), length) == 0 && text[length] == ':') {
-      lua_pushstring(lua, text);
+      lua_pushfstring(lua, "%s%s", text, instead_of(text));
       return 1;
     }
     lua_Debug at;
@@ -109,6 +109,26 @@ struct Machine::Box {
     if (self.blamed_line > 0) lua_pushfstring(lua, "%s:%d: %s", self.file.c_str(), self.blamed_line, without_place(text));
     else lua_pushfstring(lua, "%s: %s", self.file.c_str(), without_place(text));
     return 1;
+  }
+  // What people look for first that scripts have not, and what is there instead.
+  static const char* instead_of(const char* text) {
+    static constexpr const char* kNotThere[][2] = {
+        {"'print'", "; there is no `print`: error(text) shows a text in the problems list"},
+        {"'pcall'", "; an error ends the evaluation and cannot be caught"},
+        {"'xpcall'", "; an error ends the evaluation and cannot be caught"},
+        {"'io'", "; scripts reach no files"},
+        {"'os'", "; scripts reach no clock and no files"},
+        {"'require'", "; a script stands alone: no other is reached"},
+        {"'find'", "; patterns are left out: `sub`, `byte` and `len` are there"},
+        {"'match'", "; patterns are left out: `sub`, `byte` and `len` are there"},
+        {"'gmatch'", "; patterns are left out: `sub`, `byte` and `len` are there"},
+        {"'gsub'", "; patterns are left out: `sub`, `byte` and `len` are there"},
+        {"'rep'", "; texts are joined by .."},
+    };
+    if (std::strstr(text, "nil value (") == nullptr) return "";
+    for (const auto& [name, hint] : kNotThere)
+      if (std::strstr(text, name) != nullptr) return hint;
+    return "";
   }
   // "[string...]:12: what" without the place in the library, which says nothing to people.
   static const char* without_place(const char* text) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "core/traffic/district_turns.h"
 #include "core/traffic/equilibrium.h"
 #include "core/traffic/reach.h"
 
@@ -13,15 +14,20 @@ namespace bl {
 
 namespace {
 
-// Junctions and zones may have one id, because a node may be both; `:` stands in no id.
-std::string junction_name(const std::string& id) { return "j:" + id; }
+// Streets that let pass fewer are closed [1/h]: nobody could wait for them.
+constexpr double kLeastCapacity = 1e-9;
+// A pair with a smaller share of what leaves a zone has no trips: halved tick by tick, it would never come to an end.
+constexpr double kLeastShare = 1e-9;
+// Where a smaller share of the trips wants to go elsewhere, all stay: else the last digits would never come to rest.
+constexpr double kRest = 1e-7;
+
 std::string zone_name(const std::string& id) { return "z:" + id; }
 
 class District {
  public:
   District(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-           const std::vector<DistrictZone>& zones, const DistrictSettings& settings)
-      : junctions_(junctions), streets_(streets), zones_(zones), settings_(settings) {
+           const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones, const DistrictSettings& settings)
+      : junctions_(junctions), streets_(streets), rules_(rules), zones_(zones), settings_(settings) {
     for (std::size_t j = 0; j < junctions.size(); ++j) junction_at_[junctions[j].id] = j;
   }
 
@@ -32,31 +38,43 @@ class District {
     if (auto made = make_network(); !made) return made.error();
     find_indices();
     const std::vector<TripDemand> before = trips_of(last);
-    equilibrium_ = std::make_unique<Equilibrium>(*network_, before, flows_of(last));
+    const std::vector<OriginFlow> flows = flows_of(last);
+    equilibrium_ = std::make_unique<Equilibrium>(*network_, before, flows);
     equilibrium_->set_demands(trips_wanted(before));
     for (int i = 0; i < settings_.steps && equilibrium_->figures().gap > settings_.gap; ++i) equilibrium_->iterate();
     read_totals();
     for (std::size_t s = 0; s < streets_.size(); ++s) read_street(s);
     read_zones();
     if (auto read = read_reach(); !read) return read.error();
-    remember();
+    out_.is_at_rest = has_same_trips_ && out_.iterations == 0 && before.size() == last.trips.size() && flows.size() == last.flows.size();
+    if (out_.is_at_rest) out_.state = last;
+    else remember();
     return std::move(out_);
   }
 
  private:
   Result<void> make_network() {
-    std::vector<TrafficNode> nodes;
-    for (const DistrictJunction& junction : junctions_) nodes.push_back({junction_name(junction.id), true});
-    for (const DistrictZone& zone : zones_) nodes.push_back({zone_name(zone.id), false});
-    for (std::size_t s = 0; s < streets_.size(); ++s) add_street(s);
+    std::vector<TrafficNode> nodes = places();
+    std::vector<TrafficLink> links;
+    for (std::size_t s = 0; s < streets_.size(); ++s) add_street(s, links);
+    const std::vector<ForbiddenTurn> turns = forbidden_turns(rules_, streets_, links, out_.rules);
     for (std::size_t z = 0; z < zones_.size(); ++z) add_access(z);
-    auto made = TrafficNetwork::make(std::move(nodes), std::move(links_), {settings_.toll_factor, settings_.distance_factor});
+    links.insert(links.end(), access_.begin(), access_.end());
+    if (auto split = forbid_turns(nodes, links, turns); !split) return split.error();
+    auto made = TrafficNetwork::make(std::move(nodes), std::move(links), {settings_.toll_factor, settings_.distance_factor});
     if (!made) return made.error();
     network_ = std::make_unique<TrafficNetwork>(std::move(*made));
     return {};
   }
 
-  void add_street(std::size_t s) {
+  std::vector<TrafficNode> places() const {
+    std::vector<TrafficNode> nodes;
+    for (const DistrictJunction& junction : junctions_) nodes.push_back({junction_node(junction.id), true});
+    for (const DistrictZone& zone : zones_) nodes.push_back({zone_name(zone.id), false});
+    return nodes;
+  }
+
+  void add_street(std::size_t s, std::vector<TrafficLink>& links) {
     const DistrictStreet& street = streets_[s];
     DistrictResult::Street& result = out_.streets[s];
     const auto start = junction_at_.find(street.start), end = junction_at_.find(street.end);
@@ -79,15 +97,16 @@ class District {
         street.length > 0 ? street.length : distance(junctions_[start->second].position, junctions_[end->second].position);
     if (!street.is_for_cars) result.reason = "it is for walking only";
     else if (!street.is_open) result.reason = "it is closed";
+    else if (street.capacity < kLeastCapacity) result.reason = "its capacity is next to nothing, so that it counts as closed";
     if (!result.reason.empty()) return;
     const double time = result.length / street.speed;
-    links_.push_back({street.id + ":forth", junction_name(street.start), junction_name(street.end),
-                      time + junctions_[end->second].delay, street.capacity, settings_.alpha, settings_.beta, result.length,
-                      street.toll, true});
+    links.push_back({street.id + ":forth", junction_node(street.start), junction_node(street.end),
+                     time, street.capacity, settings_.alpha, settings_.beta, result.length, street.toll, true,
+                     junctions_[end->second].delay});
     if (street.is_one_way) return;
-    links_.push_back({street.id + ":back", junction_name(street.end), junction_name(street.start),
-                      time + junctions_[start->second].delay, street.capacity, settings_.alpha, settings_.beta, result.length,
-                      street.toll, true});
+    links.push_back({street.id + ":back", junction_node(street.end), junction_node(street.start),
+                     time, street.capacity, settings_.alpha, settings_.beta, result.length, street.toll, true,
+                     junctions_[start->second].delay});
   }
 
   // On foot between a zone and its junctions.
@@ -107,13 +126,13 @@ class District {
       }
       is_attached = true;
       const double walk = distance(zone.position, junctions_[junction->second].position) / settings_.walking_speed;
-      const TrafficLink out{zone.id + ":out:" + id, zone_name(zone.id), junction_name(id), walk, 0, 0, 1, 0, 0, true};
-      const TrafficLink in{zone.id + ":in:" + id, junction_name(id), zone_name(zone.id), walk, 0, 0, 1, 0, 0, true};
-      links_.push_back(out);
-      links_.push_back(in);
+      const TrafficLink out{zone.id + ":out:" + id, zone_name(zone.id), junction_node(id), walk, 0, 0, 1, 0, 0, true};
+      const TrafficLink in{zone.id + ":in:" + id, junction_node(id), zone_name(zone.id), walk, 0, 0, 1, 0, 0, true};
+      access_.push_back(out);
+      access_.push_back(in);
     }
     if (!unknown.empty()) out_.zones[z].reason = "its access " + unknown + " is no junction of this network";
-    else if (!is_attached) out_.zones[z].reason = "it has no access: lay a link to a junction";
+    else if (!is_attached) out_.zones[z].reason = "it has no access: lay a link to a junction, or allow a longer walk to one";
   }
 
   void find_indices() {
@@ -162,23 +181,29 @@ class District {
     measure_times();
     const TripDistribution wanted = distribute_trips(times_, leaving, arriving, settings_.fade, settings_.constraint);
     for (const TripDemand& trip : before) last[zone_at_[trip.origin] * n + zone_at_[trip.destination]] += trip.trips;
-    double apart = 0, all = 0;
+    double apart = 0, all = 0, changed = 0;
     std::vector<TripDemand> trips;
     for (std::size_t i = 0; i < n; ++i) {
       // A zone whose sum has changed follows at once; only where its trips go is approached.
       double sum = 0, aim = 0;
-      for (std::size_t j = 0; j < n; ++j) sum += last[i * n + j], aim += wanted.trips[i * n + j];
+      for (std::size_t j = 0; j < n; ++j) {
+        // Who cannot be reached any more is not waited for: those trips end elsewhere at once.
+        if (times_[i * n + j] == kUnreached) last[i * n + j] = 0;
+        sum += last[i * n + j], aim += wanted.trips[i * n + j];
+      }
       for (std::size_t j = 0; j < n; ++j) {
         const double goal = wanted.trips[i * n + j], held = sum > 0 ? last[i * n + j] * (aim / sum) : goal;
         apart += std::abs(goal - held);
         all += goal;
+        changed += std::abs(last[i * n + j] - held);
         const double trip = held + settings_.haste * (goal - held);
-        if (trip > 0) trips.push_back({zone_nodes_[i], zone_nodes_[j], trip});
+        if (trip > kLeastShare * aim) trips.push_back({zone_nodes_[i], zone_nodes_[j], trip});
       }
       tell_lost(i, wanted.lost[i]);
     }
     out_.restlessness = all > 0 ? apart / all : 0;
-    return trips;
+    has_same_trips_ = apart <= kRest * all && changed <= kRest * all && trips.size() == before.size();
+    return has_same_trips_ ? before : trips;
   }
 
   void tell_lost(std::size_t z, double lost) {
@@ -245,20 +270,16 @@ class District {
   // Walking leads along all streets that are open, both ways, and through the access of the zone to the first junction.
   Result<void> read_reach() {
     if (std::none_of(zones_.begin(), zones_.end(), [](const DistrictZone& zone) { return zone.wants_reach; })) return {};
-    std::vector<TrafficNode> nodes;
-    for (std::uint32_t n = 0; n < network_->node_count(); ++n) nodes.push_back(network_->node(n));
-    std::vector<TrafficLink> links;
+    std::vector<TrafficNode> nodes = places();
+    std::vector<TrafficLink> links = access_;
+    for (TrafficLink& link : links) link.length = link.free_time * settings_.walking_speed;
     for (std::size_t s = 0; s < streets_.size(); ++s) {
       const DistrictStreet& street = streets_[s];
-      if (!street.is_open || out_.streets[s].length <= 0) continue;
-      const std::string start = junction_name(street.start), end = junction_name(street.end);
+      const bool has_ends = junction_at_.contains(street.start) && junction_at_.contains(street.end) && street.start != street.end;
+      if (!street.is_open || !has_ends) continue;
+      const std::string start = junction_node(street.start), end = junction_node(street.end);
       links.push_back({street.id + ":forth", start, end, 0, 0, 0, 1, out_.streets[s].length, 0, true});
       links.push_back({street.id + ":back", end, start, 0, 0, 0, 1, out_.streets[s].length, 0, true});
-    }
-    for (std::uint32_t l = 0; l < network_->link_count(); ++l) {
-      if (network_->is_through(network_->from(l)) && network_->is_through(network_->to(l))) continue;
-      links.push_back(network_->link(l));
-      links.back().length = links.back().free_time * settings_.walking_speed;
     }
     const auto walks = TrafficNetwork::make(std::move(nodes), std::move(links));
     if (!walks) return walks.error();
@@ -268,15 +289,16 @@ class District {
     return {};
   }
 
-  // Both networks have the same nodes.
   void read_reach_of(std::size_t z, const TrafficNetwork& walks, const std::vector<double>& walking) {
     const std::vector<double> drive = travel_costs(*network_, zone_nodes_[z], equilibrium_->costs());
-    const std::vector<double> walk = travel_costs(walks, zone_nodes_[z], walking);
+    const std::vector<double> walk = travel_costs(walks, walks.node_index(zone_name(zones_[z].id)), walking);
     for (const DistrictJunction& junction : junctions_) {
-      const std::uint32_t node = network_->node_index(junction_name(junction.id));
+      const std::string name = junction_node(junction.id);
+      const std::uint32_t whole = network_->node_index(name), split = network_->node_index(arrivals_of(name));
+      const double driving = drive[split == kNoTrafficIndex ? whole : split], walking_there = walk[walks.node_index(name)];
       auto known = [&](double time) { return time == kUnreached ? -1.0 : time; };
-      if (drive[node] != kUnreached || walk[node] != kUnreached)
-        out_.zones[z].reach.push_back({junction.id, known(drive[node]), known(walk[node])});
+      if (driving != kUnreached || walking_there != kUnreached)
+        out_.zones[z].reach.push_back({junction.id, known(driving), known(walking_there)});
     }
   }
 
@@ -290,24 +312,26 @@ class District {
 
   const std::vector<DistrictJunction>& junctions_;
   const std::vector<DistrictStreet>& streets_;
+  const std::vector<DistrictRules>& rules_;
   const std::vector<DistrictZone>& zones_;
   const DistrictSettings& settings_;
   std::map<std::string, std::size_t> junction_at_;
-  std::vector<TrafficLink> links_;
+  std::vector<TrafficLink> access_;  // between zones and junctions, as they were before turns
   std::unique_ptr<TrafficNetwork> network_;
   std::unique_ptr<Equilibrium> equilibrium_;
   std::vector<std::uint32_t> zone_nodes_;
   std::map<std::uint32_t, std::size_t> zone_at_;  // the other way round
   std::vector<double> times_;                     // from zone i to zone j at [i · zones + j]
+  bool has_same_trips_ = false;  // as in the last step
   DistrictResult out_;
 };
 
 }  // namespace
 
 Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictZone>& zones, const DistrictSettings& settings,
-                                     const DistrictState& last) {
-  return District(junctions, streets, zones, settings).step(last);
+                                     const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones,
+                                     const DistrictSettings& settings, const DistrictState& last) {
+  return District(junctions, streets, rules, zones, settings).step(last);
 }
 
 }  // namespace bl

@@ -14,12 +14,25 @@ struct DistrictJunction {
   std::string id;
   Point3 position;
   double delay = 0;  ///< [s] that everybody loses who arrives
+  bool operator==(const DistrictJunction&) const = default;
 };
 
 struct DistrictStreet {
   std::string id, start, end;                                   ///< ids of junctions
   double length = 0, speed = 0, capacity = 0, toll = 0;         ///< [m] (0: the straight line), [m/s], [1/h], of each direction
   bool is_one_way = false, is_open = true, is_for_cars = true;  ///< who may pass
+  bool operator==(const DistrictStreet&) const = default;
+};
+
+/// `no` forbids to go on from one street by the other one, `only` forbids all else. Both the same: turning round.
+struct DistrictTurn {
+  std::string from, to, rule = "no";  ///< ids of two streets
+  bool operator==(const DistrictTurn&) const = default;
+};
+struct DistrictRules {
+  std::string junction;  ///< id of the junction where they meet
+  std::vector<DistrictTurn> turns;
+  bool operator==(const DistrictRules&) const = default;
 };
 
 struct DistrictZone {
@@ -28,6 +41,7 @@ struct DistrictZone {
   double leaving = 0, arriving = 0;  ///< trips [1/h]
   std::vector<std::string> access;   ///< ids of junctions; empty: the junction of the zone's own id, where there is one
   bool wants_reach = false;          ///< lists its times to all junctions
+  bool operator==(const DistrictZone&) const = default;
 };
 
 struct DistrictSettings {
@@ -39,6 +53,7 @@ struct DistrictSettings {
   double gap = 1e-4;
   int steps = 2;       ///< iterations of one step at most
   double haste = 0.5;  ///< share of the change of trips that one step makes
+  bool operator==(const DistrictSettings&) const = default;
 };
 
 /// What the next step starts from. Rows whose zone or link is gone are passed over.
@@ -61,6 +76,10 @@ struct DistrictResult {
     double delay = 0, load = 0, length = 0;                               ///< the larger of both directions; [m]
     std::string reason;                                                   ///< why nobody drives here; empty where one may
   };
+  struct Rules {
+    int forbidden = 0;   ///< turns that could be taken without them
+    std::string reason;  ///< which do not hold, with their place ("turns/1/from"), and why; empty where all do
+  };
   struct Junction {
     int streets = 0;
     double flow = 0, load = 0;  ///< what arrives by streets; the largest volume over capacity of its streets
@@ -78,19 +97,21 @@ struct DistrictResult {
     std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
   std::vector<Street> streets;  ///< as given, and so below
+  std::vector<Rules> rules;
   std::vector<Junction> junctions;
   std::vector<Zone> zones;
   double gap = 0, restlessness = 0;      ///< the latter: share of the trips that wants to go elsewhere than it does
   double trips = 0, lost = 0;            ///< [1/h]
   double total_time = 0, objective = 0;  ///< vehicle seconds in an hour (with tolls and distance as time)
   int iterations = 0;
+  bool is_at_rest = false;  ///< neither trips nor ways have changed: `state` is the last one, bit for bit
   DistrictState state;
 };
 
 /// Distributes the trips by the times of the last step, puts them on the streets and goes `steps` iterations on, from the last
-/// flows. A pure function of its arguments. An error's place is the id of what is wrong.
+/// flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
 Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictZone>& zones, const DistrictSettings& settings,
-                                     const DistrictState& last);
+                                     const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones,
+                                     const DistrictSettings& settings, const DistrictState& last);
 
 }  // namespace bl

@@ -25,8 +25,10 @@ std::uint32_t index_of(const std::vector<Item>& items, std::string_view id) {
   return it != items.end() && it->id == id ? static_cast<std::uint32_t>(it - items.begin()) : kNoTrafficIndex;
 }
 
-// Delays grow no further than this: beyond, sums over a network would leave the numbers.
-constexpr double kMostDelay = 1e15;
+// Beyond this factor a delay goes on along its tangent.
+constexpr double kSteepest = 1e9;
+// Where the slope of a root is taken for less: at no flow it rises upright, and no step would ever lead away from there [capacity].
+constexpr double kRootFoot = 1e-6;
 
 bool is_amount(double number) { return std::isfinite(number) && number >= 0; }
 
@@ -36,6 +38,7 @@ Result<void> check_link(const TrafficLink& link) {
     return Error{ErrorCode::out_of_range, link.id, "the two numbers of the delay formula have to be 0 or more"};
   if (!is_amount(link.capacity) || (link.capacity == 0 && link.free_time > 0 && link.alpha > 0))
     return Error{ErrorCode::out_of_range, link.id, "the capacity has to be above 0; close the street where nobody may pass"};
+  if (!is_amount(link.wait)) return Error{ErrorCode::out_of_range, link.id, "the time at its end has to be 0 or more"};
   if (!is_amount(link.length)) return Error{ErrorCode::out_of_range, link.id, "the length has to be 0 or more"};
   if (!std::isfinite(link.toll)) return Error{ErrorCode::not_finite, link.id, "the toll has to be a finite number"};
   return {};
@@ -51,6 +54,18 @@ double power_of(double base, double power) {
     return result;
   }
   return std::pow(base, power);
+}
+
+// load^power, its slope and the area under it, with the tangent beyond `kSteepest`.
+struct Rise {
+  double value = 0, slope = 0, area = 0;
+};
+Rise rise_of(double load, double power) {
+  const double value = power_of(load, power);
+  if (value <= kSteepest)
+    return {value, power * power_of(power < 1 ? std::max(load, kRootFoot) : load, power - 1), value * load / (power + 1)};
+  const double edge = std::pow(kSteepest, 1 / power), slope = power * kSteepest / edge, beyond = load - edge;
+  return {kSteepest + slope * beyond, slope, kSteepest * edge / (power + 1) + (kSteepest + 0.5 * slope * beyond) * beyond};
 }
 
 }  // namespace
@@ -108,27 +123,24 @@ Result<void> TrafficNetwork::set_free_time(std::uint32_t link, double free_time)
   return {};
 }
 
-// free_time · alpha · (flow / capacity)^power, and nothing where the time does not depend on the flow.
-double TrafficNetwork::raised(std::uint32_t index, double flow, double power) const {
+// Nothing is added where the time does not depend on the flow; there capacities may be 0.
+double TrafficNetwork::time(std::uint32_t index, double flow) const {
   const TrafficLink& link = links_[index];
   const double scale = link.free_time * link.alpha;
-  return scale > 0 ? std::min(kMostDelay, scale * power_of(flow / link.capacity, power)) : 0;
-}
-
-double TrafficNetwork::time(std::uint32_t index, double flow) const {
-  return links_[index].free_time + raised(index, flow, links_[index].power);
+  return link.free_time + link.wait + (scale > 0 ? scale * rise_of(flow / link.capacity, link.power).value : 0);
 }
 
 double TrafficNetwork::slope(std::uint32_t index, double flow) const {
   const TrafficLink& link = links_[index];
-  if (link.power == 0 || link.capacity == 0) return 0;
-  if (link.power < 1 && flow <= 0) return std::numeric_limits<double>::max();  // a root rises upright from 0
-  return raised(index, flow, link.power - 1) * link.power / link.capacity;
+  const double scale = link.free_time * link.alpha;
+  return scale > 0 && link.power > 0 ? scale * rise_of(flow / link.capacity, link.power).slope / link.capacity : 0;
 }
 
 double TrafficNetwork::integral(std::uint32_t index, double flow) const {
   const TrafficLink& link = links_[index];
-  return (link.free_time + fixed_[index]) * flow + raised(index, flow, link.power) * flow / (link.power + 1);
+  const double scale = link.free_time * link.alpha;
+  return (link.free_time + link.wait + fixed_[index]) * flow +
+         (scale > 0 ? scale * link.capacity * rise_of(flow / link.capacity, link.power).area : 0);
 }
 
 }  // namespace bl

@@ -28,6 +28,7 @@ struct TrafficLink {
   double alpha = 0.15, power = 4;
   double length = 0, toll = 0;
   bool is_open = true;
+  double wait = 0;  ///< what the end costs besides, whatever the flow
 };
 
 /// What a unit of toll and of length counts in time; both 0: time alone.
@@ -37,7 +38,8 @@ struct CostFactors {
 
 /// Nodes and links in ascending id, whatever the order they came in: the same network gives the same bits.
 /// The cost of a link at flow v is free_time · (1 + alpha · (v / capacity)^power) + toll part + distance part
-/// (Bureau of Public Roads 1964, with generalised cost as the TNTP test networks define it).
+/// (Bureau of Public Roads 1964, with generalised cost as the TNTP test networks define it). Where the power exceeds 1e9, far
+/// beyond what the formula was made for, the time goes on along its tangent, so that costs stay finite and slopes true.
 class TrafficNetwork {
  public:
   TrafficNetwork() = default;
@@ -76,8 +78,6 @@ class TrafficNetwork {
   double integral(std::uint32_t link, double flow) const;
 
  private:
-  double raised(std::uint32_t link, double flow, double power) const;
-
   std::vector<TrafficNode> nodes_;
   std::vector<TrafficLink> links_;
   std::vector<std::uint32_t> from_, to_, out_, out_begin_;

@@ -43,6 +43,21 @@ expect_not() {
   case $output in *"$1"*) echo "$what: printed \"$1\""; failures=$((failures + 1)) ;; esac
 }
 
+# --- Plugins that are none ------------------------------------------------------------------------------------------
+
+bl plugin
+expect 'plugin without a folder' 1 'say the folder of the plugin'
+bl plugin --help
+expect 'plugin --help' 0 'usage: ./bl plugin FOLDER'
+bl plugin "$place/bin"
+expect 'plugin in a wrong folder' 1 'it has no CMakeLists.txt'
+bl plugin "$place/nowhere"
+expect 'plugin in no folder' 1 'there is no folder'
+bl --plugins run scene.json
+expect 'the folder of plugins forgotten' 1 'there is no folder run; write ./bl --plugins FOLDER TASK'
+bl "--plugins=$place/bin" help
+expect 'the folder behind an equals sign' 0 'usage: ./bl TASK'
+
 # --- Without any package work ---------------------------------------------------------------------------------------
 
 bl help

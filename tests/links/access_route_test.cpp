@@ -28,9 +28,18 @@ TEST(AccessRoute, TheNearestWithinAWalk) {
   EXPECT_EQ(access_of(all), (Texts{"b", "c", "a"}));
 }
 
-TEST(AccessRoute, TooFarIsSaid) {
-  EXPECT_EQ(route(40, 1).run(),
-            "max_walk: from `house` the nearest junction, `b`, is a walk of 50 m; allow a longer one or bring them together");
+TEST(AccessRoute, TooFarIsSaidByTheZoneAlone) {
+  LinkCase far = route(40, 1);
+  ASSERT_EQ(far.run(), "");
+  EXPECT_EQ(access_of(far), Texts{});
+  // One zone that moves away loses its access, and the others keep theirs.
+  World world = World::from_file("scenes/links/access_route.json");
+  ASSERT_TRUE(world.settle(50));
+  ASSERT_EQ(world.submit(command<SetPort>({"school", "node.position", {"[0, 90000, 0]"}})), "");
+  world.tick(3);
+  EXPECT_TRUE(std::get<Shared<Texts>>(value_in(world.state(), "school", "traffic_zone.access"))->empty());
+  EXPECT_NE(world.text("school", "traffic_zone.reason").find("no access"), std::string::npos);
+  EXPECT_EQ(*std::get<Shared<Texts>>(value_in(world.state(), "workshop", "traffic_zone.access")), (Texts{"east", "middle"}));
 }
 
 TEST(AccessRoute, SceneAttachesZones) {

@@ -12,6 +12,7 @@ LinkCase feedback(double load, double demand, double limit) {
                          {{std::string("far"), 9.0}, {std::string("gate"), load}, {std::string("it"), 0.1}}}));
   link.to("node.id", std::string("it"));
   link.to("traffic_zone.access", Shared(std::vector<std::string>{"gate", "unknown"}));
+  link.to("traffic_zone.trips_served", 10.0).to("traffic_zone.trips_lost", 0.0);
   link.to("smart_volume.demand", demand).to("smart_volume.demand_limit", limit);
   return link;
 }
@@ -35,6 +36,16 @@ TEST(CongestionFeedback, LoosensLeavesTheLeastAndIsSilentWithoutTraffic) {
   auto calm = feedback(0, 1000, 1e9);
   ASSERT_EQ(calm.run(), "");
   EXPECT_FALSE(calm.proposed(End::to, "smart_volume.demand_limit").has_value());
+}
+
+TEST(CongestionFeedback, WithoutAWayTheAccessIsAsBadAsCanBe) {
+  auto closed = feedback(0, 1000, 600);
+  closed.to("traffic_zone.trips_served", 0.0).to("traffic_zone.trips_lost", 80.0);
+  ASSERT_EQ(closed.run(), "");
+  EXPECT_NEAR(closed.number(End::to, "smart_volume.demand_limit"), 600 * 0.75, 1e-9);
+  auto quiet = feedback(0, 1000, 600);  // no traffic is no reason to jump
+  ASSERT_EQ(quiet.run(), "");
+  EXPECT_NEAR(quiet.number(End::to, "smart_volume.demand_limit"), 900, 1e-9);
 }
 
 TEST(CongestionFeedback, WithoutAccessTheNodeItselfIsTheJunction) {

@@ -57,8 +57,48 @@ case $output in *hold_height*) echo 'the refused plugin was loaded'; failures=$(
 run --plugins "$place/nowhere" docs --list
 expect 'a folder that is not there' 0 'there is no folder of plugins here'
 
+# What people get wrong: each is told, none ends the program.
+run --plugins "$place" docs hold_height
+expect 'the folder above' 2 'there is no plugin (.so) in this folder' 'has one'
+run --plugins "$place/my_links" docs hold_height
+expect 'the folder of the sources' 2 'these are sources: build them by' 'plugin'
+template=$checkout/links/plugin_template/hold_height.cpp kind=$place/my_links/hold_height.cpp
+run_broken() {    # NAME: builds what stands in $kind and runs the scene with it
+  build "$1"
+  expect "$1 builds" 0
+  run --plugins "$place/$1" run "$place/scene.json" --ticks 5
+}
+{ echo '#include <stdexcept>'; sed 's/const double missing = .*/throw std::runtime_error("oops");/; s/return Out{{0.*/ (void)in, (void)ends; return Out{};/' "$template"; } >"$kind"
+run_broken throwing
+expect 'a plugin that throws is named, and the scene goes on' 0 'links/l: `hold_height` of my_links.so threw: oops' 'tick 5'
+sed 's/const double missing = .*/throw 5;/; s/return Out{{0.*/ (void)in, (void)ends; return Out{};/' "$template" >"$kind"
+run_broken throwing_numbers
+expect 'whatever it throws' 0 'links/l: `hold_height` of my_links.so threw something'
+sed 's/End::to, "node.position"/End::to, "node.positio"/' "$template" >"$kind"
+run_broken misspelt_port
+expect 'a misspelt port is named when the plugin is loaded' 0 '`node` has no port `positio`, did you mean `position`?' 'my_links.so'
+sed 's/l.id("hold_height")/l.id("held_height")/' "$template" >"$kind"
+run_broken other_id
+expect 'an id that is not the name of the file' 0 'hold_height.cpp brings no type `hold_height`'
+
 sed 's/BL_LINK(hold_height,/BL_LINK(hold_hight,/' "$checkout/links/plugin_template/hold_height.cpp" >"$place/my_links/hold_height.cpp"
 build misspelt
 expect 'a word that is not the name of the file' 1 'BL_LINK(hold_height, Type) or BL_TYPIFICATION(hold_height, Type): the word'
+
+# A header that is new to the checkout changes the ABI text at the next build, without being configured again by hand.
+mkdir -p "$place/checkout/core" "$place/fresh"
+cp -r "$checkout/core/base" "$checkout/core/define" "$place/checkout/core/"
+cp -r "$checkout/links" "$place/checkout/"
+cp -r "$checkout/links/plugin_template" "$place/fresh/my_links"
+abi() { grep -ao 'BEHAVIOURLINKS-PLUGIN-ABI:declarations [0-9a-f]*' "$place/grown/my_links.so"; }
+output=$(cmake -S "$place/fresh/my_links" -B "$place/grown" "-DBEHAVIOURLINKS=$place/checkout" "-DCMAKE_CXX_COMPILER=$compiler" 2>&1 &&
+  cmake --build "$place/grown" 2>&1)
+code=$?
+expect 'another checkout builds it as well' 0
+before=$(abi)
+echo '// A new declaration.' >"$place/checkout/core/define/newcomer.h"
+output=$(cmake --build "$place/grown" 2>&1) code=$?
+expect 'and once more after a header was added' 0
+[ -n "$before" ] && [ "$before" != "$(abi)" ] || { echo 'the new header is not in the ABI text'; failures=$((failures + 1)); }
 
 [ $failures -eq 0 ]

@@ -23,7 +23,7 @@ TEST(TrafficZone, AVolumeIsAZoneAndAJunctionAtOnce) {
   EXPECT_NEAR(world.number("main_1", "street.flow_forth"), 120, 1e-6);
   EXPECT_EQ(world.number("house", "junction.streets"), 1);
   EXPECT_EQ(world.text("house", "traffic_zone.reason"), "");
-  EXPECT_EQ(world.text("island", "traffic_zone.reason"), "it has no access: lay a link to a junction");
+  EXPECT_EQ(world.text("island", "traffic_zone.reason"), "it has no access: lay a link to a junction, or allow a longer walk to one");
   EXPECT_EQ(world.number("island", "traffic_zone.trips_lost"), 15);
   // From the shops, 250 m by street and a walk of 60 m at 1.34 m/s lead to the school, 500 m to the house.
   const double school = world.number("main_2", "street.time_back") + 60 / 1.34;

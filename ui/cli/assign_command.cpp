@@ -178,8 +178,8 @@ class AssignRun {
   Json tell_routes(const Equilibrium& equilibrium, std::uint32_t from, std::uint32_t to) const {
     const auto routes = equilibrium.routes(from, to);
     print_line();
-    print_line(coloured("from " + network_->node(from).id + " to " + network_->node(to).id, Colour::bold) +
-               (routes.empty() ? ": no trips" : ""));
+    print_parts({{"from " + network_->node(from).id + " to " + network_->node(to).id, Colour::bold},
+                 {routes.empty() ? ": no trips" : "", Colour::plain}});
     Json json = Json::array();
     TextTable table({{"trips", true}, {"cost", true}, {"by"}});
     for (const Route& route : routes) {
@@ -203,9 +203,10 @@ class AssignRun {
       whole += reached.share == 1 ? 1 : 0;
     }
     print_line();
-    print_line(coloured("from " + network_->node(from).id + " within " + shortest(limit), Colour::bold) + ": " +
-               counted(nodes.size(), "node") + ", " + counted(static_cast<std::size_t>(whole), "link") + " whole and " +
-               std::to_string(links.size() - static_cast<std::size_t>(whole)) + " in part");
+    print_parts({{"from " + network_->node(from).id + " within " + shortest(limit), Colour::bold},
+                 {": " + counted(nodes.size(), "node") + ", " + counted(static_cast<std::size_t>(whole), "link") + " whole and " +
+                      std::to_string(links.size() - static_cast<std::size_t>(whole)) + " in part",
+                  Colour::plain}});
     return {{"from", network_->node(from).id}, {"limit", limit}, {"nodes", std::move(nodes)}, {"links", std::move(links)}};
   }
 
@@ -271,7 +272,7 @@ class AssignRun {
                  bool is_met) const {
     const EquilibriumFigures figures = equilibrium.figures();
     print_line();
-    print_line(coloured(label, Colour::bold) + (is_met ? "" : coloured(" (the gap was not reached)", Colour::red)));
+    print_parts({{label, Colour::bold}, {is_met ? "" : " (the gap was not reached)", Colour::red}});
     print_line("  iterations  " + std::to_string(gaps.size() - 1));
     print_line("  gap         " + rough(figures.gap) + "  (at the start " + rough(gaps.front()) + ")");
     print_line("  objective   " + fixed(figures.objective, 6));

@@ -31,7 +31,8 @@ Clocks clocks_now();
 
 struct Contender {
   std::function<void()> work;
-  Clocks median, least;  ///< of one call
+  Clocks median, least;                ///< of one call
+  std::function<void()> prepare = {};  ///< before each call, not measured; empty: nothing
 };
 /// All contenders in turn, `rounds` times, so that a load that comes and goes meets them all alike. A turn is as many calls as
 /// take `turn_seconds`, at least one. `next` is asked before each turn; false stops it with what there is.

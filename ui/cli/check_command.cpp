@@ -101,18 +101,16 @@ int check_command(const CheckOptions& options) {
     const std::string prefix = options.scenes.size() > 1 ? file + ": " : "";
     is_all_well &= errors == 0;
     if (errors > 0) {
-      print_line(coloured(prefix + "not ok: " + counted(errors, "error") +
-                              (warnings > 0 ? ", " + counted(warnings, "warning") : "") +
-                              (options.is_writing ? "; not rewritten" : ""),
-                          Colour::red));
+      print_line(prefix + "not ok: " + counted(errors, "error") + (warnings > 0 ? ", " + counted(warnings, "warning") : "") +
+                     (options.is_writing ? "; not rewritten" : ""),
+                 Colour::red);
       continue;
     }
-    print_line(coloured(prefix + "ok: " +
-                            (file.ends_with(".lua") ? std::string("a link script")
-                                                    : counted(checked.nodes, "node") + ", " + counted(checked.links, "link")) +
-                            (warnings > 0 ? ", " + counted(warnings, "warning") : "") +
-                            (checked.is_rewritten ? "; rewritten" : ""),
-                        Colour::green));
+    print_line(prefix + "ok: " +
+                   (file.ends_with(".lua") ? std::string("a link script")
+                                           : counted(checked.nodes, "node") + ", " + counted(checked.links, "link")) +
+                   (warnings > 0 ? ", " + counted(warnings, "warning") : "") + (checked.is_rewritten ? "; rewritten" : ""),
+               Colour::green);
   }
   if (!options.json.empty())
     if (auto written = write_file(options.json, write_json(Json{{"scenes", std::move(list)}}) + "\n"); !written) {

@@ -31,6 +31,7 @@ int run_command(const RunOptions& options);
 struct ScriptOptions {
   std::string scene, out, extract;
   std::vector<std::string> files, removed;
+  bool is_forced = false;
 };
 int script_command(const ScriptOptions& options);
 
@@ -64,6 +65,7 @@ struct PlaceOptions {
   std::string into, out;
   std::vector<double> at;  ///< nothing, or x, y, z [m]
   MediaOptions media;
+  bool is_forced = false;
 };
 int place_command(const PlaceOptions& options);
 
@@ -120,6 +122,7 @@ struct BenchOptions {
   bool is_solver = false, is_quick = false;  ///< the solver alone; small sizes only
   std::vector<std::string> rows;             ///< of the solver's rows these only; empty: all
   int seeds = 0;                             ///< of the solver's cold fits: so many random sets besides
+  std::string tntp;                          ///< folder of networks for the rows of traffic; empty: made-up ones only
   std::string chart;                         ///< folder for the solver's charts; empty: none
 };
 int bench_command(const BenchOptions& options);

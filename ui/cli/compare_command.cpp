@@ -1,6 +1,5 @@
 // `compare`: runs two scenes and tells every indicator that differs, with what people set differently.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "core/base/text.h"
@@ -10,7 +9,6 @@
 #include "ui/cli/interrupt.h"
 #include "ui/cli/live_run.h"
 #include "ui/cli/report/comparison.h"
-#include "ui/cli/report/figures.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/settle_watch.h"
 #include "ui/cli/terminal.h"
@@ -53,12 +51,7 @@ void print_rows(const std::vector<report::IndicatorRow>& rows, std::size_t most)
   TextTable table({{"node"}, {"indicator"}, {"first", true}, {"second", true}, {"difference", true}});
   for (std::size_t k = 0; k < std::min(rows.size(), most); ++k) {
     const report::IndicatorRow& row = rows[k];
-    const auto figure = [&](double value) {
-      return row.unit == Unit::ratio ? report::percent(value) : report::quantity(value, row.unit);
-    };
-    table.add({row.node.empty() ? "all" : row.name, row.label, figure(row.before), figure(row.after),
-               row.before != 0 ? report::signed_percent((row.after - row.before) / std::abs(row.before))
-                               : figure(row.after - row.before)});
+    table.add({row.node.empty() ? "all" : row.name, row.label, row.figure(row.before), row.figure(row.after), row.difference()});
   }
   table.print();
   if (rows.size() > most) print_line("... and " + std::to_string(rows.size() - most) + " more; --report has them all");
@@ -73,7 +66,7 @@ void print_comparison(const report::Comparison& comparison) {
   if (comparison.inputs.empty() && comparison.only_before.empty() && comparison.only_after.empty()) print_line("  nothing");
   std::vector<report::IndicatorRow> totals;
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
-               [](const report::IndicatorRow& row) { return row.share() > kLeastShare; });
+               [](const report::IndicatorRow& row) { return row.is_seen(kLeastShare); });
   print_line();
   print_rows(totals, totals.size());
   print_line();

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "core/base/text.h"
 #include "core/exchange/cityjson_context.h"
+#include "core/exchange/context_shape.h"
 #include "core/exchange/data_layer.h"
 #include "core/exchange/geojson_context.h"
 #include "core/exchange/geojson_polygons.h"
@@ -19,6 +21,9 @@
 namespace bl::cli {
 
 namespace {
+
+// Of a file that is compared to tell formats apart [bytes].
+constexpr std::size_t kHead = 65536;
 
 enum class Format { osm, cityjson, geojson, grid, table, unknown };
 
@@ -39,7 +44,7 @@ Format format_of(const std::string& path, std::string_view text) {
   if (ends({".asc", ".grd", ".tif", ".tiff"})) return Format::grid;
   if (ends({".csv", ".tsv", ".txt"})) return Format::table;
   if (ends({".city.json", ".jsonl"})) return Format::cityjson;
-  const std::string_view head = text.substr(0, 65536);
+  const std::string_view head = text.substr(0, kHead);
   if (head.find("\"CityJSON\"") != std::string_view::npos) return Format::cityjson;
   if (ends({".geojson"}) || head.find_first_of("{[") == head.find_first_not_of(" \t\r\n\xEF\xBB\xBF")) return Format::geojson;
   if (head.find("<osm") != std::string_view::npos || head.substr(0, 64).find("OSMHeader") != std::string_view::npos)
@@ -58,17 +63,30 @@ class Import {
   ImportedScene run() {
     check();
     if (result_.errors.empty())
-      for (const std::string& file : o_.files) read(file);
+      for (std::size_t i = 0; i < o_.files.size() && !is_stopped(); ++i) {
+        if (context_.watch != nullptr) context_.watch->file = i;
+        (void)goes_on(context_.watch, "reading", 0, 0);
+        read(o_.files[i]);
+      }
+    if (is_stopped() && result_.errors.empty()) fail("", stopped_error());
     result_.notes.insert(result_.notes.end(), nodes_.notes().begin(), nodes_.notes().end());
     result_.nodes = nodes_.made();
     if (!result_.errors.empty()) return std::move(result_);
+    if (result_.nodes.empty() && !result_.reports.empty()) {
+      fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
+      return std::move(result_);
+    }
+    (void)goes_on(context_.watch, "adding to the scene", 0, 0);
+    result_.command = nodes_.batch();
+    result_.bounds = nodes_.bounds();
     Ledger ledger(registry_, scene_);
-    if (auto done = ledger.submit(nodes_.batch(), "import", 0); !done) fail(o_.out, done.error());
+    if (auto done = ledger.submit(result_.command, "import", 0); !done) fail(o_.out, done.error());
     else result_.scene = ledger.scene();
     return std::move(result_);
   }
 
  private:
+  bool is_stopped() const { return context_.watch != nullptr && context_.watch->is_stopped; }
   void fail(const std::string& file, Error error) { result_.errors.emplace_back(file, std::move(error)); }
   void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
 
@@ -96,7 +114,7 @@ class Import {
     if (context_.target)
       return fail(
           "", {ErrorCode::conflict, "--origin",
-               "the scene lies in " + context_.target->crs + " already, and its origin stays where it is: leave --origin out"});
+               "the scene lies in " + context_.target->crs + " already, and its origin stays where it is: leave the origin out"});
     context_.origin = {*x, *y};
   }
 
@@ -111,10 +129,20 @@ class Import {
     context_.origin.reset();
   }
 
+  std::string why_nothing() const {
+    std::string questions;
+    if (!o_.origin.empty()) questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
+    if (context_.radius > 0) questions += "is anything within --radius " + shortest(context_.radius) + " m of the origin? ";
+    if (questions.empty() && context_.target) questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
+    return questions + "--report FILE lists every element with its reason";
+  }
+
   void take(const std::string& file, const ImportReport& report, const std::vector<std::string>& notes,
             const GeoReference& reference) {
     result_.reports.emplace_back(file, report);
     for (const std::string& note : notes) result_.notes.push_back(file + ": " + note);
+    if (report.total() > 0 && report.count(ImportOutcome::taken) + report.count(ImportOutcome::repaired) == 0)
+      result_.notes.push_back(file + ": nothing of this file was taken; " + why_nothing());
     settle(reference);
   }
 
@@ -146,7 +174,7 @@ class Import {
                                     "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
     if (!told(file, context)) return;
     take(file, context->report, context->notes, context->reference);
-    nodes_.add(*context, making_);
+    nodes_.add(*context, making_, result_.reports.back().second);
   }
 
   void read_grid(const std::string& file, const std::string& text) {
@@ -158,7 +186,7 @@ class Import {
     std::vector<std::string> notes = grid->notes;
     notes.insert(notes.end(), terrain->notes.begin(), terrain->notes.end());
     take(file, terrain->report, notes, terrain->reference);
-    nodes_.add(*terrain, making_);
+    nodes_.add(*terrain, making_, result_.reports.back().second);
   }
 
   void read_layer(const std::string& file, const std::string& text, Format format) {
@@ -171,7 +199,7 @@ class Import {
                                                    : read_layer_csv(text, context_, o_.value);
     if (!told(file, layer)) return;
     take(file, layer->report, layer->notes, layer->reference);
-    nodes_.add(*layer, making_);
+    nodes_.add(*layer, making_, result_.reports.back().second);
   }
 
   const Scene& scene_;
@@ -184,6 +212,24 @@ class Import {
 };
 
 }  // namespace
+
+bool is_context_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kHead, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+  const Format format = format_of(path, head);
+  if (format == Format::unknown) return false;
+  const bool can_be_scene = lower(path).ends_with(".json") && format == Format::geojson;
+  return !can_be_scene || head.find("\"behaviourlinks\"") == std::string::npos;
+}
+
+const std::vector<std::string>& context_endings() {
+  static const std::vector<std::string> endings{".osm",      ".osm.gz",  ".pbf",        ".json",   ".json.gz", ".jsonl",
+                                                ".jsonl.gz", ".geojson", ".geojson.gz", ".asc",    ".asc.gz",  ".grd",
+                                                ".tif",      ".tiff",    ".csv",        ".csv.gz", ".tsv",     ".txt"};
+  return endings;
+}
 
 ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry) {
   return Import(scene, options, registry).run();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/define/command_builder.h"
 #include "core/exchange/context.h"
 #include "core/graph/scene.h"
 
@@ -26,7 +27,9 @@ struct ImportOptions {
 /// What came of it. Without a scene there are errors, each with the file that it is in.
 struct ImportedScene {
   std::optional<Scene> scene;
-  std::vector<std::pair<std::string, ImportReport>> reports;
+  Command command;                   ///< leads from the scene that was added to to that one, as one step
+  std::pair<Point3, Point3> bounds;  ///< around all that was added [m]; the first is above the second where nothing was
+  ImportReports reports;
   std::map<std::string, std::size_t> nodes;  ///< how many were made, by typification
   std::vector<std::string> notes;
   std::vector<std::pair<std::string, Error>> errors;
@@ -34,5 +37,10 @@ struct ImportedScene {
 
 /// `scene`: the one that is added to.
 ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry);
+
+/// Does the file, by its name and how it begins, hold surroundings that can be imported? A scene does not.
+bool is_context_file(const std::string& path);
+/// Endings of such files, for lists of files; `.json` is a scene as well.
+const std::vector<std::string>& context_endings();
 
 }  // namespace bl::cli

@@ -41,6 +41,12 @@ double length_of(const std::vector<Point3>& line) {
   return length;
 }
 
+// All that was taken became the same node.
+void name_all(ImportReport& report, const std::string& id) {
+  for (std::size_t row = 0; row < report.rows().size(); ++row)
+    if (report.rows()[row].outcome != ImportOutcome::skipped) report.made(row, id);
+}
+
 // Values for ports that this program's typification really has, in the kind that it wants.
 class Fitting {
  public:
@@ -101,20 +107,49 @@ Command ContextNodes::batch() const {
   return command<Batch>({{list + "]"}});
 }
 
-void ContextNodes::add(const Context& context, const NodeMaking& making) {
-  for (const ContextBuilding& building : context.buildings) add_building(building, making);
+void ContextNodes::reach(const Point3& point) {
+  auto& [low, high] = bounds_;
+  low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
+  high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
+}
+
+void ContextNodes::add_node(const std::string& id, const Json& node) {
+  commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({id, {write_json_line(node)}}))));
+}
+
+void ContextNodes::add(const Context& context, const NodeMaking& making, ImportReport& report) {
+  // Of buildings that are drawn by their parts: what the parts became.
+  std::map<std::string, std::vector<std::string>> of_parts;
+  for (const ContextBuilding& building : context.buildings) {
+    const std::string id = add_building(building, making);
+    if (building.row != kNoRow) report.made(building.row, id);
+    // An outline of several has the number of the outline behind the id of its element.
+    if (!building.whole.empty()) of_parts[building.whole].push_back(id);
+    if (const std::size_t slash = building.whole.rfind('/'); slash != std::string::npos)
+      of_parts[building.whole.substr(0, slash)].push_back(id);
+  }
+  for (std::size_t row = 0; row < report.rows().size(); ++row) {
+    const ImportRow& one = report.rows()[row];
+    const auto parts = of_parts.find(one.id);
+    if (parts != of_parts.end() && one.outcome != ImportOutcome::skipped && one.made.empty())
+      for (const std::string& id : parts->second) report.made(row, id);
+  }
   std::size_t ground = 0;
   for (const ContextArea& area : context.areas) {
-    if (area.is_plot) add_plot(area);
-    else ++ground;
+    if (!area.is_plot) {
+      ++ground;
+      continue;
+    }
+    const std::string id = add_plot(area);
+    if (area.row != kNoRow) report.made(area.row, id);
   }
   if (ground > 0)
     notes_.push_back(std::to_string(ground) +
                      " areas of ground (land use, green, water) became no nodes: there is no typification for them.");
-  if (!context.streets.empty()) add_streets(context, making);
+  if (!context.streets.empty()) add_streets(context, making, report);
 }
 
-void ContextNodes::add_building(const ContextBuilding& building, const NodeMaking& making) {
+std::string ContextNodes::add_building(const ContextBuilding& building, const NodeMaking& making) {
   Json ports = {{"outline", points_json(building.outer, false)}};
   for (std::size_t h = 0; h < building.holes.size(); ++h)
     for (const Point3& corner : building.holes[h])
@@ -136,72 +171,113 @@ void ContextNodes::add_building(const ContextBuilding& building, const NodeMakin
   const Json node = {{"name", building.name.empty() ? building.id : building.name},
                      {"position", position_json(position)},
                      {"types", {{"existing_building", ports}}}};
-  commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({id, {write_json_line(node)}}))));
+  add_node(id, node);
+  for (const Point3& corner : building.outer) {
+    reach({corner.x, corner.y, building.base});
+    reach({corner.x, corner.y, building.base + building.height});
+  }
   ++made_["existing_building"];
+  return id;
 }
 
-void ContextNodes::add_plot(const ContextArea& area) {
+std::string ContextNodes::add_plot(const ContextArea& area) {
   const Json ports = {{"polygon", points_json(area.outer, false)}};
   const Json node = {{"name", area.name.empty() ? area.id : area.name},
                      {"position", position_json(middle(area.outer))},
                      {"types", {{"plot", ports}}}};
-  commands_.push_back(
-      write_json_line(command_to_json(*registry_, command<AddNode>({fresh_id("plot_" + area.id), {write_json_line(node)}}))));
+  const std::string id = fresh_id("plot_" + area.id);
+  add_node(id, node);
+  for (const Point3& corner : area.outer) reach(corner);
   ++made_["plot"];
   if (!area.holes.empty()) notes_.push_back("The holes of plot `" + area.id + "` were left out: a plot is one polygon.");
+  return id;
 }
 
-void ContextNodes::add_streets(const Context& context, const NodeMaking& making) {
-  const TypificationDefinition *junction = registry_->typification("junction"), *street = registry_->typification("street");
-  if (junction == nullptr || street == nullptr) {
+void ContextNodes::add_streets(const Context& context, const NodeMaking& making, ImportReport& report) {
+  if (registry_->typification("junction") == nullptr || registry_->typification("street") == nullptr) {
     notes_.push_back(std::to_string(context.streets.size()) +
                      " pieces of street became no nodes: this program has no typifications `junction` and `street`.");
     return;
   }
-  std::vector<std::string> ids(context.junctions.size());
-  const auto id_of = [&](std::size_t index) -> const std::string& {
-    if (!ids[index].empty()) return ids[index];
-    ids[index] = fresh_id("junction_" + context.junctions[index].id);
-    const Json node = {{"name", context.junctions[index].id},
-                       {"position", position_json(context.junctions[index].position)},
-                       {"types", {{"junction", Json::object()}}}};
-    commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({ids[index], {write_json_line(node)}}))));
-    ++made_["junction"];
-    return ids[index];
-  };
+  // Ids first: turn rules stand at junctions and name streets.
+  std::vector<std::string> street_ids(context.streets.size()), junction_ids(context.junctions.size());
   std::size_t without_cars = 0, loops = 0;
-  for (const ContextStreet& piece : context.streets) {
+  for (std::size_t s = 0; s < context.streets.size(); ++s) {
+    const ContextStreet& piece = context.streets[s];
     if (!piece.for_cars && !making.takes_all_streets) ++without_cars;
     else if (piece.start == piece.end) ++loops;
-    else {
-      Fitting fit(*street);
-      fit.set_node("start", id_of(piece.start));
-      fit.set_node("end", id_of(piece.end));
-      // A street has lanes in each direction; maps count those of both together, and a narrow one is shared.
-      fit.set("lanes", piece.is_one_way ? piece.lanes : std::max(1.0, piece.lanes / 2));
-      fit.set("speed", piece.speed);
-      fit.set("length", length_of(piece.line));
-      fit.set("one_way", piece.is_one_way);
-      fit.set("for_cars", piece.for_cars);
-      fit.set("line", piece.line);
-      const Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
-                         {"position", position_json(piece.line[piece.line.size() / 2])},
-                         {"types", {{"street", fit.values}}}};
-      commands_.push_back(write_json_line(
-          command_to_json(*registry_, command<AddNode>({fresh_id("street_" + piece.id), {write_json_line(node)}}))));
-      ++made_["street"];
+    else street_ids[s] = fresh_id("street_" + piece.id);
+  }
+  const std::map<std::size_t, Json> turns = turn_rules(context, street_ids);
+  const auto junction_at = [&](std::size_t index) -> const std::string& {
+    if (junction_ids[index].empty()) {
+      const auto rules = turns.find(index);
+      junction_ids[index] = add_junction(context.junctions[index], rules == turns.end() ? Json::array() : rules->second);
     }
+    return junction_ids[index];
+  };
+  for (std::size_t s = 0; s < context.streets.size(); ++s) {
+    if (street_ids[s].empty()) continue;
+    const std::string &start = junction_at(context.streets[s].start), &end = junction_at(context.streets[s].end);
+    add_street(street_ids[s], context.streets[s], start, end);
+    if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
   }
   if (without_cars > 0)
-    notes_.push_back(std::to_string(without_cars) + " pieces of street without cars became no nodes; --all-streets takes them.");
+    notes_.push_back(std::to_string(without_cars) +
+                     " pieces of street without cars became no nodes: they are taken where all streets are asked for.");
   if (loops > 0)
     notes_.push_back(std::to_string(loops) + " pieces of street that begin and end at one junction became no nodes.");
-  if (!context.restrictions.empty())
-    notes_.push_back(std::to_string(context.restrictions.size()) +
-                     " turn restrictions became nothing: the network of streets has no turns.");
 }
 
-void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making) {
+std::string ContextNodes::add_junction(const ContextJunction& junction, const Json& turns) {
+  const std::string id = fresh_id("junction_" + junction.id);
+  Json types = {{"junction", Json::object()}};
+  if (!turns.empty()) types["turn_rules"] = {{"turns", turns}};
+  const Json node = {{"name", junction.id}, {"position", position_json(junction.position)}, {"types", types}};
+  add_node(id, node);
+  ++made_["junction"];
+  return id;
+}
+
+void ContextNodes::add_street(const std::string& id, const ContextStreet& piece, const std::string& start,
+                              const std::string& end) {
+  Fitting fit(*registry_->typification("street"));
+  fit.set_node("start", start);
+  fit.set_node("end", end);
+  // A street has lanes in each direction; maps count those of both together, and a narrow one is shared.
+  fit.set("lanes", piece.is_one_way ? piece.lanes : std::max(1.0, piece.lanes / 2));
+  fit.set("speed", piece.speed);
+  fit.set("length", length_of(piece.line));
+  fit.set("one_way", piece.is_one_way);
+  fit.set("for_cars", piece.for_cars);
+  fit.set("line", piece.line);
+  const Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
+                     {"position", position_json(piece.line[piece.line.size() / 2])},
+                     {"types", {{"street", fit.values}}}};
+  add_node(id, node);
+  for (const Point3& point : piece.line) reach(point);
+  ++made_["street"];
+}
+
+// Rows of turn rules by junction. A restriction holds only where both of its streets became nodes.
+std::map<std::size_t, Json> ContextNodes::turn_rules(const Context& context, const std::vector<std::string>& street_ids) {
+  std::map<std::size_t, Json> rules;
+  for (const ContextRestriction& turn : context.restrictions) {
+    const std::string &from = street_ids[turn.from], &to = street_ids[turn.to];
+    if (from.empty() || to.empty()) {
+      notes_.push_back("Turn restriction `" + turn.id + "` (" + turn.rule + ") became nothing: `" +
+                       context.streets[from.empty() ? turn.from : turn.to].id + "` became no node.");
+      continue;
+    }
+    Json row = {{"from", from}, {"to", to}};
+    if (turn.rule.starts_with("only_")) row["rule"] = "only";
+    Json& rows = rules[turn.via];
+    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(std::move(row));
+  }
+  return rules;
+}
+
+void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making, ImportReport& report) {
   double lowest = INFINITY, highest = -INFINITY;
   for (const double value : terrain.values)
     if (std::isfinite(value)) lowest = std::min(lowest, value), highest = std::max(highest, value);
@@ -224,12 +300,15 @@ void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making) {
   const double east = terrain.west + terrain.cell * static_cast<double>(terrain.columns) / 2;
   const double south = terrain.north - terrain.cell * static_cast<double>(terrain.rows) / 2;
   const Json node = {{"name", "Terrain"}, {"position", position_json({east, south, lowest})}, {"types", {{"terrain", ports}}}};
-  commands_.push_back(
-      write_json_line(command_to_json(*registry_, command<AddNode>({fresh_id("terrain"), {write_json_line(node)}}))));
+  const std::string id = fresh_id("terrain");
+  add_node(id, node);
+  name_all(report, id);
+  reach({terrain.west, terrain.north, lowest});
+  reach({2 * east - terrain.west, 2 * south - terrain.north, std::isfinite(highest) ? highest : lowest});
   ++made_["terrain"];
 }
 
-void ContextNodes::add(const DataLayer& layer, const NodeMaking& making) {
+void ContextNodes::add(const DataLayer& layer, const NodeMaking& making, ImportReport& report) {
   Json rows = Json::array();
   std::vector<Point3> places;
   for (const LayerPoint& point : layer.points) {
@@ -242,8 +321,10 @@ void ContextNodes::add(const DataLayer& layer, const NodeMaking& making) {
                       {"source", making.source},
                       {"licence", making.licence}};
   const Json node = {{"name", layer.value_name}, {"position", position_json(middle(places))}, {"types", {{"data_layer", ports}}}};
-  commands_.push_back(write_json_line(
-      command_to_json(*registry_, command<AddNode>({fresh_id("layer_" + layer.value_name), {write_json_line(node)}}))));
+  const std::string id = fresh_id("layer_" + layer.value_name);
+  add_node(id, node);
+  name_all(report, id);
+  for (const Point3& place : places) reach(place);
   ++made_["data_layer"];
 }
 

@@ -4,8 +4,10 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/define/codec.h"
 #include "core/exchange/context.h"
 #include "core/exchange/data_layer.h"
 #include "core/exchange/terrain_grid.h"
@@ -27,28 +29,37 @@ class ContextNodes {
 
   /// Sets where the scene lies.
   void place(const GeoReference& reference);
-  void add(const Context& context, const NodeMaking& making);
-  void add(const LocalTerrain& terrain, const NodeMaking& making);
-  void add(const DataLayer& layer, const NodeMaking& making);
+  // Each says in `report`, which is that of the elements, what was made of them.
+  void add(const Context& context, const NodeMaking& making, ImportReport& report);
+  void add(const LocalTerrain& terrain, const NodeMaking& making, ImportReport& report);
+  void add(const DataLayer& layer, const NodeMaking& making, ImportReport& report);
 
   /// All as one command.
   Command batch() const;
   /// How many nodes of which sort were added.
   const std::map<std::string, std::size_t>& made() const { return made_; }
+  /// Around all that was added [m]; the lower corner is above the upper one where nothing was.
+  const std::pair<Point3, Point3>& bounds() const { return bounds_; }
   /// Sentences about what the scene cannot hold.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   std::string fresh_id(const std::string& wanted);
-  void add_building(const ContextBuilding& building, const NodeMaking& making);
-  void add_streets(const Context& context, const NodeMaking& making);
-  void add_plot(const ContextArea& area);
+  std::string add_building(const ContextBuilding& building, const NodeMaking& making);
+  void add_streets(const Context& context, const NodeMaking& making, ImportReport& report);
+  std::string add_junction(const ContextJunction& junction, const Json& turns);
+  void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end);
+  std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids);
+  std::string add_plot(const ContextArea& area);
+  void add_node(const std::string& id, const Json& node);
+  void reach(const Point3& point);
 
   const Registry* registry_;
   std::set<std::string> taken_;
   std::vector<std::string> commands_;  // each a JSON text
   std::map<std::string, std::size_t> made_;
   std::vector<std::string> notes_;
+  std::pair<Point3, Point3> bounds_{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
 };
 
 }  // namespace bl::cli

@@ -13,6 +13,7 @@ void declare_script(CLI::App& app, ScriptOptions& o) {
       ->take_all();
   c.add_option("--extract", o.extract, "Writes all scripts of the scene as files into a folder.")->type_name("DIR");
   c.add_option("--out", o.out, "Where the changed scene is written; may be the scene itself.")->type_name("SCENE");
+  c.add_flag("--force", o.is_forced, "Replaces --out where it exists and is another file than the scene.");
   c.footer("Example:\n  behaviourlinks script scene.json lean_uphill.lua --out scene.json");
 }
 
@@ -58,7 +59,7 @@ void declare_import(CLI::App& app, ImportOptions& o) {
   c.add_option("--crs", o.context.crs, "CRS of the files in place of what they say, such as EPSG:28992.")->type_name("CRS");
   c.add_option("--origin", o.origin, "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
       ->type_name("X,Y");
-  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m.")->type_name("METRES");
+  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m. Default: 0, which takes all.")->type_name("METRES");
   c.add_option("--property", o.properties, "Names a property that is called otherwise, as often as needed: height=H_MAX.")
       ->type_name("OURS=THEIRS")
       ->expected(1)
@@ -88,6 +89,7 @@ void declare_place(CLI::App& app, PlaceOptions& o) {
   c.add_option("pictures", o.files, "JPEG or PNG files; they stay where they are.")->type_name("PICTURE")->required();
   c.add_option("--into", o.into, "The scene.")->type_name("SCENE")->required();
   c.add_option("--out", o.out, "Where the scene is written. Default: the same file.")->type_name("SCENE");
+  c.add_flag("--force", o.is_forced, "Replaces --out where it exists and is another file than the scene.");
   c.add_option("--at", o.at, "Position in m. Default: by the coordinates in the picture.")->type_name("X Y Z")->expected(3);
   c.add_option("--placement", o.media.placement, "Default: camera where the picture says where it looked, else billboard.")
       ->check(CLI::IsMember({"ground", "billboard", "camera"}));

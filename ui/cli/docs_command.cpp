@@ -95,7 +95,7 @@ int docs_command(const DocsOptions& options) {
              "; `behaviourlinks docs --list` names all.");
     return kBadInput;
   }
-  print_line(*page);
+  print_page(*page);
   return kDone;
 }
 

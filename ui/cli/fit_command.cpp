@@ -203,7 +203,7 @@ class FitRun {
     const bool is_met = met_ == fits_.size();
     const std::string head = fits_.size() == 1 ? std::string(name_of(fits_.front().status))
                                                : std::to_string(met_) + " of " + counted(fits_.size(), "case") + " met";
-    print_line(coloured(head + " after " + effort, is_met ? Colour::green : Colour::red));
+    print_line(head + " after " + effort, is_met ? Colour::green : Colour::red);
   }
 
   const FitFileOptions& options_;

@@ -15,7 +15,7 @@ namespace {
 
 void print_counts(const ImportedScene& imported) {
   for (const auto& [file, report] : imported.reports) {
-    print_line(coloured(file, Colour::bold));
+    print_line(file, Colour::bold);
     TextTable table({{"outcome"}, {"kind"}, {"number", true}, {"what it is, or why not"}});
     for (const auto& [key, number] : report.counts()) {
       const auto& [outcome, kind, reason] = key;
@@ -42,14 +42,11 @@ int import_pictures(const ImportOptions& options) {
     complain("pictures are put into a scene: name it by --into");
     return kBadInput;
   }
-  if (!options.is_forced && is_there(options.out) && options.out != options.into) {
-    print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
-    return kBadInput;
-  }
   PlaceOptions place;
   place.files = options.files;
   place.into = options.into;
   place.out = options.out;
+  place.is_forced = options.is_forced;
   place.media.licence = options.licence;
   return place_command(place);
 }

@@ -7,6 +7,8 @@
 
 #include "core/base/text.h"
 #include "ui/cli/interrupt.h"
+#include "ui/cli/scene_loading.h"
+#include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -17,8 +19,18 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kUsualTick = 0.05;  // [s] where no sensor says otherwise
 constexpr std::chrono::milliseconds kSlice{50};
+constexpr std::chrono::seconds kBetweenReadings{1};
 
 std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "sensor " : "actuator ") + status.node; }
+
+// "3.2 m, good", or why not.
+std::string reading_of(const State& state, const std::string& node) {
+  const std::uint32_t index = state.plan->node_index(node);
+  if (index >= state.nodes.size()) return "it is no longer in the scene";
+  const std::string unit = text_at(state, index, "sensor.unit"), message = text_at(state, index, "sensor.message");
+  return shortest(number_at(state, index, "sensor.value")) + (unit.empty() ? "" : " " + unit) + ", " +
+         text_at(state, index, "sensor.quality") + (message.empty() ? "" : " (" + message + ")");
+}
 
 // The shortest tick that a sensor of the scene stands for [s].
 double tick_length(const Scene& scene) {
@@ -51,6 +63,19 @@ void LiveRun::after_tick(const Session& session) {
   if (connections_.is_empty()) return;
   connections_.send(*session.state());
   tell();
+  if (is_live_ && Clock::now() >= told_readings_ + kBetweenReadings) tell_readings(*session.state());
+}
+
+// Only what is new: a sensor that stands still needs no lines.
+void LiveRun::tell_readings(const State& state) {
+  told_readings_ = Clock::now();
+  for (const ConnectionStatus& status : connections_.status()) {
+    if (!status.is_sensor) continue;
+    const std::string reading = reading_of(state, status.node);
+    std::string& last = read_[status.node];
+    if (last != reading) print_line(call(status) + ": " + reading);
+    last = reading;
+  }
 }
 
 void LiveRun::tell() {
@@ -71,13 +96,15 @@ void LiveRun::wait(const Session& session) {
     std::this_thread::sleep_for(std::min(due_ - Clock::now(), Clock::duration(kSlice)));
 }
 
-void LiveRun::sum_up() const {
+void LiveRun::sum_up(const State& state) const {
   for (const ConnectionStatus& status : connections_.status()) {
     const Traffic& t = status.traffic;
     std::string text = call(status) + ": ";
-    if (status.is_sensor) text += std::to_string(t.received) + " messages, " + std::to_string(t.skipped) + " of them skipped";
+    if (status.is_sensor)
+      text += counted(static_cast<std::size_t>(t.received), "message") + ", " + std::to_string(t.skipped) +
+              " of them skipped; at the end " + reading_of(state, status.node);
     else
-      text += std::to_string(t.sent) + " messages sent, " + std::to_string(t.acknowledged) + " acknowledged, " +
+      text += counted(static_cast<std::size_t>(t.sent), "message") + " sent, " + std::to_string(t.acknowledged) + " acknowledged, " +
               std::to_string(t.replaced) + " replaced by newer ones";
     print_line(text);
   }

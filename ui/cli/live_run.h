@@ -21,16 +21,18 @@ class LiveRun {
   void after_tick(const Session& session);
   /// Live, waits until the next tick is due or the run is interrupted.
   void wait(const Session& session);
-  /// Says what has passed through every connection.
-  void sum_up() const;
+  /// Says what has passed through every connection, and what the sensors read at the end.
+  void sum_up(const State& state) const;
 
  private:
   void tell();
+  void tell_readings(const State& state);
 
   bool is_live_;
   double rate_;
   Connections connections_;
-  std::map<std::string, std::string> told_;  // by node: the last sentence about its connection
+  std::map<std::string, std::string> told_, read_;  // by node: the last sentences about its connection, and about its value
+  std::chrono::steady_clock::time_point told_readings_;
   std::chrono::steady_clock::time_point due_;
 };
 

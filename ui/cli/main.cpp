@@ -43,7 +43,8 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->type_name("N")
       ->check(CLI::Range(1ll, 1000000000ll));
   c.add_option("--set", o.set,
-               "Sets a value before the first tick, as often as needed; VALUE is JSON or a quantity such as \"12 m\".")
+               "Sets a value before the first tick, as often as needed; VALUE is JSON or a quantity such as \"12 m\"; "
+               "LINK/PARAMETER=VALUE sets a parameter of a link.")
       ->type_name("NODE/TYPIFICATION.PORT=VALUE")
       ->expected(1)
       ->take_all();
@@ -126,7 +127,6 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
   s.footer("Example:\n  behaviourlinks schema --out scene.schema.json");
 }
 
-
 void declare_bench(CLI::App& app, BenchOptions& o) {
   CLI::App& c = *app.add_subcommand("bench", "Measures ticks per second and where the time goes.");
   c.add_option("scenes", o.scenes, "Scenes to measure.")->type_name("SCENE");
@@ -141,16 +141,20 @@ void declare_bench(CLI::App& app, BenchOptions& o) {
       ->check(CLI::Range(1, 1000));
   c.add_option("--ticks", o.ticks, "Ticks of one measurement. Default: 20.")->type_name("N")->check(CLI::Range(1, 1000000));
   c.add_option("--json", o.json, "Writes the rows as JSON, times in seconds.")->type_name("FILE");
-  auto* solver = c.add_flag("--solver", o.is_solver,
-                            "Measures the solver without ticks: cells, fits, drags, growth, and the feedback on a scene.");
+  auto* solver = c.add_flag(
+      "--solver", o.is_solver,
+      "Measures the algorithms without ticks: cells, fits, drags, growth, rays, traffic, and the feedback on a scene.");
   c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
   c.add_option("--rows", o.rows, "Of the solver: these rows only.")
       ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "study"}))
+      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study"}))
       ->needs(solver);
   c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
       ->type_name("K")
       ->check(CLI::Range(1, 1000000))
+      ->needs(solver);
+  c.add_option("--tntp", o.tntp, "Of the solver: networks for the rows of traffic, NAME_net.tntp with NAME_trips.tntp.")
+      ->type_name("DIR")
       ->needs(solver);
   c.add_option("--chart", o.chart, "Of the solver: writes growth.svg and feedback_newton.svg into a folder.")
       ->type_name("DIR")
@@ -214,6 +218,9 @@ int run_program(int count, char** arguments) {
     if (error.get_exit_code() == 0) return app.exit(error);
     const auto chosen = app.get_subcommands();
     complain(error.what());
+    const auto is_plugins = [](const char* argument) { return std::string_view(argument).starts_with("--plugins"); };
+    if (!chosen.empty() && plugins.empty() && std::any_of(arguments + 1, arguments + count, is_plugins))
+      complain("--plugins FOLDER stands before the task: behaviourlinks --plugins FOLDER " + chosen.front()->get_name() + " ...");
     complain("`behaviourlinks " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help` explains.");
     return kBadInput;
   }

@@ -8,6 +8,7 @@
 namespace bl::cli {
 
 int place_command(const PlaceOptions& options) {
+  if (!options.out.empty() && !may_write(options.out, options.into, options.is_forced)) return kBadInput;
   const auto reading = load_scene(options.into);
   if (!reading) return kBadInput;
   MediaOptions media = options.media;

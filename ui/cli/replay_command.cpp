@@ -28,13 +28,13 @@ int replay_command(const ReplayOptions& options) {
   print_line(std::to_string(report->entries) + (report->entries == 1 ? " entry" : " entries") + ", " +
              std::to_string(report->ticks) + " ticks, hash " + report->hash);
   if (report->first_mismatch) {
-    print_line(coloured("differs from the log first at tick " + std::to_string(report->first_mismatch->tick) +
-                            ": the log has the hash " + report->first_mismatch->hash,
-                        Colour::red));
+    print_line("differs from the log first at tick " + std::to_string(report->first_mismatch->tick) +
+                   ": the log has the hash " + report->first_mismatch->hash,
+               Colour::red);
     return kNotMet;
   }
-  print_line(report->checks == 0 ? "the log holds no checks to compare with"
-                                 : coloured("agrees with all " + std::to_string(report->checks) + " checks", Colour::green));
+  if (report->checks == 0) print_line("the log holds no checks to compare with");
+  else print_line("agrees with all " + std::to_string(report->checks) + " checks", Colour::green);
   return kDone;
 }
 

@@ -85,7 +85,11 @@ class Run {
       if (!command) return fail(file, command.error());
       if (auto done = session_->submit(*command, "command line"); !done) return fail(file, done.error());
     }
-    if (!options_.scripts.empty()) print_problems(options_.scene, check_scene(session_->scene(), full_registry()));
+    if (!options_.scripts.empty()) {
+      const std::vector<Problem> unfit = unfit_links(session_->scene(), full_registry());
+      print_problems(options_.scene, unfit.empty() ? check_scene(session_->scene(), full_registry()) : unfit);
+      if (!unfit.empty()) return false;
+    }
     for (const std::string& argument : options_.set) {
       auto command = set_command(session_->scene(), full_registry(), argument);
       if (!command) return fail("", command.error());
@@ -140,8 +144,11 @@ class Run {
 
   std::string outcome(const Survey& survey) const {
     const State& state = *session_->state();
+    const auto idle = static_cast<std::size_t>(
+        std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.error.has_value(); }));
+    const std::string without = idle == 0 ? "" : idle == 1 ? " (1 link does not run)" : " (" + std::to_string(idle) + " links do not run)";
     if (state.is_settled())
-      return "settled after " + std::to_string(state.tick) + " ticks, worst error " + fixed(100 * survey.worst_error, 3) +
+      return "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " + fixed(100 * survey.worst_error, 3) +
              " %, hash " + hex_digits(state.hash);
     const std::string stopped = is_interrupted() ? "stopped at tick " + std::to_string(state.tick) + "; " : "";
     return "not settled: " + stopped + why_not_settled(state, before_.get());
@@ -168,8 +175,9 @@ class Run {
     if (!options_.report.empty())
       is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, *state);
-    live_.sum_up();
-    print_line(coloured(last_line, state->is_settled() ? Colour::green : Colour::red));
+    live_.sum_up(*state);
+    const bool is_whole = std::none_of(state->links.begin(), state->links.end(), [](const LinkState& l) { return l.error.has_value(); });
+    print_line(last_line, !state->is_settled() ? Colour::red : is_whole ? Colour::green : Colour::yellow);
     return is_saved;
   }
 

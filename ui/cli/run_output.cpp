@@ -67,7 +67,7 @@ void print_totals(const Survey& survey) {
                  " m³ in a boundary of " + fixed(solver.boundary_volume, 1) + " m³ (" +
                  percent(solver.total_volume / solver.boundary_volume, 1) + " % full)");
   for (const SolverRow& solver : survey.solvers)
-    if (!solver.message.empty()) print_line(coloured(solver.id + ": " + solver.message, Colour::red));
+    if (!solver.message.empty()) print_line(solver.id + ": " + solver.message, Colour::red);
 }
 
 std::string amount(const Value& value, const std::string& unit) {
@@ -103,7 +103,7 @@ void print_survey(const Survey& survey, const State& state) {
   print_totals(survey);
   print_tensions(survey);
   if (!survey.problems.empty()) print_line();
-  for (const Error& problem : survey.problems) print_line(coloured("problem: " + problem.text(), Colour::red));
+  for (const Error& problem : survey.problems) print_line("problem: " + problem.text(), Colour::red);
   print_line();
 }
 

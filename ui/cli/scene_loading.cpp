@@ -1,6 +1,8 @@
 // Reading scenes with all of their problems shown.
 #include "ui/cli/scene_loading.h"
 
+#include <filesystem>
+
 #include "core/file/file_io.h"
 #include "ui/cli/terminal.h"
 
@@ -17,6 +19,13 @@ std::optional<SceneReading> load_scene(const std::string& file, bool gets_script
   if (!gets_scripts || !reading.is_usable()) print_problems(file, reading.problems);
   if (!reading.is_usable()) return std::nullopt;
   return reading;
+}
+
+bool may_write(const std::string& out, const std::string& scene, bool is_forced) {
+  std::error_code none;
+  if (is_forced || !std::filesystem::exists(out, none) || std::filesystem::equivalent(out, scene, none)) return true;
+  print_error(out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
+  return false;
 }
 
 std::string counted(std::size_t number, const std::string& noun) {

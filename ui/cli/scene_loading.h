@@ -12,6 +12,9 @@ namespace bl::cli {
 /// are left to the caller, who adds link kinds first.
 std::optional<SceneReading> load_scene(const std::string& file, bool gets_scripts = false);
 
+/// May a changed scene be written to `out`? Where a file is there that is not the scene it came from, only by force; says so then.
+bool may_write(const std::string& out, const std::string& scene, bool is_forced);
+
 /// "1 node", "3 nodes".
 std::string counted(std::size_t number, const std::string& noun);
 

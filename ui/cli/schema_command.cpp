@@ -12,7 +12,7 @@ namespace bl::cli {
 int schema_command(const SchemaOptions& options) {
   const std::string text = write_json(scene_schema(full_registry(), settings_type(), kSceneVersion));
   if (options.out.empty()) {
-    print_line(text);
+    print_page(text);
     return kDone;
   }
   if (auto written = write_file(options.out, text + "\n"); !written) {

@@ -56,9 +56,14 @@ int script_command(const ScriptOptions& options) {
       print_error(options.scene, done.error());
       return kBadInput;
     }
-  if (!options.files.empty()) print_problems(options.scene, check_scene(reading->scene, full_registry()));
+  if (!options.files.empty()) {
+    const std::vector<Problem> unfit = unfit_links(reading->scene, full_registry());
+    print_problems(options.scene, unfit.empty() ? check_scene(reading->scene, full_registry()) : unfit);
+    if (!unfit.empty()) return kBadInput;
+  }
   if (!options.extract.empty() && !extract(reading->scene.scripts, options.extract)) return kBadInput;
   if (!options.out.empty()) {
+    if (!may_write(options.out, options.scene, options.is_forced)) return kBadInput;
     const std::string text = write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr);
     if (auto written = write_file(options.out, text); !written) {
       print_error(options.out, written.error());

@@ -53,6 +53,17 @@ Result<Command> set_command(const Scene& scene, const Registry& registry, const 
   const std::string node = argument.substr(0, slash), port_text = argument.substr(slash + 1, equals - slash - 1);
   const std::string place = "--set " + argument.substr(0, equals);
   const auto path = parse_port_path(port_text);
+  if (!path)
+    if (const auto link = scene.links.find(node); link != scene.links.end()) {
+      const LinkDefinition* kind = scene.scripts.types(registry).link(link->second.kind);
+      if (kind == nullptr) return Error{ErrorCode::unknown_type, place, "the link is of the unknown kind `" + link->second.kind + "`"};
+      const PortDefinition* parameter = kind->find_port(port_text);
+      if (parameter == nullptr)
+        return Error{ErrorCode::unknown_field, place, "`" + kind->id + "` has no `" + port_text + "`" + did_you_mean(port_text, port_ids(*kind))};
+      auto value = value_text(*parameter, parameter->unit, argument.substr(equals + 1), place);
+      if (!value) return value.error();
+      return command<SetLinkParameter>({node, port_text, {*value}});
+    }
   if (!path) return Error{ErrorCode::parse, "--set", "expects a port written TYPIFICATION.PORT, found `" + port_text + "`"};
   const auto port = registry.port(*path);
   if (!port) return port.error().within(place);

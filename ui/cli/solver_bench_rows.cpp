@@ -35,7 +35,7 @@ void BenchTable::print() const {
     table.add(std::move(texts));
   }
   print_line();
-  print_line(coloured(heading_, Colour::bold));
+  print_line(heading_, Colour::bold);
   table.print();
 }
 

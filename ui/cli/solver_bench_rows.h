@@ -104,6 +104,8 @@ BenchTables bench_growth(const SolverBench& bench);
 BenchTables bench_complex(const SolverBench& bench);
 /// Rays to the sun among casters, against a loop over all triangles.
 BenchTables bench_rays(const SolverBench& bench);
+/// Equilibria of traffic against bi-conjugate Frank-Wolfe, shortest ways against Boost.Graph.
+BenchTables bench_traffic(const SolverBench& bench);
 /// Feedback against Newton on a scene.
 BenchTables bench_study(const SolverBench& bench);
 

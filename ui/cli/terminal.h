@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -11,8 +12,11 @@
 namespace bl::cli {
 
 enum class Colour { plain, bold, dim, red, green, yellow };
-/// The text in a colour, where standard output is a terminal that wants colours; the plain text elsewhere.
-std::string coloured(std::string_view text, Colour colour);
+
+/// The text as it may go to a terminal: control characters, marks that turn the direction of writing, and what is no UTF-8 are
+/// written out (`\x1b`, `\u202e`), because names, scripts and files are by others, and a terminal obeys such characters. All
+/// functions below do this to what they are given.
+std::string shown(std::string_view text);
 
 /// Columns that a text takes on a terminal: UTF-8 characters, not bytes.
 std::size_t width_of(std::string_view text);
@@ -25,7 +29,7 @@ class TextTable {
     bool is_number = false;
   };
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
-  void add(std::vector<std::string> row, Colour colour = Colour::plain) { rows_.push_back({std::move(row), colour}); }
+  void add(std::vector<std::string> row, Colour colour = Colour::plain);
   /// A line between what stands above and below.
   void rule() { rows_.push_back({}); }
   void print() const;
@@ -39,7 +43,12 @@ class TextTable {
   std::vector<Row> rows_;
 };
 
-void print_line(std::string_view text = {});
+/// On standard output; in a colour where that is a terminal that wants colours.
+void print_line(std::string_view text = {}, Colour colour = Colour::plain);
+/// One line of parts in colours of their own.
+void print_parts(const std::vector<std::pair<std::string, Colour>>& parts);
+/// Several lines of the program's own making, such as a page of the catalogue: its line feeds are kept.
+void print_page(std::string_view text);
 /// "behaviourlinks: sentence" on standard error.
 void complain(std::string_view sentence);
 /// "file: place: message" on standard error. A place that is the file itself is not said twice.

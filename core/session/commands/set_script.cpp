@@ -17,6 +17,15 @@ void SetScript::declare(CommandBuilder<SetScript>& c) {
       .doc("When on, a text that cannot be read is kept all the same, and links of its kind rest; undo needs it.");
 }
 
+// The script of the scene under another name whose kind the new text declares once more; empty where there is none.
+static std::string bearer_of(const SceneEdit& edit, const Scripts& before, const SetScript::In& in) {
+  const auto kind = Scripts::read({{in.id, in.text}}, edit.program()).kinds();
+  if (kind.empty()) return "";
+  for (const auto& [name, id] : before.kinds())
+    if (name != in.id && id == kind.begin()->second) return name;
+  return "";
+}
+
 Inverse SetScript::apply(SceneEdit& edit, const In& in) {
   const std::string place = "scripts/" + in.id;
   if (!is_identifier(in.id))
@@ -25,6 +34,11 @@ Inverse SetScript::apply(SceneEdit& edit, const In& in) {
   auto texts = before.texts();
   texts[in.id] = in.text;
   const Scripts after = Scripts::read(std::move(texts), edit.program());
+  if (!in.even_if_broken)
+    if (const std::string other = bearer_of(edit, before, in); !other.empty())
+      return Error{ErrorCode::duplicate, place,
+                   "the scene's script `" + other + "` has this id already; name your file " + other +
+                       ".lua to replace it, or choose another id"};
   if (!in.even_if_broken)
     for (const auto& [name, error] : after.errors())
       if (name == in.id || !before.errors().contains(name)) return error.within("scripts/" + name);

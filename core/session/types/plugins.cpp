@@ -2,7 +2,9 @@
 #include "core/session/types/plugins.h"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
+#include <utility>
 
 #include <dlfcn.h>
 
@@ -17,26 +19,103 @@ const std::string kMark = std::string("BEHAVIOURLINKS-PLUGIN-") + "ABI:";
 
 Error refused(ErrorCode code, const std::string& file, std::string why) { return {code, file, std::move(why)}; }
 
-// The types that a library registers, one by one into the program's registry; nothing where one of them is taken.
-void add_types(Registry& registry, const Registry& fresh, PluginReport& report) {
-  std::vector<std::string> taken;
-  for (const auto& [id, type] : fresh.typifications()) taken.push_back(registry.taken(type));
-  for (const auto& [id, kind] : fresh.links()) taken.push_back(registry.taken(kind));
-  std::erase(taken, "");
-  if (!taken.empty()) {
-    report.error = refused(ErrorCode::duplicate, report.file,
-                           "the plugin brings `" + taken.front() + "`, which is there already; give its type another id");
-    return;
+// What an evaluation of a plugin throws would end the program. It becomes an error of the one link or role that it is thrown in:
+// what was proposed last stays in force, and everything else goes on.
+template <class Call>
+Result<void> guarded(const std::string& who, const Call& call) {
+  try {
+    return call();
+  } catch (const std::exception& thrown) { return Error{ErrorCode::conflict, "", who + " threw: " + thrown.what()}; } catch (...) {
+    return Error{ErrorCode::conflict, "", who + " threw something that is no std::exception"};
   }
+}
+
+void guard(LinkDefinition& kind, const std::string& library) {
+  kind.evaluate = [who = "`" + kind.id + "` of " + library, evaluate = std::move(kind.evaluate)](
+                      const void* parameters, const LinkReads& reads, LinkWrites& writes, const Tick& tick) {
+    return guarded(who, [&] { return evaluate(parameters, reads, writes, tick); });
+  };
+}
+
+void guard(TypificationDefinition& type, const std::string& library) {
+  if (!type.evaluate) return;
+  type.evaluate = [who = "`" + type.id + "` of " + library, evaluate = std::move(type.evaluate)](
+                      std::span<Value> values, std::span<SetValues> sets, const Tick& tick) {
+    return guarded(who, [&] { return evaluate(values, sets, tick); });
+  };
+}
+
+// Ports of types that nobody has brought yet are left to the scene: their plugin may come later.
+std::string misspelt_port(const Registry& types, const std::string& id, const PortPath& path, bool is_proposed) {
+  if (!path.chosen_by.empty() || (path.typification == kBaseNode && path.port == "id")) return "";
+  const auto port = types.port(path);
+  if (!port && port.error().code == ErrorCode::unknown_type) return "";
+  if (!port) return "`" + id + "`: " + port.error().message;
+  if (is_proposed && (*port)->rule == CombineRule::none)
+    return "`" + id + "` proposes to `" + path.typification + "." + path.port +
+           "`, which links cannot change: it has no rule that combines what several of them want";
+  return "";
+}
+
+// Why the types cannot be used: a sentence, or nothing. `files`: the stems of its source files, each ended by a blank.
+std::string fault_of(const Registry& registry, const Registry& fresh, std::string_view files) {
+  for (const auto& [id, type] : fresh.typifications())
+    if (const std::string taken = registry.taken(type); !taken.empty())
+      return "the plugin brings `" + taken + "`, which is there already; give its type another id";
+  for (const auto& [id, kind] : fresh.links())
+    if (const std::string taken = registry.taken(kind); !taken.empty())
+      return "the plugin brings `" + taken + "`, which is there already; give its type another id";
+  while (!files.empty()) {
+    const std::string stem(files.substr(0, files.find(' ')));
+    files.remove_prefix(stem.size() + 1);
+    if (fresh.link(stem) == nullptr && fresh.typification(stem) == nullptr)
+      return "the file " + stem + ".cpp brings no type `" + stem + "`: its id must be the name of the file";
+  }
+  Registry all = registry;
+  for (const auto& [id, type] : fresh.typifications()) all.add(type);
+  for (const auto& [id, kind] : fresh.links()) {
+    if (kind.proposes.empty()) return "`" + id + "` proposes nothing: declare with l.proposes(...) what the link changes";
+    for (const LinkRead& read : kind.reads)
+      if (const std::string fault = misspelt_port(all, id, read.path, false); !fault.empty()) return fault;
+    for (const LinkWrite& write : kind.proposes)
+      if (const std::string fault = misspelt_port(all, id, write.path, true); !fault.empty()) return fault;
+  }
+  return fresh.typifications().empty() && fresh.links().empty() ? "the plugin brings no type" : "";
+}
+
+void add_types(Registry& registry, const Registry& fresh, PluginReport& report) {
+  const std::string library = std::filesystem::path(report.file).filename().string();
   for (const auto& [id, type] : fresh.typifications()) {
-    registry.add(type);
+    TypificationDefinition guarded_type = type;
+    guard(guarded_type, library);
+    registry.add(std::move(guarded_type));
     report.types.push_back(id);
   }
   for (const auto& [id, kind] : fresh.links()) {
-    registry.add(kind);
+    LinkDefinition guarded_kind = kind;
+    guard(guarded_kind, library);
+    registry.add(std::move(guarded_kind));
     report.types.push_back(id);
   }
-  if (report.types.empty()) report.error = refused(ErrorCode::missing, report.file, "the plugin brings no type");
+}
+
+// A folder without libraries is named by mistake: mostly it is the one above, or the one with the sources.
+Error nothing_in(const std::string& folder) {
+  std::string inside;
+  std::error_code error;
+  std::vector<std::filesystem::path> folders;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.is_directory(error)) folders.push_back(entry.path());
+  std::sort(folders.begin(), folders.end());
+  for (const auto& below : folders)
+    for (const auto& entry : std::filesystem::directory_iterator(below, error))
+      if (entry.path().extension() == ".so" && inside.empty()) inside = below.string();
+  const bool has_sources = std::filesystem::exists(folder + "/CMakeLists.txt", error);
+  return refused(ErrorCode::missing, folder,
+                 std::string("there is no plugin (.so) in this folder") +
+                     (!inside.empty() ? "; " + inside + " has one"
+                      : has_sources   ? "; these are sources: build them by `./bl plugin " + folder + "`, which says where the library is"
+                                      : "; build one by `./bl plugin FOLDER`, which says where it is"));
 }
 
 }  // namespace
@@ -82,9 +161,17 @@ PluginReport load_plugin(Registry& registry, const std::string& file) {
         refused(ErrorCode::missing, file, "the plugin has no function `behaviourlinks_register`; build it with bl_plugin()");
     return report;
   }
+  const auto* files = static_cast<const char*>(::dlsym(library, "behaviourlinks_files"));
   Registry fresh;
-  enter(fresh);
-  add_types(registry, fresh, report);
+  const auto declared = guarded("its declaration", [&]() -> Result<void> {
+    enter(fresh);
+    return {};
+  });
+  const std::string fault =
+      declared ? fault_of(registry, fresh, files != nullptr ? files : "")
+               : declared.error().message + "; look at the paths of ports, which are written \"typification.port\"";
+  if (!fault.empty()) report.error = refused(ErrorCode::conflict, file, fault);
+  else add_types(registry, fresh, report);
   return report;
 }
 
@@ -94,6 +181,7 @@ std::vector<PluginReport> load_plugins(Registry& registry, const std::string& fo
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
     if (entry.path().extension() == ".so") files.push_back(entry.path().string());
   if (error) return {{folder, {}, refused(ErrorCode::io, folder, "there is no folder of plugins here: " + error.message())}};
+  if (files.empty()) return {{folder, {}, nothing_in(folder)}};
   std::sort(files.begin(), files.end());
   std::vector<PluginReport> reports;
   for (const std::string& file : files) reports.push_back(load_plugin(registry, file));

@@ -1,6 +1,7 @@
 // Facts of pictures: an EXIF block made here byte by byte, headers that are cut off anywhere, and a real photograph.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -69,6 +70,18 @@ std::string photograph() {
   const std::string frame = std::string("\x08", 1) + number(300, 2) + number(400, 2) + std::string("\x01\x01\x11\x00", 4);
   return "\xff\xd8\xff\xe1" + number(static_cast<std::uint32_t>(block.size() + 2), 2) + block + "\xff\xc0" +
          number(static_cast<std::uint32_t>(frame.size() + 2), 2) + frame + "\xff\xd9";
+}
+
+TEST(ImageFacts, SaysWhereTheLowerPartIsMissing) {
+  const std::string whole = photograph(), head = whole.substr(0, whole.size() - 2);
+  const std::string scan = std::string("\xff\xda\x00\x08\x01\x01\x00\x00\x3f\x00", 10) + std::string(200, 'x');
+  for (const auto& [bytes, is_cut] : {std::pair{whole, false}, {head, true}, {head + scan, true}, {head + scan + "\xff\xd9", false}}) {
+    const auto facts = read_image_facts(bytes);
+    ASSERT_TRUE(facts.ok()) << facts.error().text();
+    const bool is_said = std::any_of(facts->notes.begin(), facts->notes.end(),
+                                     [](const std::string& note) { return note.find("cut off") != std::string::npos; });
+    EXPECT_EQ(is_said, is_cut) << bytes.size();
+  }
 }
 
 TEST(ImageFacts, ReadsWhatCamerasWrite) {

@@ -172,6 +172,50 @@ TEST(OsmContext, TurnRestrictionsNamePieces) {
   EXPECT_EQ(reason_of(over->report, "r7"), "skipped: turn restriction: it runs via a way");
 }
 
+// A crossing of four one-piece streets at node 5; way 13 runs through it from north to south.
+std::string crossing_with(const std::string& members, const std::string& tags, const std::string& rest = "") {
+  std::string relation = R"(<relation id="7"><tag k="type" v="restriction"/>)" + tags;
+  for (std::size_t at = 0; at + 2 < members.size(); at += 4)
+    relation += R"(<member type="way" ref="1)" + members.substr(at, 1) + R"(" role=")" +
+                (members[at + 1] == 'f' ? "from" : "to") + R"("/>)";
+  relation += R"(<member type="node" ref="5" role="via"/></relation>)";
+  return osm(way(10, {4, 5}, "highway=primary") + way(11, {5, 6}, "highway=primary;oneway=yes") +
+             way(12, {5, 8}, "highway=primary") + rest + relation);
+}
+
+TEST(OsmContext, TurnRestrictionsAreReadOrSayWhyNot) {
+  const auto tag = [](const std::string& key, const std::string& value) {
+    return R"(<tag k=")" + key + R"(" v=")" + value + R"("/>)";
+  };
+  const auto reason = [](const std::string& text) {
+    const auto context = read_osm_context(text);
+    EXPECT_TRUE(context.ok());
+    return reason_of(context->report, "r7") + (context->restrictions.empty() ? "" : ", " + context->restrictions[0].rule);
+  };
+  const std::string skipped = "skipped: turn restriction: ", left = tag("restriction", "no_left_turn");
+  EXPECT_EQ(reason(crossing_with("0f  2t  ", left)), "taken: turn restriction, no_left_turn");
+  EXPECT_EQ(reason(crossing_with("0f  2t  ", tag("restriction:motorcar", "only_right_turn"))),
+            "taken: turn restriction, only_right_turn");
+  EXPECT_EQ(reason(crossing_with("0f  0t  ", tag("restriction", "no_u_turn"))), "taken: turn restriction, no_u_turn");
+  EXPECT_EQ(reason(crossing_with("0f  2t  ", tag("restriction:hgv", "no_left_turn"))),
+            skipped + "it is not for all cars at all times");
+  EXPECT_EQ(reason(crossing_with("0f  2t  ", left + tag("except", "psv; motorcar"))),
+            skipped + "it is not for all cars at all times");
+  EXPECT_EQ(reason(crossing_with("0f  2t  ", left + tag("except", "bicycle;psv"))), "taken: turn restriction, no_left_turn");
+  EXPECT_EQ(reason(crossing_with("0f  2t  ", tag("restriction", "give_way"))), skipped + "its rule is not understood");
+  EXPECT_EQ(reason(crossing_with("1f  2t  ", left)), skipped + "it runs against a one-way street");
+  EXPECT_EQ(reason(crossing_with("0f  9t  ", left)), skipped + "its streets are not in the file, or none for driving");
+  EXPECT_EQ(reason(crossing_with("0f  2t  1t  ", left)), skipped + "it does not have one from, one via and one to");
+  EXPECT_EQ(reason(crossing_with("0f  3t  ", left, way(13, {2, 5, 8}, "highway=primary"))),
+            skipped + "one of its streets passes its junction, so that its side is not known");
+  EXPECT_EQ(reason(crossing_with("0f  3t  ", left, way(13, {2, 5, 8}, "highway=primary;oneway=yes"))),
+            "taken: turn restriction, no_left_turn")
+      << "one leaves a one-way street on one side only";
+  const auto several = read_osm_context(crossing_with("0f  2f  1t  ", tag("restriction", "no_entry")));
+  ASSERT_EQ(several->restrictions.size(), 2u);
+  EXPECT_EQ(several->streets[several->restrictions[1].from].id, "w12/0");
+}
+
 TEST(OsmContext, FaultsOfElementsAreRowsNotErrors) {
   const auto context =
       read_osm_context(osm(way(10, {1, 5, 2, 4, 1}, "building=yes") + way(11, {1, 2, 5}, "building=yes") +

@@ -105,7 +105,8 @@ TEST(SceneFile, GhostsAreKeptToTheLetterAndReported) {
   ASSERT_EQ(reading.problems.size(), 2u);
   EXPECT_EQ(reading.problems[0].error.text(),
             "nodes/a/hologram: unknown typification `hologram`: kept as it is and saved back, not run");
-  EXPECT_EQ(reading.problems[1].error.text(), "links/l: unknown link kind `teleport`: kept as it is, not run");
+  EXPECT_EQ(reading.problems[1].error.text(), "links/l: unknown link kind `teleport`: kept as it is, not run; a Lua file of yours is put into the scene by `script` or "
+            "--script, a library is named by --plugins FOLDER");
   EXPECT_EQ(write_scene(reading.scene, full_registry()), text);
 }
 

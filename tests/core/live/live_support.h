@@ -141,8 +141,12 @@ class Folder {
 class Broker {
  public:
   Broker() : port_(free_port()) {}
-  void start() {
-    folder_.write("broker.conf", "listener " + std::to_string(port_) + " 127.0.0.1\nallow_anonymous true\npersistence false\n");
+  /// `rules`: who may enter, in the words of the broker's own file; `visitor`: how publish() enters.
+  void start(const std::string& rules = "allow_anonymous true", std::vector<std::string> visitor = {}) {
+    visitor_ = std::move(visitor);
+    // The broker would give up its rights where it has them, and could not read the test's own files then.
+    folder_.write("broker.conf",
+                  "listener " + std::to_string(port_) + " 127.0.0.1\npersistence false\nuser root\n" + rules + "\n");
     program_ = std::make_unique<Program>(std::vector<std::string>{"/usr/sbin/mosquitto", "-c", folder_.path("broker.conf")});
     ASSERT_TRUE(eventually([&] { return Loopback::is_open(port_); })) << "is the package mosquitto installed?";
   }
@@ -152,6 +156,7 @@ class Broker {
     std::vector<std::string> arguments{"mosquitto_pub", "-p", std::to_string(port_),  "-q", "1", "-t",
                                        topic,           "-f", folder_.path("message")};
     if (is_retained) arguments.push_back("-r");
+    arguments.insert(arguments.end(), visitor_.begin(), visitor_.end());
     EXPECT_EQ(Program(arguments).wait(), 0) << "is the package mosquitto-clients installed?";
   }
   std::string address(const std::string& topic) const { return "mqtt://127.0.0.1:" + std::to_string(port_) + "/" + topic; }
@@ -160,6 +165,7 @@ class Broker {
  private:
   int port_;
   Folder folder_;
+  std::vector<std::string> visitor_;
   std::unique_ptr<Program> program_;
 };
 

@@ -61,8 +61,19 @@ std::vector<Hostile> hostile_scripts() {
       {"an error that is no UTF-8", body("error('no \\xff way')"), "bad.lua:5: |no ? way"},
       {"a failed assertion", body("assert(1 > 2, 'smaller')"), "bad.lua:5: |smaller"},
       {"an error in the library", body("\ntable.sort({1, 'x'})\n"), "bad.lua:6: |compare"},
-      {"index of nil", body("return {move = ends.there.x}"), "bad.lua:5: |nil value (field 'there')"},
+      {"index of nil", body("return {move = ends.there.x}"), "bad.lua:5: |`ends` has no `there`; it has `here`"},
       {"arithmetic on a text", body("return {move = 'a' + 1}"), "bad.lua:5: |arithmetic"},
+      {"a name that is not declared", body("return {move = ends.here - ends.her}"), "bad.lua:5: |`ends` has no `her`; it has `here`"},
+      {"a parameter that is not declared", body("return {move = ends.here * params.gain}"), "bad.lua:5: |`params` has no `gain`"},
+      {"a point and nothing", body("local a\nreturn {move = ends.here - a}"), "bad.lua:6: |one is nil"},
+      {"a point by a point", body("return {move = ends.here * ends.here}"), "bad.lua:5: |by a number, not by a point"},
+      {"print", body("print('x')"), "bad.lua:5: |error(text) shows a text"},
+      {"one point for many", "return {id = 'bad', doc = 'Bad.',\nproposes = {move = {at = 'from', port = 'node.position', whole = true}},\n"
+       "reads = {here = {at = 'from', port = 'node.position', whole = true}},\nevaluate = function() return {move = point(0, 0, 1)} end}",
+       "bad.lua:4: |`move` needs a list of points, one for each node, not a point"},
+      {"a value for nobody", "return {id = 'bad', doc = 'Bad.',\nproposes = {move = {at = 'from', port = 'node.position', whole = true}},\n"
+       "reads = {here = {at = 'from', port = 'node.position', whole = true}},\nevaluate = function() return {move = {[7] = point(0, 0, 1)}} end}",
+       "bad.lua:4: |for node 7 of an end of 1 nodes"},
       {"no answer", body(""), "bad.lua:4: |must return a table"},
       {"a number as answer", body("return 3"), "bad.lua:4: |must return a table"},
       {"wrong kind", body("return {move = 3}"), "bad.lua:4: |`move` needs a point"},
@@ -85,6 +96,17 @@ std::vector<Hostile> hostile_scripts() {
       {"unit that is no SI unit", declaring("here = {at = 'from', port = 'node.position', unit = 'km'}"),
        "bad.lua:2: |values come in `m`"},
       {"wrong unit", declaring("here = {at = 'from', port = 'smart_volume.volume', unit = 'm'}"), "bad.lua:2: |in cubic metres"},
+      {"a word that stands before as well",
+       "-- volume, here\nlocal here = 'smart_volume.volume'\nreturn {id = 'bad', doc = 'The volume here.',\nreads = {\n"
+       "here = {at = 'to', port = 'smart_volume.volume', unit = 'm3'},\n},\nproposes = {\n"
+       "here = {at = 'to',\nport = 'smart_volume.volume', unit = 'm3'}}, evaluate = function() return {} end}",
+       "bad.lua:9: |cannot be changed by links"},
+      {"a wrong unit of two", "return {id = 'bad', doc = 'demand',\nreads = {now = {at = 'to', port = 'smart_volume.demand', unit = 'm3'}},\n"
+       "proposes = {demand = {at = 'to', port = 'smart_volume.demand', unit = 'm2'}}, evaluate = function() return {} end}",
+       "bad.lua:3: |in cubic metres"},
+      {"a table put together", "local link = {id = 'bad', doc = 'x'}\nlink.proposes = {v = {at = 'to', port = 'smart_volume.volume'}}\n"
+       "link.evaluate = function() end\nreturn link", "bad.lua:2: |cannot be changed by links"},
+      {"`end` for `at`", declaring("here = {['end'] = 'from', port = 'node.position'}"), "bad.lua:2: |called `at`"},
       {"unknown end", declaring("here = {at = 'left', port = 'node.position'}"), "bad.lua:2: |\"from\" or \"to\""},
       {"unknown field", declaring("here = {at = 'from', prot = 'node.position'}"), "bad.lua:2: |did you mean `port`"},
       {"taken id", "return {id = 'ratio', doc = 'x', proposes = {}, evaluate = function() end}", "bad.lua:1: |already"},

@@ -86,7 +86,7 @@ TEST(ScriptSession, ABrokenEditIsRefusedAndTheOldTextStays) {
   world.tick(5), same.tick(5);
   EXPECT_EQ(world.state().hash, same.state().hash);
   EXPECT_NE(world.submit(command<SetScript>({"other", ratio_script("my_ratio"), false}))
-                .find("there is a link kind `my_ratio` already"),
+                .find("the scene's script `my_ratio` has this id already; name your file my_ratio.lua"),
             std::string::npos);
   EXPECT_NE(world.submit(command<SetScript>({"No name", "return 3", false})), "");
 }

@@ -43,6 +43,18 @@ TEST(Equilibrium, BraessWithAndWithoutTheBridgeByHand) {
   EXPECT_EQ(flow_of(open, "b-c"), 0);
 }
 
+// Roots rise upright from nothing: an empty way of two streets has to be found nevertheless.
+TEST(Equilibrium, PowersBelowOneFindEmptyWays) {
+  Case one;
+  one.nodes = {{"a", true}, {"b", true}, {"c", true}};
+  one.links = {{"a-c", "a", "c", 100, 5, 1, 0.5}, {"a-b", "a", "b", 20, 5, 1, 0.5}, {"b-c", "b", "c", 20, 5, 1, 0.5}};
+  one.trips = {{"a", "c", 1000}};
+  const TrafficNetwork network = one.network();
+  Equilibrium equilibrium(network, one.demands(network));
+  EXPECT_TRUE(equilibrium.run(1e-9, 200));
+  EXPECT_GT(flow_of(equilibrium, "a-b"), 500);
+}
+
 TEST(Equilibrium, ATollSendsTripsAnotherWay) {
   // Two equal streets of 10 min for 100 trips of any number; a toll of 100 cents on one at 0.02 min each is 2 min: the free one
   // takes all until its delay is 2 min as well: 10 · 0.15 · (v / 100)^4 = 2 + the delay of the other.

@@ -40,6 +40,29 @@ TEST(Compare, ASceneWithItselfDiffersInNothing) {
   EXPECT_NE(outcome.out.find("0 numbers of nodes differ"), std::string::npos) << outcome.out;
 }
 
+// An FSI of 1.2 is no 120 per cent; the share of the ground that is built is one. What solvers still miss is no outcome.
+TEST(Compare, RatiosThatAreNoSharesArePlainNumbers) {
+  const Workplace place;
+  const std::string plot = R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]}}})";
+  place.write("a.json", scene_text(volume_text("east", "[8, 0, 8]", "2000") + "," + plot));
+  place.write("b.json", scene_text(volume_text("east", "[8, 0, 8]", "6000") + "," + plot));
+  const Outcome outcome = place.run({"compare", "a.json", "b.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto line_of = [&](const std::string& words) {
+    const std::size_t at = outcome.out.find(words);
+    return at == std::string::npos ? "" : outcome.out.substr(at, outcome.out.find('\n', at) - at);
+  };
+  for (const char* ratio : {"fsi", "layers"}) {
+    const std::string line = line_of(std::string("Plot: ") + ratio);
+    ASSERT_NE(line, "") << outcome.out;
+    EXPECT_EQ(line.find('%'), line.rfind('%')) << "only the difference is in per cent: " << line;
+  }
+  const std::string gsi = line_of("Plot: gsi");
+  EXPECT_NE(gsi.find('%'), gsi.rfind('%')) << gsi;
+  for (const char* inner : {": error", ": weight", ": radius", ": spherical area"})
+    EXPECT_EQ(outcome.out.find(inner), std::string::npos) << outcome.out;
+}
+
 TEST(Compare, BadScenesAreToldWithTheirPlace) {
   const Workplace place;
   place.write("a.json", moving_scene());

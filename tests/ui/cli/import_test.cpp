@@ -82,6 +82,61 @@ TEST_F(Import, SeveralFilesShareOneFrame) {
   EXPECT_FALSE(node(place.json("d.json"), "building_1_2").is_null()) << "an id that is taken gets a number";
 }
 
+// A crossing at node 5 with arms to the west (4), east (6), south (2) and north (8), and a way round from 6 by 9 to 8.
+std::string crossing_map(const std::string& rules) {
+  std::string text = R"(<osm version="0.6">)";
+  const char* const places[][3] = {{"2", "59.999", "25.001"}, {"4", "60", "25"},         {"5", "60", "25.001"},
+                                   {"6", "60", "25.003"},     {"8", "60.001", "25.001"}, {"9", "60.001", "25.003"}};
+  for (const auto& [id, latitude, longitude] : places)
+    text += std::string(R"(<node id=")") + id + R"(" lat=")" + latitude + R"(" lon=")" + longitude + R"("/>)";
+  const char* const ways[][3] = {{"10", "4", "5"}, {"11", "5", "6"}, {"12", "5", "8"},
+                                 {"13", "2", "5"}, {"14", "6", "9"}, {"15", "9", "8"}};
+  for (const auto& [id, from, to] : ways)
+    text += std::string(R"(<way id=")") + id + R"("><nd ref=")" + from + R"("/><nd ref=")" + to +
+            R"("/><tag k="highway" v="residential"/></way>)";
+  return text + rules + "</osm>";
+}
+std::string rule(const char* id, const char* from, const char* via, const char* to, const char* what) {
+  return std::string(R"(<relation id=")") + id + R"("><member type="way" ref=")" + from +
+         R"(" role="from"/><member type="node" ref=")" + via + R"(" role="via"/><member type="way" ref=")" + to +
+         R"(" role="to"/><tag k="type" v="restriction"/><tag k="restriction" v=")" + what + R"("/></relation>)";
+}
+
+TEST_F(Import, TurnRestrictionsAreObeyed) {
+  const auto flow = [&](const std::string& rules, const std::string& street) {
+    place.write("map.osm", crossing_map(rules));
+    EXPECT_EQ(place.run({"import", "map.osm", "--out", "streets.json", "--force"}).code, 0);
+    nlohmann::json scene = place.json("streets.json");
+    for (auto& one : scene["nodes"]) {
+      if (one["id"] == "junction_n4") one["types"]["traffic_zone"] = {{"trips_out", 100}};
+      if (one["id"] == "junction_n8") one["types"]["traffic_zone"] = {{"trips_in", 100}};
+    }
+    scene["nodes"].push_back({{"id", "network"}, {"types", {{"traffic_network", nlohmann::json::object()}}}});
+    place.write("town.json", scene.dump());
+    const Outcome run = place.run({"run", "town.json", "--save", "after.json"});
+    EXPECT_EQ(run.code, 0) << run.out << run.err;
+    return place.json("after.json")["state"]["nodes"][street].value("street.flow_forth", 0.0);
+  };
+  EXPECT_NEAR(flow("", "street_w12_0"), 100, 1e-6) << "straight to the left";
+  EXPECT_EQ(flow(rule("1", "10", "5", "12", "no_left_turn"), "street_w14_0"), 0) << "turning round in the east is shorter";
+  const std::string no_return = rule("2", "11", "6", "11", "no_u_turn"), south = rule("3", "13", "2", "13", "no_u_turn");
+  EXPECT_NEAR(flow(rule("1", "10", "5", "12", "no_left_turn") + no_return + south, "street_w14_0"), 100, 1e-6);
+  EXPECT_NEAR(flow(rule("1", "10", "5", "11", "only_straight_on") + no_return, "street_w14_0"), 100, 1e-6);
+  const nlohmann::json rows = node(place.json("streets.json"), "junction_n5")["types"]["turn_rules"]["turns"];
+  EXPECT_EQ(rows.dump(), R"([{"from":"street_w10_0","rule":"only","to":"street_w11_0"}])");
+  EXPECT_EQ(node(place.json("streets.json"), "junction_n8")["types"].count("turn_rules"), 0u);
+}
+
+TEST_F(Import, TurnRestrictionsOfStreetsThatBecameNoNodesAreNamed) {
+  std::string map = crossing_map(rule("1", "10", "5", "12", "no_left_turn"));
+  map.replace(map.find(R"(v="residential"/></way><way id="13")"), 15, R"(v="pedestrian")");
+  place.write("map.osm", map);
+  const Outcome done = place.run({"import", "map.osm", "--out", "streets.json"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("Turn restriction `r1` (no_left_turn) became nothing: `w12/0` became no node."), std::string::npos)
+      << done.out;
+}
+
 TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
   place.write("noise.osm", "noise \x01\x02");
   place.write("empty.geojson", "");
@@ -103,6 +158,25 @@ TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
   refused({"houses.geojson", "--out", "there.json"}, "exists already");
   refused({"houses.geojson", "--into", "noise.osm", "--out", "out.json"}, "noise.osm");
   EXPECT_EQ(place.text("there.json"), "x");
+}
+
+TEST_F(Import, WhatTakesNothingIsSaid) {
+  const Outcome far = place.run({"import", "houses.geojson", "--origin", "447000,85000", "--radius", "50", "--out", "out.json"});
+  EXPECT_EQ(far.code, 2) << far.out;
+  EXPECT_NE(far.err.find("nothing of the files was taken, and nothing was written"), std::string::npos) << far.err;
+  EXPECT_FALSE(std::filesystem::exists(place.path("out.json")));
+  ASSERT_EQ(place.run({"import", "houses.geojson", "--out", "a.json"}).code, 0);
+  const std::string there = R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
+    {"type": "Feature", "properties": {"gid": 9}, "geometry": {"type": "Polygon",
+     "coordinates": [[[185000, 447000], [185020, 447000], [185020, 447010], [185000, 447010], [185000, 447000]]]}}]})";
+  place.write("there.geojson", there);
+  const Outcome into = place.run({"import", "there.geojson", "--into", "a.json", "--out", "b.json", "--radius", "500"});
+  EXPECT_EQ(into.code, 2) << into.out;
+  EXPECT_EQ(into.err.find("batch"), std::string::npos) << into.err;
+  EXPECT_NE(into.err.find("nothing of the files was taken"), std::string::npos) << into.err;
+  const Outcome both = place.run({"import", "houses.geojson", "there.geojson", "--radius", "500", "--out", "c.json"});
+  EXPECT_EQ(both.code, 0) << both.err;
+  EXPECT_NE(both.out.find("there.geojson: nothing of this file was taken"), std::string::npos) << both.out;
 }
 
 TEST_F(Import, RealCityModelsBecomeScenes) {

@@ -61,6 +61,92 @@ TEST(Script, MistakesHaveFileAndLine) {
   EXPECT_NE(done.out.find("ok: a link script"), std::string::npos) << done.out;
 }
 
+// A scene that somebody sent must not command the terminal by what its script says.
+TEST(Script, WhatItSaysIsTextOnTheTerminal) {
+  const Workplace place;
+  place.write("scene.json", kScene);
+  place.write("lean_uphill.lua",
+              "return {id = 'lean_uphill', doc = 'x', proposes = {move = {at = 'to', port = 'node.position'}},\n"
+              "evaluate = function() error('\\27[31mRED\\7\\u{9b}2J\\u{202e}') end}");
+  const Outcome done = place.run({"run", "scene.json", "--script", "lean_uphill.lua", "--ticks", "2"});
+  for (const std::string& text : {done.out, done.err}) {
+    EXPECT_EQ(text.find('\x1b'), std::string::npos) << text;
+    EXPECT_EQ(text.find('\x07'), std::string::npos) << text;
+    EXPECT_EQ(text.find("\xc2\x9b"), std::string::npos) << text;
+    EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos) << text;
+  }
+  EXPECT_NE(done.out.find("\\x1b[31mRED\\x07\\u009b2J\\u202e"), std::string::npos) << done.out;
+  place.write("name.json", "{\"format\": \"behaviourlinks\", \"version\": 1, \"nodes\": [{\"id\": \"a\", \"name\": \"\\u001b]0;x\\u0007\","
+                           " \"types\": {\"smart_volume\": {}}}], \"links\": []}");
+  const Outcome named = place.run({"run", "name.json", "--ticks", "1"});
+  EXPECT_EQ(named.out.find('\x1b'), std::string::npos) << named.out;
+  EXPECT_NE(named.out.find("\\x1b]0;x\\x07"), std::string::npos) << named.out;
+}
+
+TEST(Script, ALinkThatDoesNotFitIsAnError) {
+  const Workplace place;
+  std::string scene = kScene;
+  scene.replace(scene.find("\"to\": \"hut\""), 11, "\"to\": \"hat\"");
+  place.write("scene.json", scene);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"run", "scene.json", "--script", shipped("lean_uphill.lua")},
+        {"script", "scene.json", shipped("lean_uphill.lua"), "--out", "out.json"}}) {
+    const Outcome done = place.run(words);
+    EXPECT_EQ(done.code, 2) << done.out;
+    EXPECT_NE(done.err.find("links/l/to: there is no node `hat`, did you mean `hut`?"), std::string::npos) << done.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(place.path("out.json")));
+}
+
+TEST(Script, TheSameIdInAnotherFileIsExplained) {
+  const Workplace place;
+  place.write("scene.json", kScene);
+  place.write("copy.lua", read_text(shipped("lean_uphill.lua")));
+  ASSERT_EQ(place.run({"script", "scene.json", shipped("lean_uphill.lua"), "--out", "a.json"}).code, 0);
+  const Outcome done = place.run({"run", "a.json", "--script", "copy.lua"});
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("copy.lua: scripts/copy: the scene's script `lean_uphill` has this id already; name your file "
+                          "lean_uphill.lua to replace it"),
+            std::string::npos)
+      << done.err;
+}
+
+TEST(Script, OtherFilesAreReplacedByForceAlone) {
+  const Workplace place;
+  place.write("scene.json", kScene);
+  place.write("precious.json", "hello");
+  const std::vector<std::string> words{"script", "scene.json", shipped("lean_uphill.lua"), "--out", "precious.json"};
+  const Outcome refused = place.run(words);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("exists already"), std::string::npos) << refused.err;
+  EXPECT_EQ(place.text("precious.json"), "hello");
+  std::vector<std::string> forced = words;
+  forced.emplace_back("--force");
+  EXPECT_EQ(place.run(forced).code, 0);
+  EXPECT_EQ(place.run({"script", "scene.json", shipped("lean_uphill.lua"), "--out", "scene.json"}).code, 0) << "the scene itself";
+}
+
+TEST(Script, LinksThatRestAreToldInTheLastLine) {
+  const Workplace place;
+  std::string scene = kScene;
+  scene.replace(scene.find("lean_uphill"), 11, "ratioo");
+  place.write("scene.json", scene);
+  const Outcome done = place.run({"run", "scene.json"});
+  EXPECT_NE(done.err.find("unknown link kind `ratioo`: kept as it is, not run, did you mean `ratio`?"), std::string::npos) << done.err;
+  EXPECT_NE(done.last_line().find("(1 link does not run)"), std::string::npos) << done.out;
+}
+
+TEST(Script, ParametersOfLinksAreSetFromTheCommandLine) {
+  const Workplace place;
+  place.write("scene.json", moving_scene());
+  const Outcome done = place.run({"run", "scene.json", "--set", "apart/minimum=17 m", "--save", "end.json", "--ticks", "2"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(place.text("end.json").find("\"minimum\": 17"), std::string::npos);
+  const Outcome wrong = place.run({"run", "scene.json", "--set", "apart/minimun=17"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("did you mean `minimum`?"), std::string::npos) << wrong.err;
+}
+
 }  // namespace
 
 }  // namespace bl::test

@@ -34,6 +34,12 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
       continue;
     }
     if (kind == "rays") { EXPECT_EQ(row["differing_rays"], 0) << row; }
+    if (kind == "ways") { EXPECT_EQ(row["same"], "yes") << row; }
+    if (kind == "traffic") {
+      EXPECT_LE(row["reached"].get<double>(), row["gap"].get<double>()) << row;
+      EXPECT_LE(row["peer_reached"].get<double>(), row["gap"].get<double>()) << row;
+      EXPECT_LE(row["objectives_apart"].get<double>(), row["gap"].get<double>()) << "two methods, one equilibrium: " << row;
+    }
     EXPECT_EQ(row["hash"].get<std::string>().size(), 16u) << row;
     EXPECT_NE(outcome.out.find(row["hash"].get<std::string>()), std::string::npos) << row;
     if (!row.contains("threads")) continue;
@@ -49,6 +55,8 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"growth", 1},
                                                {"complex", 2},
                                                {"rays", 2},
+                                               {"traffic", 3},
+                                               {"ways", 1},
                                                {"study", 3}}));
   EXPECT_EQ(hashes.size(), 8u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;

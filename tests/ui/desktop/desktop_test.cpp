@@ -13,7 +13,7 @@ TEST(Desktop, OpensASceneAndTicks) {
   EXPECT_EQ(desktop.editor().state().tick, 0);
   desktop.ticks(3);
   EXPECT_EQ(desktop.editor().state().tick, 3);
-  EXPECT_EQ(desktop.desktop().title(), "quarter.json - BehaviourLinks");
+  EXPECT_EQ(desktop.desktop().title(), "quarter (copy, not saved yet) - BehaviourLinks");
 }
 
 TEST(Desktop, UndoTakesBackAndTheMarkOfUnsavedGoes) {
@@ -21,10 +21,10 @@ TEST(Desktop, UndoTakesBackAndTheMarkOfUnsavedGoes) {
   const std::string before = desktop.scene_text();
   ASSERT_TRUE(desktop.editor().submit(command<RenameNode>({"library", "Reading room"})));
   desktop.frames(1);
-  EXPECT_EQ(desktop.desktop().title(), "* quarter.json - BehaviourLinks");
+  EXPECT_EQ(desktop.desktop().title(), "* quarter (copy, not saved yet) - BehaviourLinks");
   desktop.key(GLFW_KEY_Z, true);
   EXPECT_EQ(desktop.scene_text(), before);
-  EXPECT_EQ(desktop.desktop().title(), "quarter.json - BehaviourLinks");
+  EXPECT_EQ(desktop.desktop().title(), "quarter (copy, not saved yet) - BehaviourLinks");
   desktop.key(GLFW_KEY_Y, true);
   EXPECT_EQ(desktop.editor().name_of("library"), "Reading room");
 }

@@ -111,7 +111,7 @@ TEST(Dialogs, AFileThatCannotBeWrittenLeavesTheDialogWithItsName) {
   desktop.key(GLFW_KEY_ENTER);
   desktop.frames(4);
   EXPECT_TRUE(ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
-  EXPECT_EQ(desktop.editor().document->name(), "quarter.json");
+  EXPECT_EQ(desktop.editor().document->name(), "quarter (copy, not saved yet)");
   desktop.key(GLFW_KEY_ESCAPE);
   desktop.frames(3);
   EXPECT_FALSE(ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));

@@ -2,6 +2,7 @@
 #include "ui/cli/report/comparison.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -10,6 +11,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "ui/cli/report/figures.h"
 #include "ui/cli/report/report_model.h"
 
 namespace bl::report {
@@ -24,18 +26,38 @@ std::string spoken(const std::string& id) {
 
 // Amounts are added up over nodes; rates and shares are averaged.
 bool adds_up(Unit unit) {
-  return unit == Unit::square_metre || unit == Unit::cubic_metre || unit == Unit::count || unit == Unit::euro ||
-         unit == Unit::per_hour;
+  return unit == Unit::square_metre || unit == Unit::cubic_metre || unit == Unit::count || unit == Unit::euro;
 }
 
-// What an evaluation remembers of itself says nothing to people.
+// How the solvers get to their result says nothing of the result: what they still miss, and the means by which they divide.
+constexpr std::array<std::string_view, 6> kMeans{"weight",      "radius",       "spherical_area",
+                                                 "cell_volume", "relative_gap", "largest_error"};
+
+// What an evaluation remembers of itself says nothing to people either.
 bool is_indicator(const PortDefinition& port) {
-  return port.is_computed && !port.recall && !port.id.starts_with("last_") &&
+  return port.is_computed && !port.recall && !port.is_residual && !port.id.starts_with("last_") &&
+         std::find(kMeans.begin(), kMeans.end(), port.id) == kMeans.end() &&
          (port.kind == ValueKind::number || port.kind == ValueKind::integer);
+}
+
+bool is_share(const PortDefinition& port) {
+  return port.unit == Unit::ratio && std::min(port.hard_maximum, port.soft_maximum.value_or(port.hard_maximum)) <= 1;
+}
+
+// " of smart_volume.volume" for a port whose meaning is that of another port, which people have chosen beside it.
+std::string subject_of(const State& state, PortRef ref) {
+  const TypePlan& type = state.plan->nodes[ref.node].types[ref.type];
+  if (type.definition->ports[ref.port].unit_from.empty()) return "";
+  for (std::size_t p = 0; p < type.definition->ports.size(); ++p)
+    if (type.definition->ports[p].kind == ValueKind::port)
+      if (const auto* chosen = std::get_if<std::string>(&type.set_values[p]); chosen != nullptr && !chosen->empty())
+        return " of " + *chosen;
+  return "";
 }
 
 struct Sum {
   Unit unit = Unit::none;
+  bool is_share = false;
   std::string label;
   double before = 0, after = 0;
   std::size_t count_before = 0, count_after = 0;
@@ -56,10 +78,12 @@ class Walk {
         return is_sum || count == 0 ? total : total / static_cast<double>(count);
       };
       result_.totals.push_back({"", "", path, sum.label + (is_sum ? ", sum" : ", mean"), sum.unit,
-                                figure(sum.before, sum.count_before), figure(sum.after, sum.count_after)});
+                                figure(sum.before, sum.count_before), figure(sum.after, sum.count_after), sum.is_share});
     }
+    // A street that had two cars and has one is no news beside one that had two thousand.
+    const auto rank = [this](const IndicatorRow& row) { return std::abs(row.after - row.before) / largest_.at(row.path); };
     std::stable_sort(result_.nodes.begin(), result_.nodes.end(),
-                     [](const IndicatorRow& a, const IndicatorRow& b) { return a.share() > b.share(); });
+                     [&](const IndicatorRow& a, const IndicatorRow& b) { return rank(a) > rank(b); });
     return std::move(result_);
   }
 
@@ -83,15 +107,19 @@ class Walk {
     const PortDefinition& port = type.ports[ref.port];
     const Unit unit = port.unit_from.empty() ? port.unit : Unit::none;
     const std::string path = type.id + "." + port.id;
-    const std::string label = type.label + ": " + spoken(port.id);
+    const std::string label = type.label + ": " + spoken(port.id) + subject_of(state, ref);
     const double value = as_number(state.value(ref));
     IndicatorRow& row =
-        rows_.emplace(Key{node.id, path}, IndicatorRow{node.id, node.name, path, label, unit, 0, 0}).first->second;
+        rows_.emplace(Key{node.id, path}, IndicatorRow{node.id, node.name, path, label, unit, 0, 0, is_share(port)}).first->second;
     (is_after ? row.after : row.before) = value;
     (is_after ? in_after_ : in_before_).insert({node.id, path});
+    double& largest = largest_[path];
+    largest = std::max(largest, std::abs(value));
+    if (!port.unit_from.empty()) return;  // means something else at every node
     // A node alone of its kind is its own total.
     Sum& sum = sums_[path];
     sum.unit = unit;
+    sum.is_share = is_share(port);
     sum.label = label;
     (is_after ? sum.after : sum.before) += value;
     ++(is_after ? sum.count_after : sum.count_before);
@@ -100,7 +128,7 @@ class Walk {
   void pair_up() {
     for (const auto& [key, row] : rows_) {
       if (!in_before_.contains(key) || !in_after_.contains(key)) continue;
-      if (row.share() > least_share_) result_.nodes.push_back(row);
+      if (row.is_seen(least_share_)) result_.nodes.push_back(row);
       else ++result_.same;
     }
   }
@@ -185,6 +213,7 @@ class Walk {
   std::map<Key, IndicatorRow> rows_;
   std::set<Key> in_before_, in_after_;
   std::map<std::string, Sum> sums_;
+  std::map<std::string, double> largest_;  // by port: the largest size of all nodes in both
   Comparison result_;
 };
 
@@ -194,6 +223,14 @@ double IndicatorRow::share() const {
   const double most = std::max(std::abs(before), std::abs(after));
   return most > 0 ? std::abs(after - before) / most : 0;
 }
+
+std::string IndicatorRow::figure(double value) const { return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit); }
+
+std::string IndicatorRow::difference() const {
+  return before != 0 ? signed_percent((after - before) / std::abs(before)) : figure(after - before);
+}
+
+bool IndicatorRow::is_seen(double least_share) const { return share() > least_share && figure(before) != figure(after); }
 
 Comparison compare(const State& before, const State& after, double least_share) { return Walk(before, after, least_share).run(); }
 

@@ -15,14 +15,21 @@ struct IndicatorRow {
   std::string label;       ///< "SmartVolume: floor area", with what was done to many: "sum", "mean"
   Unit unit = Unit::none;
   double before = 0, after = 0;
+  bool is_share = false;  ///< of a whole, from 0 to 1: shown in percent, where other ratios are plain numbers
   /// The difference as a share of the larger of the two; 0 where they are the same.
   double share() const;
+  /// "1 240 m²", "0.42 %" or "3.78": a value of this row as people read it.
+  std::string figure(double value) const;
+  /// The difference in percent, or as a figure where nothing was there before.
+  std::string difference() const;
+  /// Do people see a difference? Roundings of runs that end a little differently are no news.
+  bool is_seen(double least_share) const;
 };
 
 struct Comparison {
   std::vector<std::string> inputs;                   ///< what people have said differently, as sentences in the order of ids
   std::vector<IndicatorRow> totals;                  ///< in the order of typifications and ports; those that are the same too
-  std::vector<IndicatorRow> nodes;                   ///< those that differ, the largest share first
+  std::vector<IndicatorRow> nodes;                   ///< those that differ, first what changed most among its like
   std::size_t same = 0;                              ///< numbers of nodes that agree
   std::vector<std::string> only_before, only_after;  ///< nodes, by name
 };

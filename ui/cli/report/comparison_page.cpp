@@ -15,9 +15,6 @@ constexpr std::size_t kMostBars = 40;
 constexpr double kWidth = 1000, kLine = 22, kLabels = 400, kFigures = 190;
 
 std::string who(const IndicatorRow& row) { return row.node.empty() ? "All" : row.name; }
-std::string figure(const IndicatorRow& row, double value) {
-  return row.unit == Unit::ratio ? percent(value) : quantity(value, row.unit);
-}
 
 // Bars from the middle: to the right what became more, to the left what became less, as a share of the larger value.
 std::string bars(const std::vector<IndicatorRow>& rows, const std::string& id, const std::string& title) {
@@ -42,7 +39,7 @@ std::string bars(const std::vector<IndicatorRow>& rows, const std::string& id, c
                       {"width", pixels(std::max(1.0, length))},
                       {"height", pixels(kLine - 6)},
                       {"fill", is_more ? "#0072b2" : "#d55e00"}});
-    svg.element("text", figure(row, row.before) + " \xE2\x86\x92 " + figure(row, row.after),
+    svg.element("text", row.figure(row.before) + " \xE2\x86\x92 " + row.figure(row.after),
                 {{"x", pixels(right + 8)}, {"y", pixels(y + 14)}, {"class", "small"}});
   }
   svg.close();
@@ -64,9 +61,7 @@ void table(Markup& page, const std::vector<IndicatorRow>& rows, const std::strin
   page.close().close().open("tbody");
   for (const IndicatorRow& row : rows) {
     page.open("tr").element("td", who(row)).element("td", row.label);
-    const double change = row.before != 0 ? (row.after - row.before) / std::abs(row.before) : 0;
-    for (const std::string& cell : {figure(row, row.before), figure(row, row.after),
-                                    row.before != 0 ? signed_percent(change) : figure(row, row.after - row.before)})
+    for (const std::string& cell : {row.figure(row.before), row.figure(row.after), row.difference()})
       page.element("td", cell, {{"class", "number"}});
     page.close();
   }
@@ -98,7 +93,7 @@ std::string comparison_page(const State& before, const State& after, const Compa
   list(page, "Only in the second", comparison.only_after);
   std::vector<IndicatorRow> totals;
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
-               [](const IndicatorRow& row) { return row.share() > 0; });
+               [](const IndicatorRow& row) { return row.is_seen(0); });
   page.element("h2", "What came of it, over all nodes");
   if (totals.empty()) page.element("p", "No indicator differs.");
   else page.open("figure").raw(bars(totals, "totals", "Totals and means")).close();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ui/cli/context_import.h"
 #include "ui/cli/media_making.h"
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/app/splitter.h"
@@ -66,7 +67,7 @@ std::string Desktop::title() {
 void Desktop::place_picture(const std::string& path) {
   Editor& editor = *editor_;
   cli::MediaOptions options;
-  options.scene = editor.document->path();
+  options.scene = editor.document->source();
   const auto made = cli::make_media(path, editor.scene(), options);
   if (!made) return editor.tell(NoticeKind::error, path + ": " + made.error().message);
   if (!editor.submit(made->command)) return;
@@ -74,7 +75,16 @@ void Desktop::place_picture(const std::string& path) {
   for (const std::string& note : made->notes) editor.tell(NoticeKind::told, note);
 }
 
-void Desktop::drop(const std::string& path) {
+void Desktop::drop(const std::vector<std::string>& paths) {
+  std::vector<std::string> surroundings;
+  for (const std::string& path : paths)
+    if (cli::is_context_file(path)) surroundings.push_back(path);
+  for (const std::string& path : paths)
+    if (std::find(surroundings.begin(), surroundings.end(), path) == surroundings.end()) drop_one(path);
+  if (!surroundings.empty()) dialogs_->show_import(surroundings);
+}
+
+void Desktop::drop_one(const std::string& path) {
   if (editor_->document && cli::is_picture_name(path)) return place_picture(path);
   if (!path.ends_with(".lua")) return dialogs_->guard([this, path] { editor_->open(path, true); });
   if (editor_->document) editor_->script_watch.add(*editor_, path);

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "ui/desktop/app/editor.h"
 
@@ -23,7 +24,9 @@ class Desktop {
   /// What the window is called: the scene, and a mark where it has unsaved changes.
   std::string title();
   /// A file that was dropped onto the window: a scene is opened, a link script (.lua) is taken into the open scene.
-  void drop(const std::string& path);
+  void drop(const std::string& path) { drop(std::vector<std::string>{path}); }
+  /// Several at once: surroundings (OpenStreetMap, city models, grids, tables) are offered for import together.
+  void drop(const std::vector<std::string>& paths);
   /// A picture becomes a node of the open scene.
   void place_picture(const std::string& path);
   /// The person wants to close the window; asks first where something would be lost.
@@ -33,6 +36,7 @@ class Desktop {
 
  private:
   void draw_workspace(float top);
+  void drop_one(const std::string& path);
   void draw_notices();
   void watch_journal();
 

@@ -9,13 +9,27 @@
 
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/app/named_files.h"
 #include "ui/desktop/app/step_labels.h"
 
 namespace bl::desktop {
 
-Document::Document(const Registry& registry, std::string path) : registry_(&registry), path_(std::move(path)) {
+Document::Document(const Registry& registry, std::string path) : registry_(&registry) {
+  (is_shipped(path) ? origin_ : path_) = std::move(path);
   static std::uint64_t made = 0;
   id_ = ++made;
+}
+
+bool is_shipped(const std::string& path) {
+  namespace files = std::filesystem;
+  std::error_code error;
+  static const files::path shipped = files::weakly_canonical(BL_SCENES_DIR, error);
+  // Links lead to what they point at: another name of the same file is no copy of it.
+  const files::path real = files::weakly_canonical(path, error);
+  if (path.empty() || error) return false;
+  const files::path inside = real.lexically_relative(shipped);
+  return !inside.empty() && *inside.begin() != "..";
 }
 
 std::unique_ptr<Document> Document::open(const Registry& registry, const std::string& path, int threads,
@@ -42,6 +56,7 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   document->session_ = std::move(*session);
   document->log_start_ = write_scene(reading.scene, registry, reading.state ? &*reading.state : nullptr);
   if (!path.empty()) document->saved_ = std::move(reading.scene);  // without a file there is nothing that holds it
+  document->read_imports(problems);
   document->begin_journal();
   return document;
 }
@@ -59,7 +74,7 @@ std::unique_ptr<Document> Document::recover(const Registry& registry, const Jour
 
 // Every entry goes to the disk at once; after a rewind the log starts again from the state that was returned to.
 void Document::begin_journal() {
-  (void)journal_.begin(path_, log_start_);  // without it everything else works; journal_problem() tells people
+  (void)journal_.begin(source(), log_start_);  // without it everything else works; journal_problem() tells people
   session_->on_entry([this](const LogEntry& entry) { journal_.add(entry, *registry_); });
   session_->on_rewind([this] {
     const SavedState state = bl::save(*session_->take_on_changes());
@@ -71,27 +86,84 @@ void Document::begin_journal() {
 void Document::begin_log(const std::string& scene_text) {
   log_start_ = scene_text;
   log_begin_ = session_->log().size();
-  (void)journal_.begin(path_, log_start_);
+  (void)journal_.begin(source(), log_start_);
 }
 
 std::string Document::name() const {
-  return path_.empty() ? std::string("Untitled scene") : std::filesystem::path(path_).filename().string();
+  if (!path_.empty()) return std::filesystem::path(path_).filename().string();
+  return origin_.empty() ? "Untitled scene" : std::filesystem::path(origin_).stem().string() + " (copy, not saved yet)";
+}
+
+std::string Document::folder() const { return std::filesystem::path(source()).parent_path().string(); }
+
+// As a step of its own, because ticks and undo have to see it too: its gesture, or 0 where all files are found as they are.
+std::int64_t Document::name_files_from(const std::string& target) {
+  const std::vector<Command> commands = commands_naming_files_from(scene(), folder(), target);
+  if (commands.empty()) return 0;
+  const std::int64_t gesture = session_->new_gesture();
+  if (auto done = submit(commands, gesture); !done) return 0;  // somebody has taken the node away: then it names no file any more
+  name_step(gesture, "Name files from the new folder");
+  save_note_ = report::counted(commands.size(), "file") +
+               " that the scene names (pictures, tables) stayed in place; the scene names them from its new folder.";
+  return gesture;
 }
 
 Result<void> Document::save(const std::string& path) {
-  const SavedState state = bl::save(*session_->take_on_changes());
-  const bool has_run = state.tick > 0;
-  const std::string text = write_scene(scene(), *registry_, has_run ? &state : nullptr);
+  if (is_shipped(path))
+    return Error{ErrorCode::conflict, path,
+                 "The scenes of this folder come with the program and stay as they are: choose another folder."};
+  save_note_.clear();
+  const std::int64_t gesture = name_files_from(std::filesystem::path(path).parent_path().string());
+  // Scene and running state of one and the same moment.
+  const auto text_to_save = [this] {
+    const SavedState state = bl::save(*session_->take_on_changes());
+    return write_scene(scene(), *registry_, state.tick > 0 ? &state : nullptr);
+  };
+  std::string text = text_to_save();
   const auto written = write_file(path, text);
   if (written) {
     path_ = path;
+    origin_.clear();
     saved_ = scene();
     is_unsaved_ = false;
     compared_size_ = session_->log().size();
+    write_imports(path);
+  } else if (gesture != 0) {
+    save_note_.clear();
+    abandon(gesture);
+    text = text_to_save();
   }
   // Also where the file cannot be written: the simulation has taken on what was said, which no tick of the old log has.
   begin_log(text);
   return written;
+}
+
+std::string Document::imports_path(const std::string& scene_path) {
+  return std::filesystem::path(scene_path).replace_extension(".import.csv").string();
+}
+
+void Document::add_imports(const ImportReports& reports) {
+  imports_.insert(imports_.end(), reports.begin(), reports.end());
+  ++imports_revision_;
+}
+
+void Document::read_imports(std::vector<Problem>& problems) {
+  if (source().empty()) return;
+  const std::string path = imports_path(source());
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return;
+  const auto text = read_file(path);
+  auto reports = text ? read_import_csv(*text) : Result<ImportReports>(text.error());
+  if (!reports)
+    problems.push_back({false, {reports.error().code, path, reports.error().text() + " The scene is not touched by it."}});
+  else add_imports(*reports);
+}
+
+void Document::write_imports(const std::string& scene_path) {
+  if (imports_.empty()) return;
+  const std::string path = imports_path(scene_path);
+  if (auto written = write_file(path, import_csv(imports_)); !written)
+    save_note_ += (save_note_.empty() ? "" : " ") + ("The import report could not be written: " + written.error().text());
 }
 
 bool Document::is_unsaved() {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -45,6 +46,13 @@ struct Notice {
 /// The wish, or the first of wish-2, wish-3 and so on that is not taken.
 std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken);
 
+/// How an actuator's messages fare, as the connection knows it; no part of the state.
+struct Delivery {
+  std::int64_t messages = 0;
+  double sent_at = -1;  ///< on the window's clock [s]; -1: nothing was sent yet
+  std::string problem;  ///< of the connection
+};
+
 class Editor {
  public:
   Editor(const Registry& all_types, PersonSettings& somebody) : program(all_types), person(somebody) {}
@@ -68,6 +76,7 @@ class Editor {
   ScriptWatch script_watch;             ///< files that link kinds of this scene are read from
   std::shared_ptr<PanelMemory> panels;  ///< what inspector, lists and charts remember of this document
   std::uint64_t bytes_sent = 0;         ///< to the graphics processor, since the window opened
+  std::map<std::string, Delivery> deliveries;  ///< by actuator, where there is a connection
 
   // --- Reading: the scene as people have left it, and the state as the last tick has left it.
   const Scene& scene() const { return document->scene(); }

@@ -16,9 +16,12 @@ class LiveScene {
   void frame(Editor& editor);
 
  private:
+  void note_deliveries(Editor& editor) const;
+
   bool is_live_;
   std::uint64_t document_ = 0;  // its number; 0: none
   std::unique_ptr<Connections> connections_;
+  std::string folder_;      // where the recordings of its sensors are
   std::int64_t tick_ = -1;  // the last one that was served
 };
 

@@ -123,7 +123,7 @@ Hands& hands_of(GLFWwindow* window) { return *static_cast<Hands*>(glfwGetWindowU
 void listen(GLFWwindow* window, Hands& hands) {
   glfwSetWindowUserPointer(window, &hands);
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-    if (count > 0) hands_of(w).desktop.drop(paths[0]);
+    if (count > 0) hands_of(w).desktop.drop(std::vector<std::string>(paths, paths + count));
   });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
     if (action != GLFW_REPEAT) hands_of(w).input.key(key, action == GLFW_PRESS);

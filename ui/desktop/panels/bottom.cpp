@@ -34,6 +34,10 @@ void draw_bottom(Editor& editor) {
     draw_history(editor);
     ImGui::EndTabItem();
   }
+  if (ImGui::BeginTabItem("Import", nullptr, flags("Import"))) {
+    draw_imports(editor);
+    ImGui::EndTabItem();
+  }
   memory.wanted_tab.clear();
   ImGui::EndTabBar();
 }

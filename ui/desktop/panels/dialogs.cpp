@@ -2,10 +2,13 @@
 #include "ui/desktop/panels/dialogs.h"
 
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 
+#include "core/file/file_io.h"
 #include "ui/cli/report/report.h"
 #include "ui/desktop/app/buttons.h"
+#include "ui/desktop/app/import_task.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"
 
@@ -30,7 +33,28 @@ std::string file_name_of(const std::string& title) {
   return (name.empty() ? "scene" : name) + ".json";
 }
 
+// Where the chooser begins: at the file itself, or at a name for a new one, never among the shipped scenes.
+std::string place_to_save(const Editor& editor) {
+  const Document& document = *editor.document;
+  if (!document.path().empty()) return document.path();
+  const std::string name = document.source().empty() ? file_name_of(editor.state().plan->settings.title)
+                                                     : std::filesystem::path(document.source()).filename().string();
+  std::error_code error;
+  const char* home = std::getenv("HOME");
+  const std::filesystem::path here = std::filesystem::current_path(error);
+  const bool is_free = !error && !is_shipped((here / name).string());
+  return (is_free || home == nullptr ? here / name : std::filesystem::path(home) / name).string();
+}
+
+void tell_saved(Editor& editor, const std::string& what) {
+  editor.tell(NoticeKind::told, "Saved " + what + ".");
+  if (const std::string& note = editor.document->save_note(); !note.empty()) editor.tell(NoticeKind::warning, note);
+}
+
 }  // namespace
+
+Dialogs::Dialogs(Editor& editor) : editor_(&editor) {}
+Dialogs::~Dialogs() = default;
 
 void Dialogs::show(Kind kind) {
   kind_ = kind;
@@ -70,9 +94,11 @@ void Dialogs::draw() {
   else if (kind_ == Kind::fresh) draw_new_scene();
   else if (kind_ == Kind::unsaved) draw_unsaved();
   else if (kind_ == Kind::recovery) draw_recovery();
+  else if (kind_ == Kind::import) draw_import();
+  std::erase_if(ending_, [](const std::unique_ptr<ImportTask>& task) { return task->is_done(); });
   // What one dialog has opened in its place comes in the next frame, and is fresh then.
   if (kind_ == drawn) is_fresh_ = false;
-  if (kind_ == Kind::fresh) return;  // its chooser is drawn inside it
+  if (kind_ == Kind::fresh || kind_ == Kind::import) return;  // their choosers are drawn inside them
   if (const auto path = chooser_.draw(*editor_)) {
     const auto chosen = chosen_;  // may open the chooser for something else
     chosen(*path);
@@ -92,13 +118,11 @@ void Dialogs::ask_script() {
 }
 
 void Dialogs::ask_save_as(std::function<void()> then) {
-  const std::string path = editor_->document->path();
-  chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"},
-                path.empty() ? file_name_of(editor_->state().plan->settings.title) : path);
+  chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"}, place_to_save(*editor_));
   chosen_ = [this, then = std::move(then)](const std::string& chosen) {
     if (auto saved = editor_->document->save(chosen); !saved) return chooser_.complain(saved.error().text());
     editor_->person.remember(editor_->person.recent, chosen);
-    editor_->tell(NoticeKind::told, "Saved " + chosen + ".");
+    tell_saved(*editor_, chosen);
     if (then) then();
   };
 }
@@ -107,18 +131,19 @@ void Dialogs::save(std::function<void()> then) {
   Document& document = *editor_->document;
   if (document.path().empty()) return ask_save_as(std::move(then));
   if (auto saved = document.save(document.path()); !saved) return editor_->tell(NoticeKind::error, saved.error().text());
-  editor_->tell(NoticeKind::told, "Saved " + document.name() + ".");
+  tell_saved(*editor_, document.name());
   if (then) then();
 }
 
 void Dialogs::ask_report() {
-  const std::string stem = std::filesystem::path(editor_->document->name()).stem().string();
+  const std::string& source = editor_->document->source();
+  const std::string stem = std::filesystem::path(source.empty() ? editor_->document->name() : source).stem().string();
   chooser_.open(FileChooser::Purpose::choose_folder, "Write the report into a folder", {}, folder_of(*editor_));
   chosen_ = [this, stem](const std::string& folder) {
     ReportData data;
     data.state = &editor_->state();
     data.history = memory_of(*editor_).record->errors();
-    data.scene_path = editor_->document->path().empty() ? stem : editor_->document->path();
+    data.scene_path = editor_->document->source().empty() ? stem : editor_->document->source();
     data.outcome = editor_->state().is_settled() ? "settled" : "still negotiating";
     data.outcome += " at tick " + std::to_string(editor_->state().tick);
     if (auto written = write_report(folder, data); !written) return chooser_.complain(written.error().text());
@@ -131,6 +156,19 @@ void Dialogs::ask_log() {
   chosen_ = [this](const std::string& path) {
     if (auto written = editor_->document->save_log(path); !written) return chooser_.complain(written.error().text());
     editor_->tell(NoticeKind::told, "Saved the log " + path + "; `behaviourlinks replay` runs it again.");
+  };
+}
+
+void Dialogs::ask_import_report() {
+  const std::string& source = editor_->document->source();
+  const std::string beside = Document::imports_path(source.empty() ? "scene.json" : source);
+  const bool is_free = !source.empty() && !is_shipped(beside);
+  chooser_.open(FileChooser::Purpose::save_file, "Write the import report", {".csv"},
+                is_free ? beside : std::filesystem::path(beside).filename().string());
+  chosen_ = [this](const std::string& path) {
+    if (auto written = write_file(path, import_csv(editor_->document->imports())); !written)
+      return chooser_.complain(written.error().text());
+    editor_->tell(NoticeKind::told, "Wrote the import report " + path + ".");
   };
 }
 

@@ -2,26 +2,41 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "ui/cli/context_import.h"
 #include "ui/cli/scene_making.h"
 #include "ui/desktop/app/editor.h"
 #include "ui/desktop/panels/file_chooser.h"
 
 namespace bl::desktop {
 
+class ImportTask;
+
 class Dialogs {
  public:
-  explicit Dialogs(Editor& editor) : editor_(&editor) {}
+  explicit Dialogs(Editor& editor);
+  ~Dialogs();
   void draw();
 
   void ask_open();
   void ask_save_as(std::function<void()> then = {});
   void ask_report();
   void ask_log();
+  void ask_import_report();
   void ask_script();
   void show_new_scene();
+  /// Surroundings for the open scene, or for a new one where none is open.
+  void show_import(const std::vector<std::string>& files = {});
+  bool is_importing() const { return import_task_ != nullptr; }
+  /// Returns once the import that runs is through; the next frame takes it over. For tests.
+  void wait_for_import();
+  /// What is imported next, and how.
+  cli::ImportOptions& import_options() { return import_; }
+  /// What the last try to make a scene or to import has said.
+  const std::vector<std::string>& told() const { return told_; }
   void show_palette();
   void show_keys();
   /// Journals of windows that did not end well: offered once, at the start.
@@ -33,7 +48,7 @@ class Dialogs {
   bool is_choosing_file() const { return chooser_.is_open(); }
 
  private:
-  enum class Kind { none, palette, keys, fresh, unsaved, recovery };
+  enum class Kind { none, palette, keys, fresh, unsaved, recovery, import };
   enum class Recovered { nothing, in_part, all };
   void show(Kind kind);
   bool begin(const char* title, float width, float height);
@@ -47,6 +62,15 @@ class Dialogs {
   Recovered recover(const Journal::Remains& remains);
   void make_scene();
 
+  // import_dialog.cpp
+  void draw_import();
+  void draw_import_files();
+  void draw_import_options();
+  void draw_import_progress();
+  void begin_import();
+  bool take_import(cli::ImportedScene& imported);
+  bool prepare_scene_for_import();
+
   Editor* editor_;
   Kind kind_ = Kind::none;
   bool is_fresh_ = false;
@@ -59,6 +83,9 @@ class Dialogs {
   std::vector<std::string> told_;  ///< notes and errors of the last try to make a scene
   bool is_told_error_ = false;
   std::vector<Journal::Remains> remains_;
+  cli::ImportOptions import_;
+  std::unique_ptr<ImportTask> import_task_;
+  std::vector<std::unique_ptr<ImportTask>> ending_;  ///< stopped, but not through yet
 };
 
 }  // namespace bl::desktop

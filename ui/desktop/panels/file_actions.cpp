@@ -21,12 +21,13 @@ void close_document(Editor& editor) {
 }
 
 void back_to_saved(Editor& editor) {
-  if (editor.document->path().empty()) return;
-  const std::string path = editor.document->path();
+  if (editor.document->source().empty()) return;
+  const std::string path = editor.document->source();
   editor.dialogs->guard([&editor, path] { editor.open(path, true); });
 }
 
-bool has_file(const Editor& editor) { return has_document(editor) && !editor.document->path().empty(); }
+bool has_imports(const Editor& editor) { return has_document(editor) && !editor.document->imports().empty(); }
+bool has_file(const Editor& editor) { return has_document(editor) && !editor.document->source().empty(); }
 
 }  // namespace
 
@@ -36,11 +37,13 @@ void add_file_actions(std::vector<Action>& list) {
   };
   file("New from boundary and programme ...", {GLFW_KEY_N, true}, nullptr, [](Editor& e) { e.dialogs->show_new_scene(); });
   file("Open ...", {GLFW_KEY_O, true}, nullptr, [](Editor& e) { e.dialogs->ask_open(); });
+  file("Import surroundings ...", {GLFW_KEY_I, true}, nullptr, [](Editor& e) { e.dialogs->show_import(); });
   file("Add link script ...", {}, has_document, [](Editor& e) { e.dialogs->ask_script(); });
   file("Save", {GLFW_KEY_S, true}, has_document, [](Editor& e) { e.dialogs->save(); });
   file("Save as ...", {GLFW_KEY_S, true, true}, has_document, [](Editor& e) { e.dialogs->ask_save_as(); });
   file("Back to the saved scene", {}, has_file, back_to_saved);
   file("Write the report ...", {GLFW_KEY_E, true}, has_document, [](Editor& e) { e.dialogs->ask_report(); });
+  file("Write the import report ...", {}, has_imports, [](Editor& e) { e.dialogs->ask_import_report(); });
   file("Save the log for replay ...", {}, has_document, [](Editor& e) { e.dialogs->ask_log(); });
   file("Take a picture of the window", {GLFW_KEY_F12}, nullptr, [](Editor& e) { e.wants_picture = true; });
   list.back().is_always = true;

@@ -1,13 +1,17 @@
 // Kept apart, because only here the things that panels remember are all known.
 #include "ui/desktop/panels/panel_memory.h"
 
+#include "ui/desktop/panels/import_list.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/problems_list.h"
 #include "ui/desktop/panels/statistics_record.h"
 
 namespace bl::desktop {
 
-PanelMemory::PanelMemory() : problems(std::make_unique<ProblemList>()), record(std::make_unique<RunRecord>()) {}
+PanelMemory::PanelMemory()
+    : problems(std::make_unique<ProblemList>()),
+      record(std::make_unique<RunRecord>()),
+      imports(std::make_unique<ImportList>()) {}
 PanelMemory::~PanelMemory() = default;
 
 PanelMemory& memory_of(Editor& editor) {

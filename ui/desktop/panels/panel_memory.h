@@ -13,6 +13,7 @@
 
 namespace bl::desktop {
 
+class ImportList;
 class InspectorView;
 class ProblemList;
 class RunRecord;
@@ -47,10 +48,12 @@ struct PanelMemory {
   std::string filter;                    ///< of the search field that is open
   int places_frame = -1;
   std::size_t seen_steps = 0;             ///< of the history, when it was drawn last
+  std::string import_search;              ///< what rows of the import report have to hold
   std::map<std::string, ImVec4> places;   ///< fields of the last frame by key: where they stand, for tests and tours
   std::unique_ptr<InspectorView> view;    ///< of what is chosen, per tick
   std::unique_ptr<ProblemList> problems;  ///< of the last tick
   std::unique_ptr<RunRecord> record;      ///< of the last ticks
+  std::unique_ptr<ImportList> imports;    ///< of the reports, as they are shown
 };
 
 /// The memory of this editor's panels; a fresh one after another document was opened.

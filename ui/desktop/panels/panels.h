@@ -16,5 +16,7 @@ void draw_bottom(Editor& editor);
 void draw_problems(Editor& editor);
 void draw_history(Editor& editor);
 void draw_statistics(Editor& editor);
+/// What became of every element of imported files; a press goes to it.
+void draw_imports(Editor& editor);
 
 }  // namespace bl::desktop

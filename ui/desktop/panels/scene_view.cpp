@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
@@ -37,13 +36,16 @@ void SceneView::draw(ImVec2 size) {
   if (move_)
     for (const auto& [id, start] : move_->starts)
       if (const std::uint32_t node = seen_index(id); node < facts_->places.size()) choices_.held[node] = start + move_->shift;
+  follow_sun();
+  follow_choice();
   colouring_ = colour_volumes(*facts_, colour_choice(), editor_->theme);
-  choices_.folder = std::filesystem::path(editor_->document->path()).parent_path().string();
+  choices_.folder = editor_->document->folder();
   ViewScene scene = build_view(*facts_, colouring_, choices_, editor_->picks, editor_->person, editor_->theme);
   const bool has_same_cells = std::equal(scene.volumes.begin(), scene.volumes.end(), still_volumes_.begin(), still_volumes_.end(),
                                          [](const ViewVolume& a, const ViewVolume& b) { return a.cell == b.cell; });
-  if (scene.camera != still_camera_ || !has_same_cells) still_since_ = editor_->now;
+  if (scene.camera != still_camera_ || scene.sun != still_sun_ || !has_same_cells) still_since_ = editor_->now;
   still_camera_ = scene.camera;
+  still_sun_ = scene.sun;
   still_volumes_ = scene.volumes;
   scene.is_hurried = editor_->now < still_since_ + kStillSeconds;
   const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
@@ -62,6 +64,7 @@ void SceneView::draw_overlay() {
   draw_marks();
   draw_labels();
   draw_media_notes();
+  draw_pin();
   draw_gizmo();
   draw_scale_and_north();
   draw_legends(editor_->is_beamer);
@@ -77,6 +80,7 @@ void SceneView::draw_overlay() {
   }
   draw_card();
   draw_typed();
+  draw_sun_strip();
   ImGui::GetWindowDrawList()->PopClipRect();
   if (editor_->is_beamer) draw_title();
   else draw_tools();
@@ -87,6 +91,12 @@ void SceneView::forget() {
   all_facts_ = facts_ = nullptr;
   still_volumes_.clear();
   move_.reset();
+  preview_.reset();
+  is_sun_running_ = false;
+  shade_.clear();
+  reach_state_ = nullptr;
+  choices_.sun = {};
+  choices_.isochrones = nullptr;
 }
 
 void SceneView::follow_document() {
@@ -96,6 +106,7 @@ void SceneView::follow_document() {
   hit_.reset();
   drag_ = Drag::none;
   is_walking_ = false;
+  pin_.reset();
   choices_ = ViewChoices{.camera = choices_.camera, .section = {}, .held = {}};
   wants_fit_ = true;
   has_fitted_boundary_ = false;
@@ -107,6 +118,13 @@ void SceneView::follow_state() {
   if (const auto& hidden = hidden_.of(*editor_); is_another || hidden != left_out_) {
     left_out_ = hidden;
     facts_ = hidden.empty() ? all_facts_ : facts_without(*all_facts_, hidden);
+  }
+  if (wanted_box_ && !wants_fit_) {
+    const auto [low, high] = *wanted_box_;
+    wanted_box_.reset();
+    Camera camera = change_began_ >= 0 ? to_ : choices_.camera;
+    camera.fit(0.5 * (low + high), std::max(10.0, 0.55 * distance(low, high)), width() / std::max(1.0f, height()));
+    go_to(camera);
   }
   // A boundary has no shape before the first tick: the first view is made again with it.
   const bool has_boundary_now = !all_facts_->boundaries.empty() && !has_fitted_boundary_;
@@ -169,6 +187,21 @@ void SceneView::fit(bool all) {
   const double aspect = width() / std::max(1.0f, height());
   if (low.x <= high.x) camera.fit(0.5 * (low + high), 0.55 * distance(low, high), aspect);
   else camera.fit(facts_->centre, 0.86 * facts_->radius, aspect);
+  go_to(camera);
+}
+
+void SceneView::fit_to(const Point3& low, const Point3& high) {
+  wanted_box_ = {low, high};
+}
+
+void SceneView::put_pin(const Pin& pin) {
+  pin_ = pin;
+  chosen_at_pin_ = editor_->picks.nodes;
+  constexpr double kAround = 160;  // [m]: near enough to see what else is there
+  Camera camera = change_began_ >= 0 ? to_ : choices_.camera;
+  camera.target = pin.place;
+  camera.distance = std::min(camera.distance, kAround);
+  is_walking_ = false;
   go_to(camera);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sun/sun_day.h"
 #include "ui/desktop/app/editor.h"
 #include "ui/desktop/panels/hidden.h"
 #include "ui/desktop/view/colouring.h"
@@ -27,6 +28,16 @@ class SceneView {
   void forget();
   /// Moves the camera so that the selection fills the view, or everything where `all` or where nothing is chosen.
   void fit(bool all);
+  /// Moves the camera so that a box fills the view [m].
+  void fit_to(const Point3& low, const Point3& high);
+  /// A pin with a sentence at a place where no node stands, until the next one, another choice or Esc; the camera goes there.
+  struct Pin {
+    Point3 place;
+    std::string text;
+  };
+  void put_pin(const Pin& pin);
+  void drop_pin() { pin_.reset(); }
+  const std::optional<Pin>& pin() const { return pin_; }
 
   // --- What actions ask for.
   enum class Side { plan, south, east, axonometric };
@@ -41,6 +52,24 @@ class SceneView {
   void begin_move_by_key();
   void colour_by(const std::string& choice) { editor_->person.colour_by = choice; }
 
+  // --- The sun of another moment, for the eye alone: the scene stays as it is.
+  bool has_sun() const { return facts_ && !facts_->urban.suns.empty(); }
+  const std::optional<SunClock>& preview() const { return preview_; }
+  void preview_sun(const SunClock& clock);
+  void step_sun(double seconds, int days);
+  void end_preview();
+  void toggle_sun_run();
+  bool is_sun_running() const { return is_sun_running_; }
+  /// Makes the previewed moment the scene's, as one step that can be undone.
+  void set_sun_in_scene();
+  /// What is written beside the sun's track.
+  std::string sun_words() const;
+  /// Where the sun's track and the button beside it were drawn in the last frame [pixels]; no size where there are none.
+  ImVec4 sun_track() const { return sun_track_; }
+  ImVec4 sun_button() const { return sun_button_; }
+
+  /// What the last picture was made from, besides the scene.
+  const ViewChoices& choices() const { return choices_; }
   const Camera& camera() const { return choices_.camera; }
   void set_camera(const Camera& camera);
   const ViewSection& section() const { return choices_.section; }
@@ -110,14 +139,25 @@ class SceneView {
   void draw_marks();
   void draw_labels();
   void draw_media_notes();
+  void draw_pin();
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   std::string street_under(const ImVec2& mouse) const;
   void draw_legends(bool is_large);
-  ImVec2 draw_legend(const Legend& legend, const ImVec2& corner, bool is_large);
+  ImVec2 draw_legend(const Legend& legend, const ImVec2& corner, bool is_large, float room, ImDrawList* list);
   void draw_hint(const std::string& text);
   void draw_tools();
   void draw_layers_popup();
+
+  // scene_view_sun.cpp
+  const SunFacts* sun() const;
+  void follow_sun();
+  void follow_choice();
+  float strip_height() const;
+  void draw_sun_strip();
+  void draw_sun_words(const SunFacts& sun, const ImVec2& corner);
+  void draw_sun_track(const SunFacts& sun, const ImVec2& corner, float length);
+  const SunDay& day_of(const SunPlace& place, DayNumber day);
 
   // scene_view_card.cpp
   const VolumeFacts* nearest_volume() const;
@@ -149,6 +189,7 @@ class SceneView {
   double change_began_ = -1, last_frame_ = 0;
   Camera still_camera_;
   std::vector<ViewVolume> still_volumes_;
+  Vector3 still_sun_;
   double still_since_ = 0;
   bool is_walking_ = false;
   Camera before_walk_;  ///< where one stood before: a walker sees too little to look around from
@@ -165,6 +206,18 @@ class SceneView {
   std::string pointed_at_;
   std::optional<Move> move_;
   int hot_handle_ = -1;
+  std::optional<std::pair<Point3, Point3>> wanted_box_;  ///< to be brought into sight once its nodes are known
+  std::optional<Pin> pin_;
+  std::set<std::string> chosen_at_pin_;  ///< what was chosen when the pin was put
+
+  std::optional<SunClock> preview_;
+  bool is_sun_running_ = false;
+  ShadeStore shade_;
+  std::optional<std::pair<SunPlace, DayNumber>> day_key_;  ///< of `day_`
+  SunDay day_;
+  ImVec4 sun_track_{}, sun_button_{};
+  std::shared_ptr<const State> reach_state_;  ///< of choices_.isochrones, also where there are none
+  std::pair<std::uint32_t, bool> reach_key_{};
 };
 
 }  // namespace bl::desktop

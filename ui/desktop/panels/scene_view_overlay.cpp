@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/scene_view.h"
+#include "ui/desktop/panels/stream_text.h"
 #include "ui/desktop/view/urban_picture.h"
 
 namespace bl::desktop {
@@ -26,7 +28,35 @@ struct Wish {
   double importance;
   bool is_chosen, is_mark;
   std::uint32_t node;
+  std::optional<StreamText> stream;
 };
+
+// Of the name, and of the line below it in which a sensor says what it has measured.
+ImVec2 extent_of(ImFont* font, const Wish& wish) {
+  ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, wish.text->c_str());
+  if (!wish.stream) return extent;
+  const float line = font->CalcTextSizeA(font->FontSize, 1e4f, 0, wish.stream->text().c_str()).x;
+  return {std::max(extent.x, 0.95f * font->FontSize + line), extent.y + 1.15f * font->FontSize};
+}
+
+// The stream is written in the colour of how far it can be relied on, which needs the panel's ground.
+void write_label(ImDrawList& list, const Theme& theme, const Wish& wish, const Rectangle& place, ImVec2 corner) {
+  const Colours& c = theme.colours();
+  ImFont* font = theme.fonts().small;
+  const float size = font->FontSize;
+  list.AddRectFilled({place.left, place.top}, {place.right, place.bottom}, wish.is_chosen ? c.accent : faded(c.panel, 0.74f),
+                     theme.px(4));
+  list.AddText(font, size, corner, wish.is_chosen ? c.on_accent : c.text, wish.text->c_str());
+  if (!wish.stream) return;
+  const float top = corner.y + 1.15f * size;
+  if (wish.is_chosen)
+    list.AddRectFilled({place.left, top - theme.px(1)}, {place.right, place.bottom}, c.panel, theme.px(4),
+                       ImDrawFlags_RoundCornersBottom);
+  const StreamStanding standing = wish.stream->standing;
+  draw_standing(list, theme, {corner.x + 0.4f * size, top + 0.52f * size}, 0.27f * size, standing);
+  list.AddText(font, size, {corner.x + 0.95f * size, top}, standing == StreamStanding::good ? c.text : colour_of(theme, standing),
+               wish.stream->text().c_str());
+}
 
 const char* sign_of(const std::string& type) {
   if (type == "programme") return icon::kFile;
@@ -103,7 +133,7 @@ void SceneView::draw_labels() {
     const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
     if (!at.is_in_front || !is_inside) return;
     if (!is_chosen && !is_hovered && size < kLeastVolumeOnScreen * theme.scale()) return;
-    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node});
+    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node, {}});
   };
   for (const VolumeFacts& volume : facts_->volumes)
     wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()), false);
@@ -111,6 +141,7 @@ void SceneView::draw_labels() {
     for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
   std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.importance > b.importance; });
   if (wishes.size() > kMostLabels) wishes.resize(kMostLabels);
+  for (Wish& one : wishes) one.stream = stream_of(*editor_, *facts_->state, one.node);
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = theme.fonts().small;
@@ -119,10 +150,11 @@ void SceneView::draw_labels() {
     const Seen anchor = w.is_mark || w.is_chosen ? w.at : visible_anchor(w.node, w.at);
     if (!anchor.is_in_front) continue;
     const ImVec2 p = on_screen(anchor);
-    const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, w.text->c_str());
+    const ImVec2 extent = extent_of(font, w);
+    const float below = w.is_mark ? theme.px(20) + (w.stream ? 0.575f * font->FontSize : 0) : 0;
     const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
     const std::array<ImVec2, 6> offsets = {
-        {{0, w.is_mark ? theme.px(20) : 0}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
+        {{0, below}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
     for (std::size_t k = 0; k < offsets.size(); ++k) {
       const ImVec2 middle{p.x + offsets[k].x, p.y + offsets[k].y};
       const Rectangle place{middle.x - extent.x / 2 - padding, middle.y - extent.y / 2 - theme.px(2),
@@ -133,10 +165,7 @@ void SceneView::draw_labels() {
         list.AddLine(p, middle, faded(c.text, 0.55f), 1);
         list.AddCircleFilled(p, theme.px(2), faded(c.text, 0.8f));
       }
-      list.AddRectFilled({place.left, place.top}, {place.right, place.bottom}, w.is_chosen ? c.accent : faded(c.panel, 0.74f),
-                         theme.px(4));
-      list.AddText(font, font->FontSize, {std::round(middle.x - extent.x / 2), std::round(middle.y - extent.y / 2)},
-                   w.is_chosen ? c.on_accent : c.text, w.text->c_str());
+      write_label(list, theme, w, place, {std::round(middle.x - extent.x / 2), std::round(middle.y - extent.y / 2)});
       break;
     }
   }
@@ -150,7 +179,8 @@ void SceneView::draw_scale_and_north() {
   // The arrow of north lies flat in the scene, so that it turns and tilts with it.
   const double turn = (90 - facts_->state->plan->settings.true_north) * std::numbers::pi / 180;
   const Vector3 north{std::cos(turn), std::sin(turn), 0}, east{north.y, -north.x, 0};
-  const ImVec2 middle{at_.x + width() - theme.px(38), at_.y + height() - theme.px(44)};
+  const float bottom = at_.y + height() - strip_height();
+  const ImVec2 middle{at_.x + width() - theme.px(38), bottom - theme.px(44)};
   const float r = theme.px(17);
   const auto at = [&](const Vector3& v) {
     return ImVec2{middle.x + r * static_cast<float>(dot(v, camera.right())),
@@ -171,7 +201,7 @@ void SceneView::draw_scale_and_north() {
   const double unit = camera.metres_per_pixel(camera.target, height());
   const double metres = round_distance(unit * theme.px(90));
   const float length = static_cast<float>(metres / unit);
-  const ImVec2 end{at_.x + width() - theme.px(76), at_.y + height() - theme.px(26)}, begin{end.x - length, end.y};
+  const ImVec2 end{at_.x + width() - theme.px(76), bottom - theme.px(26)}, begin{end.x - length, end.y};
   list.AddLine(begin, end, c.text_soft, theme.px(1.5f));
   for (const ImVec2 p : {begin, end, ImVec2{(begin.x + end.x) / 2, end.y}})
     list.AddLine({p.x, p.y - theme.px(4)}, p, c.text_soft, theme.px(1.2f));
@@ -183,31 +213,40 @@ void SceneView::draw_scale_and_north() {
 
 // Along the bottom from the left; what finds no room there stands above.
 void SceneView::draw_legends(bool is_large) {
-  std::vector<Legend> legends = urban_legends(*facts_, editor_->theme, [this](const char* layer) { return shows(layer); });
+  std::vector<Legend> legends =
+      urban_legends(*facts_, choices_, editor_->theme, [this](const char* layer) { return shows(layer); });
   legends.insert(legends.begin(), colouring_.legend);
-  const float margin = editor_->theme.px(is_large ? 28 : 14), right = at_.x + width() - editor_->theme.px(is_large ? 300 : 190);
-  ImVec2 corner{at_.x + margin, at_.y + height() - margin};
+  const float margin = editor_->theme.px(is_large ? 28 : 14);
+  // The lowest row leaves room for scale and north.
+  float right = at_.x + width() - editor_->theme.px(190);
+  ImVec2 corner{at_.x + margin, at_.y + height() - strip_height() - margin};
   float tallest = 0;
+  const auto room_above = [&](const ImVec2& place) { return place.y - at_.y - editor_->theme.px(is_large ? 88 : 74); };
   for (const Legend& legend : legends) {
     if (legend.rows.empty() && legend.ramp.empty()) continue;
-    if (corner.x > at_.x + margin && corner.x > right) {
+    const float wide = draw_legend(legend, corner, is_large, room_above(corner), nullptr).x;
+    if (corner.x > at_.x + margin && corner.x + wide > right) {
       corner = {at_.x + margin, corner.y - tallest - margin};
       tallest = 0;
+      right = at_.x + width() - margin;
     }
-    const ImVec2 size = draw_legend(legend, corner, is_large);
+    const ImVec2 size = draw_legend(legend, corner, is_large, room_above(corner), ImGui::GetWindowDrawList());
     corner.x += size.x + 2 * margin;
     tallest = std::max(tallest, size.y);
   }
+  const Legend reach = isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme);
+  if (reach.rows.empty()) return;
+  const ImVec2 size = draw_legend(reach, corner, is_large, height(), nullptr);
+  const ImVec2 place{at_.x + width() - size.x - margin, at_.y + editor_->theme.px(is_large ? 64 : 52) + size.y};
+  draw_legend(reach, place, is_large, height(), ImGui::GetWindowDrawList());
 }
 
-// With its lower left corner there; returns its size.
-ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool is_large) {
+// With its lower left corner there, no taller than `room`; returns its size. Without a list it only measures.
+ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool is_large, float room, ImDrawList* drawn_to) {
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
-  ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = is_large ? theme.fonts().body : theme.fonts().small;
   const float line = font->FontSize * 1.35f, swatch = font->FontSize * 0.8f;
-  const float room = corner.y - at_.y - theme.px(is_large ? 88 : 74);
   const std::size_t most = static_cast<std::size_t>(std::max(1.0f, room / line - 2));
   const std::size_t rows = std::min(legend.rows.size(), most);
   const float x = corner.x;
@@ -221,6 +260,8 @@ ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool i
   // Volumes may stand behind it.
   const float pad = theme.px(7);
   const ImVec2 size{widest + pad, corner.y - y + line + pad};
+  if (drawn_to == nullptr) return size;
+  ImDrawList& list = *drawn_to;
   list.AddRectFilled({x - pad, y - line - pad}, {x + widest + pad, corner.y + pad}, faded(c.sky, 0.72f), theme.px(5));
   list.AddText(theme.fonts().strong, font->FontSize, {x, y - line}, c.text, legend.title.c_str());
   for (std::size_t k = 0; k < rows; ++k, y += line) {

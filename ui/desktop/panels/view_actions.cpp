@@ -67,6 +67,35 @@ void add_camera_actions(std::vector<Action>& list) {
                   [](Editor& e) { e.view->begin_move_by_key(); }});
 }
 
+bool has_sun(const Editor& e) { return has_document(e) && e.view != nullptr && e.view->has_sun(); }
+bool is_previewing(const Editor& e) { return has_sun(e) && e.view->preview().has_value(); }
+
+// Half hours and days of the sun in the view; the scene has its own moment until somebody sets it.
+void add_sun_actions(std::vector<Action>& list) {
+  const auto add = [&](const char* label, Chord chord, bool (*can)(const Editor&), void (*run)(Editor&), bool repeats = false) {
+    list.push_back({"View", label, chord, {}, Area::view, can, run, repeats});
+  };
+  constexpr double kHalfHour = 1800;
+  add(
+      "Sun: half an hour later", {GLFW_KEY_RIGHT, false, false, true}, has_sun, [](Editor& e) { e.view->step_sun(kHalfHour, 0); },
+      true);
+  list.back().begins_group = true;
+  add(
+      "Sun: half an hour earlier", {GLFW_KEY_LEFT, false, false, true}, has_sun,
+      [](Editor& e) { e.view->step_sun(-kHalfHour, 0); }, true);
+  add(
+      "Sun: a day later", {GLFW_KEY_UP, false, false, true}, has_sun, [](Editor& e) { e.view->step_sun(0, 1); }, true);
+  add(
+      "Sun: a day earlier", {GLFW_KEY_DOWN, false, false, true}, has_sun, [](Editor& e) { e.view->step_sun(0, -1); }, true);
+  add("Sun: run through the day", {}, has_sun, [](Editor& e) { e.view->toggle_sun_run(); });
+  list.back().is_on = [](const Editor& e) { return e.view != nullptr && e.view->is_sun_running(); };
+  add("Sun: set the previewed moment in the scene", {}, is_previewing, [](Editor& e) { e.view->set_sun_in_scene(); });
+  add(
+      "Sun: back to the scene's moment", {GLFW_KEY_ESCAPE},
+      [](const Editor& e) { return is_previewing(e) && is_editing(e) && !e.view->is_moving() && !e.view->is_walking(); },
+      [](Editor& e) { e.view->end_preview(); });
+}
+
 void add_hiding(std::vector<Action>& list) {
   list.push_back({"View",
                   "Hide from 3D, or show again",
@@ -234,6 +263,7 @@ void add_window_actions(std::vector<Action>& list) {
 void add_view_actions(std::vector<Action>& list) {
   add_window_actions(list);
   add_camera_actions(list);
+  add_sun_actions(list);
   add_hiding(list);
   add_layer_actions<0>(list);
   add_kept_view<1>(list);

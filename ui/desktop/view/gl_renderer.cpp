@@ -40,7 +40,7 @@ Matrix box_matrix(const ViewScene& scene, const Vector3& towards, double reach) 
 
 GlRenderer::GlRenderer()
     : programs_(std::make_unique<Programs>()),
-      picture_({{GL_RGBA8, GL_NEAREST}, {GL_R16UI, GL_NEAREST}}, GL_DEPTH_COMPONENT24),
+      picture_({{GL_RGBA8, GL_NEAREST}, {GL_R16UI, GL_NEAREST}}, GL_DEPTH24_STENCIL8),
       final_({{GL_RGBA8, GL_LINEAR}}, 0),
       shadow_({}, GL_DEPTH_COMPONENT24, true),
       heights_({{GL_RG16F, GL_LINEAR}}, 0),
@@ -48,7 +48,8 @@ GlRenderer::GlRenderer()
 
 GlRenderer::~GlRenderer() {
   glDeleteVertexArrays(1, &empty_);
-  glDeleteVertexArrays(1, &surface_array_);
+  glDeleteVertexArrays(1, &surfaces_.array);
+  glDeleteVertexArrays(1, &bodies_.array);
   glDeleteVertexArrays(1, &line_array_);
 }
 
@@ -77,6 +78,7 @@ bool GlRenderer::build(std::string& failure) {
                             {&p.capture, divide + shaders::kCaptureVertex, nothing, {"captured"}},
                             {&p.ground, version + shaders::kGroundVertex, version + light + shaders::kGroundFragment, {}},
                             {&p.surfaces, version + shaders::kSurfaceVertex, version + shaders::kSurfaceFragment, {}},
+                            {&p.bodies, version + shaders::kBodyVertex, version + shaders::kBodyFragment, {}},
                             {&p.lines, version + shaders::kLineVertex, version + shaders::kLineFragment, {}},
                             {&p.pictures, version + shaders::kPictureVertex, version + shaders::kPictureFragment, {}},
                             {&p.blur, version + shaders::kWholeVertex, version + shaders::kBlurFragment, {}},
@@ -87,7 +89,8 @@ bool GlRenderer::build(std::string& failure) {
       return false;
     }
   glGenVertexArrays(1, &empty_);
-  glGenVertexArrays(1, &surface_array_);
+  glGenVertexArrays(1, &surfaces_.array);
+  glGenVertexArrays(1, &bodies_.array);
   glGenVertexArrays(1, &line_array_);
   description_ = text_of(GL_RENDERER) + ", OpenGL " + text_of(GL_VERSION);
   is_software_ = description_.find("llvmpipe") != std::string::npos || description_.find("softpipe") != std::string::npos ||
@@ -135,12 +138,12 @@ std::uintptr_t GlRenderer::draw(const ViewScene& scene, int width, int height) {
   picture_.bind();
   const GLuint nobody[4] = {0, 0, 0, 0};
   const auto channel = [&](int shift) { return static_cast<float>((scene.colours.sky >> shift) & 0xff) / 255.0f; };
-  const float sky[4] = {channel(0), channel(8), channel(16), 1}, far = 1;
+  const float sky[4] = {channel(0), channel(8), channel(16), 1};
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glClearBufferfv(GL_COLOR, 0, sky);
   glClearBufferuiv(GL_COLOR, 1, nobody);
-  glClearBufferfv(GL_DEPTH, 0, &far);
+  glClearBufferfi(GL_DEPTH_STENCIL, 0, 1, 0);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   draw_volumes(scene);
@@ -153,6 +156,7 @@ std::uintptr_t GlRenderer::draw(const ViewScene& scene, int width, int height) {
   draw_pictures(scene);
   draw_surfaces(scene);
   draw_lines(scene);
+  draw_bodies(scene);
   glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);

@@ -44,16 +44,26 @@ class GlRenderer final : public Renderer {
   void draw_ground(const ViewScene& scene);
   void draw_surfaces(const ViewScene& scene);
   void draw_lines(const ViewScene& scene);
+  void draw_bodies(const ViewScene& scene);
   void draw_pictures(const ViewScene& scene);
-  void send_surfaces(const ViewScene& scene);
   void send_lines(const ViewScene& scene);
   void finish(const ViewScene& scene);
   void set_light(const GlProgram& program, const ViewScene& scene) const;
   static std::array<float, 4> section_of(const ViewScene& scene);
   bool has_new_shapes(const ViewScene& scene) const;
 
+  /// Translucent meshes one after another, sent when they are others than before.
+  struct Batch {
+    GLuint array = 0;
+    GlBuffer buffer;
+    std::vector<ViewSurface> sent;
+    Point3 origin;
+  };
+  void send(Batch& batch, const std::vector<ViewSurface>& surfaces, const Point3& origin);
+  void draw_line_quads(const ViewScene& scene, bool is_behind) const;
+
   struct Programs {
-    GlProgram volumes, cut_volumes, shadow, heights, capture, ground, surfaces, lines, pictures, blur, finish;
+    GlProgram volumes, cut_volumes, shadow, heights, capture, ground, surfaces, bodies, lines, pictures, blur, finish;
   };
   std::unique_ptr<Programs> programs_;
   std::string description_;
@@ -64,10 +74,10 @@ class GlRenderer final : public Renderer {
   GlVolumes volumes_;
   GlPictures pictures_;
   GlTarget picture_, final_, shadow_, heights_, blurred_;
-  GLuint empty_ = 0, surface_array_ = 0, line_array_ = 0;
-  GlBuffer surface_buffer_, line_buffer_;
-  std::vector<ViewSurface> sent_surfaces_;
-  Point3 surface_origin_, line_origin_;
+  GLuint empty_ = 0, line_array_ = 0;
+  Batch surfaces_, bodies_;
+  GlBuffer line_buffer_;
+  Point3 line_origin_;
   std::vector<ViewLine> sent_lines_;
   Matrix matrix_{}, sun_matrix_{}, map_matrix_{};
   ViewScene last_;

@@ -1,4 +1,4 @@
-// Translucent surfaces and lines of the 3D view: sent when they are others than before, drawn over what is solid.
+// Translucent surfaces, bodies and lines of the 3D view: sent when they are others than before, drawn over what is solid.
 #include <algorithm>
 #include <cstddef>
 
@@ -19,35 +19,35 @@ struct Item {
 
 }  // namespace
 
-void GlRenderer::send_surfaces(const ViewScene& scene) {
-  const bool is_same = scene.origin == surface_origin_ &&
-                       std::equal(scene.surfaces.begin(), scene.surfaces.end(), sent_surfaces_.begin(), sent_surfaces_.end(),
-                                  [](const ViewSurface& a, const ViewSurface& b) { return a.mesh == b.mesh; });
+void GlRenderer::send(Batch& batch, const std::vector<ViewSurface>& surfaces, const Point3& origin) {
+  const bool is_same =
+      origin == batch.origin && std::equal(surfaces.begin(), surfaces.end(), batch.sent.begin(), batch.sent.end(),
+                                           [](const ViewSurface& a, const ViewSurface& b) { return a.mesh == b.mesh; });
   if (is_same) return;
   std::vector<float> places;
-  for (const ViewSurface& surface : scene.surfaces)
+  for (const ViewSurface& surface : surfaces)
     for (const auto& t : surface.mesh->triangles)
       for (const std::uint32_t v : t) {
-        const Vector3 p = surface.mesh->vertices[v] - scene.origin;
+        const Vector3 p = surface.mesh->vertices[v] - origin;
         for (const double x : {p.x, p.y, p.z}) places.push_back(static_cast<float>(x));
       }
-  surface_buffer_.reserve(places.size() * sizeof(float));
-  surface_buffer_.write(0, places.data(), places.size() * sizeof(float), traffic_);
-  glBindVertexArray(surface_array_);
-  glBindBuffer(GL_ARRAY_BUFFER, surface_buffer_.id());
+  batch.buffer.reserve(places.size() * sizeof(float));
+  batch.buffer.write(0, places.data(), places.size() * sizeof(float), traffic_);
+  glBindVertexArray(batch.array);
+  glBindBuffer(GL_ARRAY_BUFFER, batch.buffer.id());
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-  sent_surfaces_ = scene.surfaces;
-  surface_origin_ = scene.origin;
+  batch.sent = surfaces;
+  batch.origin = origin;
 }
 
 void GlRenderer::draw_surfaces(const ViewScene& scene) {
   if (scene.surfaces.empty()) return;
-  send_surfaces(scene);
+  send(surfaces_, scene.surfaces, scene.origin);
   programs_->surfaces.use();
   programs_->surfaces.set_matrix("matrix", matrix_.data());
   programs_->surfaces.set("section", section_of(scene));
-  glBindVertexArray(surface_array_);
+  glBindVertexArray(surfaces_.array);
   GLint first = 0;
   for (const ViewSurface& surface : scene.surfaces) {
     const auto count = static_cast<GLsizei>(3 * surface.mesh->triangles.size());
@@ -56,6 +56,42 @@ void GlRenderer::draw_surfaces(const ViewScene& scene) {
     first += count;
   }
   glBindVertexArray(0);
+}
+
+// Depth first, colour then: where bodies stand behind each other, or in each other, only the nearest side is seen, once. Lines
+// are drawn already, and are seen through the shade; those that lie before it are drawn again, there only.
+void GlRenderer::draw_bodies(const ViewScene& scene) {
+  if (scene.bodies.empty()) return;
+  send(bodies_, scene.bodies, scene.origin);
+  const GlProgram& program = programs_->bodies;
+  program.use();
+  program.set_matrix("matrix", matrix_.data());
+  program.set("section", section_of(scene));
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_ALWAYS, 1, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glBindVertexArray(bodies_.array);
+  for (const bool is_depth : {true, false}) {
+    // Sides that fall together, as those of neighbours do, are still painted once.
+    if (!is_depth) glStencilFunc(GL_EQUAL, 1, 0xff), glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+    glDepthMask(is_depth ? GL_TRUE : GL_FALSE);
+    glDepthFunc(is_depth ? GL_LESS : GL_EQUAL);
+    const GLboolean paints = is_depth ? GL_FALSE : GL_TRUE;
+    glColorMaski(0, paints, paints, paints, paints);
+    GLint first = 0;
+    for (const ViewSurface& body : scene.bodies) {
+      const auto count = static_cast<GLsizei>(3 * body.mesh->triangles.size());
+      program.set_colour("paint", body.colour);
+      glDrawArrays(GL_TRIANGLES, first, count);
+      first += count;
+    }
+  }
+  glBindVertexArray(0);
+  glStencilFunc(GL_EQUAL, 2, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  if (!scene.lines.empty()) draw_line_quads(scene, false);
+  glDisable(GL_STENCIL_TEST);
+  glDepthFunc(GL_LESS);
 }
 
 void GlRenderer::send_lines(const ViewScene& scene) {
@@ -90,20 +126,22 @@ void GlRenderer::send_lines(const ViewScene& scene) {
 void GlRenderer::draw_lines(const ViewScene& scene) {
   if (scene.lines.empty()) return;
   send_lines(scene);
+  draw_line_quads(scene, false);
+  if (std::any_of(scene.lines.begin(), scene.lines.end(), [](const ViewLine& l) { return l.hidden_share > 0; }))
+    draw_line_quads(scene, true);
+  glDepthFunc(GL_LESS);
+}
+
+void GlRenderer::draw_line_quads(const ViewScene& scene, bool is_behind) const {
   const GlProgram& program = programs_->lines;
   program.use();
   program.set_matrix("matrix", matrix_.data());
   program.set("size", static_cast<float>(picture_.width()), static_cast<float>(picture_.height()));
   program.set("pixel", pixel_);
+  program.set("bias", is_behind ? 0.0f : kLineBias);
+  glDepthFunc(is_behind ? GL_GREATER : GL_LEQUAL);
   glBindVertexArray(line_array_);
-  const bool has_hidden =
-      std::any_of(scene.lines.begin(), scene.lines.end(), [](const ViewLine& l) { return l.hidden_share > 0; });
-  for (int pass = 0; pass < (has_hidden ? 2 : 1); ++pass) {
-    program.set("bias", pass == 0 ? kLineBias : 0.0f);
-    glDepthFunc(pass == 0 ? GL_LEQUAL : GL_GREATER);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(scene.lines.size()));
-  }
-  glDepthFunc(GL_LESS);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(scene.lines.size()));
   glBindVertexArray(0);
 }
 

@@ -143,7 +143,10 @@ bool GlTarget::resize(int width, int height) {
   if (drawn.empty()) drawn.push_back(GL_NONE);
   glDrawBuffers(static_cast<GLsizei>(drawn.size()), drawn.data());
   if (depth_format_ != 0) {
-    depth_ = texture(depth_format_, GL_DEPTH_COMPONENT, GL_FLOAT, compares_ ? GL_LINEAR : GL_NEAREST, GL_DEPTH_ATTACHMENT);
+    const bool has_stencil = depth_format_ == GL_DEPTH24_STENCIL8;
+    depth_ = texture(depth_format_, has_stencil ? GL_DEPTH_STENCIL : GL_DEPTH_COMPONENT,
+                     has_stencil ? GL_UNSIGNED_INT_24_8 : GL_FLOAT, compares_ ? GL_LINEAR : GL_NEAREST,
+                     has_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT);
     if (compares_) {
       glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
       glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);

@@ -245,6 +245,7 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   std::erase_if(rest->urban.layers, is_gone);
   std::erase_if(rest->urban.plots, is_gone);
   std::erase_if(rest->urban.shadows, is_gone);
+  std::erase_if(rest->urban.casters, is_gone);
   std::erase_if(rest->urban.grounds, [&](const auto& ground) { return is_hidden(ground.first); });
   std::erase_if(rest->links, [&](const LinkFacts& link) { return is_hidden(link.from) || is_hidden(link.to); });
   std::erase_if(rest->neighbours, [&](const auto& pair) { return is_hidden(pair.first) || is_hidden(pair.second); });

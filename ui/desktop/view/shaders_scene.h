@@ -67,6 +67,29 @@ void main() {
 }
 )";
 
+// Sides of bodies of shade: facets told apart a little by where they look, so that the body has a shape.
+inline constexpr const char* kBodyVertex = R"(
+uniform mat4 matrix;
+layout(location = 0) in vec3 place;
+out vec3 world;
+void main() {
+  world = place;
+  gl_Position = matrix * vec4(place, 1.0);
+}
+)";
+
+inline constexpr const char* kBodyFragment = R"(
+uniform vec4 paint, section;
+in vec3 world;
+layout(location = 0) out vec4 colour;
+void main() {
+  if (dot(section.xyz, world) > section.w) discard;
+  vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
+  float turned = 0.5 + 0.5 * dot(normal, normalize(vec3(0.55, -0.8, 0.25)));
+  colour = vec4(mix(paint.rgb * 0.7, paint.rgb * 1.25, turned), paint.a);
+}
+)";
+
 // Lines as quads of a width in pixels, soft at both sides.
 inline constexpr const char* kLineVertex = R"(
 uniform mat4 matrix;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sun/solar_position.h"
 #include "ui/cli/report/report_model.h"
 #include "ui/desktop/view/scene_facts.h"
 
@@ -167,6 +168,40 @@ void read_ring(const State& state, std::uint32_t node, std::vector<Point3> ring,
   if (ring.size() >= 3) rings.push_back({node, state.plan->nodes[node].id, std::move(ring), is_overshot});
 }
 
+DaylightSaving rule_of(const std::string& id) {
+  if (id == "europe") return DaylightSaving::europe;
+  if (id == "north_america") return DaylightSaving::north_america;
+  return id == "australia" ? DaylightSaving::australia : DaylightSaving::none;
+}
+
+void read_sun(const State& state, std::uint32_t node, UrbanFacts& urban) {
+  const auto number = [&](const char* port) { return report::number_at(state, node, "sun_and_sky", port); };
+  const auto date = parse_date(report::text_at(state, node, "sun_and_sky", "date"));
+  if (!date) return;  // the node's own error says so
+  SunFacts sun;
+  sun.node = node;
+  sun.id = state.plan->nodes[node].id;
+  sun.place = {number("latitude"),   number("longitude"),
+               number("elevation"),  number("true_north"),
+               number("utc_offset"), rule_of(report::text_at(state, node, "sun_and_sky", "daylight_saving")),
+               number("delta_t"),    flag_at(state, node, "sun_and_sky", "refraction", true),
+               number("pressure"),   number("temperature")};
+  sun.added_days = std::floor(number("days"));
+  sun.clock = {*date + static_cast<DayNumber>(sun.added_days), number("time")};
+  sun.toward = direction_to_sun(sun.place, sun.clock);
+  sun.is_ahead = sun.toward != report::point_at(state, node, "sun_and_sky", "direction");
+  urban.suns.push_back(std::move(sun));
+}
+
+void read_caster(const State& state, std::uint32_t node, UrbanFacts& urban) {
+  if (!flag_at(state, node, "shadow_caster", "casts", true)) return;
+  const std::uint32_t study = keeper_of(*state.plan, node, "sun_study");
+  const double ground = study < state.plan->nodes.size() ? report::number_at(state, study, "sun_study", "ground") : 0;
+  for (const char* type : {"smart_volume", "existing_building"})
+    if (const MeshPointer mesh = report::mesh_at(state, node, type, "mesh"); mesh && !mesh->triangles.empty())
+      urban.casters.push_back({node, state.plan->nodes[node].id, mesh, ground});
+}
+
 std::int64_t age_of_sun(const State& state) {
   std::int64_t age = 0;
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
@@ -179,6 +214,19 @@ std::int64_t age_of_sun(const State& state) {
 }
 
 }  // namespace
+
+Vector3 direction_to_sun(const SunPlace& place, const SunClock& clock) {
+  const SunPosition sun = sun_position(place, moment_of(place, clock.day, clock.seconds));
+  return scene_direction(place, sun.azimuth, sun.altitude);
+}
+
+std::uint32_t keeper_of(const Plan& plan, std::uint32_t node, std::string_view type) {
+  for (const SetPlan& set : plan.sets)
+    if (plan.nodes[set.node].types[set.type].definition->id == type &&
+        std::binary_search(set.members.begin(), set.members.end(), node))
+      return set.node;
+  return static_cast<std::uint32_t>(plan.nodes.size());
+}
 
 UrbanFacts read_urban(const State& state, const UrbanFacts* last) {
   UrbanFacts urban;
@@ -198,9 +246,10 @@ UrbanFacts read_urban(const State& state, const UrbanFacts* last) {
     if (is("terrain"))
       if (const MeshPointer mesh = report::mesh_at(state, n, "terrain", "mesh"); mesh && !mesh->triangles.empty())
         urban.grounds.emplace_back(n, mesh);
-    if (is("sun_and_sky") && report::number_at(state, n, "sun_and_sky", "altitude") > 0)
-      urban.sun = report::point_at(state, n, "sun_and_sky", "direction");
+    if (is("shadow_caster")) read_caster(state, n, urban);
+    if (is("sun_and_sky")) read_sun(state, n, urban);
   }
+  if (!urban.suns.empty() && urban.suns.front().toward.z > 0) urban.sun = urban.suns.front().toward;
   urban.sun_age = age_of_sun(state);
   return urban;
 }

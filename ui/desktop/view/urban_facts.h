@@ -5,10 +5,12 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/graph/state.h"
+#include "core/sun/sun_place.h"
 
 namespace bl::desktop {
 
@@ -54,6 +56,33 @@ struct RingFacts {
   bool is_overshot = false;  ///< of plots: more is built than its rules allow
 };
 
+/// A moment by the clock of a place.
+struct SunClock {
+  DayNumber day = 0;
+  double seconds = 0;  ///< after midnight
+  bool operator==(const SunClock&) const = default;
+};
+
+/// The sun over a place, as the settings say now: also where no tick has followed them yet.
+struct SunFacts {
+  std::uint32_t node = 0;
+  std::string id;
+  SunPlace place;
+  SunClock clock;
+  double added_days = 0;  ///< what the node adds to its date
+  Vector3 toward;         ///< unit vector to the sun at that moment; below the horizon it points downwards
+  bool is_ahead = false;  ///< the state's results are of an earlier sun
+};
+Vector3 direction_to_sun(const SunPlace& place, const SunClock& clock);
+
+/// A node with a shape that takes sun from others.
+struct CasterFacts {
+  std::uint32_t node = 0;
+  std::string id;
+  MeshPointer mesh;
+  double ground = 0;  ///< of the study that it belongs to, where its shadow falls [m]
+};
+
 struct UrbanFacts {
   std::vector<StreetFacts> streets;
   std::vector<BodyFacts> bodies;
@@ -61,7 +90,9 @@ struct UrbanFacts {
   std::vector<DataFacts> layers;
   std::vector<RingFacts> plots, shadows;
   std::vector<std::pair<std::uint32_t, MeshPointer>> grounds;
-  Vector3 sun;               ///< towards it; 0 where no node says so, or it is below the horizon
+  std::vector<SunFacts> suns;
+  std::vector<CasterFacts> casters;
+  Vector3 sun;               ///< towards the first; 0 where there is none, or it is below the horizon
   std::int64_t sun_age = 0;  ///< ticks since the data that the sun maps fit; -1: there is no result yet
   double most_flow = 0;      ///< [1/h]
   /// Flow by street of the trips that begin at a zone: what "its routes" are; by node index of the zone.
@@ -72,5 +103,9 @@ struct UrbanFacts {
 
 /// `last`: those of an earlier state, of which meshes that have not changed are taken over; may be null.
 UrbanFacts read_urban(const State& state, const UrbanFacts* last);
+
+/// The node of that typification which has the node among its members, such as the traffic network of a street; nodes.size()
+/// where there is none.
+std::uint32_t keeper_of(const Plan& plan, std::uint32_t node, std::string_view type);
 
 }  // namespace bl::desktop

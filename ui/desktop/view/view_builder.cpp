@@ -28,11 +28,15 @@ constexpr std::array<Layer, kLayerCount> kLayers = {{{"boundary", "Boundary", tr
                                                      {"cells", "Cells before the shrink-wrap", false},
                                                      {"pulls", "Pulls on places", false},
                                                      {"streets", "Streets and their load", true},
+                                                     {"isochrones", "Isochrones of the chosen zone or junction", true},
+                                                     {"isochrones_by_car", "Isochrones by car, not on foot", false},
                                                      {"buildings", "Existing buildings", true},
                                                      {"terrain", "Terrain", true},
                                                      {"plots", "Plots", true},
                                                      {"sun_maps", "Sun maps", true},
                                                      {"shadow_outlines", "Shadows on the ground, as outlines", false},
+                                                     {"shade_bodies", "Bodies of shade", false},
+                                                     {"sun_time", "Time of the sun, along the bottom", true},
                                                      {"data", "Data layers", true}}};
 
 constexpr Colour kPlaster = 0xffd8dde0u;
@@ -252,7 +256,7 @@ ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const 
   builder.add_cells();
   builder.add_pulls();
   add_urban(
-      facts, picks, theme, [&](const char* layer) { return is_on(person, layer); }, builder.scene);
+      facts, choices, picks, theme, [&](const char* layer) { return is_on(person, layer); }, builder.scene);
   return std::move(builder.scene);
 }
 

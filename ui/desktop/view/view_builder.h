@@ -8,7 +8,9 @@
 
 #include "ui/desktop/app/editor.h"
 #include "ui/desktop/view/colouring.h"
+#include "ui/desktop/view/isochrones.h"
 #include "ui/desktop/view/scene_facts.h"
+#include "ui/desktop/view/shade.h"
 #include "ui/desktop/view/view_scene.h"
 
 namespace bl::desktop {
@@ -18,11 +20,21 @@ struct Layer {
   const char *id, *label;
   bool is_on_at_first;
 };
-inline constexpr std::size_t kLayerCount = 22;
+inline constexpr std::size_t kLayerCount = 26;
 std::span<const Layer> layers();
 /// As the person has it, or as it is at first.
 bool is_on(const PersonSettings& person, const std::string& layer);
 void set_layer(PersonSettings& person, const std::string& layer, bool is_on);
+
+/// The sun that the view shows, and what it casts: that of the scene, or of another moment that somebody looks at.
+struct SunLook {
+  bool is_there = false;    ///< the scene has a sun
+  bool is_preview = false;  ///< it is not the scene's moment
+  std::string clock;        ///< the moment that is shown, such as "15:40"
+  Vector3 toward;           ///< unit vector; below the horizon it points downwards
+  std::vector<ShadeBody> bodies;
+  std::vector<RingFacts> outlines;  ///< of a preview: those of the scene stand in its facts
+};
 
 /// What the view itself decides.
 struct ViewChoices {
@@ -30,6 +42,8 @@ struct ViewChoices {
   ViewSection section;
   std::string folder = {};               ///< of the scene's file, which pictures are named from; empty: the current one
   std::map<std::uint32_t, Point3> held;  ///< nodes in somebody's hand: where the hand has them
+  SunLook sun = {};
+  std::shared_ptr<const Isochrones> isochrones = {};  ///< of the chosen node; none where they are not wanted
 };
 
 ViewScene build_view(const SceneFacts& facts, const Colouring& colouring, const ViewChoices& choices, const Picks& picks,

@@ -103,6 +103,7 @@ struct ViewScene {
   ViewSection section;
   std::vector<ViewVolume> volumes;  ///< ascending node
   std::vector<ViewSurface> surfaces;
+  std::vector<ViewSurface> bodies;  ///< translucent, and seen as one: of those that lie behind each other only the nearest side
   std::vector<ViewLine> lines;
   std::vector<ViewPicture> pictures;
   bool operator==(const ViewScene&) const = default;

@@ -3,6 +3,7 @@
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/sections.h"
 #include "ui/desktop/panels/canvas/tension.h"
+#include "ui/desktop/panels/stream_text.h"
 #include "ui/desktop/view/colouring.h"
 
 namespace bl::desktop::canvas {
@@ -106,6 +107,32 @@ void draw_bar_line(const Ink& ink, const NodeBox& box, const Section& section, f
   draw_bar_of(ink, box, section, ink.at(left, y + 6), ink.at(std::max(text_right, left + 24), y + 12));
 }
 
+// The last reading or message: its value at the left, its age and quality at the right, in the colour of its standing.
+void draw_stream_line(const Ink& ink, const NodeBox& box, const Section& section, float y) {
+  if (ink.zoom < kTextZoom || box.in_state == kNoIndex || section.in_state == kNoIndex) return;
+  const Editor& editor = ink.board.editor;
+  const auto stream = stream_of(editor, editor.state(), box.in_state, section.in_state);
+  if (!stream) return;
+  const ImVec2 low = ink.at(box.box.at.x + 6, y + 2), high = ink.at(box.box.high().x - 6, y + kStreamHeight - 1);
+  const ImU32 colour = colour_of(editor.theme, stream->standing);
+  ink.list.AddRectFilled(low, high, mixed(ink.c.sunken, colour, stream->standing == StreamStanding::silent ? 0.0f : 0.16f),
+                         3 * ink.k);
+  const float size = kRowText * ink.k, middle = (low.y + high.y) / 2, top = middle - 0.6f * size, gap = 5 * ink.k;
+  draw_standing(ink.list, editor.theme, {low.x + 8 * ink.k, middle}, 3.2f * ink.k, stream->standing);
+  const float begin = low.x + 16 * ink.k, end = high.x - gap;
+  const float value = text_width(ink.board, size, stream->value);
+  // Where there is no room for all, the sign and the colour stand for the quality.
+  std::string rest = stream->age;
+  if (!stream->quality.empty()) {
+    const std::string longer = rest + (rest.empty() ? "" : ", ") + stream->quality;
+    if (begin + value + gap + text_width(ink.board, size, longer) <= end || rest.empty()) rest = longer;
+  }
+  const float room = end - begin, taken = std::min(text_width(ink.board, size, rest), std::max(0.45f * room, room - value - gap));
+  draw_text(ink.board, {begin, top}, size, ink.c.text, stream->value, room - taken - gap);
+  draw_text(ink.board, {end - taken, top}, size,
+            stream->standing == StreamStanding::good ? ink.c.text_soft : mixed(colour, ink.c.text, 0.25f), rest, taken + 1);
+}
+
 // From further away fewer rows, in a size that can still be read: the residual is the first to go, for the bar shows it too.
 float draw_rows(const Ink& ink, const NodeBox& box, const Section& section, float y) {
   const float foot = y + kRowHeight * static_cast<float>(section.rows.size());
@@ -132,6 +159,7 @@ float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::si
     return y + kRowHeight;
   }
   if (section.has_bar) draw_bar_line(ink, box, section, y), y += kBarHeight;
+  if (section.is_stream) draw_stream_line(ink, box, section, y), y += kStreamHeight;
   refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
   y = draw_rows(ink, box, section, y);
   if (section.spark != kNoIndex) {
@@ -184,12 +212,19 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
   // Its first result at the foot, where there is room for it.
   if (screen.size.x < 58 || screen.size.y < 52 || box.sections.empty() || box.sections.front().type == nullptr) return;
   Section& section = box.sections.front();
+  const float foot = screen.high().y - bar - 5 - pixels, room = screen.size.x - pad - 4;
+  if (section.is_stream && box.in_state != kNoIndex && section.in_state != kNoIndex) {
+    const Editor& editor = ink.board.editor;
+    if (const auto stream = stream_of(editor, editor.state(), box.in_state, section.in_state))
+      draw_text(ink.board, {screen.low().x + pad, foot}, 0.85f * pixels,
+                mixed(colour_of(editor.theme, stream->standing), ink.c.text, 0.3f), stream->value, room);
+    return;
+  }
   refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
   std::size_t row = 0;
   while (row < section.rows.size() && !is_result(section.type->ports[section.rows[row].port])) ++row;
   if (row < section.texts.size())
-    draw_text(ink.board, {screen.low().x + pad, screen.high().y - bar - 5 - pixels}, 0.85f * pixels, ink.c.text_soft,
-              section.texts[row], screen.size.x - pad - 4);
+    draw_text(ink.board, {screen.low().x + pad, foot}, 0.85f * pixels, ink.c.text_soft, section.texts[row], room);
 }
 
 void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_error) {

@@ -14,7 +14,7 @@ namespace bl::desktop::canvas {
 
 // Measures of boxes, in points at full size.
 inline constexpr float kBoxWidth = 188, kHeadHeight = 28, kSectionHeight = 19, kRowHeight = 17, kBarHeight = 19,
-                       kSparkHeight = 26, kBoxFoot = 6, kGrid = 10, kPillHeight = 26, kFrameHead = 26;
+                       kSparkHeight = 26, kStreamHeight = 20, kBoxFoot = 6, kGrid = 10, kPillHeight = 26, kFrameHead = 26;
 inline constexpr std::uint32_t kNoIndex = 0xffffffffu;
 
 /// One port as a line in a section.
@@ -30,6 +30,7 @@ struct Section {
   std::size_t category = 0;
   std::vector<Row> rows;
   bool has_bar = false;             ///< demand against volume
+  bool is_stream = false;           ///< a reading or message with its age, in a line of its own
   std::size_t spark = kNoIndex;     ///< the port that is followed over time
   std::size_t in_state = kNoIndex;  ///< index among the node's types in the state
   std::vector<std::string> texts;   ///< of the rows, as of `texts_of`

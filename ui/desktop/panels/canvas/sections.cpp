@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/stream_text.h"
 
 namespace bl::desktop::canvas {
 
@@ -47,6 +48,13 @@ void add_row(Section& section, std::size_t port) {
 
 void choose_rows(Section& section, const PortValues& values) {
   const TypificationDefinition& type = *section.type;
+  // What a device says last stands in a line of its own; beside it counts where it comes from or goes to.
+  section.is_stream = is_stream(type);
+  if (section.is_stream) {
+    add_row(section, type.port_index("address"));
+    section.spark = type.port_index("value");
+    return;
+  }
   for (std::size_t p = 0; p < type.ports.size() && section.rows.size() < kMostSettings; ++p) {
     const PortDefinition& port = type.ports[p];
     const auto found = values.find(port.id);
@@ -110,6 +118,7 @@ float height_of(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     height += kSectionHeight + kRowHeight * static_cast<float>(section.rows.size());
     if (section.has_bar) height += kBarHeight;
+    if (section.is_stream) height += kStreamHeight;
     if (section.spark != kNoIndex) height += kSparkHeight;
     if (section.type == nullptr) height += kRowHeight;
   }

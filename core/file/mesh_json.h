@@ -1,0 +1,14 @@
+// Meshes as JSON: {"vertices": [[x, y, z], ...], "triangles": [[a, b, c], ...]}, in metres and from 0.
+#pragma once
+
+#include "core/base/mesh.h"
+#include "core/define/json_text.h"
+
+namespace bl {
+
+/// Vertices and triangles; how a coarse mesh would be wrapped is left out.
+Json mesh_to_json(const Mesh& mesh);
+/// Null where it is none: another form, numbers that are not finite, or corners that are not there.
+std::shared_ptr<const Mesh> mesh_from_json(const Json& json);
+
+}  // namespace bl

@@ -1,0 +1,99 @@
+// Looks for what has changed, whatever commands it came by, so that no command has to say what it touches.
+#include "core/graph/amend.h"
+
+#include <algorithm>
+
+namespace bl {
+
+namespace {
+
+struct Change {
+  std::uint32_t node = 0, type = 0;
+  const PortValues* values = nullptr;  // in the new scene
+};
+
+// Sets of nodes, tags, and texts that name ports decide about indices; so does what names a unit or is chosen by a set.
+bool is_plain(const TypificationDefinition& type, const std::string& id) {
+  const PortDefinition* port = type.find_port(id);
+  if (port == nullptr) return false;
+  switch (port->kind) {
+    case ValueKind::boolean:
+    case ValueKind::integer:
+    case ValueKind::number:
+    case ValueKind::text:
+    case ValueKind::point:
+    case ValueKind::points:
+    case ValueKind::table: break;
+    default: return false;
+  }
+  for (const PortDefinition& other : type.ports)
+    if (other.unit_from == id) return false;
+  for (const SetDefinition& set : type.sets) {
+    for (const ReadDefinition& read : set.reads)
+      if (read.path.chosen_by == id) return false;
+    for (const WriteDefinition& write : set.writes)
+      if (write.path.chosen_by == id) return false;
+  }
+  return true;
+}
+
+// Both maps ascend: what stands in one only, or differs, has to be plain.
+bool differs_plainly(const TypificationDefinition& type, const PortValues& before, const PortValues& after) {
+  auto b = before.begin(), a = after.begin();
+  while (b != before.end() || a != after.end()) {
+    const bool is_old = a == after.end() || (b != before.end() && b->first < a->first);
+    const bool is_new = b == before.end() || (a != after.end() && a->first < b->first);
+    const std::string& id = is_old ? b->first : a->first;
+    if ((is_old || is_new || !(b->second == a->second)) && !is_plain(type, id)) return false;
+    if (!is_new) ++b;
+    if (!is_old) ++a;
+  }
+  return true;
+}
+
+// False where more than plain values has changed at the node.
+bool find_changes(const NodePlan& plan, std::uint32_t index, const NodeRecord& before, const NodeRecord& after,
+                  std::vector<Change>& changes) {
+  if (before.name != after.name || before.ghosts != after.ghosts || before.locked != after.locked) return false;
+  if (before.types.size() != after.types.size()) return false;
+  auto old = before.types.begin();
+  for (auto now = after.types.begin(); now != after.types.end(); ++now, ++old) {
+    if (now->first != old->first) return false;
+    if (now->second == old->second) continue;
+    const auto type =
+        std::find_if(plan.types.begin(), plan.types.end(), [&](const TypePlan& t) { return t.definition->id == now->first; });
+    if (type == plan.types.end() || !differs_plainly(*type->definition, old->second, now->second)) return false;
+    changes.push_back({index, static_cast<std::uint32_t>(type - plan.types.begin()), &now->second});
+  }
+  return true;
+}
+
+}  // namespace
+
+std::shared_ptr<const Plan> amend(const Plan& plan, const Scene& scene) {
+  const Scene& before = plan.scene;
+  if (before.nodes.size() != scene.nodes.size() || before.settings != scene.settings || before.links != scene.links ||
+      !(before.scripts == scene.scripts))
+    return nullptr;
+  std::vector<Change> changes;
+  std::uint32_t index = 0;
+  for (auto old = before.nodes.begin(), now = scene.nodes.begin(); now != scene.nodes.end(); ++old, ++now, ++index)
+    if (old->first != now->first || !find_changes(plan.nodes[index], index, old->second, now->second, changes)) return nullptr;
+  // Definitions belong to the scripts of the scene that was compiled: the copy keeps these, which say the same.
+  auto amended = std::make_shared<Plan>(plan);
+  amended->scene.view = scene.view;
+  for (const Change& change : changes) {
+    NodePlan& node = amended->nodes[change.node];
+    TypePlan& type = node.types[change.type];
+    amended->scene.nodes.at(node.id).types.at(type.definition->id) = *change.values;
+    for (std::size_t p = 0; p < type.definition->ports.size(); ++p) {
+      const PortDefinition& port = type.definition->ports[p];
+      const auto value = change.values->find(port.id);
+      type.is_set[p] = value != change.values->end() && value->second != port.default_value;
+      type.set_values[p] = value != change.values->end() ? value->second : port.default_value;
+    }
+  }
+  return amended;
+}
+
+}  // namespace bl

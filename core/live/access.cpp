@@ -1,0 +1,62 @@
+// Reads what nodes say of brokers, and passwords from where they are kept.
+#include "core/live/access.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/base/password_source.h"
+#include "core/file/file_io.h"
+#include "core/live/port_values.h"
+
+namespace bl {
+
+namespace {
+
+constexpr std::uintmax_t kLongestPassword = 65535;  // [bytes] the protocol has no longer ones
+
+}  // namespace
+
+Result<std::string> Access::password() const {
+  if (password_from.empty()) return std::string();
+  const auto source = parse_password_source(password_from);
+  if (!source) return source.error();
+  if (!source->is_file) {
+    const char* const held = std::getenv(source->name.c_str());
+    if (held == nullptr)
+      return Error{ErrorCode::missing, "", "the variable `" + source->name + "` is not set in the environment of this program"};
+    return std::string(held);
+  }
+  const std::filesystem::path path = std::filesystem::path(folder) / source->name;
+  std::error_code none;
+  if (std::filesystem::file_size(path, none) > kLongestPassword && !none)
+    return Error{ErrorCode::io, "", "the file `" + source->name + "` is too long for a password"};
+  const auto text = read_file(path.string());
+  if (!text) return Error{ErrorCode::io, "", "the file `" + source->name + "` cannot be read"};
+  return text->substr(0, text->find_first_of("\r\n"));
+}
+
+Result<std::string> Access::certificates() const {
+  if (ca_file.empty()) return std::string();
+  const std::string path = (std::filesystem::path(folder) / ca_file).string();
+  if (const auto text = read_file(path); !text || text->find("-----BEGIN CERTIFICATE-----") == std::string::npos)
+    return Error{
+        ErrorCode::io, "",
+        text ? "the file `" + ca_file + "` holds no certificate in PEM form" : "the file `" + ca_file + "` cannot be read"};
+  return path;
+}
+
+std::map<std::string, Access> accesses_of(const Scene& scene, const std::string& folder) {
+  std::map<std::string, Access> accesses;
+  for (const auto& [id, node] : scene.nodes) {
+    const PortValues* values = values_of(node, "mqtt_broker");
+    if (values == nullptr) continue;
+    const std::string place =
+        value_of<std::string>(*values, "host", "localhost") + ":" + std::to_string(value_of<std::int64_t>(*values, "port", 1883));
+    accesses.emplace(place,
+                     Access{id, value_of<std::string>(*values, "user", ""), value_of<std::string>(*values, "password_from", ""),
+                            value_of<std::string>(*values, "ca_file", ""), value_of(*values, "is_encrypted", false), folder});
+  }
+  return accesses;
+}
+
+}  // namespace bl

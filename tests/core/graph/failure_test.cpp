@@ -1,0 +1,142 @@
+// What failing parts of a scene leave standing, for others, for a save and after they have been mended.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/file/scene_file.h"
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+World loaded(World& world) {
+  const SavedState saved = save(world.state());
+  return World::from_text(write_scene(world.session().scene(), full_registry(), &saved));
+}
+
+std::string add_boundary(World& world) {
+  return world.submit(command<AddNode>(
+      {"plot2", {R"({"types": {"boundary": {"form": "plan", "plan": [[0, 0, 0], [60, 0, 0], [60, 24, 0]]}}})"}}));
+}
+
+TEST(Failure, ShapesThatAFailingSolverLeavesAreSavedWithIt) {
+  World world = World::from_file("scenes/nodes/sun_study.json");
+  ASSERT_TRUE(world.settle());
+  ASSERT_EQ(add_boundary(world), "");
+  world.tick(3);
+  ASSERT_TRUE(has_failure(world.state()));
+  ASSERT_FALSE(save(world.state()).meshes.empty());
+  World again = loaded(world);
+  EXPECT_EQ(again.state().hash, world.state().hash);
+  // The study follows rays among the shapes: it has to find the same ones.
+  for (World* each : {&world, &again}) {
+    ASSERT_EQ(each->submit(command<SetPort>({"sun", "sun_and_sky.min_altitude", {"5"}})), "");
+    each->tick(8);
+  }
+  EXPECT_GT(world.number("garden_north", "shadow_receiver.sun_mean"), 0);
+  EXPECT_EQ(again.number("garden_north", "shadow_receiver.sun_mean"), world.number("garden_north", "shadow_receiver.sun_mean"));
+  EXPECT_EQ(again.state().hash, world.state().hash);
+  // Once all is well nothing of it is kept.
+  ASSERT_EQ(world.submit(command<RemoveNode>({"plot2"})), "");
+  world.tick(2);
+  EXPECT_TRUE(save(world.state()).meshes.empty());
+}
+
+TEST(Failure, AMeshThatIsNoneIsAnErrorWithAPlace) {
+  for (const char* mesh : {R"({})", R"(7)", R"({"vertices": [[0, 0]], "triangles": []})", R"({"vertices": [], "triangles": [[0, 0, 0]]})",
+                           R"({"vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]})", R"({"vertices": 1, "triangles": 2})"}) {
+    const std::string text = std::string(R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "types": {"smart_volume": {}}}],
+      "links": [], "state": {"tick": 1, "calm": 0, "nodes": {}, "meshes": {"a": {"smart_volume.mesh": )") + mesh + "}}}}";
+    const SceneReading reading = read_scene(text, full_registry());
+    ASSERT_EQ(reading.problems.size(), 1u) << mesh;
+    EXPECT_NE(reading.problems[0].error.text().find("state/meshes"), std::string::npos) << mesh;
+  }
+}
+
+// The error of a volume that wants next to nothing is a number beyond what anybody could set.
+TEST(Failure, FiguresBeyondAllSettingsAreReadAgain) {
+  World world = World::from_file("scenes/nodes/smart_volume.json");
+  std::vector<std::string> volumes;
+  for (const auto& [id, node] : world.session().scene().nodes)
+    if (node.types.contains("smart_volume")) volumes.push_back(id);
+  for (const std::string& id : volumes) ASSERT_EQ(world.submit(command<SetPort>({id, "smart_volume.demand", {"1e-300"}})), "");
+  world.tick(10);
+  bool is_beyond = false;
+  for (const auto& [node, values] : save(world.state()).nodes)
+    for (const auto& [path, value] : values)
+      if (const auto* number = std::get_if<double>(&value)) is_beyond = is_beyond || std::abs(*number) > 1e15;
+  EXPECT_TRUE(is_beyond) << "the case does not show what it is for";
+  EXPECT_EQ(loaded(world).state().hash, world.state().hash);
+}
+
+TEST(Failure, AStudyThatStopsWaitingTakesTheNewestResult) {
+  World world = World::from_file("scenes/nodes/sun_study.json");
+  world.tick(3);
+  ASSERT_EQ(world.submit(command<SetPort>({"study", "sun_study.latency", {"0"}})), "");
+  world.tick(4);
+  EXPECT_FALSE(has_failure(world.state()));
+  EXPECT_EQ(loaded(world).state().hash, world.state().hash);
+  EXPECT_TRUE(world.settle());
+}
+
+TEST(Failure, ASelectionThatIsMendedClearsTheErrorOfItsAnalysis) {
+  World world = World::from_file("scenes/nodes/sun_study.json");
+  ASSERT_TRUE(world.settle());
+  ASSERT_EQ(world.submit(command<SetPort>({"study", "sun_study.buildings", {R"(["old_mill", "garden_east"])"}})), "");
+  world.tick(3);
+  EXPECT_TRUE(has_failure(world.state()));
+  ASSERT_TRUE(world.session().undo("test").ok());
+  EXPECT_TRUE(world.settle());
+  EXPECT_FALSE(has_failure(world.state()));
+}
+
+TEST(Failure, WhoLeavesAnAnalysisGetsNoneOfItsResults) {
+  World world = World::from_file("scenes/nodes/sun_study.json");
+  ASSERT_TRUE(world.settle());
+  ASSERT_GT(world.number("garden_east", "shadow_receiver.sun_mean"), 0);
+  ASSERT_EQ(world.submit(command<SetPort>({"sun", "sun_and_sky.min_altitude", {"5"}})), "");
+  world.tick();
+  ASSERT_EQ(world.submit(command<SetPort>({"study", "sun_study.receivers", {R"(["garden_north"])"}})), "");
+  world.tick(12);
+  EXPECT_GT(world.number("garden_north", "shadow_receiver.sun_mean"), 0);
+  EXPECT_EQ(world.number("garden_east", "shadow_receiver.sun_mean"), 0);
+}
+
+// Three nodes follow a terrain, one of them stands beside it.
+TEST(Failure, OnePairThatFailsDoesNotStopTheOthers) {
+  World world = World::from_file("scenes/links/terrain_follow.json");
+  world.tick(2);
+  std::string link;
+  for (const auto& [id, record] : world.session().scene().links)
+    if (record.kind == "terrain_follow") link = id;
+  ASSERT_EQ(world.submit(command<AddNode>({"inside", {R"({"position": [20, 20, 500], "tags": ["both"]})"}})), "");
+  ASSERT_EQ(world.submit(command<AddNode>({"astray", {R"({"position": [90000, 0, 500], "tags": ["both"]})"}})), "");
+  const LinkRecord ends = world.session().scene().links.at(link);
+  ASSERT_EQ(world.submit(command<SetLinkEnds>({.id = link, .from = ends.from, .to = {{}, "", {"both"}}})), "");
+  ASSERT_TRUE(world.session().scene().nodes.contains("inside"));
+  world.tick(3);
+  EXPECT_NE(world.link_error(link).find("there is no ground"), std::string::npos) << world.link_error(link);
+  EXPECT_LT(world.point("inside", "node.position").z, 499);
+  EXPECT_EQ(world.point("astray", "node.position").z, 500);
+}
+
+// The plot's polygon meets itself, so that its figures are of the past: limits that follow from them must not slide on.
+TEST(Failure, LinksHoldWhatTheyWantedWhileTheirSourceHasAnError) {
+  World world = World::from_file("scenes/links/plot_rules.json");
+  ASSERT_TRUE(world.settle());
+  ASSERT_EQ(world.submit(command<SetPort>({"plot", "plot.polygon", {"[[0, 0, 0], [30, 30, 0], [30, 0, 0], [0, 30, 0]]"}})), "");
+  world.tick(2);
+  ASSERT_TRUE(has_failure(world.state()));
+  const State before = world.state();
+  world.tick(50);
+  for (std::size_t n = 0; n < before.nodes.size(); ++n) {
+    const std::string& id = before.plan->nodes[n].id;
+    if (!world.session().scene().nodes.at(id).types.contains("smart_volume")) continue;
+    EXPECT_EQ(world.number(id, "smart_volume.demand_limit"),
+                as_number(before.value(*before.plan->find(static_cast<std::uint32_t>(n), *parse_port_path("smart_volume.demand_limit")))))
+          << id;
+  }
+}
+
+}  // namespace
+}  // namespace bl

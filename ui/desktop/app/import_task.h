@@ -1,0 +1,41 @@
+// An import on a thread of its own: the window goes on while a large file is read.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "ui/cli/context_import.h"
+
+namespace bl::desktop {
+
+class ImportTask {
+ public:
+  /// Begins at once. `scene` is the one that is added to; it is not changed. The registry outlives the task.
+  ImportTask(Scene scene, cli::ImportOptions options, const Registry& registry);
+  /// Stops it, and waits until it has.
+  ~ImportTask();
+  ImportTask(const ImportTask&) = delete;
+  ImportTask& operator=(const ImportTask&) = delete;
+
+  const ImportWatch& watch() const { return watch_; }
+  /// Asks it to end; it answers between two elements.
+  void stop() { watch_.is_stopped = true; }
+  bool is_done() const { return is_done_; }
+  void wait();
+  /// What came of it, once it is done.
+  cli::ImportedScene& result() { return *result_; }
+
+ private:
+  void run();
+
+  Scene scene_;
+  cli::ImportOptions options_;
+  const Registry* registry_;
+  ImportWatch watch_;
+  std::optional<cli::ImportedScene> result_;
+  std::atomic<bool> is_done_{false};
+  std::thread thread_;
+};
+
+}  // namespace bl::desktop

@@ -1,0 +1,293 @@
+// Surroundings come into the open scene: which files, the few things that matter about them, and how far the reading is.
+#include "ui/desktop/panels/dialogs.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <filesystem>
+
+#include <imgui_stdlib.h>
+
+#include "ui/cli/report/figures.h"
+#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/app/import_task.h"
+#include "ui/desktop/panels/inspector_cell.h"
+#include "ui/desktop/panels/panel_memory.h"
+#include "ui/desktop/panels/scene_view.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr float kLabelAt = 250;
+
+// What the features of a file are, as the options name it and as people read it.
+struct KindChoice {
+  const char* kind;
+  const char* label;
+};
+constexpr std::array kKinds = {KindChoice{"", "as the file says"},    KindChoice{"building", "buildings"},
+                               KindChoice{"street", "streets"},       KindChoice{"plot", "plots"},
+                               KindChoice{"area", "areas of ground"}, KindChoice{"terrain", "a terrain"},
+                               KindChoice{"layer", "a layer of data"}};
+
+std::string name_of_file(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+// The place of an option is written as the command line calls it: "--storey-height".
+std::string sentence_of(const std::string& file, Error error) {
+  if (error.place.starts_with("--")) {
+    error.place.erase(0, 2);
+    std::replace(error.place.begin(), error.place.end(), '-', ' ');
+  }
+  return (file.empty() ? "" : name_of_file(file) + ": ") + error.text();
+}
+
+void label(const Theme& theme, const char* text, const char* doc) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", doc);
+  ImGui::SameLine(theme.px(kLabelAt));
+}
+
+void number_field(const Theme& theme, const char* text, const char* doc, double& value, const char* format) {
+  label(theme, text, doc);
+  ImGui::SetNextItemWidth(theme.px(150));
+  ImGui::InputDouble((std::string("##") + text).c_str(), &value, 0, 0, format);
+}
+
+void text_field(const Theme& theme, const char* text, const char* doc, std::string& value, const char* hint, float width = 250) {
+  label(theme, text, doc);
+  ImGui::SetNextItemWidth(theme.px(width));
+  ImGui::InputTextWithHint((std::string("##") + text).c_str(), hint, &value);
+}
+
+// "966 existing buildings, 781 junctions"
+std::string made_text(const cli::ImportedScene& imported, const Registry& types) {
+  std::string text;
+  for (const auto& [type, count] : imported.nodes) {
+    const TypificationDefinition* known = types.typification(type);
+    text += (text.empty() ? "" : ", ") + report::grouped(static_cast<double>(count)) + " \xc3\x97 " +
+            (known == nullptr ? type : known->label);
+  }
+  return text.empty() ? "no new nodes" : text;
+}
+
+}  // namespace
+
+void Dialogs::show_import(const std::vector<std::string>& files) {
+  if (import_task_) return editor_->tell(NoticeKind::told, "An import is running: wait for its end, or stop it.");
+  if (kind_ != Kind::import) import_.files.clear();  // what was given up is not offered again
+  for (const std::string& file : files)
+    if (std::find(import_.files.begin(), import_.files.end(), file) == import_.files.end()) import_.files.push_back(file);
+  told_.clear();
+  show(Kind::import);
+}
+
+void Dialogs::draw_import_files() {
+  const Theme& theme = editor_->theme;
+  ImGui::BeginChild("files", {0, theme.px(96)}, true);
+  std::size_t removed = import_.files.size();
+  for (std::size_t k = 0; k < import_.files.size(); ++k) {
+    ImGui::PushID(static_cast<int>(k));
+    if (ImGui::SmallButton(icon::kClose)) removed = k;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Leave this file out");
+    ImGui::SameLine();
+    ImGui::TextUnformatted(name_of_file(import_.files[k]).c_str());
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", std::filesystem::path(import_.files[k]).parent_path().string().c_str());
+    ImGui::PopID();
+  }
+  if (removed < import_.files.size()) import_.files.erase(import_.files.begin() + static_cast<std::ptrdiff_t>(removed));
+  if (import_.files.empty()) ImGui::TextDisabled("No file yet: choose one, or drop files onto the window.");
+  ImGui::EndChild();
+  if (ImGui::Button("Add a file ...")) {
+    chooser_.open(FileChooser::Purpose::open_file, "Import surroundings from", cli::context_endings(),
+                  import_.files.empty() ? "." : import_.files.back());
+    chosen_ = [this](const std::string& path) { import_.files.push_back(path); };
+  }
+  note_place(*editor_, "import/add");
+  ImGui::SameLine();
+  ImGui::TextDisabled("OpenStreetMap (XML, PBF), CityJSON, GeoJSON, ASCII grid, GeoTIFF, CSV with coordinates; also .gz");
+}
+
+void Dialogs::draw_import_options() {
+  const Theme& theme = editor_->theme;
+  ContextOptions& context = import_.context;
+  const auto chosen = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindChoice& k) { return import_.kind == k.kind; });
+  label(theme, "What is in the files", "What polygons, lines or cells are, where the file itself does not say it.");
+  ImGui::SetNextItemWidth(theme.px(250));
+  if (ImGui::BeginCombo("##kind", chosen->label)) {
+    for (const KindChoice& kind : kKinds)
+      if (ImGui::Selectable(kind.label, import_.kind == kind.kind)) import_.kind = kind.kind;
+    ImGui::EndCombo();
+  }
+  text_field(theme, "Coordinates are in", "A CRS in place of what the files say of themselves.", context.crs,
+             "as the file says, or EPSG:28992");
+  const std::string crs = editor_->document ? settings_of(editor_->scene()).coordinate_system : std::string();
+  if (crs.empty()) {
+    text_field(theme, "Origin of the scene (X,Y)", "In the CRS of the first file; later files land in the same frame.",
+               import_.origin, "the middle of the first file");
+  } else {
+    import_.origin.clear();
+    label(theme, "Origin of the scene", "Decided by the first file that was imported, or by the plan it was made from.");
+    ImGui::TextDisabled("stays where it is, in %s", crs.starts_with("+") ? "a projection made for the site" : crs.c_str());
+  }
+  number_field(theme, "Radius around the origin", "What begins farther away is skipped, and reported. 0: no limit.",
+               context.radius, "%.5g m");
+  number_field(theme, "Finest level of detail", "Of city models: the finest geometry up to this, such as 1.2 or 2.2.",
+               context.level_of_detail, "%.3g");
+  number_field(theme, "Storey height", "Where only a number of storeys is known.", context.storey_height, "%.4g m");
+  number_field(theme, "Height of unknown buildings",
+               "Where neither the file nor three neighbours tell one. It is marked as assumed.", context.default_height,
+               "%.4g m");
+  text_field(theme, "Column with the values", "Of a layer of data.", import_.value, "the only one with numbers");
+  text_field(theme, "Unit, licence of the values", "Of a layer of data: such as dB, and what may be done with it.", import_.unit,
+             "unit", 90);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(theme.px(152));
+  ImGui::InputTextWithHint("##licence", "licence", &import_.licence);
+  ImGui::Checkbox("Footpaths, cycleways and steps too", &import_.takes_all_streets);
+  ImGui::SameLine(theme.px(330));
+  ImGui::Checkbox("Buildings from outline and height only", &import_.is_extruded);
+}
+
+void Dialogs::draw_import_progress() {
+  const Theme& theme = editor_->theme;
+  const ImportWatch& watch = import_task_->watch();
+  const std::size_t file = std::min<std::size_t>(watch.file, import_.files.size() - 1), done = watch.done, total = watch.total;
+  const std::string name = name_of_file(import_.files[file]);
+  ImGui::Dummy({0, theme.px(30)});
+  ImGui::PushFont(theme.fonts().strong);
+  ImGui::TextUnformatted(
+      import_.files.size() > 1
+          ? (name + ", file " + std::to_string(file + 1) + " of " + std::to_string(import_.files.size())).c_str()
+          : name.c_str());
+  ImGui::PopFont();
+  ImGui::Dummy({0, theme.px(6)});
+  // Where nobody knows how much there is, the bar goes to and fro.
+  const double swing = 0.5 - 0.5 * std::cos(2.2 * editor_->now);
+  const float share =
+      total > 0 ? static_cast<float>(static_cast<double>(done) / static_cast<double>(total)) : static_cast<float>(swing);
+  const std::string count =
+      total > 0  ? report::grouped(static_cast<double>(done)) + " of " + report::grouped(static_cast<double>(total))
+      : done > 0 ? report::grouped(static_cast<double>(done))
+                 : std::string();
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, theme.colours().accent);
+  ImGui::ProgressBar(share, {-FLT_MIN, theme.px(8)}, "");
+  ImGui::PopStyleColor();
+  ImGui::TextDisabled("%s %s", watch.step.load(), count.c_str());
+  ImGui::Dummy({0, theme.px(10)});
+  ImGui::TextDisabled("The scene goes on meanwhile. Nothing is added before all files are read.");
+  ImGui::Dummy({0, theme.px(10)});
+  if (ImGui::Button("Stop", {theme.px(110), 0})) {
+    import_task_->stop();
+    ending_.push_back(std::move(import_task_));
+    told_ = {"The import was stopped; nothing was added."};
+    is_told_error_ = false;
+  }
+  note_place(*editor_, "import/stop");
+}
+
+void Dialogs::draw_import() {
+  if (!begin("Import surroundings", 780, 590)) {
+    // Closed by Esc or its cross: what runs is stopped.
+    if (kind_ != Kind::import && import_task_) {
+      import_task_->stop();
+      ending_.push_back(std::move(import_task_));
+    }
+    return;
+  }
+  const Theme& theme = editor_->theme;
+  if (import_task_) {
+    draw_import_progress();
+    if (import_task_ && import_task_->is_done()) {
+      const std::unique_ptr<ImportTask> task = std::move(import_task_);
+      task->wait();
+      if (take_import(task->result())) close();
+    }
+    return ImGui::EndPopup();
+  }
+  draw_import_files();
+  ImGui::Dummy({0, theme.px(4)});
+  draw_import_options();
+  ImGui::Dummy({0, theme.px(4)});
+  const bool is_ready = !import_.files.empty();
+  ImGui::BeginDisabled(!is_ready);
+  const bool is_entered = !is_fresh_ && !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  if (chief_button(theme, "Import", {theme.px(150), 0}) || (is_ready && is_entered)) begin_import();
+  note_place(*editor_, "import/begin");
+  ImGui::EndDisabled();
+  if (!is_ready && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("Choose a file first.");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {theme.px(110), 0})) close();
+  ImGui::PushStyleColor(ImGuiCol_Text, is_told_error_ ? theme.colours().bad : theme.colours().text_soft);
+  ImGui::PushTextWrapPos(0);
+  for (const std::string& line : told_) ImGui::TextUnformatted(line.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (const auto path = chooser_.draw(*editor_)) chosen_(*path);
+  ImGui::EndPopup();
+}
+
+void Dialogs::begin_import() {
+  told_.clear();
+  import_task_ = std::make_unique<ImportTask>(editor_->document ? editor_->scene() : Scene(), import_, editor_->program);
+}
+
+void Dialogs::wait_for_import() {
+  if (import_task_) import_task_->wait();
+}
+
+// Where none is open, a new one without a file begins. Whether there is one now.
+bool Dialogs::prepare_scene_for_import() {
+  if (editor_->document) return true;
+  std::vector<Problem> problems;
+  auto document = Document::from_text(editor_->program, write_scene(Scene(), editor_->program), "", kTickThreads, problems);
+  if (!document) return false;
+  editor_->list_problems("", std::move(problems));
+  editor_->take(std::move(document));
+  editor_->document->session().play(true);
+  return true;
+}
+
+bool Dialogs::take_import(cli::ImportedScene& imported) {
+  told_.clear();
+  is_told_error_ = true;
+  for (const auto& [file, error] : imported.errors) told_.push_back(sentence_of(file, error));
+  if (!imported.scene || !prepare_scene_for_import()) {
+    told_.push_back("Nothing was added to the scene.");
+    return false;
+  }
+  Document& document = *editor_->document;
+  const std::int64_t gesture = editor_->new_gesture();
+  if (auto done = document.submit({imported.command}, gesture); !done) {
+    told_ = {done.error().text(), "Nothing was added to the scene: it has changed since the import began. Import again."};
+    return false;
+  }
+  std::string names;
+  for (auto& [file, report] : imported.reports) {
+    file = name_of_file(file);  // the folders of one person say nothing to another
+    names += (names.empty() ? "" : ", ") + file;
+  }
+  document.name_step(gesture, "Import \xc2\xb7 " + names);
+  document.add_imports(imported.reports);
+  std::vector<Problem> problems = editor_->problems;
+  for (const std::string& note : imported.notes) problems.push_back({false, {ErrorCode::missing, "import", note}});
+  if (!imported.notes.empty())
+    editor_->list_problems(editor_->problem_file.empty() ? names : editor_->problem_file, std::move(problems));
+  std::size_t skipped = 0;
+  for (const auto& [file, report] : imported.reports) skipped += report.count(ImportOutcome::skipped);
+  editor_->tell(
+      NoticeKind::told,
+      "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
+          (skipped == 0 ? "Nothing was skipped." : report::counted(skipped, "element") + " skipped; the tab Import says why."));
+  editor_->person.shows_bottom = true;
+  memory_of(*editor_).wanted_tab = "Import";
+  const auto& [low, high] = imported.bounds;
+  if (low.x <= high.x) editor_->view->fit_to(low, high);
+  import_.files.clear();
+  return true;
+}
+
+}  // namespace bl::desktop

@@ -1,0 +1,152 @@
+// Reads ports by their names; ages of readings come from the state, those of sent messages from the window's clock.
+#include "ui/desktop/panels/stream_text.h"
+
+#include <cmath>
+
+#include "ui/cli/report/figures.h"
+
+namespace bl::desktop {
+
+namespace {
+
+const Value* find_value(const State& state, std::uint32_t node, std::size_t type, const char* port) {
+  const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
+  const std::size_t index = definition.port_index(port);
+  const auto& values = state.nodes[node].types[type].values;
+  return index < values.size() && index < definition.ports.size() ? &values[index] : nullptr;
+}
+
+std::string text_at(const State& state, std::uint32_t node, std::size_t type, const char* port) {
+  const Value* value = find_value(state, node, type, port);
+  const auto* text = value == nullptr ? nullptr : std::get_if<std::string>(value);
+  return text == nullptr ? std::string() : *text;
+}
+
+double number_at(const State& state, std::uint32_t node, std::size_t type, const char* port) {
+  const Value* value = find_value(state, node, type, port);
+  return value == nullptr ? 0 : as_number(*value);
+}
+
+// A unit that the program does not know stands behind the number as people have written it.
+std::string value_text(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+  const double value = number_at(state, node, type, "value");
+  const std::string written = text_at(state, node, type, "unit");
+  const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
+  const auto record = editor.scene().nodes.find(state.plan->nodes[node].id);
+  const PortDefinition* port = definition.find_port("value");
+  if (record == editor.scene().nodes.end() || !record->second.types.contains(definition.id) || port == nullptr)
+    return report::readable(value);
+  const UnitInfo* known = find_unit(written);
+  if (known == nullptr) return report::readable(value) + (written.empty() ? "" : " " + written);
+  return report::quantity(value, unit_of(editor.types(), record->second, definition, *port));
+}
+
+StreamText sensor_text(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+  StreamText stream;
+  const std::string quality = text_at(state, node, type, "quality");
+  const double age = number_at(state, node, type, "age");
+  stream.value = value_text(editor, state, node, type);
+  stream.message = text_at(state, node, type, "message");
+  stream.age = quality == "never" ? "no reading yet" : age < 0.5 ? "just now" : age_text(age) + " old";
+  if (quality == "stale" || quality == "invalid") stream.quality = quality;
+  if (!text_at(state, node, type, "connection").empty()) stream.quality += stream.quality.empty() ? "line lost" : ", line lost";
+  stream.standing = stream.quality.ends_with("lost") || quality == "invalid" ? StreamStanding::lost
+                    : quality == "stale"                                     ? StreamStanding::stale
+                    : quality == "never"                                     ? StreamStanding::silent
+                                                                             : StreamStanding::good;
+  return stream;
+}
+
+StreamText actuator_text(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+  StreamText stream;
+  stream.value = value_text(editor, state, node, type);
+  const Value* is_on = find_value(state, node, type, "is_on");
+  const auto delivery = editor.deliveries.find(state.plan->nodes[node].id);
+  if (const auto& error = state.nodes[node].types[type].error) {
+    stream.standing = StreamStanding::lost;
+    stream.quality = "not sent";
+    stream.message = error->text();
+  } else if (is_on != nullptr && std::holds_alternative<bool>(*is_on) && !std::get<bool>(*is_on)) {
+    stream.age = "off";
+  } else if (delivery == editor.deliveries.end()) {
+    stream.age = "not connected";
+  } else {
+    const Delivery& one = delivery->second;
+    const double since = editor.now - one.sent_at;
+    stream.age = one.sent_at < 0 ? "not sent yet" : since < 0.5 ? "sent just now" : "sent " + age_text(since) + " ago";
+    stream.standing = one.sent_at < 0 ? StreamStanding::stale : StreamStanding::good;
+    stream.message = one.problem;
+    if (!one.problem.empty()) stream.standing = StreamStanding::lost, stream.quality = "line lost";
+  }
+  return stream;
+}
+
+}  // namespace
+
+std::string StreamText::text() const {
+  std::string all = value;
+  for (const std::string* part : {&age, &quality})
+    if (!part->empty()) all += (all.empty() ? "" : ", ") + *part;
+  return all;
+}
+
+std::string age_text(double seconds) {
+  constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
+  const auto whole = [](double number) { return report::grouped(std::floor(number)); };
+  if (!(seconds >= 0)) return "0 s";
+  if (seconds < 2 * kMinute) return whole(seconds) + " s";
+  if (seconds < 2 * kHour) return whole(seconds / kMinute) + " min";
+  if (seconds < 2 * kDay) return whole(seconds / kHour) + " h";
+  return whole(seconds / kDay) + " days";
+}
+
+bool is_stream(const TypificationDefinition& type) {
+  const auto computes = [&type](const char* port) {
+    const PortDefinition* found = type.find_port(port);
+    return found != nullptr && found->is_computed;
+  };
+  return type.id == "actuator" || (computes("value") && computes("age") && computes("quality"));
+}
+
+std::optional<StreamText> stream_of(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+  if (node >= state.nodes.size() || type >= state.nodes[node].types.size()) return std::nullopt;
+  const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
+  if (!is_stream(definition)) return std::nullopt;
+  return definition.id == "actuator" ? actuator_text(editor, state, node, type) : sensor_text(editor, state, node, type);
+}
+
+std::optional<StreamText> stream_of(const Editor& editor, const State& state, std::uint32_t node) {
+  if (node >= state.nodes.size()) return std::nullopt;
+  for (std::size_t type = 0; type < state.nodes[node].types.size(); ++type)
+    if (auto found = stream_of(editor, state, node, type)) return found;
+  return std::nullopt;
+}
+
+ImU32 colour_of(const Theme& theme, StreamStanding standing) {
+  const Colours& c = theme.colours();
+  switch (standing) {
+    case StreamStanding::good: return c.good;
+    case StreamStanding::stale: return c.warning;
+    case StreamStanding::lost: return c.bad;
+    case StreamStanding::silent: return c.text_faint;
+  }
+  return c.text_faint;
+}
+
+void draw_standing(ImDrawList& list, const Theme& theme, ImVec2 middle, float radius, StreamStanding standing) {
+  const ImU32 colour = colour_of(theme, standing);
+  const float r = radius, line = std::max(1.2f, 0.4f * radius);
+  if (standing == StreamStanding::good) {
+    list.AddCircleFilled(middle, r, colour, 16);
+  } else if (standing == StreamStanding::stale) {
+    list.AddTriangleFilled({middle.x, middle.y - 1.15f * r}, {middle.x + 1.15f * r, middle.y + r},
+                           {middle.x - 1.15f * r, middle.y + r}, colour);
+  } else if (standing == StreamStanding::lost) {
+    list.AddLine({middle.x - r, middle.y - r}, {middle.x + r, middle.y + r}, colour, line);
+    list.AddLine({middle.x - r, middle.y + r}, {middle.x + r, middle.y - r}, colour, line);
+  } else {
+    list.AddCircle(middle, r, colour, 16, line);
+  }
+}
+
+}  // namespace bl::desktop
