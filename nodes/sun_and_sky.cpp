@@ -37,8 +37,7 @@ struct SunAndSky {
     t.id("sun_and_sky").label("Sun and sky");
     t.doc(
         "The sun over a place on earth, to a few ten-thousandths of a degree. It holds what depends on the place: coordinates, "
-        "true "
-        "north and the clock. Its period says which moments sun studies look at.");
+        "true north and the clock. Its period says which moments sun studies look at.");
     declare_place(t);
     declare_moment(t);
     declare_period(t);
@@ -96,10 +95,7 @@ struct SunAndSky {
     t.in(&In::day_step, "day_step").range(1, 366).doc("Every so many days of the period count.");
     t.in(&In::step, "step").unit(Unit::second).range(10, 21600).soft(300, 3600).doc("Time between two moments of a day.");
     t.in(&In::from_time, "from_time").unit(Unit::second).range(0, 86400).doc("Sun before this time of the day does not count.");
-    t.in(&In::to_time, "to_time")
-        .unit(Unit::second)
-        .range(0, 86400)
-        .doc("Sun after this time of the day does not count; it comes after `from_time`.");
+    t.in(&In::to_time, "to_time").unit(Unit::second).range(0, 86400).doc("Sun after this time, which is the later one, does not.");
     t.in(&In::min_altitude, "min_altitude")
         .unit(Unit::degree)
         .range(0, 90)
@@ -119,8 +115,7 @@ struct SunAndSky {
     t.out(&Out::sunset, "sunset").unit(Unit::second).doc("Local time at which it sets; 0 where it does not.");
     t.out(&Out::day_length, "day_length").unit(Unit::second).doc("How long it is above the horizon on that day.");
     t.out(&Out::transit_altitude, "transit_altitude").unit(Unit::degree).doc("Its height at the transit.");
-    t.out(&Out::note, "note")
-        .doc("Says so where the sun does not rise or not set on that day, or where no sun of the period counts; else empty.");
+    t.out(&Out::note, "note").doc("Says so where the sun does not rise or not set, or none of the period counts; else empty.");
     t.out(&Out::possible, "possible").unit(Unit::second).doc("Sun per day of the period on open ground: the mean of its days.");
     t.out(&Out::moments, "moments")
         .column({.id = "x", .doc = "First component of the unit vector to the sun."})
@@ -168,9 +163,8 @@ struct SunAndSky {
     if (!today.sunrise || !today.sunset)
       out.note = today.day_length > 43200 ? "the sun does not set on this day" : "the sun does not rise on this day";
     if (moments->empty())
-      out.note += std::string(out.note.empty() ? "" : "; ") +
-                  "no sun of the period counts: at no time of its days between `from_time` and `to_time` does it stand as high as "
-                  "`min_altitude`";
+      out.note += std::string(out.note.empty() ? "" : "; ") + "no sun of the period counts: it never stands as high as "
+                  "`min_altitude` between `from_time` and `to_time`";
     out.possible = possible_sun(*moments);
     out.moments.columns = {"x", "y", "z", "seconds"};
     for (const SunMoment& moment : *moments)

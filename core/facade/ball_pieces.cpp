@@ -117,21 +117,6 @@ Vector3 BallPieces::outward(std::span<const Point3> polygon) const {
   return middle - centre;
 }
 
-std::optional<Vector3> BallPieces::about_outward(std::span<const Point3> polygon) const {
-  Vector3 sum;
-  for (const Point3& corner : polygon) sum += corner - centre;
-  constexpr double kFarEnough = 1e-8;  // squared: at 1e-4 of the coordinates rounding is 1e-11 of the direction
-  if (!(squared_norm(sum) > kFarEnough * squared_norm(centre))) return std::nullopt;
-  return sum;
-}
-
-double doubled_area(std::span<const Point3> polygon, const Vector3& normal) {
-  double doubled = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    doubled += dot(normal, cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
-  return doubled;
-}
-
 BallPieces ball_pieces(const Mesh& mesh) {
   const MeshWrap& wrap = *mesh.wrap;
   BallPieces out;
