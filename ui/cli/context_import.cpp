@@ -61,6 +61,7 @@ class Import {
       for (const std::string& file : o_.files) read(file);
     result_.notes.insert(result_.notes.end(), nodes_.notes().begin(), nodes_.notes().end());
     result_.nodes = nodes_.made();
+    tell_of_ground();
     if (!result_.errors.empty()) return std::move(result_);
     Ledger ledger(registry_, scene_);
     if (auto done = ledger.submit(nodes_.batch(), "import", 0); !done) fail(o_.out, done.error());
@@ -76,6 +77,8 @@ class Import {
     for (const auto& [name, value] :
          {std::pair{"--storey-height", context_.storey_height}, {"--default-height", context_.default_height}})
       if (!(value >= 1) || !(value <= 1000)) refuse(name, "must be between 1 and 1000 m, found " + shortest(value));
+    if (!(context_.height_unit >= 0) || context_.height_unit > 1000)
+      refuse("--height-unit", "must be more than 0 and at most 1000 m, found " + shortest(context_.height_unit));
     if (!(context_.radius >= 0) || !(context_.neighbour_distance >= 0)) refuse("--radius", "distances must be 0 m or more");
     for (const std::string& property : o_.properties) {
       const std::size_t equals = property.find('=');
@@ -118,6 +121,17 @@ class Import {
     settle(reference);
   }
 
+  // Maps count heights from the ground, terrains from the sea.
+  void tell_of_ground() {
+    const bool has_terrain = result_.nodes.contains("terrain") ||
+                             std::any_of(scene_.nodes.begin(), scene_.nodes.end(),
+                                         [](const auto& entry) { return entry.second.types.contains("terrain"); });
+    if (has_terrain && from_ground_ > 0)
+      result_.notes.push_back(std::to_string(from_ground_) +
+                              " buildings and pieces of street have heights above the ground only: they stand at 0, and the "
+                              "terrain, whose heights count from the sea, lies above or below them.");
+  }
+
   template <class Read>
   bool told(const std::string& file, const Read& read) {
     if (read) return true;
@@ -145,8 +159,11 @@ class Import {
             : Result<Context>(Error{ErrorCode::parse, "",
                                     "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
     if (!told(file, context)) return;
+    settle(context->reference);
+    for (const ContextBuilding& building : context->buildings) from_ground_ += building.is_above_sea ? 0 : 1;
+    from_ground_ += context->streets.size();
+    context->report.drop(nodes_.add(*context, making_));
     take(file, context->report, context->notes, context->reference);
-    nodes_.add(*context, making_);
   }
 
   void read_grid(const std::string& file, const std::string& text) {
@@ -180,6 +197,7 @@ class Import {
   ContextOptions context_;
   ContextNodes nodes_;
   NodeMaking making_;
+  std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea
   ImportedScene result_;
 };
 

@@ -35,6 +35,11 @@ Point3 middle(const std::vector<Point3>& points) {
 
 Json position_json(const Point3& p) { return {tidy(p.x), tidy(p.y), tidy(p.z)}; }
 
+template <class Element>
+const std::string& row_of(const Element& element) {
+  return element.row.empty() ? element.id : element.row;
+}
+
 double length_of(const std::vector<Point3>& line) {
   double length = 0;
   for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
@@ -101,17 +106,28 @@ Command ContextNodes::batch() const {
   return command<Batch>({{list + "]"}});
 }
 
-void ContextNodes::add(const Context& context, const NodeMaking& making) {
-  for (const ContextBuilding& building : context.buildings) add_building(building, making);
+std::map<std::string, std::string> ContextNodes::add(const Context& context, const NodeMaking& making) {
+  Uses uses;
+  for (const ContextBuilding& building : context.buildings) {
+    add_building(building, making);
+    uses.use(row_of(building));
+  }
   std::size_t ground = 0;
   for (const ContextArea& area : context.areas) {
-    if (area.is_plot) add_plot(area);
-    else ++ground;
+    if (area.is_plot) {
+      add_plot(area);
+      uses.use(row_of(area));
+    } else {
+      ++ground;
+      uses.leave(row_of(area), "there is no typification for it");
+    }
   }
   if (ground > 0)
     notes_.push_back(std::to_string(ground) +
                      " areas of ground (land use, green, water) became no nodes: there is no typification for them.");
-  if (!context.streets.empty()) add_streets(context, making);
+  if (!context.streets.empty()) add_streets(context, making, uses);
+  for (const std::string& row : uses.used) uses.reasons.erase(row);
+  return std::move(uses.reasons);
 }
 
 void ContextNodes::add_building(const ContextBuilding& building, const NodeMaking& making) {
@@ -124,7 +140,8 @@ void ContextNodes::add_building(const ContextBuilding& building, const NodeMakin
   ports["height_source"] = std::string(name_of(building.height_source));
   if (building.storey_height > 0) ports["storey_height"] = tidy(building.storey_height);
   if (!building.use.empty()) ports["use"] = building.use;
-  ports["origin"] = building.id + (making.source.empty() ? "" : " of " + making.source);
+  ports["origin"] =
+      building.id + (making.source.empty() ? "" : " of " + making.source) + (making.licence.empty() ? "" : ", " + making.licence);
   if (building.solid && !making.is_extruded) {
     ports["form"] = "mesh";
     ports["vertices"] = points_json(building.solid->vertices, true);
@@ -151,11 +168,13 @@ void ContextNodes::add_plot(const ContextArea& area) {
   if (!area.holes.empty()) notes_.push_back("The holes of plot `" + area.id + "` were left out: a plot is one polygon.");
 }
 
-void ContextNodes::add_streets(const Context& context, const NodeMaking& making) {
+void ContextNodes::add_streets(const Context& context, const NodeMaking& making, Uses& uses) {
+  for (const ContextRestriction& turn : context.restrictions) uses.leave(turn.id, "the network of streets has no turns");
   const TypificationDefinition *junction = registry_->typification("junction"), *street = registry_->typification("street");
   if (junction == nullptr || street == nullptr) {
     notes_.push_back(std::to_string(context.streets.size()) +
                      " pieces of street became no nodes: this program has no typifications `junction` and `street`.");
+    for (const ContextStreet& piece : context.streets) uses.leave(row_of(piece), "there is no typification for it");
     return;
   }
   std::vector<std::string> ids(context.junctions.size());
@@ -169,11 +188,18 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making)
     ++made_["junction"];
     return ids[index];
   };
-  std::size_t without_cars = 0, loops = 0;
+  std::size_t without_cars = 0, loops = 0, courses = 0, cars_only = 0;
   for (const ContextStreet& piece : context.streets) {
-    if (!piece.for_cars && !making.takes_all_streets) ++without_cars;
-    else if (piece.start == piece.end) ++loops;
-    else {
+    if (!piece.for_cars && !making.takes_all_streets) {
+      ++without_cars;
+      uses.leave(row_of(piece), "without cars; --all-streets takes it");
+    } else if (piece.start == piece.end) {
+      ++loops;
+      uses.leave(row_of(piece), "it begins and ends at one junction");
+    } else {
+      uses.use(row_of(piece));
+      courses += piece.line.size() > 2 ? 1 : 0;
+      cars_only += piece.for_feet ? 0 : 1;
       Fitting fit(*street);
       fit.set_node("start", id_of(piece.start));
       fit.set_node("end", id_of(piece.end));
@@ -192,6 +218,14 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making)
       ++made_["street"];
     }
   }
+  if (courses > 0 && street->find_port("line") == nullptr)
+    notes_.push_back("The bends of " + std::to_string(courses) +
+                     " pieces of street were left out: a street runs straight between its junctions, and keeps its length.");
+  if (cars_only > 0)
+    notes_.push_back(std::to_string(cars_only) + " pieces of street are closed to people on foot, which a street cannot say.");
+  if (!making.licence.empty() && made_.contains("street"))
+    notes_.push_back("Streets and junctions have no place for the licence " + making.licence +
+                     ": name it beside what you publish.");
   if (without_cars > 0)
     notes_.push_back(std::to_string(without_cars) + " pieces of street without cars became no nodes; --all-streets takes them.");
   if (loops > 0)

@@ -27,7 +27,8 @@ class ContextNodes {
 
   /// Sets where the scene lies.
   void place(const GeoReference& reference);
-  void add(const Context& context, const NodeMaking& making);
+  /// Answers which rows of the report were read and then made no node, and why.
+  std::map<std::string, std::string> add(const Context& context, const NodeMaking& making);
   void add(const LocalTerrain& terrain, const NodeMaking& making);
   void add(const DataLayer& layer, const NodeMaking& making);
 
@@ -39,9 +40,17 @@ class ContextNodes {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  // What became of the elements of each row: a row is used where any of them is.
+  struct Uses {
+    std::set<std::string> used;
+    std::map<std::string, std::string> reasons;
+    void use(const std::string& row) { used.insert(row); }
+    void leave(const std::string& row, const std::string& reason) { reasons.emplace(row, reason); }
+  };
+
   std::string fresh_id(const std::string& wanted);
   void add_building(const ContextBuilding& building, const NodeMaking& making);
-  void add_streets(const Context& context, const NodeMaking& making);
+  void add_streets(const Context& context, const NodeMaking& making, Uses& uses);
   void add_plot(const ContextArea& area);
 
   const Registry* registry_;
