@@ -31,12 +31,12 @@ void ImportReport::skip(std::string kind, std::string id, std::string reason, st
   rows_.push_back({ImportOutcome::skipped, std::move(kind), std::move(id), std::move(reason), std::move(detail), count, {}, {}});
 }
 
-void ImportReport::drop(const std::map<std::string, std::string>& unused) {
-  for (ImportRow& row : rows_) {
-    const auto found = unused.find(row.id);
-    if (row.id.empty() || found == unused.end() || row.outcome == ImportOutcome::skipped) continue;
+void ImportReport::drop(const std::map<std::size_t, std::string>& unused) {
+  for (const auto& [index, reason] : unused) {
+    ImportRow& row = rows_[index];
+    if (!row.made.empty() || row.outcome == ImportOutcome::skipped) continue;
     row.outcome = ImportOutcome::skipped;
-    row.reason += ": " + found->second;
+    row.reason += ": " + reason;
   }
 }
 

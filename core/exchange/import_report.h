@@ -36,8 +36,8 @@ class ImportReport {
   void take(std::string kind, std::string id, std::string reason, std::string detail = "", std::size_t count = 1);
   void repair(std::string kind, std::string id, std::string reason, std::string detail = "");
   void skip(std::string kind, std::string id, std::string reason, std::string detail = "", std::size_t count = 1);
-  /// Elements that were read and then not used, with the reason: their rows become skipped ones.
-  void drop(const std::map<std::string, std::string>& unused);
+  /// Elements that were read and then not used, by row, with the reason: rows of which nothing was made become skipped ones.
+  void drop(const std::map<std::size_t, std::string>& unused);
   void add(ImportRow row) { rows_.push_back(std::move(row)); }
   /// Where the element of the newest row lies.
   void locate(const std::optional<std::array<double, 2>>& place) { rows_.back().place = place; }

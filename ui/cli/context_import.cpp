@@ -72,6 +72,7 @@ class Import {
     if (is_stopped() && result_.errors.empty()) fail("", stopped_error());
     result_.notes.insert(result_.notes.end(), nodes_.notes().begin(), nodes_.notes().end());
     result_.nodes = nodes_.made();
+    tell_of_ground();
     if (!result_.errors.empty()) return std::move(result_);
     if (result_.nodes.empty() && !result_.reports.empty()) {
       fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
@@ -95,6 +96,8 @@ class Import {
     for (const auto& [name, value] :
          {std::pair{"--storey-height", context_.storey_height}, {"--default-height", context_.default_height}})
       if (!(value >= 1) || !(value <= 1000)) refuse(name, "must be between 1 and 1000 m, found " + shortest(value));
+    if (!(context_.height_unit >= 0) || context_.height_unit > 1000)
+      refuse("--height-unit", "must be more than 0 and at most 1000 m, found " + shortest(context_.height_unit));
     if (!(context_.radius >= 0) || !(context_.neighbour_distance >= 0)) refuse("--radius", "distances must be 0 m or more");
     for (const std::string& property : o_.properties) {
       const std::size_t equals = property.find('=');
@@ -147,6 +150,17 @@ class Import {
     settle(reference);
   }
 
+  // Maps count heights from the ground, terrains from the sea.
+  void tell_of_ground() {
+    const bool has_terrain = result_.nodes.contains("terrain") ||
+                             std::any_of(scene_.nodes.begin(), scene_.nodes.end(),
+                                         [](const auto& entry) { return entry.second.types.contains("terrain"); });
+    if (has_terrain && from_ground_ > 0)
+      result_.notes.push_back(std::to_string(from_ground_) +
+                              " buildings and pieces of street have heights above the ground only: they stand at 0, and the "
+                              "terrain, whose heights count from the sea, lies above or below them.");
+  }
+
   template <class Read>
   bool told(const std::string& file, const Read& read) {
     if (read) return true;
@@ -178,6 +192,8 @@ class Import {
     if (!told(file, context)) return;
     if (!o_.kind.empty() && format != Format::geojson)
       result_.notes.push_back(file + ": --as " + o_.kind + " was not needed: the file says what its elements are");
+    for (const ContextBuilding& building : context->buildings) from_ground_ += building.is_above_sea ? 0 : 1;
+    from_ground_ += context->streets.size();
     take(file, context->report, context->notes, context->reference);
     nodes_.add(*context, making_, result_.reports.back().second);
   }
@@ -213,6 +229,7 @@ class Import {
   ContextOptions context_;
   ContextNodes nodes_;
   NodeMaking making_;
+  std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea
   ImportedScene result_;
 };
 

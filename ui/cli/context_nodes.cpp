@@ -135,9 +135,11 @@ void ContextNodes::add(const Context& context, const NodeMaking& making, ImportR
       for (const std::string& id : parts->second) report.made(row, id);
   }
   std::size_t ground = 0;
+  Unused unused;
   for (const ContextArea& area : context.areas) {
     if (!area.is_plot) {
       ++ground;
+      if (area.row != kNoRow) unused[area.row] = "there is no typification for it";
       continue;
     }
     const std::string id = add_plot(area);
@@ -146,7 +148,8 @@ void ContextNodes::add(const Context& context, const NodeMaking& making, ImportR
   if (ground > 0)
     notes_.push_back(std::to_string(ground) +
                      " areas of ground (land use, green, water) became no nodes: there is no typification for them.");
-  if (!context.streets.empty()) add_streets(context, making, report);
+  if (!context.streets.empty()) add_streets(context, making, report, unused);
+  report.drop(unused);
 }
 
 std::string ContextNodes::add_building(const ContextBuilding& building, const NodeMaking& making) {
@@ -159,7 +162,8 @@ std::string ContextNodes::add_building(const ContextBuilding& building, const No
   ports["height_source"] = std::string(name_of(building.height_source));
   if (building.storey_height > 0) ports["storey_height"] = tidy(building.storey_height);
   if (!building.use.empty()) ports["use"] = building.use;
-  ports["origin"] = building.id + (making.source.empty() ? "" : " of " + making.source);
+  ports["origin"] =
+      building.id + (making.source.empty() ? "" : " of " + making.source) + (making.licence.empty() ? "" : ", " + making.licence);
   if (building.solid && !making.is_extruded) {
     ports["form"] = "mesh";
     ports["vertices"] = points_json(building.solid->vertices, true);
@@ -193,7 +197,7 @@ std::string ContextNodes::add_plot(const ContextArea& area) {
   return id;
 }
 
-void ContextNodes::add_streets(const Context& context, const NodeMaking& making, ImportReport& report) {
+void ContextNodes::add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused) {
   if (registry_->typification("junction") == nullptr || registry_->typification("street") == nullptr) {
     notes_.push_back(std::to_string(context.streets.size()) +
                      " pieces of street became no nodes: this program has no typifications `junction` and `street`.");
@@ -201,12 +205,22 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
   }
   // Ids first: turn rules stand at junctions and name streets.
   std::vector<std::string> street_ids(context.streets.size()), junction_ids(context.junctions.size());
-  std::size_t without_cars = 0, loops = 0;
+  std::size_t without_cars = 0, loops = 0, bent = 0, without_walkers = 0;
   for (std::size_t s = 0; s < context.streets.size(); ++s) {
     const ContextStreet& piece = context.streets[s];
-    if (!piece.for_cars && !making.takes_all_streets) ++without_cars;
-    else if (piece.start == piece.end) ++loops;
-    else street_ids[s] = fresh_id("street_" + piece.id);
+    const auto leave = [&](std::size_t& count, const char* reason) {
+      ++count;
+      if (piece.row != kNoRow) unused[piece.row] = reason;
+    };
+    if (!piece.for_cars && !making.takes_all_streets) {
+      leave(without_cars, "without cars; it is taken where all streets are asked for");
+    } else if (piece.start == piece.end) {
+      leave(loops, "it begins and ends at one junction");
+    } else {
+      street_ids[s] = fresh_id("street_" + piece.id);
+      if (piece.line.size() > 2) ++bent;
+      if (!piece.for_feet) ++without_walkers;
+    }
   }
   const std::map<std::size_t, Json> turns = turn_rules(context, street_ids);
   const auto junction_at = [&](std::size_t index) -> const std::string& {
@@ -222,6 +236,14 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     add_street(street_ids[s], context.streets[s], start, end);
     if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
   }
+  if (bent > 0)
+    notes_.push_back("The bends of " + std::to_string(bent) +
+                     " pieces of street were left out: a street runs straight between its junctions, and keeps its length.");
+  if (without_walkers > 0)
+    notes_.push_back(std::to_string(without_walkers) + " pieces of street are closed to people on foot, which a street cannot say.");
+  if (!making.licence.empty() && made_.contains("street"))
+    notes_.push_back("Streets and junctions have no place for the licence " + making.licence +
+                     ": name it beside what you publish.");
   if (without_cars > 0)
     notes_.push_back(std::to_string(without_cars) +
                      " pieces of street without cars became no nodes: they are taken where all streets are asked for.");

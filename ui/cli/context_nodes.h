@@ -46,7 +46,9 @@ class ContextNodes {
  private:
   std::string fresh_id(const std::string& wanted);
   std::string add_building(const ContextBuilding& building, const NodeMaking& making);
-  void add_streets(const Context& context, const NodeMaking& making, ImportReport& report);
+  /// By row of the report: why an element became no node.
+  using Unused = std::map<std::size_t, std::string>;
+  void add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused);
   std::string add_junction(const ContextJunction& junction, const Json& turns);
   void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end);
   std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids);

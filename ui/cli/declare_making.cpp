@@ -68,6 +68,9 @@ void declare_import(CLI::App& app, ImportOptions& o) {
   c.add_option("--unit", o.unit, "Of a data layer: the unit of the values, such as dB.")->type_name("UNIT");
   c.add_option("--source", o.source, "Who made the data, for the nodes that keep it. Default: the name of the file.")->type_name("TEXT");
   c.add_option("--licence", o.licence, "What may be done with the data, for the nodes that keep it.")->type_name("TEXT");
+  c.add_option("--height-unit", o.context.height_unit,
+               "Metres of one unit of height in city models and terrains, such as 0.3048. Default: what the file or its CRS says.")
+      ->type_name("METRES");
   c.add_option("--storey-height", o.context.storey_height, "Height of storeys where only their number is known, in m. Default: 3.2.")
       ->type_name("METRES");
   c.add_option("--default-height", o.context.default_height, "Height of buildings that nothing is known about, in m. Default: 9.6.")
