@@ -28,7 +28,9 @@ struct TrafficZone {
         .range(0, 1e7)
         .soft(0, 1000)
         .combine(CombineRule::blend)
-        .doc("Trips that leave in the hour looked at. Links propose to it.");
+        .doc(
+            "Trips that leave in the hour looked at. What links propose is averaged, also with what people set: trips that add up "
+            "belong into one link.");
     t.in(&In::trips_in, "trips_in")
         .unit(Unit::per_hour)
         .range(0, 1e7)

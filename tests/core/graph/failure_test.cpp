@@ -30,7 +30,7 @@ TEST(Failure, ShapesThatAFailingSolverLeavesAreSavedWithIt) {
   EXPECT_EQ(again.state().hash, world.state().hash);
   // The study follows rays among the shapes: it has to find the same ones.
   for (World* each : {&world, &again}) {
-    ASSERT_EQ(each->submit(command<SetPort>({"sun", "sun_and_sky.min_altitude", {"5"}})), "");
+    ASSERT_EQ(each->submit(command<SetPort>({"sun", {"sun_and_sky.min_altitude"}, {"5"}})), "");
     each->tick(8);
   }
   EXPECT_GT(world.number("garden_north", "shadow_receiver.sun_mean"), 0);
@@ -40,6 +40,26 @@ TEST(Failure, ShapesThatAFailingSolverLeavesAreSavedWithIt) {
   ASSERT_EQ(world.submit(command<RemoveNode>({"plot2"})), "");
   world.tick(2);
   EXPECT_TRUE(save(world.state()).meshes.empty());
+}
+
+TEST(Failure, ASunThatStandsElsewhereThanItsSceneIsToldOf) {
+  const auto problems_of = [](const std::string& settings, const std::string& sun) {
+    const SceneReading reading = read_scene(R"({"format": "behaviourlinks", "version": 1, "settings": {)" + settings +
+                                                R"(}, "nodes": [{"id": "sun", "types": {"sun_and_sky": {)" + sun +
+                                                R"(}}}, {"id": "view", "types": {"media": {"latitude": 7}}}], "links": []})",
+                                            full_registry());
+    std::string all;
+    for (const Problem& problem : reading.problems) all += problem.error.text() + "\n";
+    return all;
+  };
+  EXPECT_EQ(problems_of("", ""), "");
+  EXPECT_EQ(problems_of(R"("latitude": 52, "longitude": 4.36)", ""), "");
+  const std::string turned = problems_of(R"("true_north": 90)", "");
+  EXPECT_NE(turned.find("nodes/sun/sun_and_sky/true_north: is 0°, and the setting `true_north` of the scene is 90°"), std::string::npos)
+      << turned;
+  const std::string south = problems_of(R"("latitude": -33.9, "longitude": 4.36)", "");
+  EXPECT_NE(south.find("nodes/sun/sun_and_sky/latitude"), std::string::npos) << south;
+  EXPECT_EQ(south.find("media"), std::string::npos) << south;
 }
 
 TEST(Failure, AMeshThatIsNoneIsAnErrorWithAPlace) {
@@ -59,7 +79,7 @@ TEST(Failure, FiguresBeyondAllSettingsAreReadAgain) {
   std::vector<std::string> volumes;
   for (const auto& [id, node] : world.session().scene().nodes)
     if (node.types.contains("smart_volume")) volumes.push_back(id);
-  for (const std::string& id : volumes) ASSERT_EQ(world.submit(command<SetPort>({id, "smart_volume.demand", {"1e-300"}})), "");
+  for (const std::string& id : volumes) ASSERT_EQ(world.submit(command<SetPort>({id, {"smart_volume.demand"}, {"1e-300"}})), "");
   world.tick(10);
   bool is_beyond = false;
   for (const auto& [node, values] : save(world.state()).nodes)
@@ -72,7 +92,7 @@ TEST(Failure, FiguresBeyondAllSettingsAreReadAgain) {
 TEST(Failure, AStudyThatStopsWaitingTakesTheNewestResult) {
   World world = World::from_file("scenes/nodes/sun_study.json");
   world.tick(3);
-  ASSERT_EQ(world.submit(command<SetPort>({"study", "sun_study.latency", {"0"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({"study", {"sun_study.latency"}, {"0"}})), "");
   world.tick(4);
   EXPECT_FALSE(has_failure(world.state()));
   EXPECT_EQ(loaded(world).state().hash, world.state().hash);
@@ -82,7 +102,7 @@ TEST(Failure, AStudyThatStopsWaitingTakesTheNewestResult) {
 TEST(Failure, ASelectionThatIsMendedClearsTheErrorOfItsAnalysis) {
   World world = World::from_file("scenes/nodes/sun_study.json");
   ASSERT_TRUE(world.settle());
-  ASSERT_EQ(world.submit(command<SetPort>({"study", "sun_study.buildings", {R"(["old_mill", "garden_east"])"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({"study", {"sun_study.buildings"}, {R"(["old_mill", "garden_east"])"}})), "");
   world.tick(3);
   EXPECT_TRUE(has_failure(world.state()));
   ASSERT_TRUE(world.session().undo("test").ok());
@@ -94,9 +114,9 @@ TEST(Failure, WhoLeavesAnAnalysisGetsNoneOfItsResults) {
   World world = World::from_file("scenes/nodes/sun_study.json");
   ASSERT_TRUE(world.settle());
   ASSERT_GT(world.number("garden_east", "shadow_receiver.sun_mean"), 0);
-  ASSERT_EQ(world.submit(command<SetPort>({"sun", "sun_and_sky.min_altitude", {"5"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({"sun", {"sun_and_sky.min_altitude"}, {"5"}})), "");
   world.tick();
-  ASSERT_EQ(world.submit(command<SetPort>({"study", "sun_study.receivers", {R"(["garden_north"])"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({"study", {"sun_study.receivers"}, {R"(["garden_north"])"}})), "");
   world.tick(12);
   EXPECT_GT(world.number("garden_north", "shadow_receiver.sun_mean"), 0);
   EXPECT_EQ(world.number("garden_east", "shadow_receiver.sun_mean"), 0);
@@ -124,7 +144,7 @@ TEST(Failure, OnePairThatFailsDoesNotStopTheOthers) {
 TEST(Failure, LinksHoldWhatTheyWantedWhileTheirSourceHasAnError) {
   World world = World::from_file("scenes/links/plot_rules.json");
   ASSERT_TRUE(world.settle());
-  ASSERT_EQ(world.submit(command<SetPort>({"plot", "plot.polygon", {"[[0, 0, 0], [30, 30, 0], [30, 0, 0], [0, 30, 0]]"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({"plot", {"plot.polygon"}, {"[[0, 0, 0], [30, 30, 0], [30, 0, 0], [0, 30, 0]]"}})), "");
   world.tick(2);
   ASSERT_TRUE(has_failure(world.state()));
   const State before = world.state();
