@@ -35,7 +35,7 @@ TEST(AccessRoute, TooFarIsSaidByTheZoneAlone) {
   // One zone that moves away loses its access, and the others keep theirs.
   World world = World::from_file("scenes/links/access_route.json");
   ASSERT_TRUE(world.settle(50));
-  ASSERT_EQ(world.submit(command<SetPort>({"school", "node.position", {"[0, 90000, 0]"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({"school", {"node.position"}, {"[0, 90000, 0]"}})), "");
   world.tick(3);
   EXPECT_TRUE(std::get<Shared<Texts>>(value_in(world.state(), "school", "traffic_zone.access"))->empty());
   EXPECT_NE(world.text("school", "traffic_zone.reason").find("no access"), std::string::npos);
