@@ -227,7 +227,8 @@ struct Crossing : Town {
   }
   double time_to_work() { return step().zones[0].mean_time; }
   double driving_to(const std::string& junction) {
-    for (const auto& row : step().zones[0].reach)
+    const DistrictResult result = step();
+    for (const auto& row : result.zones[0].reach)
       if (row.junction == junction) return row.driving;
     return -2;
   }

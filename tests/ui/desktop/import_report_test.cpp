@@ -53,6 +53,7 @@ TEST_F(ReportTest, CountsByOutcomeAndReason) {
 }
 
 TEST_F(ReportTest, WhatWasTakenIsChosenAndFramed) {
+  desktop.ticks(1);  // so that there are shapes to frame
   desktop.press_on(row_of("features/1"));
   desktop.frames(60);
   Editor& editor = desktop.editor();
