@@ -83,6 +83,30 @@ TEST(Copies, RecordedTablesAndPicturesBelowTheNewFolderAreNamedRelativeToIt) {
   EXPECT_EQ(editor.document->history().back().label, "Name files from the new folder");
 }
 
+TEST(Copies, RecordedTablesGoAlongToAFolderBesideTheOldOne) {
+  const Folder folder("copies_beside");
+  files::create_directories(folder.at("a"));
+  files::create_directories(folder.at("b"));
+  folder.write("a/table.csv", "time,t\n0,1\n");
+  folder.write("b/table.csv", "another one\n");
+  folder.write("a/ours.password", "secret\n");
+  folder.write("a/scene.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "broker", "types": {"mqtt_broker": {"password_from": "file:ours.password"}}},
+    {"id": "warmth", "types": {"sensor": {"address": "replay:table.csv#t"}}}], "links": []})");
+  ImportDesktop desktop;
+  Editor& editor = desktop.editor();
+  ASSERT_TRUE(editor.open(folder.at("a/scene.json")));
+  for (int i = 0; i < 2; ++i) {  // saved there again it is the same table, and no third one
+    ASSERT_TRUE(editor.document->save(folder.at("b/mine.json")));
+    EXPECT_EQ(std::get<std::string>(editor.scene().nodes.at("warmth").types.at("sensor").at("address")), "replay:table_2.csv#t");
+    EXPECT_EQ(read_file(folder.at("b/table_2.csv")).value(), "time,t\n0,1\n");
+    EXPECT_EQ(read_file(folder.at("b/table.csv")).value(), "another one\n");
+    const bool is_told = editor.document->save_note().find("put ours.password beside") != std::string::npos;
+    EXPECT_EQ(is_told, i == 0) << editor.document->save_note();
+  }
+  EXPECT_FALSE(files::exists(folder.at("b/ours.password")));
+}
+
 TEST(Copies, AFailedSaveLeavesTheNamesAsTheyWere) {
   ImportDesktop desktop("scenes/nodes/media.json");
   Editor& editor = desktop.editor();

@@ -97,30 +97,52 @@ std::string Document::name() const {
 std::string Document::folder() const { return std::filesystem::path(source()).parent_path().string(); }
 
 // As a step of its own, because ticks and undo have to see it too: its gesture, or 0 where all files are found as they are.
-std::int64_t Document::name_files_from(const std::string& target) {
-  const std::vector<Command> commands = commands_naming_files_from(scene(), folder(), target);
-  if (commands.empty()) return 0;
+std::int64_t Document::name_files_from(const NamedFiles& named) {
+  const auto note = [this](const std::string& sentence) { save_note_ += (save_note_.empty() ? "" : " ") + sentence; };
+  if (!named.secrets.empty()) {
+    std::string names;
+    for (const std::string& name : named.secrets) names += (names.empty() ? "" : ", ") + name;
+    note("Passwords and certificates were not copied: put " + names + " beside the new file.");
+  }
+  if (named.commands.empty()) return 0;
   const std::int64_t gesture = session_->new_gesture();
-  if (auto done = submit(commands, gesture); !done) return 0;  // somebody has taken the node away: then it names no file any more
+  if (auto done = submit(named.commands, gesture); !done) return 0;  // somebody has taken the node away: then it names no file any more
   name_step(gesture, "Name files from the new folder");
-  save_note_ = report::counted(commands.size(), "file") +
-               " that the scene names (pictures, tables) stayed in place; the scene names them from its new folder.";
+  if (!named.copies.empty())
+    note(report::counted(named.copies.size(), "recorded table") + " copied into the scene's new folder, where recordings are played from.");
+  if (const std::size_t rest = named.commands.size() - named.copies.size(); rest > 0)
+    note(report::counted(rest, "file") + " that the scene names stayed in place; the scene names them from its new folder.");
   return gesture;
 }
+
+namespace {
+
+Result<void> copy_all(const std::vector<std::pair<std::string, std::string>>& copies) {
+  for (const auto& [from, to] : copies) {
+    const auto text = read_file(from);
+    if (!text) return text.error();
+    if (auto written = write_file(to, *text); !written) return written;
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<void> Document::save(const std::string& path) {
   if (is_shipped(path))
     return Error{ErrorCode::conflict, path,
                  "The scenes of this folder come with the program and stay as they are: choose another folder."};
   save_note_.clear();
-  const std::int64_t gesture = name_files_from(std::filesystem::path(path).parent_path().string());
+  const NamedFiles named = files_named_from(scene(), folder(), std::filesystem::path(path).parent_path().string());
+  const std::int64_t gesture = name_files_from(named);
   // Scene and running state of one and the same moment.
   const auto text_to_save = [this] {
     const SavedState state = bl::save(*session_->take_on_changes());
     return write_scene(scene(), *registry_, state.tick > 0 ? &state : nullptr);
   };
   std::string text = text_to_save();
-  const auto written = write_file(path, text);
+  const auto copied = copy_all(named.copies);
+  const auto written = copied ? write_file(path, text) : copied;
   if (written) {
     path_ = path;
     origin_.clear();

@@ -11,6 +11,7 @@
 
 #include "core/exchange/import_report.h"
 #include "core/file/scene_file.h"
+#include "ui/desktop/app/named_files.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/app/live_session.h"
 
@@ -94,7 +95,7 @@ class Document {
   Document(const Registry& registry, std::string path);
   void begin_journal();
   void begin_log(const std::string& scene_text);
-  std::int64_t name_files_from(const std::string& folder);
+  std::int64_t name_files_from(const NamedFiles& named);
   void read_imports(std::vector<Problem>& problems);
   void write_imports(const std::string& scene_path);
 

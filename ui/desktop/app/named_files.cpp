@@ -8,6 +8,7 @@
 
 #include "core/base/live_address.h"
 #include "core/define/codec.h"
+#include "core/file/file_io.h"
 #include "core/session/commands.h"
 #include "ui/desktop/view/media_place.h"
 
@@ -25,13 +26,30 @@ files::path absolute(const std::string& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-// The name from the new folder; nothing where the old one serves as well.
-std::optional<std::string> moved(const std::string& name, const std::string& first, const files::path& from,
-                                 const files::path& to) {
+// Where a relative name leads from the old folder; nothing where it leads nowhere, or needs no folder.
+std::optional<files::path> found(const std::string& name, const std::string& first, const files::path& from) {
   std::error_code error;
   if (name.empty() || files::path(name).is_absolute() || !files::exists(from / first, error)) return std::nullopt;
-  const files::path path = (from / name).lexically_normal(), inside = path.lexically_relative(to);
-  return inside.empty() || *inside.begin() == ".." ? path.generic_string() : inside.generic_string();
+  return (from / name).lexically_normal();
+}
+
+// Its name below a folder; nothing where it does not lie there.
+std::optional<std::string> below(const files::path& path, const files::path& folder) {
+  const files::path inside = path.lexically_relative(folder);
+  if (inside.empty() || *inside.begin() == "..") return std::nullopt;
+  return inside.generic_string();
+}
+
+// A name beside the scene that is free, or that the same table has already.
+files::path place_for(const files::path& table, const files::path& folder) {
+  const auto text = read_file(table.string());
+  for (int number = 1;; ++number) {
+    const std::string suffix = number == 1 ? "" : "_" + std::to_string(number);
+    const files::path place = folder / (table.stem().string() + suffix + table.extension().string());
+    std::error_code error;
+    if (!files::exists(place, error)) return place;
+    if (const auto other = read_file(place.string()); text && other && *text == *other) return place;
+  }
 }
 
 const std::string* text_of(const NodeRecord& node, const std::string& type, const std::string& port) {
@@ -47,23 +65,35 @@ Command set_text(const std::string& node, const std::string& port, const std::st
 
 }  // namespace
 
-std::vector<Command> commands_naming_files_from(const Scene& scene, const std::string& folder, const std::string& target) {
-  std::vector<Command> commands;
+NamedFiles files_named_from(const Scene& scene, const std::string& folder, const std::string& target) {
+  NamedFiles named;
   const files::path from = absolute(folder), to = absolute(target);
-  if (from == to) return commands;
+  if (from == to) return named;
   for (const auto& [id, node] : scene.nodes) {
     if (const std::string* file = text_of(node, "media", "file"))
-      if (const auto name = moved(*file, frame_file(*file, 0, 1, 1), from, to))
-        commands.push_back(set_text(id, "media.file", *name));
+      if (const auto path = found(*file, frame_file(*file, 0, 1, 1), from))
+        named.commands.push_back(set_text(id, "media.file", below(*path, to).value_or(path->generic_string())));
+    for (const auto& [port, prefix] : {std::pair{"ca_file", ""}, std::pair{"password_from", "file:"}})
+      if (const std::string* secret = text_of(node, "mqtt_broker", port); secret != nullptr && secret->starts_with(prefix)) {
+        const std::string name = secret->substr(std::string_view(prefix).size());
+        if (found(name, name, from)) named.secrets.push_back(name);
+      }
     const std::string* address = text_of(node, "sensor", "address");
     if (address == nullptr || !address->starts_with(kReplay)) continue;
     const auto parsed = parse_live_address(*address);
     if (!parsed || address->compare(kReplay.size(), parsed->path.size(), parsed->path) != 0) continue;
-    if (const auto name = moved(parsed->path, parsed->path, from, to))
-      commands.push_back(
-          set_text(id, "sensor.address", std::string(kReplay) + *name + address->substr(kReplay.size() + parsed->path.size())));
+    const auto path = found(parsed->path, parsed->path, from);
+    if (!path) continue;
+    auto name = below(*path, to);
+    if (!name) {
+      const files::path place = place_for(*path, to);
+      named.copies.emplace_back(path->string(), place.string());
+      name = place.filename().string();
+    }
+    named.commands.push_back(
+        set_text(id, "sensor.address", std::string(kReplay) + *name + address->substr(kReplay.size() + parsed->path.size())));
   }
-  return commands;
+  return named;
 }
 
 }  // namespace bl::desktop

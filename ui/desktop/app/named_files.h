@@ -1,7 +1,8 @@
-// Files that a scene names relative to its own: pictures of media, and recorded tables of sensors.
+// Files that a scene names relative to its own: pictures of media, recorded tables of sensors, and what a broker wants to see.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/define/command_builder.h"
@@ -9,9 +10,15 @@
 
 namespace bl::desktop {
 
-/// What has to be said so that a scene which moves from one folder to another still names the same files. Files below the new
-/// folder are named relative to it, all others by their full path, which holds wherever the scene goes next. Nothing is said
-/// of files that are not there. An empty folder is the one where the program was started.
-std::vector<Command> commands_naming_files_from(const Scene& scene, const std::string& folder, const std::string& target);
+struct NamedFiles {
+  std::vector<Command> commands;                            ///< that name them from the new folder
+  std::vector<std::pair<std::string, std::string>> copies;  ///< tables, from where to where: they are played out of the scene's folder only
+  std::vector<std::string> secrets;                         ///< names of passwords and certificates, which stay behind
+};
+
+/// What has to be said and copied so that a scene which moves from one folder to another still has its files. Those below the new
+/// folder are named relative to it, pictures elsewhere by their full path, and tables elsewhere are copied beside the scene. Nothing
+/// is said of files that are not there. An empty folder is the one where the program was started.
+NamedFiles files_named_from(const Scene& scene, const std::string& folder, const std::string& target);
 
 }  // namespace bl::desktop

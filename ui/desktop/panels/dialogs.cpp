@@ -173,6 +173,7 @@ void Dialogs::ask_import_report() {
 }
 
 void Dialogs::guard(std::function<void()> then) {
+  stop_import();  // it was made for the scene that may go
   if (!editor_->document || !editor_->document->is_unsaved()) return then();
   then_ = std::move(then);
   show(Kind::unsaved);

@@ -84,6 +84,7 @@ class Dialogs {
   bool is_told_error_ = false;
   std::vector<Journal::Remains> remains_;
   cli::ImportOptions import_;
+  void stop_import();
   std::unique_ptr<ImportTask> import_task_;
   std::vector<std::unique_ptr<ImportTask>> ending_;  ///< stopped, but not through yet
 };

@@ -180,22 +180,21 @@ void Dialogs::draw_import_progress() {
   ImGui::Dummy({0, theme.px(10)});
   ImGui::TextDisabled("The scene goes on meanwhile. Nothing is added before all files are read.");
   ImGui::Dummy({0, theme.px(10)});
-  if (ImGui::Button("Stop", {theme.px(110), 0})) {
-    import_task_->stop();
-    ending_.push_back(std::move(import_task_));
-    told_ = {"The import was stopped; nothing was added."};
-    is_told_error_ = false;
-  }
+  if (ImGui::Button("Stop", {theme.px(110), 0})) stop_import();
   note_place(*editor_, "import/stop");
+}
+
+void Dialogs::stop_import() {
+  if (!import_task_) return;
+  import_task_->stop();
+  ending_.push_back(std::move(import_task_));
+  told_ = {"The import was stopped; nothing was added."};
+  is_told_error_ = false;
 }
 
 void Dialogs::draw_import() {
   if (!begin("Import surroundings", 780, 590)) {
-    // Closed by Esc or its cross: what runs is stopped.
-    if (kind_ != Kind::import && import_task_) {
-      import_task_->stop();
-      ending_.push_back(std::move(import_task_));
-    }
+    if (kind_ != Kind::import) stop_import();  // closed by Esc or its cross
     return;
   }
   const Theme& theme = editor_->theme;
