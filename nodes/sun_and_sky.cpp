@@ -51,7 +51,7 @@ struct SunAndSky {
     t.in(&In::true_north, "true_north")
         .unit(Unit::degree)
         .range(-360, 360)
-        .soft(-180, 180)
+        .of_scene()
         .doc("Where true north lies in the scene: clockwise from its y axis.");
     t.in(&In::utc_offset, "utc_offset")
         .unit(Unit::second)

@@ -288,6 +288,11 @@ Result<void> check_value(const PortDefinition& port, const Value& value, const s
   return {};
 }
 
+std::string why_unsettable(const PortDefinition& port) {
+  if (port.is_of_scene) return "`" + port.id + "` holds for the whole scene: it is set in the scene's settings";
+  return port.is_computed ? "`" + port.id + "` is computed and cannot be set" : "";
+}
+
 Result<Value> value_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
   auto value = decode(port, json, place);
   if (!value) return value;
@@ -309,13 +314,13 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
   std::map<std::string, Value> values;
   std::vector<std::string> settings;
   for (const PortDefinition& port : type.ports)
-    if (!port.is_computed) settings.push_back(port.id);
+    if (!port.is_computed && !port.is_of_scene) settings.push_back(port.id);
   for (const auto& [key, content] : json.items()) {
     const std::string here = place.empty() ? key : place + "/" + key;
     const PortDefinition* port = type.find_port(key);
     if (port == nullptr)
       return Error{ErrorCode::unknown_field, here, "`" + type.id + "` has no `" + key + "`" + did_you_mean(key, settings)};
-    if (port->is_computed) return Error{ErrorCode::conflict, here, "`" + key + "` is computed and cannot be set"};
+    if (auto reason = why_unsettable(*port); !reason.empty()) return Error{ErrorCode::conflict, here, std::move(reason)};
     auto value = value_from_json(*port, content, here);
     if (!value) return value.error();
     if (port->is_required || *value != port->default_value) values[key] = std::move(*value);

@@ -70,6 +70,7 @@ struct PortDefinition {
   Unit unit = Unit::none;
   std::string unit_from;     ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
   bool is_computed = false;  ///< written by evaluations only; never set by people or links
+  bool is_of_scene = false;  ///< the scene's setting of the same id: said once for all nodes, never set at one of them
   bool is_required = false;  ///< has no usable default (ids in commands)
   bool is_residual = false;  ///< a scene is settled when every residual is within its tolerance
   CombineRule rule = CombineRule::none;

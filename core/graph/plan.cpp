@@ -65,9 +65,9 @@ class Compiler {
       type.definition = definition;
       type.is_served = static_cast<bool>(definition->evaluate);
       for (const PortDefinition& port : definition->ports) {
-        const auto it = values.find(port.id);
-        type.is_set.push_back(it != values.end() && it->second != port.default_value);
-        type.set_values.push_back(it != values.end() ? it->second : port.default_value);
+        const Value& value = set_value(plan_->scene.settings, values, port);
+        type.is_set.push_back(value != port.default_value);
+        type.set_values.push_back(value);
         type.is_locked.push_back(record.locked.contains(definition->id + "." + port.id));
       }
     }

@@ -125,7 +125,8 @@ void draw_type(Editor& editor, InspectorView& view, const SharedType& shared) {
   if (!is_base && !section(editor, type.id, type.label, type.doc, &wants_removal)) return;
   draw_failure(editor, view, type);
   for (const SharedPort& setting : shared.settings) draw_setting(editor, view, type, setting);
-  const auto is_result = [](const PortDefinition& p) { return p.is_computed && !p.recall; };
+  // What the scene says for all nodes is shown like a result: it is set in the scene's settings.
+  const auto is_result = [](const PortDefinition& p) { return p.is_of_scene || (p.is_computed && !p.recall); };
   if (std::any_of(type.ports.begin(), type.ports.end(), is_result)) {
     // Results stand closer together than what can be changed.
     if (!shared.settings.empty()) ImGui::Dummy({0, editor.theme.px(2)});
@@ -169,7 +170,7 @@ void change_ports(Editor& editor, const std::vector<std::string>& nodes, const T
   for (const std::string& id : nodes) {
     const auto node = editor.scene().nodes.find(id);
     if (node == editor.scene().nodes.end() || !node->second.types.contains(type.id)) continue;
-    const Value& old = set_value(node->second, type, port);
+    const Value& old = set_value(editor.scene(), node->second, type, port);
     const Value fresh = change.make(old);
     if (fresh == old) continue;
     if (auto checked = check_value(port, fresh, ""); !checked) return complain(editor, key, checked.error().message);

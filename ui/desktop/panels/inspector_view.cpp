@@ -78,12 +78,12 @@ void InspectorView::merge_nodes(const Editor& editor) {
     if (!is_shared || type == nullptr) continue;
     SharedType shared{type, {}};
     for (const PortDefinition& port : type->ports) {
-      if (port.is_computed) continue;
-      SharedPort setting = first_of(port, unit_of(editor.types(), first, *type, port), set_value(first, *type, port));
+      if (port.is_computed || port.is_of_scene) continue;
+      SharedPort setting = first_of(port, unit_of(editor.types(), first, *type, port), set_value(scene, first, *type, port));
       std::size_t locked = 0;
       for (const std::string& n : nodes_) {
         const NodeRecord& node = scene.nodes.at(n);
-        add(setting, unit_of(editor.types(), node, *type, port), set_value(node, *type, port));
+        add(setting, unit_of(editor.types(), node, *type, port), set_value(scene, node, *type, port));
         if (node.locked.contains(type->id + "." + port.id)) ++locked;
       }
       setting.is_locked = locked == nodes_.size();
