@@ -45,13 +45,21 @@ struct SunAndSky {
   }
 
   static void declare_place(TypificationBuilder<SunAndSky>& t) {
-    t.in(&In::latitude, "latitude").unit(Unit::degree).range(-90, 90).doc("North of the equator; south of it is negative.");
-    t.in(&In::longitude, "longitude").unit(Unit::degree).range(-180, 180).doc("East of Greenwich; west of it is negative.");
+    t.in(&In::latitude, "latitude")
+        .unit(Unit::degree)
+        .range(-90, 90)
+        .of_scene(OfScene::unless_set)
+        .doc("North of the equator; south of it is negative. Unless it is set here, the scene's latitude holds where it has one.");
+    t.in(&In::longitude, "longitude")
+        .unit(Unit::degree)
+        .range(-180, 180)
+        .of_scene(OfScene::unless_set)
+        .doc("East of Greenwich; west of it is negative. Unless it is set here, the scene's longitude holds where it has one.");
     t.in(&In::elevation, "elevation").unit(Unit::metre).range(-500, 9000).soft(0, 2000).doc("Height above the sea.");
     t.in(&In::true_north, "true_north")
         .unit(Unit::degree)
         .range(-360, 360)
-        .of_scene()
+        .of_scene(OfScene::always)
         .doc("Where true north lies in the scene: clockwise from its y axis.");
     t.in(&In::utc_offset, "utc_offset")
         .unit(Unit::second)

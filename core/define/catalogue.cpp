@@ -35,7 +35,7 @@ std::string range_of(const PortDefinition& port) {
 
 std::string default_of(const PortDefinition& port) {
   if (port.is_required) return "required";
-  if (port.is_of_scene) return "the scene's setting";
+  if (port.of_scene == OfScene::always) return "the scene's setting";
   if (port.is_computed || port.kind == ValueKind::mesh) return "";
   const std::string text = write_json_line(value_to_json(port.default_value, port));
   return text == "\"\"" || text == "[]" ? "" : "`" + text + "`";

@@ -288,8 +288,12 @@ Result<void> check_value(const PortDefinition& port, const Value& value, const s
   return {};
 }
 
+bool is_kept(const PortDefinition& port, const Value& value) {
+  return port.is_required || port.of_scene == OfScene::unless_set || value != port.default_value;
+}
+
 std::string why_unsettable(const PortDefinition& port) {
-  if (port.is_of_scene) return "`" + port.id + "` holds for the whole scene: it is set in the scene's settings";
+  if (port.of_scene == OfScene::always) return "`" + port.id + "` holds for the whole scene: it is set in the scene's settings";
   return port.is_computed ? "`" + port.id + "` is computed and cannot be set" : "";
 }
 
@@ -314,7 +318,7 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
   std::map<std::string, Value> values;
   std::vector<std::string> settings;
   for (const PortDefinition& port : type.ports)
-    if (!port.is_computed && !port.is_of_scene) settings.push_back(port.id);
+    if (!port.is_computed && port.of_scene != OfScene::always) settings.push_back(port.id);
   for (const auto& [key, content] : json.items()) {
     const std::string here = place.empty() ? key : place + "/" + key;
     const PortDefinition* port = type.find_port(key);
@@ -323,7 +327,7 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
     if (auto reason = why_unsettable(*port); !reason.empty()) return Error{ErrorCode::conflict, here, std::move(reason)};
     auto value = value_from_json(*port, content, here);
     if (!value) return value.error();
-    if (port->is_required || *value != port->default_value) values[key] = std::move(*value);
+    if (is_kept(*port, *value)) values[key] = std::move(*value);
   }
   for (const PortDefinition& port : type.ports)
     if (port.is_required && !values.contains(port.id))
@@ -334,7 +338,7 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
 Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value>& values) {
   Json json = Json::object();
   for (const PortDefinition& port : type.ports)
-    if (const auto it = values.find(port.id); it != values.end() && (port.is_required || it->second != port.default_value))
+    if (const auto it = values.find(port.id); it != values.end() && is_kept(port, it->second))
       json[port.id] = value_to_json(it->second, port);
   return json;
 }

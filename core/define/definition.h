@@ -63,6 +63,10 @@ struct ChoiceDefinition {
   std::string id, doc;
 };
 
+/// Does a port stand for the scene's setting of the same id: where nobody has set it at the node, or always, so that it is said
+/// once for all nodes?
+enum class OfScene { no, unless_set, always };
+
 /// One declared datum of a typification, link kind or command.
 struct PortDefinition {
   std::string id, doc;
@@ -70,9 +74,9 @@ struct PortDefinition {
   Unit unit = Unit::none;
   std::string unit_from;     ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
   bool is_computed = false;  ///< written by evaluations only; never set by people or links
-  bool is_of_scene = false;  ///< the scene's setting of the same id: said once for all nodes, never set at one of them
   bool is_required = false;  ///< has no usable default (ids in commands)
   bool is_residual = false;  ///< a scene is settled when every residual is within its tolerance
+  OfScene of_scene = OfScene::no;
   CombineRule rule = CombineRule::none;
   double step_limit = std::numeric_limits<double>::infinity();  ///< largest change in one tick
   Value default_value = 0.0;

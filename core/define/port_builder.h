@@ -27,8 +27,8 @@ class PortBuilder {
     return *this;
   }
   /// The scene's setting of the same id, kind and unit is handed in: what holds for the whole scene is said in one place.
-  PortBuilder& of_scene() {
-    port_->is_of_scene = true;
+  PortBuilder& of_scene(OfScene when) {
+    port_->of_scene = when;
     return *this;
   }
   PortBuilder& required() {

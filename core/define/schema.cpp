@@ -78,7 +78,7 @@ Json form_of(const PortDefinition& port) {
 Json settings_properties(const TypeDefinition& type) {
   Json properties = Json::object();
   for (const PortDefinition& port : type.ports)
-    if (!port.is_computed && !port.is_of_scene) properties[port.id] = value_schema(port);
+    if (!port.is_computed && port.of_scene != OfScene::always) properties[port.id] = value_schema(port);
   return properties;
 }
 

@@ -159,7 +159,7 @@ class Reader {
   // Older files say at a node what now is said once for the scene: it becomes the setting where there is none yet.
   bool take_over(const TypificationDefinition& type, Json& values, const std::string& place) {
     for (const PortDefinition& port : type.ports) {
-      if (!port.is_of_scene || !values.is_object() || !values.contains(port.id)) continue;
+      if (port.of_scene != OfScene::always || !values.is_object() || !values.contains(port.id)) continue;
       auto value = value_from_json(port, values[port.id], place + "/" + port.id);
       if (!note(value)) return false;
       values.erase(port.id);

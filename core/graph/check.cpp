@@ -62,7 +62,7 @@ void check_place(const Scene& scene, const std::string& id, const NodeRecord& no
   const Settings settings = settings_of(scene);
   constexpr double kApart = 0.1;  // [degrees] more is no rounding
   const PortDefinition* north = type.find_port("true_north");
-  if (north == nullptr || !north->is_of_scene || (settings.latitude == 0 && settings.longitude == 0)) return;
+  if (north == nullptr || north->of_scene != OfScene::always || (settings.latitude == 0 && settings.longitude == 0)) return;
   const struct {
     const char* port;
     double scene;

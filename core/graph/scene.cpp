@@ -139,11 +139,11 @@ std::vector<std::string> resolve(const Scene& scene, const Registry& registry, c
 }
 
 const Value& set_value(const PortValues& settings, const PortValues& values, const PortDefinition& port) {
-  const PortDefinition* setting = port.is_of_scene ? settings_type().find_port(port.id) : nullptr;
-  const PortValues& said = setting != nullptr ? settings : values;
-  const auto it = said.find(port.id);
-  if (it != said.end()) return it->second;
-  return setting != nullptr ? setting->default_value : port.default_value;
+  if (port.of_scene != OfScene::always)
+    if (const auto own = values.find(port.id); own != values.end()) return own->second;
+  if (port.of_scene != OfScene::no)
+    if (const auto setting = settings.find(port.id); setting != settings.end()) return setting->second;
+  return port.default_value;
 }
 
 namespace {

@@ -43,8 +43,8 @@ Result<void> check_references(const SceneEdit& edit, const TypeDefinition& type,
 }
 
 void assign(PortValues& values, const PortDefinition& port, const Value& value) {
-  if (value == port.default_value) values.erase(port.id);
-  else values[port.id] = value;
+  if (is_kept(port, value)) values[port.id] = value;
+  else values.erase(port.id);
 }
 
 JsonText current_value(const PortValues& values, const PortDefinition& port) {

@@ -60,7 +60,7 @@ TEST(TypeLaws, PortIdsAreUniqueAndSettingsComeFirst) {
 TEST(TypeLaws, WhatHoldsForTheSceneIsASettingOfTheSameKindAndUnit) {
   for_each_type([](const TypeDefinition& type) {
     for (const PortDefinition& port : type.ports) {
-      if (!port.is_of_scene) continue;
+      if (port.of_scene != OfScene::always) continue;
       const PortDefinition* setting = settings_type().find_port(port.id);
       ASSERT_NE(setting, nullptr) << type.id << "." << port.id;
       EXPECT_EQ(setting->kind, port.kind) << type.id << "." << port.id;

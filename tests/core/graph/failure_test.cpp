@@ -42,6 +42,10 @@ TEST(Failure, ShapesThatAFailingSolverLeavesAreSavedWithIt) {
   EXPECT_TRUE(save(world.state()).meshes.empty());
 }
 
+std::string one_sun(const std::string& settings) {
+  return R"({"format": "behaviourlinks", "version": 1, "settings": {)" + settings + R"(}, "nodes": [{"id": "sun", "types": {"sun_and_sky": {}}}], "links": []})";
+}
+
 SceneReading sun_of(const std::string& settings, const std::string& sun) {
   return read_scene(R"({"format": "behaviourlinks", "version": 1, "settings": {)" + settings +
                         R"(}, "nodes": [{"id": "sun", "types": {"sun_and_sky": {)" + sun +
@@ -58,7 +62,8 @@ std::string problems_of(const std::string& settings, const std::string& sun) {
 TEST(Failure, ASunThatStandsElsewhereThanItsSceneIsToldOf) {
   EXPECT_EQ(problems_of("", ""), "");
   EXPECT_EQ(problems_of(R"("latitude": 52, "longitude": 4.36)", ""), "");
-  const std::string south = problems_of(R"("latitude": -33.9, "longitude": 4.36)", "");
+  EXPECT_EQ(problems_of(R"("latitude": -33.9, "longitude": 4.36)", ""), "");  // it follows the scene
+  const std::string south = problems_of(R"("latitude": -33.9, "longitude": 4.36)", R"("latitude": 52)");
   EXPECT_NE(south.find("nodes/sun/sun_and_sky/latitude"), std::string::npos) << south;
   EXPECT_EQ(south.find("media"), std::string::npos) << south;
 }
@@ -90,6 +95,24 @@ TEST(Failure, TrueNorthIsSaidOnceForTheScene) {
   ASSERT_EQ(world.submit(command<SetSetting>({"true_north", {"null"}})), "");
   world.tick();
   EXPECT_EQ(world.point("sun", "sun_and_sky.direction"), before);
+}
+
+TEST(Failure, TheSunStandsWhereTheSceneLiesUnlessItIsSetElsewhere) {
+  const auto altitude = [](World& world) {
+    world.tick();
+    return world.number("sun", "sun_and_sky.transit_altitude");
+  };
+  World world = World::from_text(one_sun(""));
+  const double at_52 = altitude(world);
+  ASSERT_EQ(world.submit(command<SetSetting>({"latitude", {"48"}})), "");
+  EXPECT_NEAR(altitude(world), at_52 + 4, 0.02);
+  // The default of the port is a choice like any other: it stays, also in the file, until nothing is said here any more.
+  ASSERT_EQ(world.submit(command<SetPort>({"sun", {"sun_and_sky.latitude"}, {"52"}})), "");
+  EXPECT_NEAR(altitude(world), at_52, 1e-9);
+  World loaded = World::from_text(write_scene(world.session().scene(), full_registry()));
+  EXPECT_NEAR(altitude(loaded), at_52, 1e-9);
+  ASSERT_EQ(world.submit(command<SetPort>({"sun", {"sun_and_sky.latitude"}, {"null"}})), "");
+  EXPECT_NEAR(altitude(world), at_52 + 4, 0.02);
 }
 
 TEST(Failure, AMeshThatIsNoneIsAnErrorWithAPlace) {
