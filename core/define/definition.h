@@ -43,8 +43,8 @@ struct Tick {
   bool is_recall = false;      ///< only the meshes of the values as they stand are wanted: no step is taken
 };
 
-/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of texts;
-/// the others choose a value.
+/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of
+/// texts; the others choose a value.
 enum class CombineRule { none, sum, blend, min, max, collect };
 std::string_view name_of(CombineRule rule);
 

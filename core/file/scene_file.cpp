@@ -165,10 +165,10 @@ class Reader {
       values.erase(port.id);
       const auto [setting, is_new] = reading_.scene.settings.emplace(port.id, *value);
       if (!is_new && setting->second != *value)
-        reading_.problems.push_back(
-            {false,
-             {ErrorCode::conflict, place + "/" + port.id,
-              "the scene's setting `" + port.id + "` holds instead; it is said once for all nodes and differs from what stood here"}});
+        reading_.problems.push_back({false,
+                                     {ErrorCode::conflict, place + "/" + port.id,
+                                      "the scene's setting `" + port.id +
+                                          "` holds instead; it is said once for all nodes and differs from what stood here"}});
     }
     return true;
   }

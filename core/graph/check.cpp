@@ -74,8 +74,8 @@ void check_place(const Scene& scene, const std::string& id, const NodeRecord& no
     if (std::abs(own - side.scene) <= kApart) continue;
     problems.push_back({false,
                         {ErrorCode::conflict, "nodes/" + id + "/" + type.id + "/" + side.port,
-                         "is " + shortest(own) + "°, and the setting `" + side.port + "` of the scene is " + shortest(side.scene) +
-                             "°: make them one, unless the node is to tell of another place"}});
+                         "is " + shortest(own) + "°, and the setting `" + side.port + "` of the scene is " +
+                             shortest(side.scene) + "°: make them one, unless the node is to tell of another place"}});
   }
 }
 

@@ -106,8 +106,9 @@ class Compiler {
       return "the link does not fit its kind `" + kind + "`: kept as it is, not run; correct it in the scene file";
     std::string guess = did_you_mean(kind, keys_of(registry_.links()));
     return "unknown link kind `" + kind + "`: kept as it is, not run" +
-           (guess.empty() ? "; a Lua file of yours is put into the scene by `script` or --script, a library is named by --plugins FOLDER"
-                          : guess);
+           (guess.empty()
+                ? "; a Lua file of yours is put into the scene by `script` or --script, a library is named by --plugins FOLDER"
+                : guess);
   }
 
   // Every path of the declaration at this end, with parameters put in for chosen ones.

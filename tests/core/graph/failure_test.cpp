@@ -43,7 +43,8 @@ TEST(Failure, ShapesThatAFailingSolverLeavesAreSavedWithIt) {
 }
 
 std::string one_sun(const std::string& settings) {
-  return R"({"format": "behaviourlinks", "version": 1, "settings": {)" + settings + R"(}, "nodes": [{"id": "sun", "types": {"sun_and_sky": {}}}], "links": []})";
+  return R"({"format": "behaviourlinks", "version": 1, "settings": {)" + settings +
+         R"(}, "nodes": [{"id": "sun", "types": {"sun_and_sky": {}}}], "links": []})";
 }
 
 SceneReading sun_of(const std::string& settings, const std::string& sun) {
@@ -76,7 +77,8 @@ TEST(Failure, TrueNorthIsSaidOnceForTheScene) {
   EXPECT_EQ(settings_of(older.scene).true_north, 12);
   EXPECT_TRUE(older.scene.nodes.at("sun").types.at("sun_and_sky").empty());
   const std::string differing = problems_of(R"("true_north": 90)", R"("true_north": 12)");
-  EXPECT_NE(differing.find("nodes/sun/types/sun_and_sky/true_north: the scene's setting `true_north` holds instead"), std::string::npos)
+  EXPECT_NE(differing.find("nodes/sun/types/sun_and_sky/true_north: the scene's setting `true_north` holds instead"),
+            std::string::npos)
       << differing;
   EXPECT_NE(problems_of("", R"("true_north": 400)").find("nodes/sun/types/sun_and_sky/true_north"), std::string::npos);
 
@@ -116,10 +118,13 @@ TEST(Failure, TheSunStandsWhereTheSceneLiesUnlessItIsSetElsewhere) {
 }
 
 TEST(Failure, AMeshThatIsNoneIsAnErrorWithAPlace) {
-  for (const char* mesh : {R"({})", R"(7)", R"({"vertices": [[0, 0]], "triangles": []})", R"({"vertices": [], "triangles": [[0, 0, 0]]})",
-                           R"({"vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]})", R"({"vertices": 1, "triangles": 2})"}) {
-    const std::string text = std::string(R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "types": {"smart_volume": {}}}],
-      "links": [], "state": {"tick": 1, "calm": 0, "nodes": {}, "meshes": {"a": {"smart_volume.mesh": )") + mesh + "}}}}";
+  for (const char* mesh :
+       {R"({})", R"(7)", R"({"vertices": [[0, 0]], "triangles": []})", R"({"vertices": [], "triangles": [[0, 0, 0]]})",
+        R"({"vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]})", R"({"vertices": 1, "triangles": 2})"}) {
+    const std::string text =
+        std::string(R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "types": {"smart_volume": {}}}],
+      "links": [], "state": {"tick": 1, "calm": 0, "nodes": {}, "meshes": {"a": {"smart_volume.mesh": )") +
+        mesh + "}}}}";
     const SceneReading reading = read_scene(text, full_registry());
     ASSERT_EQ(reading.problems.size(), 1u) << mesh;
     EXPECT_NE(reading.problems[0].error.text().find("state/meshes"), std::string::npos) << mesh;
@@ -205,9 +210,10 @@ TEST(Failure, LinksHoldWhatTheyWantedWhileTheirSourceHasAnError) {
   for (std::size_t n = 0; n < before.nodes.size(); ++n) {
     const std::string& id = before.plan->nodes[n].id;
     if (!world.session().scene().nodes.at(id).types.contains("smart_volume")) continue;
-    EXPECT_EQ(world.number(id, "smart_volume.demand_limit"),
-                as_number(before.value(*before.plan->find(static_cast<std::uint32_t>(n), *parse_port_path("smart_volume.demand_limit")))))
-          << id;
+    EXPECT_EQ(
+        world.number(id, "smart_volume.demand_limit"),
+        as_number(before.value(*before.plan->find(static_cast<std::uint32_t>(n), *parse_port_path("smart_volume.demand_limit")))))
+        << id;
   }
 }
 

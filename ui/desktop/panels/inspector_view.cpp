@@ -81,7 +81,8 @@ void InspectorView::merge_nodes(const Editor& editor) {
     for (const PortDefinition& port : type->ports) {
       if (port.is_computed || port.of_scene == OfScene::always) continue;
       const Value& unset = set_value(scene.settings, {}, port);
-      SharedPort setting = first_of(port, unit_of(editor.types(), first, *type, port), set_value(scene, first, *type, port), unset);
+      SharedPort setting =
+          first_of(port, unit_of(editor.types(), first, *type, port), set_value(scene, first, *type, port), unset);
       std::size_t locked = 0;
       for (const std::string& n : nodes_) {
         const NodeRecord& node = scene.nodes.at(n);
@@ -111,7 +112,8 @@ void InspectorView::merge_links(const Editor& editor) {
   kind_ = is_one_kind ? editor.types().link(first.kind) : nullptr;
   if (kind_ == nullptr) return;
   for (const PortDefinition& port : kind_->ports) {
-    SharedPort shared = first_of(port, unit_of_parameter(editor, *kind_, first, port), parameter_of(first, port), port.default_value);
+    SharedPort shared =
+        first_of(port, unit_of_parameter(editor, *kind_, first, port), parameter_of(first, port), port.default_value);
     for (const std::string& l : links_) {
       const LinkRecord& link = scene.links.at(l);
       add(shared, unit_of_parameter(editor, *kind_, link, port), parameter_of(link, port), port.default_value);
