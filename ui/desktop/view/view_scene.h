@@ -45,6 +45,7 @@ struct ViewLine {
   Colour colour = 0;
   float width = 1;
   float hidden_share = 0;
+  Vector3 came, goes;  ///< from the point before it, and to the one after it: there its corners meet theirs; 0: it begins, ends
   bool operator==(const ViewLine&) const = default;
 };
 
