@@ -258,8 +258,8 @@ struct TrafficNetworkNode {
     std::vector<DistrictStreet> streets;
     for (const Street& s : sets.streets) {
       const double capacity = s.lanes * s.capacity_per_lane * s.open;
-      streets.push_back(
-          {s.id, one_of(s.start), one_of(s.end), s.length, s.speed, capacity, s.toll, s.one_way, capacity > 0, s.for_cars, s.course});
+      streets.push_back({s.id, one_of(s.start), one_of(s.end), s.length, s.speed, capacity, s.toll, s.one_way, capacity > 0,
+                         s.for_cars, s.course});
     }
     std::vector<DistrictJunction> junctions;
     for (const Crossing& c : sets.junctions) junctions.push_back({c.id, c.position, c.delay});

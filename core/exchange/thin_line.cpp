@@ -16,9 +16,7 @@ constexpr double kNear = 0.01;
 struct Piece {
   std::size_t first = 0, last = 0, middle = 0;
   double aside = 0;
-  bool operator<(const Piece& other) const {
-    return aside != other.aside ? aside < other.aside : first > other.first;
-  }
+  bool operator<(const Piece& other) const { return aside != other.aside ? aside < other.aside : first > other.first; }
 };
 
 double distance_to(const Point3& p, const Point3& a, const Point3& b) {
@@ -31,7 +29,8 @@ double distance_to(const Point3& p, const Point3& a, const Point3& b) {
 Piece piece_between(const std::vector<Point3>& line, std::size_t first, std::size_t last) {
   Piece piece{first, last, first, 0};
   for (std::size_t i = first + 1; i < last; ++i)
-    if (const double aside = distance_to(line[i], line[first], line[last]); aside > piece.aside) piece.aside = aside, piece.middle = i;
+    if (const double aside = distance_to(line[i], line[first], line[last]); aside > piece.aside)
+      piece.aside = aside, piece.middle = i;
   return piece;
 }
 

@@ -8,7 +8,9 @@ namespace bl {
 
 namespace {
 
-double plan_distance(const Point3& a, const Point3& b) { return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y)); }
+double plan_distance(const Point3& a, const Point3& b) {
+  return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+}
 
 // How far each point of a line is from its start, along it.
 std::vector<double> ways_along(std::span<const Point3> line, double (*distance_of)(const Point3&, const Point3&)) {
@@ -28,7 +30,8 @@ std::vector<Point3> street_line(const Point3& start, std::span<const Point3> cou
   const std::vector<double> ways = ways_along(line, plan_distance);
   const double whole = ways.back();
   for (std::size_t i = 1; i + 1 < line.size(); ++i)
-    line[i].z = start.z + (whole > 0 ? ways[i] / whole : static_cast<double>(i) / static_cast<double>(line.size() - 1)) * (end.z - start.z);
+    line[i].z = start.z +
+                (whole > 0 ? ways[i] / whole : static_cast<double>(i) / static_cast<double>(line.size() - 1)) * (end.z - start.z);
   return line;
 }
 

@@ -46,7 +46,9 @@ TEST(Street, ItsCourseIsItsLengthAndItsEndsFollowTheJunctions) {
 
 TEST(Street, HeightsOfItsCourseCountForNothing) {
   World world = World::from_file("scenes/nodes/street.json");
-  ASSERT_EQ(world.submit(command<SetPort>({.node = "wide", .port = {"street.course"}, .value = {"[[0, 200, 900], [0, 100, -900]]"}})), "");
+  ASSERT_EQ(
+      world.submit(command<SetPort>({.node = "wide", .port = {"street.course"}, .value = {"[[0, 200, 900], [0, 100, -900]]"}})),
+      "");
   ASSERT_EQ(world.submit(command<SetPort>({.node = "north", .port = {"node.position"}, .value = {"[0, 300, 400]"}})), "");
   world.tick(2);
   EXPECT_NEAR(world.number("wide", "street.used_length"), 500, 1e-9) << "300 m, and 400 m evenly upwards";
@@ -55,8 +57,8 @@ TEST(Street, HeightsOfItsCourseCountForNothing) {
 TEST(Street, ARoundThatEndsWhereItBeginsIsAStreetToDriveOn) {
   const std::string round = R"({"id": "round", "types": {"street": {"start": "gate", "end": "gate", "speed": 10)";
   const auto scene = [&](const std::string& course) {
-    return scene_text(R"({"id": "network", "types": {"traffic_network": {}}},)" + node_text("gate", "[0, 0, 0]", "junction", R"("delay": 3)") +
-                      "," + round + course + "}}}");
+    return scene_text(R"({"id": "network", "types": {"traffic_network": {}}},)" +
+                      node_text("gate", "[0, 0, 0]", "junction", R"("delay": 3)") + "," + round + course + "}}}");
   };
   World bent = World::from_text(scene(R"(, "course": [[30, 0, 0], [30, 40, 0]])"));
   bent.tick();

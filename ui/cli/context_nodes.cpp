@@ -240,7 +240,8 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
   }
   if (without_walkers > 0)
-    notes_.push_back(std::to_string(without_walkers) + " pieces of street are closed to people on foot, which a street cannot say.");
+    notes_.push_back(std::to_string(without_walkers) +
+                     " pieces of street are closed to people on foot, which a street cannot say.");
   if (!making.licence.empty() && made_.contains("street"))
     notes_.push_back("Streets and junctions have no place for the licence " + making.licence +
                      ": name it beside what you publish.");
@@ -248,7 +249,8 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     notes_.push_back(std::to_string(without_cars) +
                      " pieces of street without cars became no nodes: they are taken where all streets are asked for.");
   if (loops > 0)
-    notes_.push_back(std::to_string(loops) + " pieces of street that end where they begin, without a way between, became no nodes.");
+    notes_.push_back(std::to_string(loops) +
+                     " pieces of street that end where they begin, without a way between, became no nodes.");
 }
 
 std::string ContextNodes::add_junction(const ContextJunction& junction, const Json& turns) {
@@ -261,8 +263,8 @@ std::string ContextNodes::add_junction(const ContextJunction& junction, const Js
   return id;
 }
 
-void ContextNodes::add_street(const std::string& id, const ContextStreet& piece, const std::string& start,
-                              const std::string& end, ImportReport& report) {
+void ContextNodes::add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
+                              ImportReport& report) {
   const ThinLine thin = thin_line(piece.line, kMostBends);
   const bool is_thinned = thin.points.size() < piece.line.size();
   if (is_thinned && piece.row != kNoRow)

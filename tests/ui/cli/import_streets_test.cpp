@@ -44,8 +44,8 @@ double length_of(const std::vector<std::array<double, 2>>& line) {
 
 // What a file says, found by looking for its marks: no parser of XML, no projection.
 struct Reading {
-  std::map<std::string, std::array<double, 2>> nodes;     // longitude and latitude [degree]
-  std::map<std::string, std::vector<std::string>> ways;   // all that have a highway
+  std::map<std::string, std::array<double, 2>> nodes;    // longitude and latitude [degree]
+  std::map<std::string, std::vector<std::string>> ways;  // all that have a highway
 };
 
 std::string between(const std::string& text, const std::string& begin, char end) {
@@ -141,12 +141,14 @@ TEST_F(ImportStreets, ARoundThatMeetsOneJunctionIsAStreet) {
   EXPECT_EQ(round["course"].size(), 3u);
   EXPECT_NEAR(length_of(line_of(nodes, round)), 2 * (55.8 + 111.4), 0.2);
   EXPECT_EQ(nodes.count("street_w12_0"), 0u);
-  EXPECT_NE(said.find("1 pieces of street that end where they begin, without a way between, became no nodes."), std::string::npos) << said;
+  EXPECT_NE(said.find("1 pieces of street that end where they begin, without a way between, became no nodes."), std::string::npos)
+      << said;
   EXPECT_EQ(place.run({"run", "scene.json"}).code, 0);
 }
 
 TEST_F(ImportStreets, LinesOfGeoJsonBendAsWell) {
-  place.write("streets.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
+  place.write("streets.geojson",
+              R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
     {"type": "Feature", "properties": {"id": "a"}, "geometry": {"type": "LineString", "coordinates":
       [[85000, 447000], [85030, 447000], [85030, 447040]]}}]})");
   const auto nodes = nodes_of(imported("streets.geojson", {"--as", "street"}));
@@ -164,20 +166,23 @@ TEST_F(ImportStreets, TooManyPointsAreThinnedAndTheReportSaysSo) {
   }
   place.write("river_road.geojson",
               R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
-    {"type": "Feature", "properties": {"id": "a"}, "geometry": {"type": "LineString", "coordinates": [)" + points + "]}}]}");
+    {"type": "Feature", "properties": {"id": "a"}, "geometry": {"type": "LineString", "coordinates": [)" +
+                  points + "]}}]}");
   const auto nodes = nodes_of(imported("river_road.geojson", {"--as", "street"}));
   const Json& street = nodes.at("street_a_0")["types"]["street"];
   EXPECT_LE(street["course"].size(), 500u);
   EXPECT_GE(street["course"].size(), 50u);
   EXPECT_NEAR(length_of(line_of(nodes, street)), street["length"].get<double>(), 0.001 * street["length"].get<double>());
-  EXPECT_NE(place.text("rows.csv").find(std::to_string(street["course"].size()) +
-                                        " of the 2999 bends of a/0 were taken, the others lie within 0.01 m of its line"),
+  EXPECT_NE(place.text("rows.csv")
+                .find(std::to_string(street["course"].size()) +
+                      " of the 2999 bends of a/0 were taken, the others lie within 0.01 m of its line"),
             std::string::npos)
       << place.text("rows.csv");
   EXPECT_NE(said.find("1 repaired"), std::string::npos) << said;
 }
 
-// With all streets, so that what became a piece is decided by lines alone: a node that only one way has, once, and not at its end.
+// With all streets, so that what became a piece is decided by lines alone: a node that only one way has, once, and not at its
+// end.
 TEST_F(ImportStreets, RealFilesKeepEveryPointAndTheLengthOnEarth) {
   for (const char* name : {"small_village.osm", "monaco.osm.gz", "lemans_centre.osm.gz"}) {
     const auto path = shared_file(std::string("data/osm/") + name);

@@ -90,8 +90,8 @@ void main() {
 }
 )";
 
-// Lines as quads of a width in pixels, soft at both sides. Where one goes on as another, both have the same two corners: neither a
-// gap nor a place that is painted twice.
+// Lines as quads of a width in pixels, soft at both sides. Where one goes on as another, both have the same two corners: there is
+// neither a gap nor a place that is painted twice.
 inline constexpr const char* kLineVertex = R"(
 uniform mat4 matrix;
 uniform vec2 size;
