@@ -5,11 +5,9 @@
 #include <GLFW/glfw3.h>
 
 #include "core/traffic/street_line.h"
-#include "tests/ui/desktop/offscreen_gl.h"
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/cli/report/report_model.h"
 #include "ui/desktop/panels/scene_view.h"
-#include "ui/desktop/view/gl_renderer.h"
 #include "ui/desktop/view/urban_picture.h"
 
 namespace bl::desktop {
@@ -114,41 +112,6 @@ TEST_F(ViewStreets, IsochronesRunAlongTheCourseAtTheRightDistance) {
   const ViewScene scene = picture(editor().view->choices());
   EXPECT_TRUE(std::any_of(scene.lines.begin(), scene.lines.end(),
                           [&](const ViewLine& line) { return std::hypot(line.to.x - wanted.x, line.to.y - wanted.y) < 1e-6; }));
-}
-
-// Two wide, translucent lines that go on as each other, seen from above: what the picture has at the place of the bend.
-TEST(ViewStreetLines, CornersAreFilledAndPaintedOnce) {
-  OffscreenGl gl;
-  ASSERT_TRUE(gl.is_there()) << gl.failure();
-  std::string failure;
-  const auto renderer = GlRenderer::make(failure);
-  ASSERT_NE(renderer, nullptr) << failure;
-  ViewScene scene;
-  scene.centre = {0, 0, 0};
-  scene.radius = 30;
-  scene.colours.sky = scene.colours.ground = 0xff000000u;
-  scene.layers.ground = false;
-  scene.camera = {{0, 0, 0}, 0, 1.5707, 60, true};
-  const Point3 corner{0, 0, 0.1};
-  scene.lines = {{{-10, 0, 0.1}, corner, 0x80ffffffu, 16, 0}, {corner, {0, 10, 0.1}, 0x80ffffffu, 16, 0}};
-  const auto brightness = [&](double x, double y) {
-    EXPECT_NE(renderer->draw(scene, 200, 200), 0u);
-    const std::vector<std::uint8_t> pixels = renderer->pixels();
-    const Seen at = scene.camera.project({x, y, 0.1}, renderer->width(), renderer->height());
-    const auto row = static_cast<std::size_t>(renderer->height() - 1 - static_cast<int>(at.y)),
-               column = static_cast<std::size_t>(at.x);
-    return static_cast<int>(pixels[4 * (row * static_cast<std::size_t>(renderer->width()) + column)]);
-  };
-  const double half = 5 * scene.camera.metres_per_pixel(corner, 200);
-  const int plain = brightness(-5, 0), outside = brightness(half, -half), inside = brightness(-half, half);
-  EXPECT_GT(plain, 60);
-  EXPECT_LT(outside, plain / 4) << "without neighbours there is a gap";
-  EXPECT_GT(inside, plain + 20) << "and a place that is painted twice";
-  scene.lines[0].goes = {0, 10, 0};
-  scene.lines[1].came = {10, 0, 0};
-  EXPECT_NEAR(brightness(-5, 0), plain, 2);
-  EXPECT_NEAR(brightness(half, -half), plain, 6);
-  EXPECT_NEAR(brightness(-half, half), plain, 6);
 }
 
 }  // namespace
