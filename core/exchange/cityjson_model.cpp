@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
-#include "core/exchange/bounded_json.h"
+#include "core/define/bounded_json.h"
 #include "core/exchange/inflate.h"
 #include "core/exchange/local_frame.h"
 

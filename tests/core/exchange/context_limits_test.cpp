@@ -6,7 +6,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "core/exchange/bounded_json.h"
+#include "core/define/bounded_json.h"
 #include "core/exchange/box_grid.h"
 #include "core/exchange/cityjson_context.h"
 #include "core/exchange/data_layer.h"

@@ -1,5 +1,5 @@
 // One look at the brackets before the parser builds anything: a packed file of some kilobytes can unpack to gigabytes of them.
-#include "core/exchange/bounded_json.h"
+#include "core/define/bounded_json.h"
 
 #include <algorithm>
 #include <string>
@@ -11,13 +11,6 @@ namespace bl {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string place_of(std::string_view text, std::size_t at) {
-  const std::string_view before = text.substr(0, at);
-  const std::size_t last = before.rfind('\n');
-  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column " +
-         std::to_string(before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1);
-}
 
 // Brackets and commas outside of strings, told to `see` with their places until it has seen enough.
 template <class See>
@@ -36,7 +29,16 @@ void scan(std::string_view text, const See& see) {
   }
 }
 
-Result<void> check_bounds(std::string_view text) {
+}  // namespace
+
+std::string place_in_text(std::string_view text, std::size_t at) {
+  const std::string_view before = text.substr(0, at);
+  const std::size_t last = before.rfind('\n');
+  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column " +
+         std::to_string(before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1);
+}
+
+Result<void> check_json_bounds(std::string_view text) {
   std::size_t depth = 0, values = 1, deep = std::string_view::npos, many = std::string_view::npos;
   scan(text, [&](char c, std::size_t at) {
     if (c == '[' || c == '{') {
@@ -49,23 +51,21 @@ Result<void> check_bounds(std::string_view text) {
     return deep == std::string_view::npos && many == std::string_view::npos;
   });
   if (deep != std::string_view::npos)
-    return Error{ErrorCode::out_of_range, place_of(text, deep),
+    return Error{ErrorCode::out_of_range, place_in_text(text, deep),
                  "The text is nested deeper than " + std::to_string(kMostJsonDepth) +
                      " levels from here on: no file of this kind is, and it is not read."};
   if (many != std::string_view::npos)
-    return Error{ErrorCode::out_of_range, place_of(text, many),
+    return Error{ErrorCode::out_of_range, place_in_text(text, many),
                  "The text holds more than " + std::to_string(kMostJsonValues) + " values: cut out the part that you need."};
   return {};
 }
 
-}  // namespace
-
 Result<Json> read_bounded_json(std::string_view text, std::string_view format) {
-  if (auto bounded = check_bounds(text); !bounded) return bounded.error();
+  if (auto bounded = check_json_bounds(text); !bounded) return bounded.error();
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    return Error{ErrorCode::parse, place_of(text, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size())),
+    return Error{ErrorCode::parse, place_in_text(text, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size())),
                  "The text is not valid JSON from here on; is the file complete, and is it " + std::string(format) + "?"};
   } catch (const Json::exception&) {
     return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
