@@ -23,7 +23,7 @@ std::string place_in_text(std::string_view text, std::size_t at);
 Result<void> check_json_bounds(std::string_view text);
 
 /// The one value of the text. `format` is what the text should be, for the sentence of an error, whose place is its line and
-/// column.
+/// column. A stop wish of this thread (`core/base/stop.h`) ends it early, as `cancelled`.
 Result<nlohmann::json> read_bounded_json(std::string_view text, std::string_view format);
 
 /// The end of the array or object that the text begins with; npos where it does not begin with one, or does not end it.

@@ -7,6 +7,9 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/stop_check.h"
+#include "core/exchange/context_shape.h"
+
 namespace bl {
 
 namespace {
@@ -137,6 +140,7 @@ Result<void> parse_lines(std::string_view text, std::size_t first_line, CsvText&
   std::size_t empty = 0;
   bool in_record = false;
   for (std::size_t line = first_line; !text.empty(); ++line) {
+    if (line % 4096 == 0 && is_stop_wished()) return stopped_error();
     const std::size_t length = std::min(text.find('\n'), text.size() - 1) + 1;
     const std::string_view piece = text.substr(0, length);
     text.remove_prefix(length);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/exchange/context_shape.h"
 #include "core/exchange/csv_reader.h"
@@ -95,6 +96,7 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
                  "The header promises " + std::to_string(count) + " cells, more than the file can hold: is it complete?"};
   grid.values.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    if (i % 65536 == 0 && is_stop_wished()) return stopped_error();
     const std::string_view word = words.next();
     if (word.empty())
       return Error{ErrorCode::parse, "end of the file",

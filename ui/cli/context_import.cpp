@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/exchange/cityjson_context.h"
 #include "core/exchange/context_shape.h"
@@ -254,6 +255,9 @@ const std::vector<std::string>& context_endings() {
 }
 
 ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry) {
+  // Parsers deep down learn of a stop as well.
+  const ImportWatch* watch = options.context.watch;
+  const StopScope scope([watch] { return watch != nullptr && watch->is_stopped; });
   return Import(scene, options, registry).run();
 }
 
