@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/define/bounded_json.h"
 #include "core/exchange/context_shape.h"
+#include "core/exchange/foreign_bytes.h"
 #include "core/exchange/inflate.h"
 #include "core/exchange/local_frame.h"
 
@@ -163,6 +164,7 @@ CityGeometry geometry_of(const Json& json, std::size_t vertices) {
 class Reader {
  public:
   Result<CityModel> read(const std::string& text) {
+    if (auto foreign = foreign_bytes(text, "CityJSON", "export it as CityJSON, which is text")) return *foreign;
     // A sequence is told by its first line, which is a value of its own, and by what follows.
     const std::size_t end = text.find('\n'), first = end_of_first_value(text);
     const bool is_sequence = end != std::string::npos && first != std::string_view::npos && first <= end &&

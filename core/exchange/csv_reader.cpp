@@ -9,6 +9,7 @@
 
 #include "core/base/stop_check.h"
 #include "core/exchange/context_shape.h"
+#include "core/exchange/foreign_bytes.h"
 
 namespace bl {
 
@@ -70,8 +71,10 @@ Result<std::string> from_windows(std::string_view text) {
 
 // UTF-8 with \n at the line ends and without byte order mark.
 Result<std::string> tidy_text(std::string_view text, std::vector<std::string>& notes) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") || text.find('\0') != std::string_view::npos)
-    return Error{ErrorCode::parse, "line 1", "The file is UTF-16 or no text at all. Save it as CSV in UTF-8."};
+  if (auto foreign = foreign_bytes(text, "CSV table", "save it as CSV in UTF-8")) return *foreign;
+  if (text.find('\0') != std::string_view::npos)
+    return Error{ErrorCode::parse, "line " + std::to_string(line_at(text, text.find('\0'))),
+                 "From here on this is no text: is the file complete? Save it as CSV in UTF-8."};
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   std::string tidy;
   tidy.reserve(text.size() + 1);

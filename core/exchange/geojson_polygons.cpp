@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/define/bounded_json.h"
 #include "core/exchange/context_shape.h"
+#include "core/exchange/foreign_bytes.h"
 #include "core/exchange/local_frame.h"
 
 namespace bl {
@@ -242,6 +243,7 @@ Result<std::array<double, 2>> Reader::read_position(const Json& position, const 
 
 Result<GeoDocument> read_geojson_polygons(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (auto foreign = foreign_bytes(text, "GeoJSON", "export it as GeoJSON, which is text")) return *foreign;
   const auto json = read_bounded_json(text, "GeoJSON");
   if (!json) return json.error();
   try {
