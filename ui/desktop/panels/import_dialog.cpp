@@ -258,12 +258,18 @@ bool Dialogs::take_import(cli::ImportedScene& imported) {
   for (const std::string& note : imported.notes) problems.push_back({false, {ErrorCode::missing, "import", note}});
   if (!imported.notes.empty())
     editor_->list_problems(editor_->problem_file.empty() ? names : editor_->problem_file, std::move(problems));
-  std::size_t skipped = 0;
-  for (const auto& [file, report] : imported.reports) skipped += report.count(ImportOutcome::skipped);
+  std::size_t skipped = 0, repaired = 0;
+  for (const auto& [file, report] : imported.reports) {
+    skipped += report.count(ImportOutcome::skipped);
+    repaired += report.count(ImportOutcome::repaired);
+  }
   editor_->tell(
       NoticeKind::told,
       "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
-          (skipped == 0 ? "Nothing was skipped." : report::counted(skipped, "element") + " skipped; the tab Import says why."));
+          (repaired == 0 ? "" : report::counted(repaired, "element") + " repaired, ") +
+          (skipped == 0 ? (repaired == 0 ? "Nothing was skipped." : "none skipped; the tab Import says what was mended.")
+                        : (repaired == 0 ? report::counted(skipped, "element") : report::grouped(static_cast<double>(skipped))) +
+                              " skipped; the tab Import says why."));
   editor_->person.shows_bottom = true;
   memory_of(*editor_).wanted_tab = "Import";
   const auto& [low, high] = imported.bounds;
