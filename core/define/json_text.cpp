@@ -7,40 +7,24 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/define/bounded_json.h"
 
 namespace bl {
 
 namespace {
 
-constexpr std::size_t kMaxDepth = 64;
-
-std::string place_of(std::string_view text, std::size_t byte) {
-  std::size_t line = 1, column = 1;
-  for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i) {
-    if (text[i] == '\n') {
-      ++line;
-      column = 1;
-    } else {
-      ++column;
-    }
-  }
-  return "line " + std::to_string(line) + ", column " + std::to_string(column);
-}
-
-// Follows the parser's events to find what the DOM would hide: doubled keys and too deep nesting.
+// Follows the parser's events to find what the DOM would hide: doubled keys.
 class Watcher {
  public:
   bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start) {
       open_.emplace_back();
-      if (open_.size() > kMaxDepth && problem.empty()) problem = "nested deeper than " + std::to_string(kMaxDepth) + " levels";
     } else if (event == Json::parse_event_t::object_end || event == Json::parse_event_t::array_end) {
       open_.pop_back();
     } else if (event == Json::parse_event_t::key) {
       const std::string& key = parsed.get_ref<const std::string&>();
       if (!open_.back().insert(key).second && problem.empty()) problem = "the key \"" + key + "\" stands twice in one object";
     }
-    // Discarding what is below a problem keeps a hostile file from building a deep tree.
     return problem.empty();
   }
   std::string problem;
@@ -51,28 +35,9 @@ class Watcher {
 
 }  // namespace
 
-namespace {
-
-// The library's parser recurses nowhere, but its destructor and ours would on a hostile depth: looked at first.
-bool is_too_deep(std::string_view text) {
-  std::size_t depth = 0;
-  bool is_in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (is_in_string) {
-      if (c == '\\') ++i;
-      else if (c == '"') is_in_string = false;
-    } else if (c == '"') is_in_string = true;
-    else if ((c == '[' || c == '{') && ++depth > kMaxDepth) return true;
-    else if ((c == ']' || c == '}') && depth > 0) --depth;
-  }
-  return false;
-}
-
-}  // namespace
-
 Result<Json> parse_json(std::string_view text) {
-  if (is_too_deep(text)) return Error{ErrorCode::parse, "", "nested deeper than " + std::to_string(kMaxDepth) + " levels"};
+  // The library's parser recurses nowhere, but its destructor and ours would on a hostile depth: looked at first.
+  if (auto bounded = check_json_bounds(text); !bounded) return bounded.error();
   Watcher watcher;
   try {
     Json value = Json::parse(text, std::ref(watcher));
@@ -81,16 +46,17 @@ Result<Json> parse_json(std::string_view text) {
   } catch (const Json::parse_error& e) {
     const std::size_t byte = static_cast<std::size_t>(e.byte);
     if (byte > text.size())
-      return Error{ErrorCode::parse, place_of(text, text.size() + 1),
+      return Error{ErrorCode::parse, place_in_text(text, text.size()),
                    "the text ends in the middle of a JSON value; the file is cut off"};
-    return Error{ErrorCode::parse, place_of(text, byte), "this is not JSON (no comments, no trailing commas, no NaN)"};
+    return Error{ErrorCode::parse, place_in_text(text, byte > 0 ? byte - 1 : 0),
+                 "this is not JSON (no comments, no trailing commas, no NaN)"};
   } catch (const Json::out_of_range& e) {
     // The library's message quotes the number; the first place where it stands is where it was met.
     const std::string_view what = e.what();
     const std::size_t open = what.find('\''), close = what.rfind('\'');
     const std::string_view number = close > open ? what.substr(open + 1, close - open - 1) : std::string_view();
     const std::size_t at = number.empty() ? std::string_view::npos : text.find(number);
-    return Error{ErrorCode::not_finite, at == std::string_view::npos ? "" : place_of(text, at + 1),
+    return Error{ErrorCode::not_finite, at == std::string_view::npos ? "" : place_in_text(text, at),
                  "a number is too large for a double"};
   } catch (const std::exception&) { return Error{ErrorCode::parse, "", "this is not JSON text in UTF-8"}; }
 }

@@ -167,6 +167,20 @@ class Importer {
     return outers;
   }
 
+  // Nothing where it is too far away or has no sound outline; its row says so then.
+  std::vector<Outline> outlines_in_reach(const CityObject& object, const CityGeometry& geometry,
+                                         const std::vector<Point3>& points) {
+    std::vector<Outline> found;
+    std::string fault = out_of_reach(options_, points);
+    if (fault.empty()) {
+      found = outlines(object, geometry, points);
+      fault = found.front().fault;
+    }
+    if (fault.empty()) return found;
+    context_.report.skip(object.type, object.id, fault);
+    return {};
+  }
+
   void building(const CityObject& object) {
     std::string faults, mended;
     const CityGeometry* geometry = choose(object, faults);
@@ -177,10 +191,8 @@ class Importer {
                                   std::to_string(object.children.size()) + " parts");
     if (geometry == nullptr) return context_.report.skip(object.type, object.id, "no geometry that can be read", faults);
     const std::vector<Point3> points = corners(object, *geometry);
-    if (const std::string far = out_of_reach(options_, points); !far.empty())
-      return context_.report.skip(object.type, object.id, far);
-    std::vector<Outline> found = outlines(object, *geometry, points);
-    if (!found.front().fault.empty()) return context_.report.skip(object.type, object.id, found.front().fault);
+    std::vector<Outline> found = outlines_in_reach(object, *geometry, points);
+    if (found.empty()) return;
     note(mended, found.front().mended);
     ContextBuilding made;
     made.id = object.id;
@@ -249,11 +261,8 @@ class Importer {
     std::string faults, mended;
     const CityGeometry* geometry = choose(object, faults);
     if (geometry == nullptr) return context_.report.skip(object.type, object.id, "no geometry that can be read", faults);
-    const std::vector<Point3> points = corners(object, *geometry);
-    if (const std::string far = out_of_reach(options_, points); !far.empty())
-      return context_.report.skip(object.type, object.id, far);
-    std::vector<Outline> found = outlines(object, *geometry, points);
-    if (!found.front().fault.empty()) return context_.report.skip(object.type, object.id, found.front().fault);
+    std::vector<Outline> found = outlines_in_reach(object, *geometry, corners(object, *geometry));
+    if (found.empty()) return;
     for (std::size_t i = 0; i < found.size(); ++i) {
       note(mended, found[i].mended);
       const std::string id = found.size() > 1 ? object.id + "/" + std::to_string(i + 1) : object.id;

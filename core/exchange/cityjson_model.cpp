@@ -6,8 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
-#include "core/exchange/bounded_json.h"
+#include "core/define/bounded_json.h"
+#include "core/exchange/context_shape.h"
+#include "core/exchange/foreign_bytes.h"
 #include "core/exchange/inflate.h"
 #include "core/exchange/local_frame.h"
 
@@ -161,6 +164,7 @@ CityGeometry geometry_of(const Json& json, std::size_t vertices) {
 class Reader {
  public:
   Result<CityModel> read(const std::string& text) {
+    if (auto foreign = foreign_bytes(text, "CityJSON", "export it as CityJSON, which is text")) return *foreign;
     // A sequence is told by its first line, which is a value of its own, and by what follows.
     const std::size_t end = text.find('\n'), first = end_of_first_value(text);
     const bool is_sequence = end != std::string::npos && first != std::string_view::npos && first <= end &&
@@ -194,6 +198,7 @@ class Reader {
     if (member(head, "CityObjects") != nullptr && !head["CityObjects"].empty())
       if (auto done = feature(head, "line 1"); !done) return done;
     for (std::size_t line = 2, start = end + 1; start < text.size(); ++line) {
+      if (is_stop_wished()) return stopped_error();
       const std::size_t stop = std::min(text.find('\n', start), text.size());
       const std::string_view part = std::string_view(text).substr(start, stop - start);
       start = stop + 1;
@@ -218,6 +223,7 @@ class Reader {
     if (objects == nullptr || !objects->is_object())
       return Error{ErrorCode::missing, place, "The object `CityObjects` is missing: is this CityJSON?"};
     for (const auto& [id, json] : objects->items()) {
+      if (model_.objects.size() % 64 == 0 && is_stop_wished()) return stopped_error();
       CityObject& object = model_.objects.emplace_back();
       object.id = id;
       object.place = (place.empty() ? "" : place + "/") + "CityObjects/" + id;

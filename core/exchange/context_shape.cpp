@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/base/text.h"
+#include "core/exchange/assumed_height.h"
 #include "core/exchange/box_grid.h"
 
 namespace bl {
@@ -182,6 +184,20 @@ std::string out_of_heights(double base, double height) {
   return "its heights lie beyond -10 km or 100 km";
 }
 
+namespace {
+
+ImportReport with_details(const ImportReport& report, const std::map<std::size_t, std::string>& details) {
+  ImportReport out;
+  for (std::size_t k = 0; k < report.rows().size(); ++k) {
+    ImportRow row = report.rows()[k];
+    if (const auto found = details.find(k); found != details.end()) row.detail += (row.detail.empty() ? "" : "; ") + found->second;
+    out.add(std::move(row));
+  }
+  return out;
+}
+
+}  // namespace
+
 void assume_heights(const ContextOptions& options, Context& context) {
   struct Known {
     Point3 centre;
@@ -195,6 +211,7 @@ void assume_heights(const ContextOptions& options, Context& context) {
     return a.centre.y != b.centre.y ? a.centre.y < b.centre.y : a.height < b.height;
   });
   std::size_t by_neighbours = 0, by_default = 0;
+  std::map<std::size_t, std::string> told;  // by row
   for (ContextBuilding& building : context.buildings) {
     if (building.height > 0) continue;
     const Point3 centre = centre_of(building.outer);
@@ -213,7 +230,9 @@ void assume_heights(const ContextOptions& options, Context& context) {
       building.height = *middle;
     }
     ++(has_neighbours ? by_neighbours : by_default);
+    told[building.row] = std::string(has_neighbours ? kHeightOfNeighbours : kHeightAssumed) + ": " + shortest(building.height) + " m";
   }
+  if (!told.empty()) context.report = with_details(context.report, told);
   if (by_neighbours > 0)
     context.notes.push_back("The heights of " + std::to_string(by_neighbours) +
                             " buildings were taken from their neighbours within " + shortest(options.neighbour_distance) +

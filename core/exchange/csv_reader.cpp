@@ -7,6 +7,10 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/stop_check.h"
+#include "core/exchange/context_shape.h"
+#include "core/exchange/foreign_bytes.h"
+
 namespace bl {
 
 namespace {
@@ -67,8 +71,10 @@ Result<std::string> from_windows(std::string_view text) {
 
 // UTF-8 with \n at the line ends and without byte order mark.
 Result<std::string> tidy_text(std::string_view text, std::vector<std::string>& notes) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") || text.find('\0') != std::string_view::npos)
-    return Error{ErrorCode::parse, "line 1", "The file is UTF-16 or no text at all. Save it as CSV in UTF-8."};
+  if (auto foreign = foreign_bytes(text, "CSV table", "save it as CSV in UTF-8")) return *foreign;
+  if (text.find('\0') != std::string_view::npos)
+    return Error{ErrorCode::parse, "line " + std::to_string(line_at(text, text.find('\0'))),
+                 "From here on this is no text: is the file complete? Save it as CSV in UTF-8."};
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   std::string tidy;
   tidy.reserve(text.size() + 1);
@@ -137,6 +143,7 @@ Result<void> parse_lines(std::string_view text, std::size_t first_line, CsvText&
   std::size_t empty = 0;
   bool in_record = false;
   for (std::size_t line = first_line; !text.empty(); ++line) {
+    if (line % 4096 == 0 && is_stop_wished()) return stopped_error();
     const std::size_t length = std::min(text.find('\n'), text.size() - 1) + 1;
     const std::string_view piece = text.substr(0, length);
     text.remove_prefix(length);

@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
-#include "core/exchange/bounded_json.h"
+#include "core/define/bounded_json.h"
+#include "core/exchange/context_shape.h"
+#include "core/exchange/foreign_bytes.h"
 #include "core/exchange/local_frame.h"
 
 namespace bl {
@@ -101,8 +104,10 @@ Result<GeoDocument> Reader::read(const Json& root) {
     const Json* features = member(root, "features");
     if (features == nullptr || !features->is_array())
       return Error{ErrorCode::missing, "features", "A FeatureCollection needs an array `features`; it is missing or no array."};
-    for (std::size_t i = 0; i < features->size(); ++i)
+    for (std::size_t i = 0; i < features->size(); ++i) {
+      if (i % 256 == 0 && is_stop_wished()) return stopped_error();
       if (auto done = read_feature((*features)[i], "features/" + std::to_string(i), *crs); !done) return done.error();
+    }
   } else if (auto done = read_feature(root, "", *crs); !done) {
     return done.error();
   }
@@ -238,6 +243,7 @@ Result<std::array<double, 2>> Reader::read_position(const Json& position, const 
 
 Result<GeoDocument> read_geojson_polygons(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (auto foreign = foreign_bytes(text, "GeoJSON", "export it as GeoJSON, which is text")) return *foreign;
   const auto json = read_bounded_json(text, "GeoJSON");
   if (!json) return json.error();
   try {

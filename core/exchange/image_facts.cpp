@@ -96,15 +96,24 @@ class Tags {
     const ExifEntry* entry = exif_content_get_entry(data_->ifd[part], tag);
     return entry != nullptr && entry->data != nullptr ? entry : nullptr;
   }
-  /// Text without the blanks and zeros at its end.
-  std::string text(ExifIfd part, ExifTag tag) const {
+  /// Text without the blanks around it. A copyright has two parts, the photographer's and the editor's: all of them, or the first.
+  std::string text(ExifIfd part, ExifTag tag, bool has_parts = false) const {
     const ExifEntry* entry = find(part, tag);
     if (entry == nullptr || entry->format != EXIF_FORMAT_ASCII) return "";
-    std::string text(reinterpret_cast<const char*>(entry->data), entry->size);
-    text = text.substr(0, text.find('\0'));
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\n')) text.pop_back();
-    return is_sound_utf8(text) ? text : "";
+    std::string_view rest(reinterpret_cast<const char*>(entry->data), entry->size);
+    std::string text;
+    do {
+      const std::size_t end = std::min(rest.find('\0'), rest.size());
+      std::string_view piece = rest.substr(0, end);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+      while (!piece.empty() && (piece.back() == ' ' || piece.back() == '\n')) piece.remove_suffix(1);
+      while (!piece.empty() && piece.front() == ' ') piece.remove_prefix(1);
+      if (!piece.empty()) text.append(text.empty() ? "" : "; ").append(piece);
+    } while (has_parts && !rest.empty());
+    return is_sound_utf8(text) ? text : from_latin(text);
   }
+  /// Whether a text was no UTF-8 and was read as Latin-1, which writers of EXIF used for long.
+  bool has_guessed() const { return has_guessed_; }
   std::optional<double> number(ExifIfd part, ExifTag tag, unsigned index = 0) const {
     const ExifEntry* entry = find(part, tag);
     if (entry == nullptr || entry->components <= index) return std::nullopt;
@@ -123,6 +132,16 @@ class Tags {
   bool is_there() const { return data_ != nullptr; }
 
  private:
+  std::string from_latin(std::string_view text) const {
+    has_guessed_ = true;
+    std::string out;
+    for (const char c : text) {
+      const auto code = static_cast<unsigned char>(c);
+      if (code < 0x80) out += c;
+      else if (code >= 0xa0) (out += static_cast<char>(0xc0 | (code >> 6))) += static_cast<char>(0x80 | (code & 0x3f));
+    }
+    return out;
+  }
   static bool is_sound_utf8(std::string_view text) {
     for (std::size_t k = 0; k < text.size();) {
       const auto lead = static_cast<unsigned char>(text[k]);
@@ -135,6 +154,7 @@ class Tags {
     return true;
   }
   std::unique_ptr<ExifData, decltype(&exif_data_unref)> data_;
+  mutable bool has_guessed_ = false;
 };
 
 constexpr auto tag_of(int number) { return static_cast<ExifTag>(number); }
@@ -214,8 +234,9 @@ Result<ImageFacts> read_image_facts(std::string_view bytes) {
   facts.taken = date_of(tags.text(EXIF_IFD_EXIF, EXIF_TAG_DATE_TIME_ORIGINAL));
   if (facts.taken.empty()) facts.taken = date_of(tags.text(EXIF_IFD_0, EXIF_TAG_DATE_TIME));
   facts.author = tags.text(EXIF_IFD_0, EXIF_TAG_ARTIST);
-  facts.licence = tags.text(EXIF_IFD_0, EXIF_TAG_COPYRIGHT);
+  facts.licence = tags.text(EXIF_IFD_0, EXIF_TAG_COPYRIGHT, true);
   facts.note = tags.text(EXIF_IFD_0, EXIF_TAG_IMAGE_DESCRIPTION);
+  if (tags.has_guessed()) facts.notes.emplace_back("its texts are not UTF-8 and were read as Latin-1: check letters with accents");
   read_place(tags, facts);
   read_description(facts);
   // The focal length on film gives the angle across its diagonal: it is the same for all formats.

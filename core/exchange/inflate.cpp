@@ -5,6 +5,9 @@
 
 #include <array>
 
+#include "core/base/stop_check.h"
+#include "core/exchange/context_shape.h"
+
 namespace bl {
 
 Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
@@ -26,6 +29,10 @@ Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
   stream.avail_in = static_cast<uInt>(bytes.size());
   int state = Z_OK;
   while (text.size() <= limit) {
+    if (is_stop_wished()) {
+      inflateEnd(&stream);
+      return stopped_error();
+    }
     stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
     stream.avail_out = static_cast<uInt>(chunk.size());
     state = inflate(&stream, Z_NO_FLUSH);

@@ -11,6 +11,7 @@
 #include <osmium/thread/pool.hpp>
 #include <set>
 
+#include "core/exchange/foreign_bytes.h"
 #include "core/exchange/inflate.h"
 
 namespace bl {
@@ -167,8 +168,11 @@ Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch) {
   if (!text) return text.error();
   if (text->empty()) return Error{ErrorCode::missing, "byte 0", "The file is empty: an OpenStreetMap extract is needed."};
   const std::string format = format_of(*text);
-  if (format.empty())
+  if (format.empty()) {
+    const std::string_view remedy = "it has to be XML that begins with <osm>, or PBF";
+    if (auto foreign = foreign_bytes(*text, "OpenStreetMap file", remedy)) return *foreign;
     return Error{ErrorCode::parse, "byte 0", "This is no OpenStreetMap file: neither XML that begins with <osm> nor PBF."};
+  }
   try {
     return read(*text, format, watch);
   } catch (const osmium::xml_error& error) {

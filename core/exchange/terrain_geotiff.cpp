@@ -11,7 +11,9 @@
 #include <limits>
 #include <memory>
 
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
+#include "core/exchange/context_shape.h"
 #include "core/exchange/local_frame.h"
 #include "core/exchange/terrain_grid.h"
 
@@ -179,6 +181,7 @@ Result<void> read_blocks(TIFF* tiff, const MemoryFile& file, const Sample& sampl
   std::vector<unsigned char> block(static_cast<std::size_t>(size));
   for (std::size_t top = 0; top < grid.rows; top += height)
     for (std::size_t left = 0; left < grid.columns; left += width) {
+      if (is_stop_wished()) return stopped_error();
       const std::uint32_t number =
           is_tiled ? TIFFComputeTile(tiff, static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(top), 0, 0)
                    : TIFFComputeStrip(tiff, static_cast<std::uint32_t>(top), 0);

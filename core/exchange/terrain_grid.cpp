@@ -7,9 +7,11 @@
 #include <limits>
 #include <map>
 
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/exchange/context_shape.h"
 #include "core/exchange/csv_reader.h"
+#include "core/exchange/foreign_bytes.h"
 #include "core/exchange/inflate.h"
 
 namespace bl {
@@ -61,7 +63,7 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
     const Words before = words;
     const std::string name = lower_case(words.next().substr(0, 40));
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      if (header.empty()) return no_grid(words.place(), "`" + name + "` is no line of a header.");
+      if (header.empty()) return no_grid(words.place(), "The file does not begin with a line of a header.");
       words = before;
       break;
     }
@@ -95,11 +97,14 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
                  "The header promises " + std::to_string(count) + " cells, more than the file can hold: is it complete?"};
   grid.values.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
+    if (i % 65536 == 0 && is_stop_wished()) return stopped_error();
     const std::string_view word = words.next();
     if (word.empty())
       return Error{ErrorCode::parse, "end of the file",
                    "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) + " cells: is the file complete?"};
     const auto value = number_of(word);
+    if (!value && std::any_of(word.begin(), word.end(), [](char c) { return c <= ' ' || c > '~'; }))
+      return Error{ErrorCode::parse, words.place(), "Something stands here that is no number and no text: is the file complete?"};
     if (!value) return Error{ErrorCode::parse, words.place(), "`" + std::string(word.substr(0, 40)) + "` is no number."};
     grid.values.push_back(*value == nodata || !std::isfinite(*value) ? kNothing : *value);
   }
@@ -189,7 +194,9 @@ Result<TerrainGrid> read_terrain_grid(std::string_view bytes) {
   if (text->empty()) return Error{ErrorCode::missing, "byte 0", "The file is empty: an ASCII grid or a GeoTIFF is needed."};
   const bool is_tiff = text->starts_with("II*") || text->starts_with(std::string_view("MM\0*", 4)) || text->starts_with("II+") ||
                        text->starts_with(std::string_view("MM\0+", 4));
-  return is_tiff ? read_geotiff(*text) : read_ascii(*text);
+  if (is_tiff) return read_geotiff(*text);
+  if (auto foreign = foreign_bytes(*text, "GeoTIFF and no ASCII grid", "export it as one of the two")) return *foreign;
+  return read_ascii(*text);
 }
 
 Result<LocalTerrain> local_grid(const TerrainGrid& grid, const ContextOptions& options, std::size_t most_cells) {

@@ -77,7 +77,7 @@ struct OpenOptions {
 int open_command(const OpenOptions& options);
 
 struct DocsOptions {
-  std::string type, out;
+  std::string type, out, from;
   bool is_list = false;
 };
 int docs_command(const DocsOptions& options);

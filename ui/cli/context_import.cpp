@@ -5,10 +5,12 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/exchange/cityjson_context.h"
 #include "core/exchange/context_shape.h"
 #include "core/exchange/data_layer.h"
+#include "core/exchange/foreign_bytes.h"
 #include "core/exchange/geojson_context.h"
 #include "core/exchange/geojson_polygons.h"
 #include "core/exchange/inflate.h"
@@ -54,6 +56,22 @@ Format format_of(const std::string& path, std::string_view text) {
       lower(std::string(head.substr(0, 64))).find("ncols") != std::string::npos)
     return Format::grid;
   return Format::unknown;
+}
+
+// A name promises one format; what is something else altogether is told so in its words.
+std::optional<Error> foreign_to_name(const std::string& path, Format format, std::string_view text) {
+  const std::string name = lower(path);
+  const auto ends = [&name](const char* ending) { return name.ends_with(ending) || name.ends_with(std::string(ending) + ".gz"); };
+  const std::string_view wanted = ends(".tif") || ends(".tiff") ? "GeoTIFF" : ends(".asc") || ends(".grd") ? "ASCII grid" : "";
+  const bool is_raster = text.starts_with("II") || text.starts_with("MM");
+  if (format == Format::grid && !wanted.empty() && !is_raster && !text.empty()) {
+    if (auto foreign = foreign_bytes(text, wanted, "export it again")) return foreign;
+    if (wanted == "GeoTIFF" && lower(std::string(text.substr(0, 64))).find("ncols") == std::string::npos)
+      return Error{ErrorCode::parse, "byte 0", "This is no GeoTIFF but text: export it again."};
+  }
+  if (format == Format::unknown && !text.empty())
+    return foreign_bytes(text, "file that is read", "OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are");
+  return std::nullopt;
 }
 
 class Import {
@@ -178,6 +196,7 @@ class Import {
     const Format format = format_of(file, *text);
     if (text->substr(0, 4096).find("\"behaviourlinks\"") != std::string::npos)
       return fail(file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
+    if (auto foreign = foreign_to_name(file, format, *text)) return fail(file, *foreign);
     if (format == Format::grid) return read_grid(file, *text);
     if (format == Format::table || o_.kind == "layer") return read_layer(file, *text, format);
     if (o_.kind == "terrain")
@@ -254,6 +273,9 @@ const std::vector<std::string>& context_endings() {
 }
 
 ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry) {
+  // Parsers deep down learn of a stop as well.
+  const ImportWatch* watch = options.context.watch;
+  const StopScope scope([watch] { return watch != nullptr && watch->is_stopped; });
   return Import(scene, options, registry).run();
 }
 

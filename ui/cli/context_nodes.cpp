@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/exchange/thin_line.h"
@@ -125,6 +126,7 @@ void ContextNodes::add(const Context& context, const NodeMaking& making, ImportR
   // Of buildings that are drawn by their parts: what the parts became.
   std::map<std::string, std::vector<std::string>> of_parts;
   for (const ContextBuilding& building : context.buildings) {
+    if (is_stop_wished()) return;  // what is half made is dropped by who wished it
     const std::string id = add_building(building, making);
     if (building.row != kNoRow) report.made(building.row, id);
     // An outline of several has the number of the outline behind the id of its element.
@@ -210,7 +212,7 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
   // Ids first: turn rules stand at junctions and name streets.
   std::vector<std::string> street_ids(context.streets.size()), junction_ids(context.junctions.size());
   std::size_t without_cars = 0, loops = 0, without_walkers = 0;
-  for (std::size_t s = 0; s < context.streets.size(); ++s) {
+  for (std::size_t s = 0; s < context.streets.size() && !is_stop_wished(); ++s) {
     const ContextStreet& piece = context.streets[s];
     const auto leave = [&](std::size_t& count, const char* reason) {
       ++count;

@@ -3,12 +3,14 @@
 #include <cerrno>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/define/catalogue.h"
 #include "core/file/file_io.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/scene_loading.h"
+#include "ui/cli/script_file.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -26,8 +28,7 @@ void list_types(const std::string& title, const Map& types, std::vector<std::str
   table.print();
 }
 
-int print_list() {
-  const Registry& registry = full_registry();
+int print_list(const Registry& registry) {
   list_types("typification", registry.typifications(), {"name", "what it is"});
   print_line();
   list_types("link kind", registry.links(), {"name", "what it does"});
@@ -36,8 +37,7 @@ int print_list() {
   return kDone;
 }
 
-std::optional<std::string> page_of(const std::string& id) {
-  const Registry& registry = full_registry();
+std::optional<std::string> page_of(const std::string& id, const Registry& registry) {
   // An id may stand for a typification and a link kind at once; then both pages are shown.
   std::string page;
   if (const auto* type = registry.typification(id)) page += catalogue_page(*type, registry);
@@ -47,11 +47,49 @@ std::optional<std::string> page_of(const std::string& id) {
   return page;
 }
 
-std::vector<std::string> all_ids() {
-  std::vector<std::string> ids = keys_of(full_registry().typifications());
-  for (const auto& [id, kind] : full_registry().links()) ids.push_back(id);
-  for (const auto& [id, command] : full_registry().commands()) ids.push_back(id);
+std::vector<std::string> all_ids(const Registry& registry) {
+  std::vector<std::string> ids = keys_of(registry.typifications());
+  for (const auto& [id, kind] : registry.links()) ids.push_back(id);
+  for (const auto& [id, command] : registry.commands()) ids.push_back(id);
   return ids;
+}
+
+// The scripts of a scene, or the one that a .lua file is. Nothing where the file cannot be read, which was said then.
+std::optional<Scripts> scripts_of(const std::string& file) {
+  const auto text = read_file(file);
+  if (!text) {
+    print_error(file, text.error());
+    return std::nullopt;
+  }
+  Scripts scripts;
+  if (file.ends_with(".lua")) {
+    scripts = Scripts::read({{script_name(file), *text}}, full_registry());
+  } else {
+    const SceneReading reading = read_scene(*text, full_registry());
+    if (!reading.is_usable()) {
+      print_problems(file, reading.problems);
+      return std::nullopt;
+    }
+    scripts = reading.scene.scripts;
+  }
+  // One that cannot be read hides its own page only.
+  for (const auto& [name, error] : scripts.errors()) print_error(file, error);
+  return scripts;
+}
+
+bool is_file_name(const std::string& type) { return type.ends_with(".lua") || type.ends_with(".json"); }
+
+// The pages of all link kinds that the scripts declare.
+int print_pages(const std::string& file, const Scripts& scripts, const Registry& registry) {
+  std::string pages;
+  for (const auto& [name, kind] : scripts.kinds())
+    if (const LinkDefinition* link = registry.link(kind)) pages += (pages.empty() ? "" : "\n") + catalogue_page(*link, registry);
+  if (pages.empty()) {
+    if (scripts.errors().empty()) complain(file + ": the scene has no link scripts, so that it declares no types of its own.");
+    return kBadInput;
+  }
+  print_page(pages);
+  return kDone;
 }
 
 Result<void> make_folder(const std::string& path) {
@@ -62,8 +100,7 @@ Result<void> make_folder(const std::string& path) {
                errno == EEXIST ? "is a file, not a folder" : std::string("cannot be made: ") + std::strerror(errno)};
 }
 
-Result<std::size_t> write_pages(const std::string& folder) {
-  const Registry& registry = full_registry();
+Result<std::size_t> write_pages(const std::string& folder, const Registry& registry) {
   std::vector<std::pair<std::string, std::string>> files{{"README.md", catalogue_index(registry)}};
   for (const auto& [id, type] : registry.typifications())
     files.emplace_back("nodes/" + id + ".md", catalogue_page(type, registry));
@@ -79,8 +116,17 @@ Result<std::size_t> write_pages(const std::string& folder) {
 }  // namespace
 
 int docs_command(const DocsOptions& options) {
+  Scripts scripts;
+  const bool is_file = options.from.empty() && is_file_name(options.type);
+  if (const std::string& file = is_file ? options.type : options.from; !file.empty()) {
+    auto read = scripts_of(file);
+    if (!read) return kBadInput;
+    scripts = std::move(*read);
+  }
+  const Registry& registry = scripts.types(full_registry());
+  if (is_file) return print_pages(options.type, scripts, registry);
   if (!options.out.empty()) {
-    const auto written = write_pages(options.out);
+    const auto written = write_pages(options.out, registry);
     if (!written) {
       print_error(options.out, written.error());
       return kBadInput;
@@ -88,11 +134,12 @@ int docs_command(const DocsOptions& options) {
     print_line("wrote " + counted(*written, "page") + " to " + options.out);
     return kDone;
   }
-  if (options.is_list || options.type.empty()) return print_list();
-  const auto page = page_of(options.type);
+  if (options.is_list || options.type.empty()) return print_list(registry);
+  const auto page = page_of(options.type, registry);
   if (!page) {
-    complain("there is no type `" + options.type + "`" + did_you_mean(options.type, all_ids()) +
-             "; `behaviourlinks docs --list` names all.");
+    complain("there is no type `" + options.type + "`" + did_you_mean(options.type, all_ids(registry)) +
+             "; `behaviourlinks docs --list` names all" +
+             (options.from.empty() ? ". What a scene's script declares is found with --from SCENE." : "."));
     return kBadInput;
   }
   print_page(*page);

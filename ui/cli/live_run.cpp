@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/scene_loading.h"
+#include "ui/cli/report/report_model.h"
 #include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
@@ -27,9 +28,9 @@ std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "s
 std::string reading_of(const State& state, const std::string& node) {
   const std::uint32_t index = state.plan->node_index(node);
   if (index >= state.nodes.size()) return "it is no longer in the scene";
-  const std::string unit = text_at(state, index, "sensor.unit"), message = text_at(state, index, "sensor.message");
-  return shortest(number_at(state, index, "sensor.value")) + (unit.empty() ? "" : " " + unit) + ", " +
-         text_at(state, index, "sensor.quality") + (message.empty() ? "" : " (" + message + ")");
+  const std::string unit = report::text_at(state, index, "sensor", "unit"), message = report::text_at(state, index, "sensor", "message");
+  return shortest(report::number_at(state, index, "sensor", "value")) + (unit.empty() ? "" : " " + unit) + ", " +
+         report::text_at(state, index, "sensor", "quality") + (message.empty() ? "" : " (" + message + ")");
 }
 
 // The shortest tick that a sensor of the scene stands for [s].

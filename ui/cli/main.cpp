@@ -119,11 +119,16 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
   CLI::App& d = *app.add_subcommand("docs", "Explains typifications, link kinds and commands, from their declarations.");
   auto* type = d.add_option("type", docs.type, "Shows the page of this type.")->type_name("TYPE");
   auto* list = d.add_flag("--list", docs.is_list, "Lists all types, one line each (this is the default).");
+  d.add_option("--from", docs.from, "Also knows the link kinds of this scene's scripts, or of this link script (.lua).")
+      ->type_name("FILE");
   d.add_option("--out", docs.out, "Writes all pages as Markdown into a folder.")
       ->type_name("DIR")
       ->excludes(type)
       ->excludes(list);
-  d.footer("Example:\n  behaviourlinks docs keep_distance");
+  d.footer(
+      "TYPE may be such a file itself: then the pages of all that it declares are shown. Types of plugins are known with\n"
+      "`behaviourlinks --plugins DIR docs`.\n\nExample:\n  behaviourlinks docs keep_distance\n"
+      "  behaviourlinks docs fair_share --from scene.json\n  behaviourlinks docs links/scripts/fair_share.lua");
   CLI::App& s = *app.add_subcommand("schema", "Prints the JSON Schema (2020-12) of scene files.");
   s.add_option("--out", schema.out, "Writes it to a file.")->type_name("FILE");
   s.footer("Example:\n  behaviourlinks schema --out scene.schema.json");

@@ -44,7 +44,35 @@ Vector3 local_place(double latitude, double longitude, const Settings& settings)
   return {east * std::cos(turn) + north * std::sin(turn), north * std::cos(turn) - east * std::sin(turn), 0};
 }
 
-Vector3 position_of(const ImageFacts& facts, const Settings& settings, std::vector<std::string>& notes) {
+// How high the scene's zero lies above the sea [m]: heights of terrains count from the sea, and a sun knows the height of its site.
+// Nothing where the scene does not say.
+std::optional<double> height_of_zero(const Scene& scene) {
+  std::optional<double> height;
+  for (const auto& [id, node] : scene.nodes) {
+    if (node.types.contains("terrain")) return 0;
+    const auto sun = node.types.find("sun_and_sky");
+    if (sun == node.types.end() || height) continue;
+    if (const auto set = sun->second.find("elevation"); set != sun->second.end()) height = as_number(set->second);
+  }
+  return height;
+}
+
+// The height of the camera in the scene [m]: as its GPS says where the scene tells how high it lies itself, else of people's eyes.
+double height_of(const ImageFacts& facts, const Scene& scene, std::vector<std::string>& notes) {
+  if (!facts.altitude) return kEyeHeight;
+  const std::string told = "the picture was taken " + fixed(*facts.altitude, 1) + " m above the sea";
+  const auto zero = height_of_zero(scene);
+  if (!zero) {
+    notes.push_back(told + ", but the scene does not say how high it lies (by a terrain, or the `elevation` of its sun): it stands "
+                           "at the height of people's eyes");
+    return kEyeHeight;
+  }
+  notes.push_back(told + " and stands there: such heights can be wrong by ten metres and more");
+  return *facts.altitude - *zero;
+}
+
+Vector3 position_of(const ImageFacts& facts, const Scene& scene, std::vector<std::string>& notes) {
+  const Settings settings = settings_of(scene);
   if (!facts.latitude) {
     notes.emplace_back("the picture does not say where it was taken: it stands at the origin, move it to its place");
     return {0, 0, kEyeHeight};
@@ -58,7 +86,18 @@ Vector3 position_of(const ImageFacts& facts, const Settings& settings, std::vect
     notes.push_back("the picture was taken " + fixed(norm(place) / 1000, 0) + " km away from the scene: it stands at the origin");
     return {0, 0, kEyeHeight};
   }
-  return place + Vector3{0, 0, kEyeHeight};
+  return place + Vector3{0, 0, height_of(facts, scene, notes)};
+}
+
+// What is proposed is said, because it decides what may be done with the picture.
+void tell_of_rights(const ImageFacts& facts, const MediaOptions& options, std::vector<std::string>& notes) {
+  std::string said;
+  const auto tell = [&said](const char* what, const std::string& text, const std::string& given) {
+    if (!text.empty() && given.empty()) said += (said.empty() ? "its " : ", its ") + std::string(what) + " is `" + text + "`";
+  };
+  tell("author", facts.author, options.author);
+  tell("licence", facts.licence, options.licence);
+  if (!said.empty()) notes.push_back(said + ", as the file says: check it");
 }
 
 std::string fresh_id(const std::string& file, const Scene& scene) {
@@ -83,7 +122,7 @@ Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const 
   if (!facts) return facts.error();
   const Settings settings = settings_of(scene);
   MadeMedia made{fresh_id(file, scene), {}, facts->notes};
-  const Vector3 at = options.position ? *options.position : position_of(*facts, settings, made.notes);
+  const Vector3 at = options.position ? *options.position : position_of(*facts, scene, made.notes);
   const std::string placement = !options.placement.empty() ? options.placement : facts->bearing ? "camera" : "billboard";
   Json media{{"file", relative_to_scene(file, options.scene)},
              {"placement", placement},
@@ -102,6 +141,7 @@ Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const 
   if (facts->bearing) media["azimuth"] = std::fmod(*facts->bearing + settings.true_north + 360, 360);
   if (facts->field_of_view) media["field_of_view"] = std::clamp(*facts->field_of_view, 1.0, 170.0);
   if (options.size > 0) media["size"] = options.size;
+  tell_of_rights(*facts, options, made.notes);
   if (options.consent == "unknown")
     made.notes.emplace_back("nobody has said that the picture may be shown: it is veiled until `consent` is set");
   const Json node{{"name", std::filesystem::path(file).stem().string()},

@@ -1,82 +1,73 @@
-// Reads a state by the names of its ports; which types there are, only the registry knows.
+// Volumes and uses are read by the report, so that table, JSON and page cannot disagree; conflicts and faults are added for programs.
 #include "ui/cli/survey.h"
 
 #include <algorithm>
 #include <map>
 
-#include "core/base/text.h"
+#include "ui/cli/report/report_model.h"
 
 namespace bl::cli {
 
 namespace {
 
-const Value* value_at(const State& state, std::uint32_t node, std::string_view path) {
-  const auto parsed = parse_port_path(path);
-  const auto ref = parsed ? state.plan->find(node, *parsed) : std::nullopt;
-  return ref ? &state.value(*ref) : nullptr;
-}
-
-bool has_type(const State& state, std::uint32_t node, std::string_view id) {
-  const auto& types = state.plan->nodes[node].types;
-  return std::any_of(types.begin(), types.end(), [&](const TypePlan& type) { return type.definition->id == id; });
-}
+constexpr const char *kVolume = "smart_volume", *kSolver = "smart_volumes_solver";
 
 std::uint32_t count_of(const State& state) { return static_cast<std::uint32_t>(state.nodes.size()); }
 
-VolumeRow volume_row(const State& state, std::uint32_t node) {
-  const auto number = [&](const char* port) { return number_at(state, node, std::string("smart_volume.") + port); };
-  const auto text = [&](const char* port) { return text_at(state, node, std::string("smart_volume.") + port); };
+// What the page says of the volume, and what only tables have room for.
+VolumeRow volume_row(const State& state, const report::VolumeRow& read) {
+  const auto number = [&](const char* port) { return report::number_at(state, read.node, kVolume, port); };
   VolumeRow row;
-  row.id = state.plan->nodes[node].id;
-  row.name = state.plan->nodes[node].name;
-  row.use = text("use");
-  row.state = text("state");
-  row.reason = text("reason");
-  if (const Value* position = value_at(state, node, "node.position")) row.position = std::get<Vector3>(*position);
+  row.id = read.id;
+  row.name = state.plan->nodes[read.node].name;
+  row.use = read.use;
+  row.state = read.state;
+  row.reason = read.reason;
+  row.position = report::point_at(state, read.node, "node", "position");
   row.weight = number("weight");
   // Before a solver has seen the volume it has no wanted volume yet; the demand is the next best word.
-  row.demand = row.state == "idle" ? number("demand") : number("wanted");
-  row.volume = number("volume");
+  row.demand = read.state == "idle" ? read.demand : read.wanted;
+  row.volume = read.volume;
   row.cell_volume = number("cell_volume");
   row.error = number("error");
-  row.floor_area = number("floor_area");
+  row.floor_area = read.floor_area;
   row.surface_area = number("surface_area");
   row.footprint = number("footprint");
   row.spherical_area = number("spherical_area");
-  row.storey_height = number("storey_height");
+  row.storey_height = read.storey_height;
   row.height = number("height");
   row.bottom = number("bottom");
   return row;
 }
 
-void add_programmes(const State& state, std::map<std::string, UseRow>& uses) {
-  for (std::uint32_t n = 0; n < count_of(state); ++n) {
-    const Value* value = value_at(state, n, "programme.rows");
-    const auto* rows = value ? std::get_if<Shared<Table>>(value) : nullptr;
-    if (rows == nullptr) continue;
-    for (std::size_t r = 0; r < (*rows)->rows.size(); ++r) {
-      UseRow& use = uses[(*rows)->text(r, "use")];
-      const double area = (*rows)->number(r, "floor_area") * (*rows)->number(r, "count");
-      use.is_in_programme = true;
-      use.wanted_floor_area += area;
-      use.wanted_volume += area * (*rows)->number(r, "storey_height");
-    }
-  }
+std::map<std::string, double> wanted_volumes(const State& state) {
+  std::map<std::string, double> wanted;
+  for (std::uint32_t n = 0; n < count_of(state); ++n)
+    if (const Table* rows = report::table_at(state, n, "programme", "rows"))
+      for (std::size_t r = 0; r < rows->rows.size(); ++r)
+        wanted[rows->text(r, "use")] += rows->number(r, "floor_area") * rows->number(r, "count") * rows->number(r, "storey_height");
+  return wanted;
 }
 
-void add_totals(const State& state, Survey& survey) {
+void add_totals(const State& state, const report::ReportModel& model, Survey& survey) {
+  const std::map<std::string, double> wanted = wanted_volumes(state);
   std::map<std::string, UseRow> uses;
-  add_programmes(state, uses);
-  for (const VolumeRow& volume : survey.volumes) {
-    UseRow& use = uses[volume.use];
-    ++use.volumes;
-    use.alive += volume.state == "alive" ? 1 : 0;
-    use.floor_area += volume.floor_area;
-    use.demand += volume.demand;
-    use.volume += volume.volume;
+  for (const report::UseRow& read : model.uses) {
+    UseRow& use = uses[read.use];
+    use.use = read.use;
+    use.is_in_programme = read.is_in_programme;
+    use.volumes = read.count;
+    use.floor_area = read.floor_area;
+    use.volume = read.volume;
+    if (!read.is_in_programme) continue;
+    use.wanted_floor_area = read.wanted_floor_area;
+    use.wanted_volume = wanted.at(read.use);
   }
-  for (auto& [name, use] : uses) {
-    use.use = name;
+  for (const VolumeRow& volume : survey.volumes) {
+    uses[volume.use].alive += volume.state == "alive" ? 1 : 0;
+    uses[volume.use].demand += volume.demand;
+  }
+  for (const auto& [name, use] : uses) {
     survey.all.is_in_programme |= use.is_in_programme;
     survey.all.volumes += use.volumes;
     survey.all.alive += use.alive;
@@ -88,6 +79,12 @@ void add_totals(const State& state, Survey& survey) {
     survey.uses.push_back(use);
   }
   survey.all.use = "all";
+}
+
+std::vector<VolumeRow> volume_rows(const State& state, const report::ReportModel& model) {
+  std::vector<VolumeRow> rows;
+  for (const report::VolumeRow& volume : model.volumes) rows.push_back(volume_row(state, volume));
+  return rows;
 }
 
 std::vector<Pull> pulls_on(const State& state, PortRef target) {
@@ -117,28 +114,16 @@ std::vector<TensionRow> tensions_of(const State& state) {
 
 }  // namespace
 
-double number_at(const State& state, std::uint32_t node, std::string_view path) {
-  const Value* value = value_at(state, node, path);
-  return value ? as_number(*value) : 0;
-}
-
-std::string text_at(const State& state, std::uint32_t node, std::string_view path) {
-  const Value* value = value_at(state, node, path);
-  const std::string* text = value ? std::get_if<std::string>(value) : nullptr;
-  return text ? *text : "";
-}
-
 std::vector<VolumeRow> volumes_of(const State& state) {
-  std::vector<VolumeRow> rows;
-  for (std::uint32_t n = 0; n < count_of(state); ++n)
-    if (has_type(state, n, "smart_volume")) rows.push_back(volume_row(state, n));
-  return rows;
+  report::ReportModel model;
+  report::read_figures(state, model);
+  return volume_rows(state, model);
 }
 
 std::string solver_message(const State& state) {
   std::string message;
   for (std::uint32_t n = 0; n < count_of(state); ++n)
-    if (const std::string said = text_at(state, n, "smart_volumes_solver.message"); !said.empty())
+    if (const std::string said = report::text_at(state, n, kSolver, "message"); !said.empty())
       message += (message.empty() ? "" : "; ") + said;
   return message;
 }
@@ -162,16 +147,18 @@ std::vector<Error> problems_of(const State& state) {
 
 Survey survey_of(const State& state) {
   Survey survey;
-  survey.volumes = volumes_of(state);
-  add_totals(state, survey);
+  report::ReportModel model;
+  report::read_figures(state, model);
+  survey.volumes = volume_rows(state, model);
+  add_totals(state, model, survey);
   survey.tensions = tensions_of(state);
   survey.problems = problems_of(state);
   for (std::uint32_t n = 0; n < count_of(state); ++n)
-    if (has_type(state, n, "smart_volumes_solver"))
-      survey.solvers.push_back({state.plan->nodes[n].id, text_at(state, n, "smart_volumes_solver.message"),
-                                number_at(state, n, "smart_volumes_solver.boundary_volume"),
-                                number_at(state, n, "smart_volumes_solver.total_demand"),
-                                number_at(state, n, "smart_volumes_solver.total_volume")});
+    if (report::has_type(state, n, kSolver)) {
+      const auto number = [&](const char* port) { return report::number_at(state, n, kSolver, port); };
+      survey.solvers.push_back({state.plan->nodes[n].id, report::text_at(state, n, kSolver, "message"), number("boundary_volume"),
+                                number("total_demand"), number("total_volume")});
+    }
   for (const VolumeRow& volume : survey.volumes)
     if (volume.error > survey.worst_error) {
       survey.worst_error = volume.error;

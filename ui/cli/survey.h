@@ -72,8 +72,4 @@ std::string solver_message(const State& state);
 /// Errors of nodes and links.
 std::vector<Error> problems_of(const State& state);
 
-/// The number at "typification.port" of a node, or 0 where the node has no such port.
-double number_at(const State& state, std::uint32_t node, std::string_view path);
-std::string text_at(const State& state, std::uint32_t node, std::string_view path);
-
 }  // namespace bl::cli

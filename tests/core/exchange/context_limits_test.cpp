@@ -6,7 +6,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "core/exchange/bounded_json.h"
+#include "core/define/bounded_json.h"
 #include "core/exchange/box_grid.h"
 #include "core/exchange/cityjson_context.h"
 #include "core/exchange/data_layer.h"
@@ -141,7 +141,8 @@ TEST(ContextLimits, ManyHolesAreSortedInLittleTime) {
   EXPECT_EQ(rows_of(context->report, "feature", "area"), 1u);
   ASSERT_EQ(context->buildings.size(), 1u);
   EXPECT_TRUE(context->buildings[0].holes.empty());
-  EXPECT_EQ(context->report.rows()[1].detail, "its 10003 holes left out: with them it has more than 10000 corners");
+  EXPECT_EQ(context->report.rows()[1].detail,
+            "its 10003 holes left out: with them it has more than 10000 corners; height not known, assumed: 9.6 m");
 }
 
 // A solid whose floor and roof have as many corners as wanted.

@@ -79,7 +79,7 @@ TEST(GeoJsonContext, KindsAreToldByTheOptionAndFaultsAreRows) {
 TEST(GeoJsonContext, HostileInputIsAnErrorWithAPlace) {
   const std::pair<std::string, std::string> rows[] = {
       {"", "line 1, column 1"},
-      {"noise\x01", "line 1, column 2"},
+      {"noise\x01", "byte 0"},
       {"{}", ""},
       {dutch(""), "features"},
       {R"({"type": "FeatureCollection"})", "features"},

@@ -9,68 +9,12 @@
 
 #include "core/base/random.h"
 #include "core/exchange/image_facts.h"
+#include "tests/support/photograph.h"
 
 namespace bl {
 namespace {
 
-std::string number(std::uint32_t value, int bytes) {
-  std::string out;
-  for (int k = bytes - 1; k >= 0; --k) out += static_cast<char>(value >> (8 * k) & 0xff);
-  return out;
-}
-
-// Directories of EXIF, big-endian: entries with values of more than four bytes behind them.
-struct Directory {
-  std::string entries, far;
-  std::uint32_t begin, count = 0, size;
-  Directory(std::uint32_t at, std::uint32_t number_of_entries) : begin(at), size(number_of_entries) {}
-  std::uint32_t room() const { return begin + 2 + 12 * size + 4; }
-  void add(std::uint32_t tag, std::uint32_t kind, std::uint32_t components, std::string value) {
-    entries += number(tag, 2) + number(kind, 2) + number(components, 4);
-    if (value.size() <= 4) {
-      value.resize(4, '\0');
-      entries += value;
-    } else {
-      entries += number(room() + static_cast<std::uint32_t>(far.size()), 4);
-      far += value;
-    }
-    ++count;
-  }
-  std::string bytes() const { return number(count, 2) + entries + number(0, 4) + far; }
-};
-
-std::string rationals(std::initializer_list<std::pair<int, int>> values) {
-  std::string out;
-  for (const auto& [top, bottom] : values) out += number(static_cast<std::uint32_t>(top), 4) + number(static_cast<std::uint32_t>(bottom), 4);
-  return out;
-}
-
-std::string photograph() {
-  Directory gps(400, 6);
-  gps.add(1, 2, 2, std::string("S\0", 2));
-  gps.add(2, 5, 3, rationals({{33, 1}, {30, 1}, {1800, 100}}));
-  gps.add(3, 2, 2, std::string("E\0", 2));
-  gps.add(4, 5, 3, rationals({{18, 1}, {15, 1}, {0, 1}}));
-  gps.add(16, 2, 2, std::string("T\0", 2));
-  gps.add(17, 5, 1, rationals({{2715, 10}}));
-  Directory exif(200, 2);
-  exif.add(0x9003, 2, 20, std::string("2024:05:17 08:09:10\0", 20));
-  exif.add(0xa405, 3, 1, number(36, 2));
-  Directory first(8, 5);
-  first.add(0x0112, 3, 1, number(6, 2));
-  first.add(0x013b, 2, 4, std::string("Ada\0", 4));
-  first.add(0x8298, 2, 10, std::string("CC BY 4.0\0", 10));
-  first.add(0x8769, 4, 1, number(200, 4));
-  first.add(0x8825, 4, 1, number(400, 4));
-  std::string block = "MM" + number(42, 2) + number(8, 4) + first.bytes();
-  block.resize(200, '\0');
-  block += exif.bytes();
-  block.resize(400, '\0');
-  block = std::string("Exif\0\0", 6) + block + gps.bytes();
-  const std::string frame = std::string("\x08", 1) + number(300, 2) + number(400, 2) + std::string("\x01\x01\x11\x00", 4);
-  return "\xff\xd8\xff\xe1" + number(static_cast<std::uint32_t>(block.size() + 2), 2) + block + "\xff\xc0" +
-         number(static_cast<std::uint32_t>(frame.size() + 2), 2) + frame + "\xff\xd9";
-}
+using test::photograph;
 
 TEST(ImageFacts, SaysWhereTheLowerPartIsMissing) {
   const std::string whole = photograph(), head = whole.substr(0, whole.size() - 2);
@@ -100,6 +44,21 @@ TEST(ImageFacts, ReadsWhatCamerasWrite) {
   EXPECT_NEAR(*facts->bearing, 271.5, 1e-9);
   // 36 mm on film, upright: three fifths of the diagonal across.
   EXPECT_NEAR(*facts->field_of_view, 2 * std::atan(0.5 * 0.6 * 43.2666153 / 36) * 180 / 3.14159265358979, 1e-6);
+}
+
+// The photographer's part and the editor's, in letters of Latin-1; heights below the sea.
+TEST(ImageFacts, RightsAndHeightsAreRead) {
+  test::Photograph taken;
+  taken.author = "Zo\xeb ";
+  taken.copyright = std::string("(c) Zo\xeb 2024\0CC BY 4.0\0", 24);
+  taken.altitude = -2.5;
+  const auto facts = read_image_facts(photograph(taken));
+  ASSERT_TRUE(facts.ok()) << facts.error().text();
+  EXPECT_EQ(facts->author, "Zo\xc3\xab");
+  EXPECT_EQ(facts->licence, "(c) Zo\xc3\xab 2024; CC BY 4.0");
+  EXPECT_NEAR(facts->altitude.value_or(0), -2.5, 1e-9);
+  const auto& notes = facts->notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& n) { return n.find("Latin-1") != std::string::npos; }));
 }
 
 TEST(ImageFacts, CutOffAnywhereItIsAnErrorOrLess) {

@@ -199,7 +199,7 @@ TEST(ProgrammeCsv, RowErrors) {
             "\"\"b\"\" c\".");
   EXPECT_EQ(error_of("use,area\nshop\x81,5\n"),
             "line 2: The text is neither UTF-8 nor Windows-1252 (Latin-1). Save the file as CSV in UTF-8.");
-  EXPECT_EQ(error_of(std::string("\xFF\xFEu\0s\0", 6)), "line 1: The file is UTF-16 or no text at all. Save it as CSV in UTF-8.");
+  EXPECT_EQ(error_of(std::string("\xFF\xFEu\0s\0", 6)), "byte 0: This is no CSV table but text in UTF-16: save it as CSV in UTF-8.");
 }
 
 TEST(ProgrammeCsv, DuplicatesUnknownColumnsAndBounds) {

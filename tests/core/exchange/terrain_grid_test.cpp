@@ -164,7 +164,7 @@ TEST(TerrainGrid, HostileInputIsAnErrorWithAPlace) {
   const std::string head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n";
   const std::pair<std::string, std::string> rows[] = {
       {"", "byte 0"},
-      {"noise \x01\x02", "line 1"},
+      {"noise \x01\x02", "byte 0"},
       {head + "1 2 3", "end of the file"},
       {head + "1 2 3 x", "line 6"},
       {head, "end of the file"},

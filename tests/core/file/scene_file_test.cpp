@@ -86,7 +86,10 @@ TEST(SceneFile, ListsAllErrorsNotOnlyTheFirst) {
   EXPECT_EQ(reading.problems.size(), 2u);
 }
 
-TEST(SceneFile, DeepNestingIsAnError) { EXPECT_EQ(first_error(std::string(100000, '[')), "nested deeper than 64 levels"); }
+TEST(SceneFile, DeepNestingIsAnError) {
+  EXPECT_EQ(first_error(std::string(100000, '[')),
+            "line 1, column 65: The text is nested deeper than 64 levels from here on: no file of this kind is, and it is not read.");
+}
 
 TEST(SceneFile, GhostsAreKeptToTheLetterAndReported) {
   const std::string text = R"({

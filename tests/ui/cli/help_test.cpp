@@ -65,6 +65,30 @@ TEST(Docs, ListsAndExplainsTypes) {
   EXPECT_TRUE(std::filesystem::exists(place.path("pages/links/demand.md")));
 }
 
+// A script is not one of the program's types: its page is had from the scene that holds it, or from its own file.
+TEST(Docs, ExplainsWhatScriptsDeclare) {
+  const Workplace place;
+  const std::string lua = (std::filesystem::path(BL_SOURCE_DIR) / "links/scripts/fair_share.lua").string();
+  const Outcome without = place.run({"docs", "fair_share"});
+  EXPECT_EQ(without.code, 2);
+  EXPECT_NE(without.err.find("--from SCENE"), std::string::npos) << without.err;
+  const Outcome page = place.run({"docs", lua});
+  EXPECT_EQ(page.code, 0) << page.err;
+  EXPECT_NE(page.out.find("fair_share"), std::string::npos) << page.out;
+  EXPECT_EQ(place.run({"docs", "fair_share", "--from", lua}).out, page.out);
+  EXPECT_NE(place.run({"docs", "--list", "--from", lua}).out.find("fair_share"), std::string::npos);
+  place.write("scene.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a"}]})");
+  EXPECT_EQ(place.run({"docs", "scene.json"}).code, 2);
+  ASSERT_EQ(place.run({"script", "scene.json", lua, "--out", "scene.json"}).code, 0);
+  EXPECT_EQ(place.run({"docs", "scene.json"}).out, page.out);
+  EXPECT_EQ(place.run({"docs", "fair_share", "--from", "scene.json"}).out, page.out);
+  place.write("broken.lua", "return {");
+  const Outcome broken = place.run({"docs", "broken.lua"});
+  EXPECT_EQ(broken.code, 2);
+  EXPECT_NE(broken.err.find("broken.lua"), std::string::npos) << broken.err;
+  EXPECT_EQ(place.run({"docs", "none.json"}).code, 2);
+}
+
 TEST(Schema, IsJson) {
   const Workplace place;
   const Outcome outcome = place.run({"schema"});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/base/random.h"
 #include "tests/support/reference_files.h"
 #include "tests/ui/cli/program.h"
 
@@ -160,6 +161,31 @@ TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
   place.write("scene.json", moving_scene());
   refused({"scene.json", "--out", "out.json"}, "this is a scene of BehaviourLinks; the scene that is added to is named by --into");
   EXPECT_EQ(place.text("there.json"), "x");
+}
+
+// What is something else than its name says is told in words, with none of its bytes.
+TEST_F(Import, NoiseIsToldByWhatItIsNot) {
+  Random random(8);
+  std::string noise = "\x07";
+  while (noise.size() < 4096) noise += static_cast<char>(random.below(256));
+  struct Case {
+    const char *name, *said;
+  };
+  for (const auto& [name, said] : {Case{"n.tif", "This is no GeoTIFF but binary data"}, {"n.asc", "This is no ASCII grid but binary data"},
+                                   {"n.geojson", "This is no GeoJSON but binary data"}, {"n.osm", "This is no OpenStreetMap file but binary data"},
+                                   {"n.pbf", "This is no OpenStreetMap file but binary data"}, {"n.csv", "This is no CSV table but binary data"},
+                                   {"n.city.json", "This is no CityJSON but binary data"}, {"n.dat", "This is no file that is read but binary data"}}) {
+    place.write(name, noise);
+    const Outcome outcome = place.run({"import", name, "--out", "out.json"});
+    EXPECT_EQ(outcome.code, 2) << name;
+    EXPECT_TRUE(outcome.err.starts_with(std::string(name) + ": byte 0: " + said)) << outcome.err;
+    EXPECT_EQ(outcome.err.find('\\'), std::string::npos) << outcome.err;
+    EXPECT_LT(outcome.err.size(), 200u) << outcome.err;
+  }
+  place.write("p.tif", "\x89PNG\r\n\x1a\n and more");
+  EXPECT_NE(place.run({"import", "p.tif", "--out", "out.json"}).err.find("no GeoTIFF but a picture (PNG)"), std::string::npos);
+  place.write("t.tif", "x,y,z\n1,2,3\n");
+  EXPECT_NE(place.run({"import", "t.tif", "--out", "out.json"}).err.find("no GeoTIFF but text"), std::string::npos);
 }
 
 TEST_F(Import, WhatTakesNothingIsSaid) {

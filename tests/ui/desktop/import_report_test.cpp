@@ -1,4 +1,5 @@
 // The report of an import as a list: each element can be gone to, counted, sorted, written down and read again.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -50,6 +51,49 @@ TEST_F(ReportTest, CountsByOutcomeAndReason) {
   desktop.frames(2);
   ASSERT_EQ(list().shown().size(), 1u);
   EXPECT_EQ(list().shown().front().row->id, "features/2");
+}
+
+// What was mended is said as clearly as what is missing: in the notice, as a group, in its row, and a press goes to its node.
+TEST_F(ReportTest, WhatWasRepairedSaysWhatWasMended) {
+  EXPECT_NE(desktop.notices().find("element repaired, 2 skipped"), std::string::npos) << desktop.notices();
+  const auto& groups = list().groups();
+  const auto mended = std::find_if(groups.begin(), groups.end(),
+                                   [](const ImportGroup& group) { return group.outcome == ImportOutcome::repaired; });
+  ASSERT_NE(mended, groups.end());
+  EXPECT_EQ(mended->reason, "repeated points dropped");
+  desktop.press_on("import/group/" + std::to_string(mended - groups.begin()));
+  desktop.frames(2);
+  ASSERT_EQ(list().shown().size(), 1u);
+  const ImportRow& row = *list().shown().front().row;
+  EXPECT_EQ(why_of(row), "1 repeated points dropped");
+  EXPECT_EQ(special_of(row), "taken as building");
+  desktop.press_on("import/row/0");
+  desktop.frames(2);
+  EXPECT_EQ(desktop.editor().picks.nodes, (std::set<std::string>{"building_2"}));
+}
+
+// A height that nobody measured is seen in the row of its building, and the rows are a group of their own.
+TEST(ImportRows, HeightsOfNeighboursAreTold) {
+  std::string features;
+  for (int k = 0; k < 5; ++k) {
+    const std::string x = std::to_string(85000 + 30 * k), e = std::to_string(85010 + 30 * k);
+    features += std::string(k > 0 ? "," : "") + R"({"type": "Feature", "properties": {)" + (k < 4 ? R"("height": 12)" : "") +
+                R"(}, "geometry": {"type": "Polygon", "coordinates": [[[)" + x + ", 447000], [" + e + ", 447000], [" + e +
+                ", 447010], [" + x + ", 447010], [" + x + ", 447000]]]}}";
+  }
+  const Folder folder("import_heights");
+  ImportDesktop desktop;
+  desktop.import({folder.write("five.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" + features + "]}")});
+  desktop.frames(3);
+  ImportList& list = *memory_of(desktop.editor()).imports;
+  ASSERT_EQ(list.groups().size(), 2u) << desktop.told();
+  EXPECT_EQ(list.groups().back().reason, "building, height taken from its neighbours");
+  EXPECT_EQ(list.groups().back().count, 1u);
+  desktop.press_on("import/group/1");
+  desktop.frames(2);
+  ASSERT_EQ(list.shown().size(), 1u);
+  EXPECT_EQ(list.shown().front().row->id, "features/4");
+  EXPECT_EQ(special_of(*list.shown().front().row), "height taken from its neighbours: 12 m");
 }
 
 TEST_F(ReportTest, WhatWasTakenIsChosenAndFramed) {

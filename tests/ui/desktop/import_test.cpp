@@ -95,7 +95,7 @@ TEST(WindowImport, BadInputSaysWhatAndWhereAndChangesNothing) {
       {"noise.tif", std::string("II*\0\xff\xff\xff\x7f noise", 14), "noise.tif", ""},
       {"cut.osm", "<?xml version='1.0'?><osm version='0.6'><node id='1' lat='1' lon='1'/><way id", "cut.osm: line 1", ""},
       {"houses.geojson", houses, "houses.geojson: crs", "EPSG:1"},
-      {"noise.bin", std::string("\0\1\2\3", 4), "noise.bin: This is no format that is read", ""}};
+      {"noise.bin", std::string("\0\1\2\3", 4), "noise.bin: byte 0: This is no file that is read but binary data", ""}};
   ImportDesktop desktop("scenes/start/quarter.json");
   Editor& editor = desktop.editor();
   const std::string before = desktop.scene_text();

@@ -9,6 +9,7 @@
 #include "ui/cli/report/report.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/app/import_task.h"
+#include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"
 
@@ -85,6 +86,26 @@ bool Dialogs::begin(const char* title, float width, float height) {
   }
   if (!is_fresh_) kind_ = Kind::none, then_ = nullptr;
   return false;
+}
+
+bool Dialogs::draw_foot(const char* action, const char* place, const std::string& missing) {
+  const Theme& theme = editor_->theme;
+  ImGui::Dummy({0, theme.px(4)});
+  ImGui::BeginDisabled(!missing.empty());
+  const bool is_entered = !is_fresh_ && !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  const bool is_wanted = chief_button(theme, action, {theme.px(150), 0}) || (missing.empty() && is_entered);
+  note_place(*editor_, place);
+  ImGui::EndDisabled();
+  if (!missing.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", missing.c_str());
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {theme.px(110), 0})) close();
+  ImGui::PushStyleColor(ImGuiCol_Text, is_told_error_ ? theme.colours().bad : theme.colours().text_soft);
+  ImGui::PushTextWrapPos(0);
+  for (const std::string& line : told_) ImGui::TextUnformatted(line.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (const auto path = chooser_.draw(*editor_)) chosen_(*path);
+  return is_wanted;
 }
 
 void Dialogs::draw() {

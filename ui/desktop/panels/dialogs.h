@@ -53,6 +53,9 @@ class Dialogs {
   void show(Kind kind);
   bool begin(const char* title, float width, float height);
   void close();
+  /// The end of a dialog that makes something of files: the button for it, Cancel, what the last try has said, and the chooser. True
+  /// once it is wanted; `missing` says what is not there yet, or is empty.
+  bool draw_foot(const char* action, const char* place, const std::string& missing);
   void draw_palette();
   void draw_keys();
   void draw_new_scene();

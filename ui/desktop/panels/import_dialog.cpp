@@ -10,7 +10,6 @@
 #include <imgui_stdlib.h>
 
 #include "ui/cli/report/figures.h"
-#include "ui/desktop/app/buttons.h"
 #include "ui/desktop/app/import_task.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panel_memory.h"
@@ -197,7 +196,6 @@ void Dialogs::draw_import() {
     if (kind_ != Kind::import) stop_import();  // closed by Esc or its cross
     return;
   }
-  const Theme& theme = editor_->theme;
   if (import_task_) {
     draw_import_progress();
     if (import_task_ && import_task_->is_done()) {
@@ -208,24 +206,9 @@ void Dialogs::draw_import() {
     return ImGui::EndPopup();
   }
   draw_import_files();
-  ImGui::Dummy({0, theme.px(4)});
+  ImGui::Dummy({0, editor_->theme.px(4)});
   draw_import_options();
-  ImGui::Dummy({0, theme.px(4)});
-  const bool is_ready = !import_.files.empty();
-  ImGui::BeginDisabled(!is_ready);
-  const bool is_entered = !is_fresh_ && !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
-  if (chief_button(theme, "Import", {theme.px(150), 0}) || (is_ready && is_entered)) begin_import();
-  note_place(*editor_, "import/begin");
-  ImGui::EndDisabled();
-  if (!is_ready && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("Choose a file first.");
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel", {theme.px(110), 0})) close();
-  ImGui::PushStyleColor(ImGuiCol_Text, is_told_error_ ? theme.colours().bad : theme.colours().text_soft);
-  ImGui::PushTextWrapPos(0);
-  for (const std::string& line : told_) ImGui::TextUnformatted(line.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  if (const auto path = chooser_.draw(*editor_)) chosen_(*path);
+  if (draw_foot("Import", "import/begin", import_.files.empty() ? "Choose a file first." : "")) begin_import();
   ImGui::EndPopup();
 }
 
@@ -275,12 +258,18 @@ bool Dialogs::take_import(cli::ImportedScene& imported) {
   for (const std::string& note : imported.notes) problems.push_back({false, {ErrorCode::missing, "import", note}});
   if (!imported.notes.empty())
     editor_->list_problems(editor_->problem_file.empty() ? names : editor_->problem_file, std::move(problems));
-  std::size_t skipped = 0;
-  for (const auto& [file, report] : imported.reports) skipped += report.count(ImportOutcome::skipped);
+  std::size_t skipped = 0, repaired = 0;
+  for (const auto& [file, report] : imported.reports) {
+    skipped += report.count(ImportOutcome::skipped);
+    repaired += report.count(ImportOutcome::repaired);
+  }
   editor_->tell(
       NoticeKind::told,
       "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
-          (skipped == 0 ? "Nothing was skipped." : report::counted(skipped, "element") + " skipped; the tab Import says why."));
+          (repaired == 0 ? "" : report::counted(repaired, "element") + " repaired, ") +
+          (skipped == 0 ? (repaired == 0 ? "Nothing was skipped." : "none skipped; the tab Import says what was mended.")
+                        : (repaired == 0 ? report::counted(skipped, "element") : report::grouped(static_cast<double>(skipped))) +
+                              " skipped; the tab Import says why."));
   editor_->person.shows_bottom = true;
   memory_of(*editor_).wanted_tab = "Import";
   const auto& [low, high] = imported.bounds;

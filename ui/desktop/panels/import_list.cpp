@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/exchange/assumed_height.h"
 #include "core/exchange/csv_reader.h"
 
 namespace bl::desktop {
@@ -40,15 +41,50 @@ bool is_before(const ImportEntry& a, const ImportEntry& b, ImportColumn column) 
     case ImportColumn::outcome: return rank_of(a.row->outcome) < rank_of(b.row->outcome);
     case ImportColumn::kind: return a.row->kind < b.row->kind;
     case ImportColumn::id: return comes_before(a.row->id, b.row->id);
-    case ImportColumn::reason: return a.row->reason < b.row->reason;
-    case ImportColumn::detail: return a.row->detail < b.row->detail;
+    case ImportColumn::reason: return why_of(*a.row) < why_of(*b.row);
+    case ImportColumn::detail: return special_of(*a.row) < special_of(*b.row);
     case ImportColumn::place: return a.row->place < b.row->place;
     case ImportColumn::file: return *a.file < *b.file;
   }
   return false;
 }
 
+// "2 repeated points dropped" and "3 repeated points dropped" are one group: digits go, and what is in brackets with them.
+std::string without_numbers(const std::string& text) {
+  std::string out;
+  int depth = 0;
+  for (const char c : text) {
+    if (c == '(') ++depth;
+    if (depth == 0 && !(c >= '0' && c <= '9') && !(c == ' ' && (out.empty() || out.back() == ' '))) out += c;
+    if (c == ')' && depth > 0) --depth;
+  }
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+// The same for all rows of a group.
+std::string group_text(const ImportRow& row) {
+  if (row.outcome == ImportOutcome::repaired && !row.detail.empty()) {
+    // The height itself differs from row to row.
+    std::string text = row.detail;
+    for (const std::string_view assumed : {kHeightOfNeighbours, kHeightAssumed})
+      if (const std::size_t at = text.find(assumed); at != std::string::npos) text.resize(at + assumed.size());
+    return without_numbers(text);
+  }
+  for (const std::string_view assumed : {kHeightOfNeighbours, kHeightAssumed})
+    if (row.detail.find(assumed) != std::string::npos) return row.reason + ", " + std::string(assumed);
+  return row.reason;
+}
+
 }  // namespace
+
+std::string why_of(const ImportRow& row) {
+  return row.outcome == ImportOutcome::repaired && !row.detail.empty() ? row.detail : row.reason;
+}
+
+std::string special_of(const ImportRow& row) {
+  return row.outcome == ImportOutcome::repaired && !row.detail.empty() ? "taken as " + row.reason : row.detail;
+}
 
 void ImportList::follow(const ImportReports& reports, std::uint64_t document, std::uint64_t revision) {
   if (document_ == document && revision_ == revision) return;
@@ -65,8 +101,8 @@ void ImportList::follow(const ImportReports& reports, std::uint64_t document, st
       all_.push_back({&file, &row});
       counts_[static_cast<std::size_t>(row.outcome)] += row.count;
       has_places_ |= row.place.has_value();
+      sums[{row.outcome, row.kind, group_text(row)}] += row.count;
     }
-    for (const auto& [key, count] : report.counts()) sums[key] += count;
   }
   for (const auto& [key, count] : sums) groups_.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), count});
   std::stable_sort(groups_.begin(), groups_.end(), [](const ImportGroup& a, const ImportGroup& b) {
@@ -82,7 +118,7 @@ bool ImportList::passes(const ImportEntry& entry) const {
   if (outcome_ >= 0 && static_cast<int>(row.outcome) != outcome_) return false;
   if (group_ < groups_.size()) {
     const ImportGroup& group = groups_[group_];
-    if (row.outcome != group.outcome || row.kind != group.kind || row.reason != group.reason) return false;
+    if (row.outcome != group.outcome || row.kind != group.kind || group_text(row) != group.reason) return false;
   }
   return search_.empty() || holds(row.id, search_) || holds(row.detail, search_) || holds(row.reason, search_) ||
          holds(row.kind, search_) || holds(*entry.file, search_);

@@ -18,7 +18,12 @@ struct ImportEntry {
   const ImportRow* row = nullptr;
 };
 
-/// Rows with the same outcome, kind and reason.
+/// Why an element stands where it does: what was mended of a repaired one, the reason of others.
+std::string why_of(const ImportRow& row);
+/// What else there is to say: as what a repaired one was taken, the details of others.
+std::string special_of(const ImportRow& row);
+
+/// Rows of which the same is to be said: without the numbers in it, and with a word on heights that were assumed.
 struct ImportGroup {
   ImportOutcome outcome = ImportOutcome::taken;
   std::string kind, reason;

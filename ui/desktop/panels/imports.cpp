@@ -74,7 +74,7 @@ void go_to(Editor& editor, const ImportRow& row) {
     editor.picks.clear();
     const double ground = editor.view->facts() == nullptr ? 0 : editor.view->facts()->ground;
     const std::string what =
-        title_of(row) + "\n" + label_of(row.outcome) + ": " + row.reason + (row.detail.empty() ? "" : "\n" + row.detail);
+        title_of(row) + "\n" + label_of(row.outcome) + ": " + why_of(row) + (special_of(row).empty() ? "" : "\n" + special_of(row));
     return editor.view->put_pin({{(*row.place)[0], (*row.place)[1], ground}, what});
   }
   editor.tell(NoticeKind::told,
@@ -149,7 +149,7 @@ void draw_row(Editor& editor, const ImportEntry& entry, int index, bool has_file
   if (ImGui::IsItemHovered()) {
     if (!row.made.empty() && editor.scene().nodes.contains(row.made.front())) editor.picks.hovered_node = row.made.front();
     const bool goes = row.place || !nodes_of(editor, row).empty();
-    card(editor, title_of(row), row.reason + (row.detail.empty() ? "" : "\n" + row.detail),
+    card(editor, title_of(row), why_of(row) + (special_of(row).empty() ? "" : "\n" + special_of(row)),
          nodes_of(editor, row).empty() ? goes ? "press for its place" : "it has no place" : "press to go to what was made of it");
   }
   ImGui::PopID();
@@ -169,8 +169,8 @@ void draw_row(Editor& editor, const ImportEntry& entry, int index, bool has_file
   };
   column(row.kind, c.text_soft);
   column(row.count > 1 ? number(row.count) + " together" : row.id, row.count > 1 ? c.text_soft : c.text);
-  column(row.reason, c.text);
-  column(row.detail, c.text_soft);
+  column(why_of(row), c.text);
+  column(special_of(row), c.text_soft);
   column(place_text(editor, row), row.made.empty() ? c.text_soft : c.text);
   if (has_files) column(*entry.file, c.text_soft);
 }

@@ -3,8 +3,6 @@
 
 #include <imgui_stdlib.h>
 
-#include "ui/desktop/app/buttons.h"
-
 namespace bl::desktop {
 
 namespace {
@@ -55,22 +53,8 @@ void Dialogs::draw_new_scene() {
   ImGui::SetNextItemWidth(theme.px(120));
   ImGui::InputTextWithHint("CRS", "as the file says", &fresh_.crs);
   ImGui::Checkbox("Take the convex hull of a plan that is not convex", &fresh_.use_hull);
-  ImGui::Dummy({0, theme.px(4)});
   const bool is_ready = !fresh_.boundary.empty() && !fresh_.programme.empty();
-  ImGui::BeginDisabled(!is_ready);
-  const bool is_entered = !chooser_.is_open() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
-  if (chief_button(theme, "Make the scene", {theme.px(150), 0}) || (is_ready && is_entered)) make_scene();
-  ImGui::EndDisabled();
-  if (!is_ready && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("A boundary and a programme are needed.");
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel", {theme.px(110), 0})) close();
-  ImGui::PushStyleColor(ImGuiCol_Text, is_told_error_ ? theme.colours().bad : theme.colours().text_soft);
-  ImGui::PushTextWrapPos(0);
-  for (const std::string& line : told_) ImGui::TextUnformatted(line.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  if (const auto path = chooser_.draw(*editor_)) chosen_(*path);
+  if (draw_foot("Make the scene", "new_scene/make", is_ready ? "" : "A boundary and a programme are needed.")) make_scene();
   if (!told_.empty() && !is_told_error_) close();
   ImGui::EndPopup();
 }

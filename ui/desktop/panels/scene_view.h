@@ -19,6 +19,18 @@
 
 namespace bl::desktop {
 
+/// Which legends stand in the view, and which wait behind a button.
+struct LegendPlaces {
+  struct Shown {
+    std::size_t legend = 0;
+    ImVec2 corner{};  ///< its lower left one [pixels]
+  };
+  std::vector<Legend> legends;
+  std::vector<Shown> shown;
+  std::vector<std::size_t> folded;  ///< also those that are cut
+  float top = 0, highest = 0;       ///< where they end, and where they have to [pixels]
+};
+
 class SceneView {
  public:
   SceneView(Editor& editor, Renderer& renderer) : editor_(&editor), renderer_(&renderer) {}
@@ -82,6 +94,8 @@ class SceneView {
   const SceneFacts* facts() const { return facts_.get(); }
   /// Where the note on hidden nodes was drawn in the last frame [pixels]; no size where there is none.
   ImVec4 hidden_note() const { return hidden_note_; }
+  /// As they were drawn in the last frame.
+  const LegendPlaces& legend_places() const { return legend_places_; }
   /// Where a point is in the window [pixels].
   Seen place_in_window(const Point3& point) const;
 
@@ -143,11 +157,16 @@ class SceneView {
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   std::string street_under(const ImVec2& mouse) const;
-  void draw_legends(bool is_large);
-  ImVec2 draw_legend(const Legend& legend, const ImVec2& corner, bool is_large, float room, ImDrawList* list);
   void draw_hint(const std::string& text);
   void draw_tools();
   void draw_layers_popup();
+
+  // scene_view_legends.cpp
+  std::vector<Legend> legends() const;
+  LegendPlaces place_legends(std::vector<Legend> all, bool is_large, float lift);
+  void draw_legends(bool is_large);
+  void draw_folded(const ImVec2& corner);
+  ImVec2 draw_legend(const Legend& legend, const ImVec2& corner, bool is_large, float room, ImDrawList* list);
 
   // scene_view_sun.cpp
   const SunFacts* sun() const;
@@ -196,6 +215,8 @@ class SceneView {
   double walk_began_ = -1;
   ImVec2 at_{}, size_{};
   ImVec4 hidden_note_{};
+  LegendPlaces legend_places_;
+  std::string wanted_legend_;  ///< the title of the one that was asked for
   bool is_hovered_ = false;
 
   Drag drag_ = Drag::none;

@@ -1,4 +1,4 @@
-// What is written over the picture: marks, labels, legend, scale, north, and the small tools in the corner.
+// What is written over the picture: marks, labels, scale, north, and the small tools in the corner.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/panels/stream_text.h"
-#include "ui/desktop/view/urban_picture.h"
 
 namespace bl::desktop {
 
@@ -209,84 +208,6 @@ void SceneView::draw_scale_and_north() {
   const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
   list.AddText(font, font->FontSize, {(begin.x + end.x - extent.x) / 2, end.y - theme.px(5) - extent.y}, c.text_soft,
                text.c_str());
-}
-
-// Along the bottom from the left; what finds no room there stands above.
-void SceneView::draw_legends(bool is_large) {
-  std::vector<Legend> legends =
-      urban_legends(*facts_, choices_, editor_->theme, [this](const char* layer) { return shows(layer); });
-  legends.insert(legends.begin(), colouring_.legend);
-  const float margin = editor_->theme.px(is_large ? 28 : 14);
-  // The lowest row leaves room for scale and north.
-  float right = at_.x + width() - editor_->theme.px(190);
-  ImVec2 corner{at_.x + margin, at_.y + height() - strip_height() - margin};
-  float tallest = 0;
-  const auto room_above = [&](const ImVec2& place) { return place.y - at_.y - editor_->theme.px(is_large ? 88 : 74); };
-  for (const Legend& legend : legends) {
-    if (legend.rows.empty() && legend.ramp.empty()) continue;
-    const float wide = draw_legend(legend, corner, is_large, room_above(corner), nullptr).x;
-    if (corner.x > at_.x + margin && corner.x + wide > right) {
-      corner = {at_.x + margin, corner.y - tallest - margin};
-      tallest = 0;
-      right = at_.x + width() - margin;
-    }
-    const ImVec2 size = draw_legend(legend, corner, is_large, room_above(corner), ImGui::GetWindowDrawList());
-    corner.x += size.x + 2 * margin;
-    tallest = std::max(tallest, size.y);
-  }
-  const Legend reach = isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme);
-  if (reach.rows.empty()) return;
-  const ImVec2 size = draw_legend(reach, corner, is_large, height(), nullptr);
-  const ImVec2 place{at_.x + width() - size.x - margin, at_.y + editor_->theme.px(is_large ? 64 : 52) + size.y};
-  draw_legend(reach, place, is_large, height(), ImGui::GetWindowDrawList());
-}
-
-// With its lower left corner there, no taller than `room`; returns its size. Without a list it only measures.
-ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool is_large, float room, ImDrawList* drawn_to) {
-  const Theme& theme = editor_->theme;
-  const Colours& c = theme.colours();
-  ImFont* font = is_large ? theme.fonts().body : theme.fonts().small;
-  const float line = font->FontSize * 1.35f, swatch = font->FontSize * 0.8f;
-  const std::size_t most = static_cast<std::size_t>(std::max(1.0f, room / line - 2));
-  const std::size_t rows = std::min(legend.rows.size(), most);
-  const float x = corner.x;
-  float y = corner.y - line * (legend.ramp.empty() ? static_cast<float>(rows + (rows < legend.rows.size() ? 1 : 0)) : 2.4f);
-  float widest = legend.ramp.empty() ? 0 : theme.px(is_large ? 300 : 190);
-  const auto count_width = [&](const std::string& text, float before) {
-    widest = std::max(widest, before + font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str()).x);
-  };
-  count_width(legend.title, 0);
-  for (std::size_t k = 0; k < rows; ++k) count_width(legend.rows[k].label, swatch * 1.6f);
-  // Volumes may stand behind it.
-  const float pad = theme.px(7);
-  const ImVec2 size{widest + pad, corner.y - y + line + pad};
-  if (drawn_to == nullptr) return size;
-  ImDrawList& list = *drawn_to;
-  list.AddRectFilled({x - pad, y - line - pad}, {x + widest + pad, corner.y + pad}, faded(c.sky, 0.72f), theme.px(5));
-  list.AddText(theme.fonts().strong, font->FontSize, {x, y - line}, c.text, legend.title.c_str());
-  for (std::size_t k = 0; k < rows; ++k, y += line) {
-    const float top = y + (line - swatch) / 2 - font->FontSize * 0.14f;
-    list.AddRectFilled({x, top}, {x + swatch, top + swatch}, legend.rows[k].colour, theme.px(2));
-    list.AddText(font, font->FontSize, {x + swatch * 1.6f, y}, c.text_soft, legend.rows[k].label.c_str());
-  }
-  if (rows < legend.rows.size())
-    list.AddText(font, font->FontSize, {x + swatch * 1.6f, y}, c.text_faint,
-                 ("and " + std::to_string(legend.rows.size() - rows) + " more").c_str());
-  if (legend.ramp.empty()) return size;
-  const float length = theme.px(is_large ? 300 : 190), step = length / static_cast<float>(legend.ramp.size() - 1);
-  for (std::size_t k = 0; k + 1 < legend.ramp.size(); ++k) {
-    const float left = x + step * static_cast<float>(k);
-    list.AddRectFilledMultiColor({left, y + theme.px(4)}, {left + step + 0.5f, y + theme.px(4) + swatch}, legend.ramp[k],
-                                 legend.ramp[k + 1], legend.ramp[k + 1], legend.ramp[k]);
-  }
-  const auto put = [&](const std::string& text, float share) {
-    const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
-    list.AddText(font, font->FontSize, {x + share * (length - extent.x), y + theme.px(8) + swatch}, c.text_soft, text.c_str());
-  };
-  put(legend.low, 0);
-  put(legend.middle, 0.5f);
-  put(legend.high, 1);
-  return size;
 }
 
 // What keys do just now, across the top where nothing else lies.

@@ -78,7 +78,6 @@ bool GlRenderer::build(std::string& failure) {
                             {&p.capture, divide + shaders::kCaptureVertex, nothing, {"captured"}},
                             {&p.ground, version + shaders::kGroundVertex, version + light + shaders::kGroundFragment, {}},
                             {&p.surfaces, version + shaders::kSurfaceVertex, version + shaders::kSurfaceFragment, {}},
-                            {&p.bodies, version + shaders::kBodyVertex, version + shaders::kBodyFragment, {}},
                             {&p.lines, version + shaders::kLineVertex, version + shaders::kLineFragment, {}},
                             {&p.pictures, version + shaders::kPictureVertex, version + shaders::kPictureFragment, {}},
                             {&p.blur, version + shaders::kWholeVertex, version + shaders::kBlurFragment, {}},

@@ -60,10 +60,13 @@ class GlRenderer final : public Renderer {
     Point3 origin;
   };
   void send(Batch& batch, const std::vector<ViewSurface>& surfaces, const Point3& origin);
+  /// As flat paint that lies on what is drawn already, or as bodies with sides.
+  const GlProgram& begin_surfaces(const ViewScene& scene, bool is_body) const;
+  static void draw_batch(const GlProgram& program, const Batch& batch);
   void draw_line_quads(const ViewScene& scene, bool is_behind) const;
 
   struct Programs {
-    GlProgram volumes, cut_volumes, shadow, heights, capture, ground, surfaces, bodies, lines, pictures, blur, finish;
+    GlProgram volumes, cut_volumes, shadow, heights, capture, ground, surfaces, lines, pictures, blur, finish;
   };
   std::unique_ptr<Programs> programs_;
   std::string description_;

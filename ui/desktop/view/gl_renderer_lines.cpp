@@ -45,21 +45,32 @@ void GlRenderer::send(Batch& batch, const std::vector<ViewSurface>& surfaces, co
   batch.origin = origin;
 }
 
-void GlRenderer::draw_surfaces(const ViewScene& scene) {
-  if (scene.surfaces.empty()) return;
-  send(surfaces_, scene.surfaces, scene.origin);
-  programs_->surfaces.use();
-  programs_->surfaces.set_matrix("matrix", matrix_.data());
-  programs_->surfaces.set("section", section_of(scene));
-  glBindVertexArray(surfaces_.array);
+const GlProgram& GlRenderer::begin_surfaces(const ViewScene& scene, bool is_body) const {
+  const GlProgram& program = programs_->surfaces;
+  program.use();
+  program.set_matrix("matrix", matrix_.data());
+  program.set("section", section_of(scene));
+  program.set("nearer", is_body ? 0.0f : 2e-4f);
+  program.set("relief", is_body ? 1.0f : 0.0f);
+  return program;
+}
+
+void GlRenderer::draw_batch(const GlProgram& program, const Batch& batch) {
+  glBindVertexArray(batch.array);
   GLint first = 0;
-  for (const ViewSurface& surface : scene.surfaces) {
+  for (const ViewSurface& surface : batch.sent) {
     const auto count = static_cast<GLsizei>(3 * surface.mesh->triangles.size());
-    programs_->surfaces.set_colour("paint", surface.colour);
+    program.set_colour("paint", surface.colour);
     glDrawArrays(GL_TRIANGLES, first, count);
     first += count;
   }
   glBindVertexArray(0);
+}
+
+void GlRenderer::draw_surfaces(const ViewScene& scene) {
+  if (scene.surfaces.empty()) return;
+  send(surfaces_, scene.surfaces, scene.origin);
+  draw_batch(begin_surfaces(scene, false), surfaces_);
 }
 
 // Depth first, colour then: where bodies stand behind each other, or in each other, only the nearest side is seen, once. Lines
@@ -67,14 +78,10 @@ void GlRenderer::draw_surfaces(const ViewScene& scene) {
 void GlRenderer::draw_bodies(const ViewScene& scene) {
   if (scene.bodies.empty()) return;
   send(bodies_, scene.bodies, scene.origin);
-  const GlProgram& program = programs_->bodies;
-  program.use();
-  program.set_matrix("matrix", matrix_.data());
-  program.set("section", section_of(scene));
+  const GlProgram& program = begin_surfaces(scene, true);
   glEnable(GL_STENCIL_TEST);
   glStencilFunc(GL_ALWAYS, 1, 0xff);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glBindVertexArray(bodies_.array);
   for (const bool is_depth : {true, false}) {
     // Sides that fall together, as those of neighbours do, are still painted once.
     if (!is_depth) glStencilFunc(GL_EQUAL, 1, 0xff), glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
@@ -82,15 +89,8 @@ void GlRenderer::draw_bodies(const ViewScene& scene) {
     glDepthFunc(is_depth ? GL_LESS : GL_EQUAL);
     const GLboolean paints = is_depth ? GL_FALSE : GL_TRUE;
     glColorMaski(0, paints, paints, paints, paints);
-    GLint first = 0;
-    for (const ViewSurface& body : scene.bodies) {
-      const auto count = static_cast<GLsizei>(3 * body.mesh->triangles.size());
-      program.set_colour("paint", body.colour);
-      glDrawArrays(GL_TRIANGLES, first, count);
-      first += count;
-    }
+    draw_batch(program, bodies_);
   }
-  glBindVertexArray(0);
   glStencilFunc(GL_EQUAL, 2, 0xff);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   if (!scene.lines.empty()) draw_line_quads(scene, false);

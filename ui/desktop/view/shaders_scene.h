@@ -45,48 +45,31 @@ void main() {
 }
 )";
 
+// Translucent surfaces, and the sides of bodies of shade.
 inline constexpr const char* kSurfaceVertex = R"(
 uniform mat4 matrix;
+// The share by which it comes nearer than volumes and ground, which surfaces lie on in places.
+uniform float nearer;
 layout(location = 0) in vec3 place;
 out vec3 world;
 void main() {
   world = place;
   gl_Position = matrix * vec4(place, 1.0);
-  // A hair nearer than volumes and ground, which it lies on in places.
-  gl_Position.z -= 2e-4 * gl_Position.w;
+  gl_Position.z -= nearer * gl_Position.w;
 }
 )";
 
 inline constexpr const char* kSurfaceFragment = R"(
 uniform vec4 paint, section;
+// 1: facets are told apart a little by where they look, so that a body has a shape.
+uniform float relief;
 in vec3 world;
 layout(location = 0) out vec4 colour;
 void main() {
-  if (dot(section.xyz, world) > section.w) discard;
-  colour = paint;
-}
-)";
-
-// Sides of bodies of shade: facets told apart a little by where they look, so that the body has a shape.
-inline constexpr const char* kBodyVertex = R"(
-uniform mat4 matrix;
-layout(location = 0) in vec3 place;
-out vec3 world;
-void main() {
-  world = place;
-  gl_Position = matrix * vec4(place, 1.0);
-}
-)";
-
-inline constexpr const char* kBodyFragment = R"(
-uniform vec4 paint, section;
-in vec3 world;
-layout(location = 0) out vec4 colour;
-void main() {
-  if (dot(section.xyz, world) > section.w) discard;
   vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
+  if (dot(section.xyz, world) > section.w) discard;
   float turned = 0.5 + 0.5 * dot(normal, normalize(vec3(0.55, -0.8, 0.25)));
-  colour = vec4(mix(paint.rgb * 0.7, paint.rgb * 1.25, turned), paint.a);
+  colour = vec4(relief > 0.0 ? mix(paint.rgb * 0.7, paint.rgb * 1.25, turned) : paint.rgb, paint.a);
 }
 )";
 

@@ -1,10 +1,13 @@
 // One look at the brackets before the parser builds anything: a packed file of some kilobytes can unpack to gigabytes of them.
-#include "core/exchange/bounded_json.h"
+#include "core/define/bounded_json.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 #include <nlohmann/json.hpp>
+
+#include "core/base/stop_check.h"
 
 namespace bl {
 
@@ -12,18 +15,45 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string place_of(std::string_view text, std::size_t at) {
-  const std::string_view before = text.substr(0, at);
-  const std::size_t last = before.rfind('\n');
-  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column " +
-         std::to_string(before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1);
-}
+// Asked so often whether to go on [bytes]: the parser needs some milliseconds for them.
+constexpr std::size_t kPiece = std::size_t{1} << 18;
+
+// The bytes of a text as the parser takes them; once nobody wants it any more, they end early.
+class Bytes {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  Bytes(const char* at, const char* end) : at_(at), piece_(at), end_(end) {}
+  reference operator*() const { return *at_; }
+  Bytes& operator++() {
+    ++at_;
+    return *this;
+  }
+  friend bool operator!=(const Bytes& a, const Bytes&) { return a.at_ != a.piece_ || a.has_more(); }
+  friend bool operator==(const Bytes& a, const Bytes& b) { return !(a != b); }
+
+ private:
+  bool has_more() const {
+    if (piece_ == end_ || is_stop_wished()) return false;
+    piece_ += std::min(kPiece, static_cast<std::size_t>(end_ - piece_));
+    return true;
+  }
+
+  const char* at_;
+  mutable const char* piece_;  // looked at, up to here
+  const char* end_;
+};
 
 // Brackets and commas outside of strings, told to `see` with their places until it has seen enough.
 template <class See>
 void scan(std::string_view text, const See& see) {
   bool is_in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
+    if (i % kPiece == 0 && is_stop_wished()) return;
     const char c = text[i];
     if (is_in_string) {
       if (c == '\\') ++i;
@@ -36,7 +66,16 @@ void scan(std::string_view text, const See& see) {
   }
 }
 
-Result<void> check_bounds(std::string_view text) {
+}  // namespace
+
+std::string place_in_text(std::string_view text, std::size_t at) {
+  const std::string_view before = text.substr(0, at);
+  const std::size_t last = before.rfind('\n');
+  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ", column " +
+         std::to_string(before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1);
+}
+
+Result<void> check_json_bounds(std::string_view text) {
   std::size_t depth = 0, values = 1, deep = std::string_view::npos, many = std::string_view::npos;
   scan(text, [&](char c, std::size_t at) {
     if (c == '[' || c == '{') {
@@ -49,23 +88,23 @@ Result<void> check_bounds(std::string_view text) {
     return deep == std::string_view::npos && many == std::string_view::npos;
   });
   if (deep != std::string_view::npos)
-    return Error{ErrorCode::out_of_range, place_of(text, deep),
+    return Error{ErrorCode::out_of_range, place_in_text(text, deep),
                  "The text is nested deeper than " + std::to_string(kMostJsonDepth) +
                      " levels from here on: no file of this kind is, and it is not read."};
   if (many != std::string_view::npos)
-    return Error{ErrorCode::out_of_range, place_of(text, many),
+    return Error{ErrorCode::out_of_range, place_in_text(text, many),
                  "The text holds more than " + std::to_string(kMostJsonValues) + " values: cut out the part that you need."};
   return {};
 }
 
-}  // namespace
-
 Result<Json> read_bounded_json(std::string_view text, std::string_view format) {
-  if (auto bounded = check_bounds(text); !bounded) return bounded.error();
+  if (auto bounded = check_json_bounds(text); !bounded) return bounded.error();
   try {
-    return Json::parse(text);
+    const char *begin = text.data(), *end = begin + text.size();
+    return Json::parse(Bytes(begin, end), Bytes(end, end));
   } catch (const Json::parse_error& error) {
-    return Error{ErrorCode::parse, place_of(text, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size())),
+    if (is_stop_wished()) return Error{ErrorCode::cancelled, "", "The reading was stopped."};
+    return Error{ErrorCode::parse, place_in_text(text, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size())),
                  "The text is not valid JSON from here on; is the file complete, and is it " + std::string(format) + "?"};
   } catch (const Json::exception&) {
     return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
