@@ -68,7 +68,7 @@ struct FacadeStyle {
     t.in(&In::true_north, "true_north")
         .unit(Unit::degree)
         .range(-360, 360)
-        .soft(-180, 180)
+        .of_scene(OfScene::always)
         .doc("Where true north lies in the scene: clockwise from its y axis. Orientations are told against it.");
     t.in(&In::volumes, "volumes").doc("The façades that the style may dress; it dresses those among them that name it.");
     t.in(&In::styles, "styles").doc("All styles of the scene, by which a façade is known that names none of them.");

@@ -9,6 +9,7 @@ namespace {
 struct Street {
   struct In {
     Selection start, end;
+    std::vector<Point3> course;
     double lanes = 1, capacity_per_lane = 800, speed = 50 / 3.6, length = 0, open = 1, toll = 0;
     bool one_way = false, for_cars = true;
   };
@@ -24,6 +25,11 @@ struct Street {
         "trips of its zones on it.");
     t.in(&In::start, "start").doc("The one junction where it begins.");
     t.in(&In::end, "end").doc("The one junction where it ends.");
+    t.in(&In::course, "course")
+        .unit(Unit::metre)
+        .doc(
+            "The points that it passes between its ends, in order; empty: it runs straight. They stay where they are when a "
+            "junction moves. Their heights count for nothing: a street rises evenly from end to end.");
     t.in(&In::lanes, "lanes")
         .unit(Unit::count)
         .range(0, 20)
@@ -47,7 +53,7 @@ struct Street {
         .unit(Unit::metre)
         .range(0, 1e6)
         .soft(0, 1000)
-        .doc("Length; 0 takes the straight line between its ends.");
+        .doc("Length; 0 takes that of its line from end to end, by its course.");
     t.in(&In::open, "open")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -74,7 +80,7 @@ struct Street {
     t.out(&Out::volume_over_capacity, "volume_over_capacity")
         .unit(Unit::ratio)
         .doc("Flow over open capacity, the larger of both directions; above 1 the street is overloaded.");
-    t.out(&Out::used_length, "used_length").unit(Unit::metre).doc("The length that counts: as set, or the straight line.");
+    t.out(&Out::used_length, "used_length").unit(Unit::metre).doc("The length that counts: as set, or that of its line.");
     t.out(&Out::reason, "reason").doc("Why nobody drives here, as a sentence; empty where one may.");
   }
 };

@@ -45,13 +45,13 @@ struct SunAndSky {
   }
 
   static void declare_place(TypificationBuilder<SunAndSky>& t) {
-    t.in(&In::latitude, "latitude").unit(Unit::degree).range(-90, 90).doc("North of the equator; south of it is negative.");
-    t.in(&In::longitude, "longitude").unit(Unit::degree).range(-180, 180).doc("East of Greenwich; west of it is negative.");
+    t.in(&In::latitude, "latitude").unit(Unit::degree).range(-90, 90).of_scene(OfScene::unless_set).doc("North is positive.");
+    t.in(&In::longitude, "longitude").unit(Unit::degree).range(-180, 180).of_scene(OfScene::unless_set).doc("East is positive.");
     t.in(&In::elevation, "elevation").unit(Unit::metre).range(-500, 9000).soft(0, 2000).doc("Height above the sea.");
     t.in(&In::true_north, "true_north")
         .unit(Unit::degree)
         .range(-360, 360)
-        .soft(-180, 180)
+        .of_scene(OfScene::always)
         .doc("Where true north lies in the scene: clockwise from its y axis.");
     t.in(&In::utc_offset, "utc_offset")
         .unit(Unit::second)
@@ -95,7 +95,7 @@ struct SunAndSky {
     t.in(&In::day_step, "day_step").range(1, 366).doc("Every so many days of the period count.");
     t.in(&In::step, "step").unit(Unit::second).range(10, 21600).soft(300, 3600).doc("Time between two moments of a day.");
     t.in(&In::from_time, "from_time").unit(Unit::second).range(0, 86400).doc("Sun before this time of the day does not count.");
-    t.in(&In::to_time, "to_time").unit(Unit::second).range(0, 86400).doc("Sun after this time, which is the later one, does not.");
+    t.in(&In::to_time, "to_time").unit(Unit::second).range(0, 86400).doc("Sun after this time, the later one, does not count.");
     t.in(&In::min_altitude, "min_altitude")
         .unit(Unit::degree)
         .range(0, 90)
@@ -163,8 +163,8 @@ struct SunAndSky {
     if (!today.sunrise || !today.sunset)
       out.note = today.day_length > 43200 ? "the sun does not set on this day" : "the sun does not rise on this day";
     if (moments->empty())
-      out.note += std::string(out.note.empty() ? "" : "; ") + "no sun of the period counts: it never stands as high as "
-                  "`min_altitude` between `from_time` and `to_time`";
+      out.note += std::string(out.note.empty() ? "" : "; ") +
+                  "no sun of the period counts: it never stands as high as `min_altitude` between `from_time` and `to_time`";
     out.possible = possible_sun(*moments);
     out.moments.columns = {"x", "y", "z", "seconds"};
     for (const SunMoment& moment : *moments)

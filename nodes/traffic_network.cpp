@@ -27,6 +27,7 @@ struct TrafficNetworkNode {
     Selection start, end;
     double lanes = 0, capacity_per_lane = 0, speed = 0, length = 0, open = 0, toll = 0;
     bool one_way = false, for_cars = true;
+    std::vector<Point3> course;
   };
   struct Crossing {
     std::string id;
@@ -184,7 +185,8 @@ struct TrafficNetworkNode {
     streets.reads(&Street::speed, "street.speed").reads(&Street::length, "street.length").reads(&Street::open, "street.open");
     streets.reads(&Street::toll, "street.toll")
         .reads(&Street::one_way, "street.one_way")
-        .reads(&Street::for_cars, "street.for_cars");
+        .reads(&Street::for_cars, "street.for_cars")
+        .reads(&Street::course, "street.course", Unit::metre);
     using StreetReply = DistrictResult::Street;
     streets.writes(&StreetReply::flow_forth, "street.flow_forth").writes(&StreetReply::flow_back, "street.flow_back");
     streets.writes(&StreetReply::time_forth, "street.time_forth").writes(&StreetReply::time_back, "street.time_back");
@@ -256,8 +258,8 @@ struct TrafficNetworkNode {
     std::vector<DistrictStreet> streets;
     for (const Street& s : sets.streets) {
       const double capacity = s.lanes * s.capacity_per_lane * s.open;
-      streets.push_back(
-          {s.id, one_of(s.start), one_of(s.end), s.length, s.speed, capacity, s.toll, s.one_way, capacity > 0, s.for_cars});
+      streets.push_back({s.id, one_of(s.start), one_of(s.end), s.length, s.speed, capacity, s.toll, s.one_way, capacity > 0,
+                         s.for_cars, s.course});
     }
     std::vector<DistrictJunction> junctions;
     for (const Crossing& c : sets.junctions) junctions.push_back({c.id, c.position, c.delay});

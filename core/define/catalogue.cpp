@@ -35,9 +35,12 @@ std::string range_of(const PortDefinition& port) {
 
 std::string default_of(const PortDefinition& port) {
   if (port.is_required) return "required";
+  if (port.of_scene == OfScene::always) return "the scene's setting";
   if (port.is_computed || port.kind == ValueKind::mesh) return "";
   const std::string text = write_json_line(value_to_json(port.default_value, port));
-  return text == "\"\"" || text == "[]" ? "" : "`" + text + "`";
+  return text == "\"\"" || text == "[]"
+             ? ""
+             : "`" + text + "`" + (port.of_scene == OfScene::unless_set ? ", or what the scene's settings say" : "");
 }
 
 std::string unit_of(const PortDefinition& port) {

@@ -288,6 +288,15 @@ Result<void> check_value(const PortDefinition& port, const Value& value, const s
   return {};
 }
 
+bool is_kept(const PortDefinition& port, const Value& value) {
+  return port.is_required || port.of_scene == OfScene::unless_set || value != port.default_value;
+}
+
+std::string why_unsettable(const PortDefinition& port) {
+  if (port.of_scene == OfScene::always) return "`" + port.id + "` holds for the whole scene: it is set in the scene's settings";
+  return port.is_computed ? "`" + port.id + "` is computed and cannot be set" : "";
+}
+
 Result<Value> value_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
   auto value = decode(port, json, place);
   if (!value) return value;
@@ -309,16 +318,16 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
   std::map<std::string, Value> values;
   std::vector<std::string> settings;
   for (const PortDefinition& port : type.ports)
-    if (!port.is_computed) settings.push_back(port.id);
+    if (!port.is_computed && port.of_scene != OfScene::always) settings.push_back(port.id);
   for (const auto& [key, content] : json.items()) {
     const std::string here = place.empty() ? key : place + "/" + key;
     const PortDefinition* port = type.find_port(key);
     if (port == nullptr)
       return Error{ErrorCode::unknown_field, here, "`" + type.id + "` has no `" + key + "`" + did_you_mean(key, settings)};
-    if (port->is_computed) return Error{ErrorCode::conflict, here, "`" + key + "` is computed and cannot be set"};
+    if (auto reason = why_unsettable(*port); !reason.empty()) return Error{ErrorCode::conflict, here, std::move(reason)};
     auto value = value_from_json(*port, content, here);
     if (!value) return value.error();
-    if (port->is_required || *value != port->default_value) values[key] = std::move(*value);
+    if (is_kept(*port, *value)) values[key] = std::move(*value);
   }
   for (const PortDefinition& port : type.ports)
     if (port.is_required && !values.contains(port.id))
@@ -329,7 +338,7 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
 Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value>& values) {
   Json json = Json::object();
   for (const PortDefinition& port : type.ports)
-    if (const auto it = values.find(port.id); it != values.end() && (port.is_required || it->second != port.default_value))
+    if (const auto it = values.find(port.id); it != values.end() && is_kept(port, it->second))
       json[port.id] = value_to_json(it->second, port);
   return json;
 }

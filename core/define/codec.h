@@ -20,6 +20,10 @@ Json value_to_json(const Value& value, const PortDefinition& port);
 Result<Value> value_from_json(const PortDefinition& port, const Json& json, const std::string& place);
 /// The same without the ranges of settings, beyond which figures that a run has worked out may lie.
 Result<Value> running_value_from_json(const PortDefinition& port, const Json& json, const std::string& place);
+/// Is a value that people gave more than the default? Where a port may follow the scene, its default is a choice like others.
+bool is_kept(const PortDefinition& port, const Value& value);
+/// Why nobody can set the port at its node; empty where people can.
+std::string why_unsettable(const PortDefinition& port);
 /// The checks that a value from code must pass too: range, choices, columns, finite numbers.
 Result<void> check_value(const PortDefinition& port, const Value& value, const std::string& place);
 

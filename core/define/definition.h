@@ -43,8 +43,8 @@ struct Tick {
   bool is_recall = false;      ///< only the meshes of the values as they stand are wanted: no step is taken
 };
 
-/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of texts;
-/// the others choose a value.
+/// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of
+/// texts; the others choose a value.
 enum class CombineRule { none, sum, blend, min, max, collect };
 std::string_view name_of(CombineRule rule);
 
@@ -63,6 +63,10 @@ struct ChoiceDefinition {
   std::string id, doc;
 };
 
+/// Does a port stand for the scene's setting of the same id: where nobody has set it at the node, or always, so that it is said
+/// once for all nodes?
+enum class OfScene { no, unless_set, always };
+
 /// One declared datum of a typification, link kind or command.
 struct PortDefinition {
   std::string id, doc;
@@ -72,6 +76,7 @@ struct PortDefinition {
   bool is_computed = false;  ///< written by evaluations only; never set by people or links
   bool is_required = false;  ///< has no usable default (ids in commands)
   bool is_residual = false;  ///< a scene is settled when every residual is within its tolerance
+  OfScene of_scene = OfScene::no;
   CombineRule rule = CombineRule::none;
   double step_limit = std::numeric_limits<double>::infinity();  ///< largest change in one tick
   Value default_value = 0.0;

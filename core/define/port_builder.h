@@ -26,6 +26,11 @@ class PortBuilder {
     port_->doc = std::move(text);
     return *this;
   }
+  /// The scene's setting of the same id, kind and unit is handed in: what holds for the whole scene is said in one place.
+  PortBuilder& of_scene(OfScene when) {
+    port_->of_scene = when;
+    return *this;
+  }
   PortBuilder& required() {
     port_->is_required = true;
     return *this;

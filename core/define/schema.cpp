@@ -78,7 +78,7 @@ Json form_of(const PortDefinition& port) {
 Json settings_properties(const TypeDefinition& type) {
   Json properties = Json::object();
   for (const PortDefinition& port : type.ports)
-    if (!port.is_computed) properties[port.id] = value_schema(port);
+    if (!port.is_computed && port.of_scene != OfScene::always) properties[port.id] = value_schema(port);
   return properties;
 }
 
@@ -165,10 +165,11 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
   const Json tick = {{"type", "integer"}, {"minimum", 0}, {"maximum", std::int64_t{1} << 53}};
   const Json object = {{"type", "object"}};
   const Json objects = {{"type", "object"}, {"additionalProperties", object}};
-  const Json state = {{"type", "object"},
-                      {"properties",
-                       {{"tick", tick}, {"calm", tick}, {"nodes", objects}, {"held", objects}, {"analyses", objects}, {"meshes", objects}}},
-                      {"additionalProperties", false}};
+  const Json state = {
+      {"type", "object"},
+      {"properties",
+       {{"tick", tick}, {"calm", tick}, {"nodes", objects}, {"held", objects}, {"analyses", objects}, {"meshes", objects}}},
+      {"additionalProperties", false}};
   const Json properties = {{"format", {{"const", "behaviourlinks"}}},
                            {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},
                            {"revisions", {{"type", "object"}, {"additionalProperties", {{"type", "integer"}, {"minimum", 1}}}}},

@@ -40,6 +40,12 @@ void ImportReport::drop(const std::map<std::size_t, std::string>& unused) {
   }
 }
 
+void ImportReport::mend(std::size_t row, const std::string& detail) {
+  ImportRow& mended = rows_[row];
+  if (mended.outcome == ImportOutcome::taken) mended.outcome = ImportOutcome::repaired;
+  mended.detail += (mended.detail.empty() ? "" : ", ") + detail;
+}
+
 std::size_t ImportReport::count(ImportOutcome outcome, std::string_view kind) const {
   std::size_t sum = 0;
   for (const ImportRow& row : rows_)

@@ -42,6 +42,8 @@ class ImportReport {
   /// Where the element of the newest row lies.
   void locate(const std::optional<std::array<double, 2>>& place) { rows_.back().place = place; }
   void locate(std::size_t row, const std::optional<std::array<double, 2>>& place) { rows_[row].place = place; }
+  /// Says of an element that was taken what had to be changed for it.
+  void mend(std::size_t row, const std::string& detail);
   /// Says what was made of the element of a row.
   void made(std::size_t row, const std::string& id) { rows_[row].made.push_back(id); }
 

@@ -150,8 +150,27 @@ class Reader {
     if (const auto types = json.find("types"); types != json.end() && types->is_object())
       for (auto& [type_id, values] : types->items())
         if (const TypificationDefinition* type = registry_->typification(type_id))
-          if (!note(upgrade_values(*type, revision_of(type_id), values, place + "/types/" + type_id))) return;
+          if (!note(upgrade_values(*type, revision_of(type_id), values, place + "/types/" + type_id)) ||
+              !take_over(*type, values, place + "/types/" + type_id))
+            return;
     if (auto node = node_from_json(json, *registry_, place); note(node)) reading_.scene.nodes.emplace(id, std::move(*node));
+  }
+
+  // Older files say at a node what now is said once for the scene: it becomes the setting where there is none yet.
+  bool take_over(const TypificationDefinition& type, Json& values, const std::string& place) {
+    for (const PortDefinition& port : type.ports) {
+      if (port.of_scene != OfScene::always || !values.is_object() || !values.contains(port.id)) continue;
+      auto value = value_from_json(port, values[port.id], place + "/" + port.id);
+      if (!note(value)) return false;
+      values.erase(port.id);
+      const auto [setting, is_new] = reading_.scene.settings.emplace(port.id, *value);
+      if (!is_new && setting->second != *value)
+        reading_.problems.push_back({false,
+                                     {ErrorCode::conflict, place + "/" + port.id,
+                                      "the scene's setting `" + port.id +
+                                          "` holds instead; it is said once for all nodes and differs from what stood here"}});
+    }
+    return true;
   }
 
   void read_link(Json& json, const std::string& id, const std::string& place) {

@@ -88,9 +88,8 @@ std::shared_ptr<const Plan> amend(const Plan& plan, const Scene& scene) {
     amended->scene.nodes.at(node.id).types.at(type.definition->id) = *change.values;
     for (std::size_t p = 0; p < type.definition->ports.size(); ++p) {
       const PortDefinition& port = type.definition->ports[p];
-      const auto value = change.values->find(port.id);
-      type.is_set[p] = value != change.values->end() && value->second != port.default_value;
-      type.set_values[p] = value != change.values->end() ? value->second : port.default_value;
+      type.set_values[p] = set_value(scene.settings, *change.values, port);
+      type.is_set[p] = type.set_values[p] != port.default_value;
     }
   }
   return amended;

@@ -55,30 +55,27 @@ void check_node(const Scene& scene, const std::string& id, const NodeRecord& nod
   }
 }
 
-// A type that turns its directions to true north stands somewhere: it should be where the scene says that it lies, or sun and
-// drawings disagree. Other types may know places of their own, such as where a picture was taken.
-void check_place(const std::string& id, const NodeRecord& node, const TypificationDefinition& type, const Settings& settings,
+// A type that turns its directions to true north should stand where the scene says that it lies, or it tells of the sun of
+// another town. Other types may know places of their own, such as where a picture was taken.
+void check_place(const Scene& scene, const std::string& id, const NodeRecord& node, const TypificationDefinition& type,
                  std::vector<Problem>& problems) {
+  const Settings settings = settings_of(scene);
   constexpr double kApart = 0.1;  // [degrees] more is no rounding
   const PortDefinition* north = type.find_port("true_north");
-  if (north == nullptr || north->is_computed) return;
-  const bool has_place = settings.latitude != 0 || settings.longitude != 0;
+  if (north == nullptr || north->of_scene != OfScene::always || (settings.latitude == 0 && settings.longitude == 0)) return;
   const struct {
     const char* port;
     double scene;
-    bool is_said;
-  } sides[] = {{"true_north", settings.true_north, has_place || settings.true_north != 0},
-               {"latitude", settings.latitude, has_place},
-               {"longitude", settings.longitude, has_place}};
+  } sides[] = {{"latitude", settings.latitude}, {"longitude", settings.longitude}};
   for (const auto& side : sides) {
     const PortDefinition* port = type.find_port(side.port);
-    if (port == nullptr || port->kind != ValueKind::number || !side.is_said) continue;
-    const double own = as_number(set_value(node, type, *port));
+    if (port == nullptr || port->kind != ValueKind::number) continue;
+    const double own = as_number(set_value(scene, node, type, *port));
     if (std::abs(own - side.scene) <= kApart) continue;
     problems.push_back({false,
                         {ErrorCode::conflict, "nodes/" + id + "/" + type.id + "/" + side.port,
-                         "is " + shortest(own) + "°, and the setting `" + side.port + "` of the scene is " + shortest(side.scene) +
-                             "°: make them one, or drawings and this node disagree about directions"}});
+                         "is " + shortest(own) + "°, and the setting `" + side.port + "` of the scene is " +
+                             shortest(side.scene) + "°: make them one, unless the node is to tell of another place"}});
   }
 }
 
@@ -86,11 +83,10 @@ void check_place(const std::string& id, const NodeRecord& node, const Typificati
 
 std::vector<Problem> check_scene(const Scene& scene, const Registry& registry) {
   std::vector<Problem> problems;
-  const Settings settings = settings_of(scene);
   for (const auto& [id, node] : scene.nodes) {
     check_node(scene, id, node, registry, problems);
     for (const auto& [type_id, values] : node.types)
-      if (const TypificationDefinition* type = registry.typification(type_id)) check_place(id, node, *type, settings, problems);
+      if (const TypificationDefinition* type = registry.typification(type_id)) check_place(scene, id, node, *type, problems);
   }
   for (const auto& [id, link] : scene.links) {
     check_selection(scene, link.from, "links/" + id + "/from", registry, problems);

@@ -65,9 +65,9 @@ class Compiler {
       type.definition = definition;
       type.is_served = static_cast<bool>(definition->evaluate);
       for (const PortDefinition& port : definition->ports) {
-        const auto it = values.find(port.id);
-        type.is_set.push_back(it != values.end() && it->second != port.default_value);
-        type.set_values.push_back(it != values.end() ? it->second : port.default_value);
+        const Value& value = set_value(plan_->scene.settings, values, port);
+        type.is_set.push_back(value != port.default_value);
+        type.set_values.push_back(value);
         type.is_locked.push_back(record.locked.contains(definition->id + "." + port.id));
       }
     }
@@ -106,8 +106,9 @@ class Compiler {
       return "the link does not fit its kind `" + kind + "`: kept as it is, not run; correct it in the scene file";
     std::string guess = did_you_mean(kind, keys_of(registry_.links()));
     return "unknown link kind `" + kind + "`: kept as it is, not run" +
-           (guess.empty() ? "; a Lua file of yours is put into the scene by `script` or --script, a library is named by --plugins FOLDER"
-                          : guess);
+           (guess.empty()
+                ? "; a Lua file of yours is put into the scene by `script` or --script, a library is named by --plugins FOLDER"
+                : guess);
   }
 
   // Every path of the declaration at this end, with parameters put in for chosen ones.

@@ -138,17 +138,35 @@ std::vector<std::string> resolve(const Scene& scene, const Registry& registry, c
   return ids;
 }
 
-const Value& set_value(const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port) {
-  if (const auto values = node.types.find(type.id); values != node.types.end())
-    if (const auto it = values->second.find(port.id); it != values->second.end()) return it->second;
+const Value& set_value(const PortValues& settings, const PortValues& values, const PortDefinition& port) {
+  if (port.of_scene != OfScene::always)
+    if (const auto own = values.find(port.id); own != values.end()) return own->second;
+  if (port.of_scene != OfScene::no)
+    if (const auto setting = settings.find(port.id); setting != settings.end()) return setting->second;
   return port.default_value;
+}
+
+namespace {
+
+const PortValues& values_of(const NodeRecord& node, const TypificationDefinition& type) {
+  static const PortValues kNone;
+  const auto values = node.types.find(type.id);
+  return values == node.types.end() ? kNone : values->second;
+}
+
+}  // namespace
+
+const Value& set_value(const Scene& scene, const NodeRecord& node, const TypificationDefinition& type,
+                       const PortDefinition& port) {
+  return set_value(scene.settings, values_of(node, type), port);
 }
 
 Unit unit_of(const Registry& registry, const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port) {
   if (port.unit_from.empty()) return port.unit;
   const PortDefinition* namer = type.find_port(port.unit_from);
   if (namer == nullptr) return port.unit;
-  const Value& name = set_value(node, type, *namer);
+  static const PortValues kNoSettings;  // a setting of the scene names no unit
+  const Value& name = set_value(kNoSettings, values_of(node, type), *namer);
   const std::string* text = std::get_if<std::string>(&name);
   if (text == nullptr) return port.unit;
   if (namer->kind == ValueKind::port) {

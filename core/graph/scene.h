@@ -65,8 +65,11 @@ Settings settings_of(const Scene& scene);
 std::uint64_t hash_of(const Scene& scene);
 /// The nodes that a selection names, in ascending id; unknown ids are left out (check_scene reports them).
 std::vector<std::string> resolve(const Scene& scene, const Registry& registry, const Selection& selection);
-/// A set value or its default. The node must carry the typification.
-const Value& set_value(const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port);
+/// What `values` say of a port, its default, or the scene's setting where the port stands for one.
+const Value& set_value(const PortValues& settings, const PortValues& values, const PortDefinition& port);
+/// The same of a node of the scene, which must carry the typification.
+const Value& set_value(const Scene& scene, const NodeRecord& node, const TypificationDefinition& type,
+                       const PortDefinition& port);
 /// The unit of a node's port, following `unit_from` to the port that names it.
 Unit unit_of(const Registry& registry, const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port);
 

@@ -18,7 +18,7 @@ Result<Value> argument_value(const TypeDefinition& type, const std::string& port
   if (port == nullptr)
     return Error{ErrorCode::unknown_field, place,
                  "`" + type.id + "` has no `" + port_id + "`" + did_you_mean(port_id, port_ids(type))};
-  if (port->is_computed) return Error{ErrorCode::conflict, place, "`" + port_id + "` is computed and cannot be set"};
+  if (auto reason = why_unsettable(*port); !reason.empty()) return Error{ErrorCode::conflict, place, std::move(reason)};
   auto value = parse_json(json.text);
   if (!value) return value.error().within(place);
   if (value->is_null()) return port->default_value;
@@ -43,8 +43,8 @@ Result<void> check_references(const SceneEdit& edit, const TypeDefinition& type,
 }
 
 void assign(PortValues& values, const PortDefinition& port, const Value& value) {
-  if (value == port.default_value) values.erase(port.id);
-  else values[port.id] = value;
+  if (is_kept(port, value)) values[port.id] = value;
+  else values.erase(port.id);
 }
 
 JsonText current_value(const PortValues& values, const PortDefinition& port) {
@@ -64,8 +64,8 @@ Result<PortSite> find_setting(SceneEdit& edit, const std::string& node_id, const
   const TypificationDefinition* type = edit.registry().typification(path->typification);
   if (!(*node)->types.contains(type->id))
     return Error{ErrorCode::conflict, place, "the node is not a `" + type->id + "`; typify it first"};
-  if ((*port)->is_computed)
-    return Error{ErrorCode::conflict, place + "/" + choice.path, "`" + path->port + "` is computed and cannot be set or locked"};
+  if (auto reason = why_unsettable(**port); !reason.empty())
+    return Error{ErrorCode::conflict, place + "/" + choice.path, std::move(reason)};
   return PortSite{*node, type, *port};
 }
 

@@ -9,6 +9,7 @@
 #include "core/traffic/district_turns.h"
 #include "core/traffic/equilibrium.h"
 #include "core/traffic/reach.h"
+#include "core/traffic/street_line.h"
 
 namespace bl {
 
@@ -86,20 +87,26 @@ class District {
           id.empty() ? "its " + what + " names no junction" : "its " + what + " `" + id + "` is no junction of this network";
       return;
     }
-    if (street.start == street.end) {
+    const bool is_loop = street.start == street.end;
+    if (is_loop && street.course.empty()) {
       result.reason = "it begins and ends at the same junction";
       return;
     }
-    DistrictResult::Junction &from = out_.junctions[start->second], &to = out_.junctions[end->second];
-    ++from.streets;
-    ++to.streets;
-    result.length =
-        street.length > 0 ? street.length : distance(junctions_[start->second].position, junctions_[end->second].position);
+    ++out_.junctions[start->second].streets;
+    if (!is_loop) ++out_.junctions[end->second].streets;
+    result.length = street.length > 0 ? street.length
+                                      : street_length(junctions_[start->second].position, street.course,
+                                                      junctions_[end->second].position);
     if (!street.is_for_cars) result.reason = "it is for walking only";
     else if (!street.is_open) result.reason = "it is closed";
     else if (street.capacity < kLeastCapacity) result.reason = "its capacity is next to nothing, so that it counts as closed";
     if (!result.reason.empty()) return;
     const double time = result.length / street.speed;
+    if (is_loop) {  // one may drive round, but no way from zone to zone is the shorter for it
+      result.time_forth = time + junctions_[end->second].delay;
+      if (!street.is_one_way) result.time_back = result.time_forth;
+      return;
+    }
     links.push_back({street.id + ":forth", junction_node(street.start), junction_node(street.end),
                      time, street.capacity, settings_.alpha, settings_.beta, result.length, street.toll, true,
                      junctions_[end->second].delay});

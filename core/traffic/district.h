@@ -19,8 +19,9 @@ struct DistrictJunction {
 
 struct DistrictStreet {
   std::string id, start, end;                                   ///< ids of junctions
-  double length = 0, speed = 0, capacity = 0, toll = 0;         ///< [m] (0: the straight line), [m/s], [1/h], of each direction
+  double length = 0, speed = 0, capacity = 0, toll = 0;         ///< [m] (0: as its line runs), [m/s], [1/h], of each direction
   bool is_one_way = false, is_open = true, is_for_cars = true;  ///< who may pass
+  std::vector<Point3> course = {};                              ///< points between its ends, in plan; none: it runs straight
   bool operator==(const DistrictStreet&) const = default;
 };
 

@@ -61,6 +61,8 @@ class Rules {
                      id.empty() ? "it names no street" : "`" + id + "` is no street of this network"};
       if (street->second->start != junction && street->second->end != junction)
         return Error{ErrorCode::conflict, place, "`" + id + "` neither begins nor ends at `" + junction + "`"};
+      if (street->second->start == street->second->end)
+        return Error{ErrorCode::conflict, place, "`" + id + "` begins and ends at `" + junction + "`: no way leads over it"};
       std::string& link = is_to ? found.to : found.from;
       link = is_to ? link_out_of(*street->second, junction) : link_into(*street->second, junction);
       if (link.empty())

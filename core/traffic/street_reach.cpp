@@ -46,8 +46,8 @@ Result<TrafficNetwork> network_of(std::span<const ReachStreet> streets, std::spa
   std::set<std::string> junctions;
   std::vector<TrafficLink> links;
   for (const ReachStreet& street : streets) {
-    if (street.start == street.end) continue;
     junctions.insert({street.start, street.end});
+    if (street.start == street.end) continue;  // no way leads over it
     const std::string start = junction_node(street.start), end = junction_node(street.end);
     if (std::isfinite(street.forth)) links.push_back(way(street.id + ":forth", start, end, street.forth));
     if (std::isfinite(street.back)) links.push_back(way(street.id + ":back", end, start, street.back));
@@ -69,6 +69,25 @@ std::vector<double> shares_of(const TrafficNetwork& network, std::uint32_t origi
   std::vector<double> shares(network.link_count(), 0);
   for (const ReachedLink& reached : reached_links(network, origin, labels, costs, time)) shares[reached.link] = reached.share;
   return shares;
+}
+
+// The same for a loop, which is no link of the network: it is begun from its junction on both sides.
+double share_of_loop(double at_junction, double seconds, double time) {
+  if (!std::isfinite(seconds) || !(at_junction < time)) return 0;
+  return seconds > 0 ? std::min(1.0, (time - at_junction) / seconds) : 1;
+}
+
+// When one is at a junction, by whatever street one came.
+double time_at(const TrafficNetwork& network, std::span<const double> labels, const std::string& junction) {
+  const std::string name = junction_node(junction);
+  const std::uint32_t split = network.node_index(arrivals_of(name));
+  return labels[split == kNoTrafficIndex ? network.node_index(name) : split];
+}
+
+Result<void> check_loop(const ReachStreet& street) {
+  for (const auto& [seconds, direction] : {std::pair{street.forth, ":forth"}, {street.back, ":back"}})
+    if (!(seconds >= 0)) return Error{ErrorCode::out_of_range, street.id + direction, "its time has to be 0 or more"};
+  return {};
 }
 
 // `forth` and `back`: per time, the shares that are reached from the start and from the end.
@@ -104,6 +123,15 @@ Result<std::vector<ReachedPart>> reached_parts(std::span<const ReachStreet> stre
   for (const double time : times) reached.push_back(shares_of(*network, origin, labels, costs, time));
   std::vector<ReachedPart> parts;
   for (std::size_t s = 0; s < streets.size(); ++s) {
+    if (streets[s].start == streets[s].end) {
+      if (auto sound = check_loop(streets[s]); !sound) return sound.error();
+      const double label = time_at(*network, labels, streets[s].start);
+      std::vector<std::array<double, 2>> shares;
+      for (const double time : times)
+        shares.push_back({share_of_loop(label, streets[s].forth, time), share_of_loop(label, streets[s].back, time)});
+      lay_over(s, shares, parts);
+      continue;
+    }
     const std::uint32_t forth = network->link_index(streets[s].id + ":forth"),
                         back = network->link_index(streets[s].id + ":back");
     std::vector<std::array<double, 2>> shares;

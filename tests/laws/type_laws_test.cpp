@@ -57,6 +57,20 @@ TEST(TypeLaws, PortIdsAreUniqueAndSettingsComeFirst) {
   });
 }
 
+TEST(TypeLaws, WhatHoldsForTheSceneIsASettingOfTheSameKindAndUnit) {
+  for_each_type([](const TypeDefinition& type) {
+    for (const PortDefinition& port : type.ports) {
+      if (port.of_scene != OfScene::always) continue;
+      const PortDefinition* setting = settings_type().find_port(port.id);
+      ASSERT_NE(setting, nullptr) << type.id << "." << port.id;
+      EXPECT_EQ(setting->kind, port.kind) << type.id << "." << port.id;
+      EXPECT_EQ(setting->unit, port.unit) << type.id << "." << port.id;
+      EXPECT_EQ(setting->default_value, port.default_value) << type.id << "." << port.id;
+      EXPECT_TRUE(!port.is_computed && port.rule == CombineRule::none) << type.id << "." << port.id;
+    }
+  });
+}
+
 TEST(TypeLaws, DefaultsAndSoftRangesLieInsideHardRanges) {
   for_each_type([](const TypeDefinition& type) {
     for (const PortDefinition& port : type.ports) {

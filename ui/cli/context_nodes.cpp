@@ -9,12 +9,16 @@
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "core/exchange/thin_line.h"
 #include "core/geometry/height_grid.h"
 #include "core/geometry/plan_ring.h"
 
 namespace bl::cli {
 
 namespace {
+
+// No street has more bends; where its file has more, those that count most are taken.
+constexpr std::size_t kMostBends = 500;
 
 // A tenth of a millimetre: files stay readable, and far finer than any survey.
 double tidy(double number) {
@@ -69,7 +73,7 @@ class Fitting {
   }
   void set(const char* port, const std::vector<Point3>& points) {
     const PortDefinition* found = type_.find_port(port);
-    if (found != nullptr && !found->is_computed && found->kind == ValueKind::points) values[port] = points_json(points, true);
+    if (found != nullptr && !found->is_computed && found->kind == ValueKind::points) values[port] = points_json(points, false);
   }
   Json values = Json::object();
 
@@ -207,7 +211,7 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
   }
   // Ids first: turn rules stand at junctions and name streets.
   std::vector<std::string> street_ids(context.streets.size()), junction_ids(context.junctions.size());
-  std::size_t without_cars = 0, loops = 0, bent = 0, without_walkers = 0;
+  std::size_t without_cars = 0, loops = 0, without_walkers = 0;
   for (std::size_t s = 0; s < context.streets.size() && !is_stop_wished(); ++s) {
     const ContextStreet& piece = context.streets[s];
     const auto leave = [&](std::size_t& count, const char* reason) {
@@ -216,11 +220,10 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     };
     if (!piece.for_cars && !making.takes_all_streets) {
       leave(without_cars, "without cars; it is taken where all streets are asked for");
-    } else if (piece.start == piece.end) {
-      leave(loops, "it begins and ends at one junction");
+    } else if (piece.start == piece.end && !(length_of(piece.line) > 0)) {
+      leave(loops, "it leads nowhere");
     } else {
       street_ids[s] = fresh_id("street_" + piece.id);
-      if (piece.line.size() > 2) ++bent;
       if (!piece.for_feet) ++without_walkers;
     }
   }
@@ -235,14 +238,12 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
   for (std::size_t s = 0; s < context.streets.size(); ++s) {
     if (street_ids[s].empty()) continue;
     const std::string &start = junction_at(context.streets[s].start), &end = junction_at(context.streets[s].end);
-    add_street(street_ids[s], context.streets[s], start, end);
+    add_street(street_ids[s], context.streets[s], start, end, report);
     if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
   }
-  if (bent > 0)
-    notes_.push_back("The bends of " + std::to_string(bent) +
-                     " pieces of street were left out: a street runs straight between its junctions, and keeps its length.");
   if (without_walkers > 0)
-    notes_.push_back(std::to_string(without_walkers) + " pieces of street are closed to people on foot, which a street cannot say.");
+    notes_.push_back(std::to_string(without_walkers) +
+                     " pieces of street are closed to people on foot, which a street cannot say.");
   if (!making.licence.empty() && made_.contains("street"))
     notes_.push_back("Streets and junctions have no place for the licence " + making.licence +
                      ": name it beside what you publish.");
@@ -250,7 +251,8 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     notes_.push_back(std::to_string(without_cars) +
                      " pieces of street without cars became no nodes: they are taken where all streets are asked for.");
   if (loops > 0)
-    notes_.push_back(std::to_string(loops) + " pieces of street that begin and end at one junction became no nodes.");
+    notes_.push_back(std::to_string(loops) +
+                     " pieces of street that end where they begin, without a way between, became no nodes.");
 }
 
 std::string ContextNodes::add_junction(const ContextJunction& junction, const Json& turns) {
@@ -263,18 +265,25 @@ std::string ContextNodes::add_junction(const ContextJunction& junction, const Js
   return id;
 }
 
-void ContextNodes::add_street(const std::string& id, const ContextStreet& piece, const std::string& start,
-                              const std::string& end) {
+void ContextNodes::add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
+                              ImportReport& report) {
+  const ThinLine thin = thin_line(piece.line, kMostBends);
+  const bool is_thinned = thin.points.size() < piece.line.size();
+  if (is_thinned && piece.row != kNoRow)
+    report.mend(piece.row, std::to_string(thin.points.size() - 2) + " of the " + std::to_string(piece.line.size() - 2) +
+                               " bends of " + piece.id + " were taken, the others lie within " +
+                               fixed(std::max(0.01, std::ceil(thin.aside * 100) / 100), 2) + " m of its line");
   Fitting fit(*registry_->typification("street"));
   fit.set_node("start", start);
   fit.set_node("end", end);
   // A street has lanes in each direction; maps count those of both together, and a narrow one is shared.
   fit.set("lanes", piece.is_one_way ? piece.lanes : std::max(1.0, piece.lanes / 2));
   fit.set("speed", piece.speed);
-  fit.set("length", length_of(piece.line));
+  if (piece.line.size() > 2) fit.set("course", std::vector<Point3>(thin.points.begin() + 1, thin.points.end() - 1));
+  // Else a street measures its line itself, also after somebody has moved a junction.
+  if (is_thinned) fit.set("length", length_of(piece.line));
   fit.set("one_way", piece.is_one_way);
   fit.set("for_cars", piece.for_cars);
-  fit.set("line", piece.line);
   const Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
                      {"position", position_json(piece.line[piece.line.size() / 2])},
                      {"types", {{"street", fit.values}}}};

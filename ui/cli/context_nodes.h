@@ -50,7 +50,8 @@ class ContextNodes {
   using Unused = std::map<std::size_t, std::string>;
   void add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused);
   std::string add_junction(const ContextJunction& junction, const Json& turns);
-  void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end);
+  void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
+                  ImportReport& report);
   std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids);
   std::string add_plot(const ContextArea& area);
   void add_node(const std::string& id, const Json& node);

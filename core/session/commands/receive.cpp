@@ -31,7 +31,7 @@ Inverse Receive::apply(SceneEdit& edit, const In& in) {
   if (!value) return value.error();
   const TypificationDefinition& type = *value->type;
   PortValues& values = value->node->types.at(type.id);
-  const auto now = [&](const char* port) { return set_value(*value->node, type, *type.find_port(port)); };
+  const auto now = [&](const char* port) { return set_value(edit.scene(), *value->node, type, *type.find_port(port)); };
   const auto put = [&](const char* port, const Value& content) { assign(values, *type.find_port(port), content); };
   const std::vector inverse{
       command<Receive>({in.node, as_number(now("reading")), std::get<std::string>(now("reading_time")),

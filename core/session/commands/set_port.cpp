@@ -22,7 +22,8 @@ Inverse SetPort::apply(SceneEdit& edit, const In& in) {
     return known.error();
   PortValues& values = site->node->types.at(site->type->id);
   std::vector inverse{command<SetPort>({in.node, {path}, current_value(values, *site->port)})};
-  assign(values, *site->port, *value);
+  if (in.value.text == "null") values.erase(site->port->id);  // the scene's, where the port follows it
+  else assign(values, *site->port, *value);
   edit.place(in.node, path);
   return inverse;
 }

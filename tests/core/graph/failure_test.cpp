@@ -42,31 +42,89 @@ TEST(Failure, ShapesThatAFailingSolverLeavesAreSavedWithIt) {
   EXPECT_TRUE(save(world.state()).meshes.empty());
 }
 
+std::string one_sun(const std::string& settings) {
+  return R"({"format": "behaviourlinks", "version": 1, "settings": {)" + settings +
+         R"(}, "nodes": [{"id": "sun", "types": {"sun_and_sky": {}}}], "links": []})";
+}
+
+SceneReading sun_of(const std::string& settings, const std::string& sun) {
+  return read_scene(R"({"format": "behaviourlinks", "version": 1, "settings": {)" + settings +
+                        R"(}, "nodes": [{"id": "sun", "types": {"sun_and_sky": {)" + sun +
+                        R"(}}}, {"id": "view", "types": {"media": {"latitude": 7}}}], "links": []})",
+                    full_registry());
+}
+
+std::string problems_of(const std::string& settings, const std::string& sun) {
+  std::string all;
+  for (const Problem& problem : sun_of(settings, sun).problems) all += problem.error.text() + "\n";
+  return all;
+}
+
 TEST(Failure, ASunThatStandsElsewhereThanItsSceneIsToldOf) {
-  const auto problems_of = [](const std::string& settings, const std::string& sun) {
-    const SceneReading reading = read_scene(R"({"format": "behaviourlinks", "version": 1, "settings": {)" + settings +
-                                                R"(}, "nodes": [{"id": "sun", "types": {"sun_and_sky": {)" + sun +
-                                                R"(}}}, {"id": "view", "types": {"media": {"latitude": 7}}}], "links": []})",
-                                            full_registry());
-    std::string all;
-    for (const Problem& problem : reading.problems) all += problem.error.text() + "\n";
-    return all;
-  };
   EXPECT_EQ(problems_of("", ""), "");
   EXPECT_EQ(problems_of(R"("latitude": 52, "longitude": 4.36)", ""), "");
-  const std::string turned = problems_of(R"("true_north": 90)", "");
-  EXPECT_NE(turned.find("nodes/sun/sun_and_sky/true_north: is 0°, and the setting `true_north` of the scene is 90°"), std::string::npos)
-      << turned;
-  const std::string south = problems_of(R"("latitude": -33.9, "longitude": 4.36)", "");
+  EXPECT_EQ(problems_of(R"("latitude": -33.9, "longitude": 4.36)", ""), "");  // it follows the scene
+  const std::string south = problems_of(R"("latitude": -33.9, "longitude": 4.36)", R"("latitude": 52)");
   EXPECT_NE(south.find("nodes/sun/sun_and_sky/latitude"), std::string::npos) << south;
   EXPECT_EQ(south.find("media"), std::string::npos) << south;
 }
 
+TEST(Failure, TrueNorthIsSaidOnceForTheScene) {
+  EXPECT_EQ(problems_of(R"("true_north": 90)", ""), "");
+  // An older file says it at the node: it becomes the setting.
+  const SceneReading older = sun_of("", R"("true_north": 12)");
+  EXPECT_TRUE(older.problems.empty());
+  EXPECT_EQ(settings_of(older.scene).true_north, 12);
+  EXPECT_TRUE(older.scene.nodes.at("sun").types.at("sun_and_sky").empty());
+  const std::string differing = problems_of(R"("true_north": 90)", R"("true_north": 12)");
+  EXPECT_NE(differing.find("nodes/sun/types/sun_and_sky/true_north: the scene's setting `true_north` holds instead"),
+            std::string::npos)
+      << differing;
+  EXPECT_NE(problems_of("", R"("true_north": 400)").find("nodes/sun/types/sun_and_sky/true_north"), std::string::npos);
+
+  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [
+    {"id": "sun", "types": {"sun_and_sky": {}}}, {"id": "style", "types": {"facade_style": {}}}], "links": []})");
+  world.tick();
+  const Vector3 before = world.point("sun", "sun_and_sky.direction");
+  EXPECT_NE(world.submit(command<SetPort>({"sun", {"sun_and_sky.true_north"}, {"90"}})).find("set in the scene's settings"),
+            std::string::npos);
+  ASSERT_EQ(world.submit(command<SetSetting>({"true_north", {"90"}})), "");
+  world.tick();
+  const Vector3 turned = world.point("sun", "sun_and_sky.direction");
+  EXPECT_NEAR(turned.x, before.y, 1e-12);
+  EXPECT_NEAR(turned.y, -before.x, 1e-12);
+  EXPECT_EQ(world.number("style", "facade_style.true_north"), 90);
+  ASSERT_EQ(world.submit(command<SetSetting>({"true_north", {"null"}})), "");
+  world.tick();
+  EXPECT_EQ(world.point("sun", "sun_and_sky.direction"), before);
+}
+
+TEST(Failure, TheSunStandsWhereTheSceneLiesUnlessItIsSetElsewhere) {
+  const auto altitude = [](World& world) {
+    world.tick();
+    return world.number("sun", "sun_and_sky.transit_altitude");
+  };
+  World world = World::from_text(one_sun(""));
+  const double at_52 = altitude(world);
+  ASSERT_EQ(world.submit(command<SetSetting>({"latitude", {"48"}})), "");
+  EXPECT_NEAR(altitude(world), at_52 + 4, 0.02);
+  // The default of the port is a choice like any other: it stays, also in the file, until nothing is said here any more.
+  ASSERT_EQ(world.submit(command<SetPort>({"sun", {"sun_and_sky.latitude"}, {"52"}})), "");
+  EXPECT_NEAR(altitude(world), at_52, 1e-9);
+  World loaded = World::from_text(write_scene(world.session().scene(), full_registry()));
+  EXPECT_NEAR(altitude(loaded), at_52, 1e-9);
+  ASSERT_EQ(world.submit(command<SetPort>({"sun", {"sun_and_sky.latitude"}, {"null"}})), "");
+  EXPECT_NEAR(altitude(world), at_52 + 4, 0.02);
+}
+
 TEST(Failure, AMeshThatIsNoneIsAnErrorWithAPlace) {
-  for (const char* mesh : {R"({})", R"(7)", R"({"vertices": [[0, 0]], "triangles": []})", R"({"vertices": [], "triangles": [[0, 0, 0]]})",
-                           R"({"vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]})", R"({"vertices": 1, "triangles": 2})"}) {
-    const std::string text = std::string(R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "types": {"smart_volume": {}}}],
-      "links": [], "state": {"tick": 1, "calm": 0, "nodes": {}, "meshes": {"a": {"smart_volume.mesh": )") + mesh + "}}}}";
+  for (const char* mesh :
+       {R"({})", R"(7)", R"({"vertices": [[0, 0]], "triangles": []})", R"({"vertices": [], "triangles": [[0, 0, 0]]})",
+        R"({"vertices": [[0, 0, 0]], "triangles": [[0, 0, -1]]})", R"({"vertices": 1, "triangles": 2})"}) {
+    const std::string text =
+        std::string(R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "types": {"smart_volume": {}}}],
+      "links": [], "state": {"tick": 1, "calm": 0, "nodes": {}, "meshes": {"a": {"smart_volume.mesh": )") +
+        mesh + "}}}}";
     const SceneReading reading = read_scene(text, full_registry());
     ASSERT_EQ(reading.problems.size(), 1u) << mesh;
     EXPECT_NE(reading.problems[0].error.text().find("state/meshes"), std::string::npos) << mesh;
@@ -152,9 +210,10 @@ TEST(Failure, LinksHoldWhatTheyWantedWhileTheirSourceHasAnError) {
   for (std::size_t n = 0; n < before.nodes.size(); ++n) {
     const std::string& id = before.plan->nodes[n].id;
     if (!world.session().scene().nodes.at(id).types.contains("smart_volume")) continue;
-    EXPECT_EQ(world.number(id, "smart_volume.demand_limit"),
-                as_number(before.value(*before.plan->find(static_cast<std::uint32_t>(n), *parse_port_path("smart_volume.demand_limit")))))
-          << id;
+    EXPECT_EQ(
+        world.number(id, "smart_volume.demand_limit"),
+        as_number(before.value(*before.plan->find(static_cast<std::uint32_t>(n), *parse_port_path("smart_volume.demand_limit")))))
+        << id;
   }
 }
 

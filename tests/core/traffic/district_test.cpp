@@ -147,6 +147,33 @@ TEST(District, WhatIsLeftOutSaysWhy) {
   EXPECT_NEAR(result.trips, 2500, 1e-9) << "all others travel";
 }
 
+TEST(District, ACourseMakesAStreetLonger) {
+  Town town;
+  town.streets[0].course = {{0, 40, 7}, {300, 40, 0}};
+  const DistrictResult result = town.step();
+  EXPECT_EQ(result.streets[0].length, 380);
+  EXPECT_GT(result.streets[1].flow_forth, town.streets[1].capacity * 0.9) << "400 m are hardly longer now";
+  town.streets[0].length = 300;
+  EXPECT_EQ(town.step().streets[0].length, 300) << "as it is set";
+}
+
+TEST(District, ARoundIsDrivenByNobodyAndHasItsTimes) {
+  Town town;
+  const auto before = town.step();
+  town.streets.push_back({"round", "west", "west", 0, 10, 1000, 0, true, true, true, {{0, 30, 0}, {40, 30, 0}}});
+  town.junctions[1].delay = 2;
+  town.rules = {{"west", {{"round", "high", "no"}}}};
+  const DistrictResult result = town.step();
+  EXPECT_EQ(result.streets[2].length, 120);
+  EXPECT_EQ(result.streets[2].time_forth, 14);
+  EXPECT_EQ(result.streets[2].time_back, 0) << "one way";
+  EXPECT_EQ(result.streets[2].flow_forth, 0);
+  EXPECT_EQ(result.streets[2].reason, "");
+  EXPECT_EQ(result.junctions[1].streets, 3);
+  EXPECT_NEAR(result.streets[0].flow_forth, before.streets[0].flow_forth, 1e-6);
+  EXPECT_EQ(result.rules[0].reason, "turns/0/from: `round` begins and ends at `west`: no way leads over it");
+}
+
 TEST(District, AZoneThatIsCutOffLosesItsTripsAndGetsThemBack) {
   Town town;
   town.step();

@@ -55,6 +55,18 @@ TEST(StreetReach, ForbiddenTurnsAreNotTaken) {
   EXPECT_EQ(reached_parts(streets, there, times, rules)->size(), 3u) << "who sets out there may go anywhere";
 }
 
+TEST(StreetReach, ARoundIsBegunFromBothSides) {
+  const std::vector<ReachStreet> streets{{"in", "a", "b", 20, 20}, {"round", "b", "b", 100, 100}};
+  EXPECT_EQ(parts_of(streets, {{"a", 0}}, {20, 50}), (Parts{{0, 0, 0, 1}, {1, 1, 0, 0.3}, {1, 1, 0.7, 1}}));
+  EXPECT_EQ(parts_of(streets, {{"a", 0}}, {80}), (Parts{{0, 0, 0, 1}, {1, 0, 0, 1}})) << "they meet";
+  EXPECT_EQ(parts_of({{"round", "b", "b", 100, kUnreached}}, {{"b", 10}}, {60}), (Parts{{0, 0, 0, 0.5}}));
+  EXPECT_EQ(parts_of({{"round", "b", "b", kUnreached, kUnreached}}, {{"b", 10}}, {60}), Parts{});
+  const auto broken = reached_parts(std::vector<ReachStreet>{{"round", "b", "b", -5, 5}}, std::vector<ReachEntry>{{"b", 0}},
+                                    std::vector<double>{50});
+  ASSERT_FALSE(broken.ok());
+  EXPECT_EQ(broken.error().place, "round:forth");
+}
+
 TEST(StreetReach, BrokenNumbersAreAnErrorWithAPlace) {
   const auto parts = reached_parts(std::vector<ReachStreet>{{"s", "a", "b", -5, kUnreached}}, std::vector<ReachEntry>{{"a", 0}},
                                    std::vector<double>{50});

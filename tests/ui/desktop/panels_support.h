@@ -50,7 +50,7 @@ class PanelDesktop : public NullDesktop {
   }
   const Value& setting(const std::string& node, const std::string& type, const std::string& port) {
     const TypificationDefinition& definition = *full_registry().typification(type);
-    return set_value(editor().scene().nodes.at(node), definition, *definition.find_port(port));
+    return set_value(editor().scene(), editor().scene().nodes.at(node), definition, *definition.find_port(port));
   }
   double number(const std::string& node, const std::string& type, const std::string& port) {
     return as_number(setting(node, type, port));

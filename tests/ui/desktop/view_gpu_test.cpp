@@ -163,6 +163,34 @@ TEST_F(ViewGpu, DrawsVolumesWhereTheyStand) {
   EXPECT_LT(at(2, h - 3)[0], 90) << "a corner is not";
 }
 
+// Two wide, translucent lines that go on as each other, seen from above: what the picture has at the place of the bend.
+TEST_F(ViewGpu, FillsTheCornersOfLinesAndPaintsThemOnce) {
+  ViewScene scene;
+  scene.radius = 30;
+  scene.colours.sky = scene.colours.ground = 0xff000000u;
+  scene.layers.ground = false;
+  scene.camera = {{0, 0, 0}, 0, 1.5707, 60, true};
+  const Point3 corner{0, 0, 0.1};
+  scene.lines = {{{-10, 0, 0.1}, corner, 0x80ffffffu, 16, 0}, {corner, {0, 10, 0.1}, 0x80ffffffu, 16, 0}};
+  const auto brightness = [&](double x, double y) {
+    EXPECT_NE(renderer_->draw(scene, 200, 200), 0u);
+    const std::vector<std::uint8_t> pixels = renderer_->pixels();
+    const Seen at = scene.camera.project({x, y, 0.1}, renderer_->width(), renderer_->height());
+    const int pixel = (renderer_->height() - 1 - static_cast<int>(at.y)) * renderer_->width() + static_cast<int>(at.x);
+    return static_cast<int>(pixels[4 * static_cast<std::size_t>(pixel)]);
+  };
+  const double half = 5 * scene.camera.metres_per_pixel(corner, 200);
+  const int plain = brightness(-5, 0), outside = brightness(half, -half), inside = brightness(-half, half);
+  EXPECT_GT(plain, 60);
+  EXPECT_LT(outside, plain / 4) << "without neighbours there is a gap";
+  EXPECT_GT(inside, plain + 20) << "and a place that is painted twice";
+  scene.lines[0].goes = {0, 10, 0};
+  scene.lines[1].came = {10, 0, 0};
+  EXPECT_NEAR(brightness(-5, 0), plain, 2);
+  EXPECT_NEAR(brightness(half, -half), plain, 6);
+  EXPECT_NEAR(brightness(-half, half), plain, 6);
+}
+
 TEST_F(ViewGpu, SurvivesEmptyAndBrokenScenes) {
   ViewScene scene;
   EXPECT_EQ(renderer_->draw(scene, 0, 10), 0u);

@@ -36,6 +36,13 @@ void draw_name(Editor& editor, const InspectorView& view) {
   if (event.is_typed) editor.submit(command<RenameNode>({id, event.text}));
 }
 
+// Nothing is said at the nodes any more: the default holds, or what the scene says.
+void reset_ports(Editor& editor, const std::vector<std::string>& nodes, const std::string& path) {
+  std::vector<Command> commands;
+  for (const std::string& id : nodes) commands.push_back(command<SetPort>({id, {path}, {"null"}}));
+  editor.submit(commands);
+}
+
 void draw_setting(Editor& editor, InspectorView& view, const TypificationDefinition& type, const SharedPort& shared) {
   const PortDefinition& port = *shared.port;
   const std::string path = path_of(type, port);
@@ -58,7 +65,7 @@ void draw_setting(Editor& editor, InspectorView& view, const TypificationDefinit
   end_row();
   // The view points into the scene as it was: one change, and the frame goes on with what it has.
   if (change) change_ports(editor, view.nodes(), type, port, path, *change);
-  else if (event.wants_reset) change_ports(editor, view.nodes(), type, port, path, constant(port.default_value));
+  else if (event.wants_reset) reset_ports(editor, view.nodes(), path);
   else if (event.wants_lock) lock_ports(editor, view.nodes(), path, !signs.is_locked);
   else if (event.wants_drive) drive_by_expression(editor, view.nodes().front(), path, as_number(shared.value), shared.unit);
 }
@@ -125,7 +132,8 @@ void draw_type(Editor& editor, InspectorView& view, const SharedType& shared) {
   if (!is_base && !section(editor, type.id, type.label, type.doc, &wants_removal)) return;
   draw_failure(editor, view, type);
   for (const SharedPort& setting : shared.settings) draw_setting(editor, view, type, setting);
-  const auto is_result = [](const PortDefinition& p) { return p.is_computed && !p.recall; };
+  // What the scene says for all nodes is shown like a result: it is set in the scene's settings.
+  const auto is_result = [](const PortDefinition& p) { return p.of_scene == OfScene::always || (p.is_computed && !p.recall); };
   if (std::any_of(type.ports.begin(), type.ports.end(), is_result)) {
     // Results stand closer together than what can be changed.
     if (!shared.settings.empty()) ImGui::Dummy({0, editor.theme.px(2)});
@@ -169,7 +177,7 @@ void change_ports(Editor& editor, const std::vector<std::string>& nodes, const T
   for (const std::string& id : nodes) {
     const auto node = editor.scene().nodes.find(id);
     if (node == editor.scene().nodes.end() || !node->second.types.contains(type.id)) continue;
-    const Value& old = set_value(node->second, type, port);
+    const Value& old = set_value(editor.scene(), node->second, type, port);
     const Value fresh = change.make(old);
     if (fresh == old) continue;
     if (auto checked = check_value(port, fresh, ""); !checked) return complain(editor, key, checked.error().message);

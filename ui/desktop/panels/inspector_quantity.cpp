@@ -263,7 +263,8 @@ std::string facts_of(const PortDefinition& port, Unit unit) {
     if (info(unit).unit != Unit::none)
       line("unit", std::string(info(unit).name) + (info(unit).pretty.empty() ? "" : " (" + std::string(info(unit).pretty) + ")"));
   if (is_number && !port.is_computed) {
-    line("default", shown_number(as_number(port.default_value), unit));
+    line("default", shown_number(as_number(port.default_value), unit) +
+                        (port.of_scene == OfScene::unless_set ? ", or what the scene's settings say" : ""));
     const bool has_low = std::isfinite(port.hard_minimum), has_high = std::isfinite(port.hard_maximum);
     if (has_low && has_high)
       line("range", shown_number(port.hard_minimum, unit) + " to " + shown_number(port.hard_maximum, unit));

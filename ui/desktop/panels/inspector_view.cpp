@@ -7,13 +7,14 @@ namespace bl::desktop {
 
 namespace {
 
-SharedPort first_of(const PortDefinition& port, Unit unit, const Value& value) {
-  return {&port, unit, value, false, value == port.default_value, false, false};
+// `unset`: what holds where nobody has said anything.
+SharedPort first_of(const PortDefinition& port, Unit unit, const Value& value, const Value& unset) {
+  return {&port, unit, value, false, value == unset, false, false};
 }
 
-void add(SharedPort& shared, Unit unit, const Value& value) {
+void add(SharedPort& shared, Unit unit, const Value& value, const Value& unset) {
   if (!shared.is_mixed && !(value == shared.value && unit == shared.unit)) shared.is_mixed = true;
-  shared.is_default = shared.is_default && value == shared.port->default_value;
+  shared.is_default = shared.is_default && value == unset;
 }
 
 const Value& parameter_of(const LinkRecord& link, const PortDefinition& port) {
@@ -78,12 +79,14 @@ void InspectorView::merge_nodes(const Editor& editor) {
     if (!is_shared || type == nullptr) continue;
     SharedType shared{type, {}};
     for (const PortDefinition& port : type->ports) {
-      if (port.is_computed) continue;
-      SharedPort setting = first_of(port, unit_of(editor.types(), first, *type, port), set_value(first, *type, port));
+      if (port.is_computed || port.of_scene == OfScene::always) continue;
+      const Value& unset = set_value(scene.settings, {}, port);
+      SharedPort setting =
+          first_of(port, unit_of(editor.types(), first, *type, port), set_value(scene, first, *type, port), unset);
       std::size_t locked = 0;
       for (const std::string& n : nodes_) {
         const NodeRecord& node = scene.nodes.at(n);
-        add(setting, unit_of(editor.types(), node, *type, port), set_value(node, *type, port));
+        add(setting, unit_of(editor.types(), node, *type, port), set_value(scene, node, *type, port), unset);
         if (node.locked.contains(type->id + "." + port.id)) ++locked;
       }
       setting.is_locked = locked == nodes_.size();
@@ -109,10 +112,11 @@ void InspectorView::merge_links(const Editor& editor) {
   kind_ = is_one_kind ? editor.types().link(first.kind) : nullptr;
   if (kind_ == nullptr) return;
   for (const PortDefinition& port : kind_->ports) {
-    SharedPort shared = first_of(port, unit_of_parameter(editor, *kind_, first, port), parameter_of(first, port));
+    SharedPort shared =
+        first_of(port, unit_of_parameter(editor, *kind_, first, port), parameter_of(first, port), port.default_value);
     for (const std::string& l : links_) {
       const LinkRecord& link = scene.links.at(l);
-      add(shared, unit_of_parameter(editor, *kind_, link, port), parameter_of(link, port));
+      add(shared, unit_of_parameter(editor, *kind_, link, port), parameter_of(link, port), port.default_value);
     }
     parameters_.push_back(std::move(shared));
   }

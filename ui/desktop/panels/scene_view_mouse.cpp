@@ -206,12 +206,15 @@ std::string SceneView::street_under(const ImVec2& mouse) const {
   double reach = kLinkReach * editor_->theme.scale();
   std::string found;
   for (const StreetFacts& street : facts_->urban.streets) {
-    const Seen a = seen(place_of(street.start)), b = seen(place_of(street.end));
-    if (!a.is_in_front || !b.is_in_front) continue;
-    const double far = distance_to_segment(mouse, on_screen(a), on_screen(b));
-    if (far >= reach) continue;
-    reach = far;
-    found = street.id;
+    const std::vector<Point3> line = line_of(street, choices_.held);
+    for (std::size_t k = 1; k < line.size(); ++k) {
+      const Seen a = seen(line[k - 1]), b = seen(line[k]);
+      if (!a.is_in_front || !b.is_in_front) continue;
+      const double far = distance_to_segment(mouse, on_screen(a), on_screen(b));
+      if (far >= reach) continue;
+      reach = far;
+      found = street.id;
+    }
   }
   return found;
 }

@@ -18,6 +18,7 @@ struct Item {
   float from[3], to[3];
   std::uint32_t colour;
   float width, hidden_share;
+  float came[3], goes[3];
 };
 
 }  // namespace
@@ -107,7 +108,9 @@ void GlRenderer::send_lines(const ViewScene& scene) {
                      {static_cast<float>(b.x), static_cast<float>(b.y), static_cast<float>(b.z)},
                      line.colour,
                      line.width,
-                     line.hidden_share});
+                     line.hidden_share,
+                     {static_cast<float>(line.came.x), static_cast<float>(line.came.y), static_cast<float>(line.came.z)},
+                     {static_cast<float>(line.goes.x), static_cast<float>(line.goes.y), static_cast<float>(line.goes.z)}});
   }
   line_buffer_.reserve(items.size() * sizeof(Item));
   line_buffer_.write(0, items.data(), items.size() * sizeof(Item), traffic_);
@@ -122,6 +125,8 @@ void GlRenderer::send_lines(const ViewScene& scene) {
   attribute(1, 3, GL_FLOAT, GL_FALSE, offsetof(Item, to));
   attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Item, colour));
   attribute(3, 2, GL_FLOAT, GL_FALSE, offsetof(Item, width));
+  attribute(4, 3, GL_FLOAT, GL_FALSE, offsetof(Item, came));
+  attribute(5, 3, GL_FLOAT, GL_FALSE, offsetof(Item, goes));
   sent_lines_ = scene.lines;
   line_origin_ = scene.origin;
 }

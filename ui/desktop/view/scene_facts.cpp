@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/traffic/street_line.h"
 #include "ui/cli/report/mesh_lines.h"
 #include "ui/cli/report/report_model.h"
 #include "ui/desktop/view/media_place.h"
@@ -76,10 +77,10 @@ void read_surroundings(const State& state, const SceneFacts* last, SceneFacts& f
   const auto reach_to = [&](const Point3& p) {
     if (is_finite(p)) facts.reach = std::clamp(distance(p, facts.centre), facts.reach, 1e6);
   };
-  for (const StreetFacts& street : facts.urban.streets) {
-    facts.places[street.node] = 0.5 * (facts.places[street.start] + facts.places[street.end]);
-    reach_to(facts.places[street.start]);
-    reach_to(facts.places[street.end]);
+  for (StreetFacts& street : facts.urban.streets) {
+    street.line = street_line(facts.places[street.start], street.course, facts.places[street.end]);
+    facts.places[street.node] = point_on_line(street.line, 0.5);
+    for (const Point3& point : street.line) reach_to(point);
   }
   for (const BodyFacts& body : facts.urban.bodies) {
     facts.places[body.node] = body.cell->wrap->ball_centre;
@@ -250,6 +251,13 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
   std::erase_if(rest->links, [&](const LinkFacts& link) { return is_hidden(link.from) || is_hidden(link.to); });
   std::erase_if(rest->neighbours, [&](const auto& pair) { return is_hidden(pair.first) || is_hidden(pair.second); });
   return rest;
+}
+
+std::vector<Point3> line_of(const StreetFacts& street, const std::map<std::uint32_t, Point3>& held) {
+  const auto start = held.find(street.start), end = held.find(street.end);
+  if (street.line.empty() || (start == held.end() && end == held.end())) return street.line;
+  return street_line(start == held.end() ? street.line.front() : start->second, street.course,
+                     end == held.end() ? street.line.back() : end->second);
 }
 
 MeshPointer ball_cell(const Point3& centre, double radius) {

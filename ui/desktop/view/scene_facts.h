@@ -90,6 +90,9 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> state,
 /// The same without some nodes: their volumes, marks, boundaries, and whatever is drawn of their links.
 std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const std::set<std::string>& hidden);
 
+/// The line of a street; where somebody has one of its junctions in the hand, the one that it will have.
+std::vector<Point3> line_of(const StreetFacts& street, const std::map<std::uint32_t, Point3>& held);
+
 /// A coarse mesh around a ball, to be wrapped onto it: for volumes whose shape nobody has.
 MeshPointer ball_cell(const Point3& centre, double radius);
 /// Edges of a closed mesh where its faces meet at an angle [m].

@@ -73,7 +73,8 @@ void main() {
 }
 )";
 
-// Lines as quads of a width in pixels, soft at both sides.
+// Lines as quads of a width in pixels, soft at both sides. Where one goes on as another, both have the same two corners: there is
+// neither a gap nor a place that is painted twice.
 inline constexpr const char* kLineVertex = R"(
 uniform mat4 matrix;
 uniform vec2 size;
@@ -82,12 +83,30 @@ layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
 layout(location = 2) in vec4 paint;
 layout(location = 3) in vec2 shape;
+layout(location = 4) in vec3 came;
+layout(location = 5) in vec3 goes;
 out vec4 tint;
 out float across, half_width;
+const float least = 1e-4;
+// Towards the corner that is shared with the neighbour, times how much farther it is than the side; `past` is its other end.
+vec2 corner(vec2 aside, vec2 here, vec4 past, bool is_before, float reach) {
+  if (past.w < least) return aside;
+  vec2 there = past.xy / past.w * size * 0.5, way = is_before ? here - there : there - here;
+  float far = length(way);
+  if (far < least) return aside;
+  vec2 mean = aside + vec2(-way.y, way.x) / far;
+  float fold = length(mean);
+  if (fold < 0.02) return aside;
+  mean /= fold;
+  float share = dot(mean, aside);
+  // A sharp turn, or one between short pieces, would throw its corner far away: there the line gets narrower.
+  bool is_near = share > 0.4 && half_width * sqrt(1.0 - min(1.0, share * share)) <= share * min(far, reach);
+  return is_near ? mean / share : mean;
+}
 void main() {
   vec4 a = matrix * vec4(from, 1.0), b = matrix * vec4(to, 1.0);
-  float least = 1e-4;
   if (a.w < least && b.w < least) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
+  bool is_whole = a.w >= least && b.w >= least;
   if (a.w < least) a = mix(a, b, (least - a.w) / (b.w - a.w));
   if (b.w < least) b = mix(b, a, (least - b.w) / (a.w - b.w));
   vec2 on_a = a.xy / a.w * size * 0.5, on_b = b.xy / b.w * size * 0.5;
@@ -100,6 +119,9 @@ void main() {
   bool is_end = gl_VertexID >= 2;
   vec4 clip = is_end ? b : a;
   across = side * (half_width + 1.0);
+  vec3 on = is_end ? goes : came;
+  if (is_whole && dot(on, on) > 0.0)
+    aside = corner(aside, is_end ? on_b : on_a, matrix * vec4(is_end ? to + goes : from - came, 1.0), !is_end, reach);
   clip.xy += aside * across / (size * 0.5) * clip.w;
   // Nearer by a share of the distance, a larger one for wide lines: the ground that their sides lie on is nearer than their middle.
   clip.z -= bias * (0.002 + 0.003 * half_width);

@@ -53,6 +53,7 @@ void read_street(const State& state, std::uint32_t node, UrbanFacts& urban) {
   street.load = report::number_at(state, node, "street", "volume_over_capacity");
   street.is_open = report::number_at(state, node, "street", "open", 1) > 0 || flag_at(state, node, "street", "open", false);
   street.is_for_cars = flag_at(state, node, "street", "for_cars", true);
+  street.course = points_at(state, node, "street", "course");
   urban.most_flow = std::max(urban.most_flow, street.flow);
   urban.streets.push_back(std::move(street));
 }

@@ -19,6 +19,8 @@ struct StreetFacts {
   std::string id;
   double flow = 0, load = 0;  ///< [1/h] both ways; volume over capacity
   bool is_open = true, is_for_cars = true;
+  std::vector<Point3> course;  ///< between its ends, in plan
+  std::vector<Point3> line;    ///< from end to end, as it is drawn
 };
 
 /// A building that stands already.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/text.h"
+#include "core/traffic/street_line.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/report_model.h"
 
@@ -48,6 +49,19 @@ struct UrbanPicture {
   void line(const Point3& a, const Point3& b, Colour colour, float width, float hidden) {
     if (is_finite(a) && is_finite(b)) scene.lines.push_back({a, b, colour, width, hidden});
   }
+  // A line of several pieces, each of which knows its neighbours; points that fall together count once.
+  void path(std::vector<Point3> points, Colour colour, float width, float hidden) {
+    for (Point3& point : points) point += Vector3{0, 0, kAboveGround};
+    std::erase_if(points, [](const Point3& point) { return !is_finite(point); });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const std::size_t last = points.size() - 1;
+    const bool is_round = points.size() > 3 && points.front() == points.back();
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      ViewLine& piece = scene.lines.emplace_back(ViewLine{points[k], points[k + 1], colour, width, hidden});
+      if (k > 0 || is_round) piece.came = points[k] - points[k > 0 ? k - 1 : last - 1];
+      if (k + 1 < last || is_round) piece.goes = points[k + 1 < last ? k + 2 : 1] - points[k + 1];
+    }
+  }
   void ring(const std::vector<Point3>& points, Colour colour, float width, float hidden) {
     const Vector3 lift{0, 0, kAboveGround};
     for (std::size_t k = 0; k < points.size(); ++k)
@@ -73,13 +87,11 @@ void UrbanPicture::add_isochrones() {
   const Isochrones& shown = *choices.isochrones;
   std::map<std::uint32_t, const StreetFacts*> streets;
   for (const StreetFacts& street : facts.urban.streets) streets[street.node] = &street;
-  const Vector3 lift{0, 0, kAboveGround};
   for (const Isochrones::Part& part : shown.parts) {
     const auto street = streets.find(part.street);
     if (street == streets.end()) continue;  // hidden
-    const Point3 from = facts.places[street->second->start] + lift, to = facts.places[street->second->end] + lift;
-    line(from + part.begin * (to - from), from + part.end * (to - from), colour_of_band(theme, part.band, shown.times.size()),
-         width_of(*street->second) + theme.px(kBandWidth), 0.3f);
+    path(part_of_line(line_of(*street->second, choices.held), part.begin, part.end),
+         colour_of_band(theme, part.band, shown.times.size()), width_of(*street->second) + theme.px(kBandWidth), 0.3f);
   }
 }
 
@@ -90,17 +102,16 @@ void UrbanPicture::add_streets() {
   for (const auto& [zone, flows] : facts.urban.routes)
     if (stands_out(facts.state->plan->nodes[zone].id))
       for (const auto& [street, flow] : flows) routes[street] += flow;
-  const Vector3 lift{0, 0, kAboveGround};
   for (const StreetFacts& street : facts.urban.streets) {
-    const Point3 from = facts.places[street.start] + lift, to = facts.places[street.end] + lift;
+    const std::vector<Point3> way = line_of(street, choices.held);
     const bool is_chosen = stands_out(street.id);
     const float width = width_of(street);
     if (const auto route = routes.find(street.node); route != routes.end() && route->second > 0)
-      line(from, to, c.accent, width + theme.px(5), 0.35f);
+      path(way, c.accent, width + theme.px(5), 0.35f);
     Colour colour = street.flow > 0 ? colour_of_load(theme, street.load) : faded(c.text_soft, 0.55f);
     if (!street.is_open) colour = faded(c.bad, 0.35f);
-    if (is_chosen) line(from, to, c.text, width + theme.px(4), 0.4f);
-    line(from, to, colour, street.is_open ? width : theme.px(1.2f), 0.3f);
+    if (is_chosen) path(way, c.text, width + theme.px(4), 0.4f);
+    path(way, colour, street.is_open ? width : theme.px(1.2f), 0.3f);
   }
 }
 

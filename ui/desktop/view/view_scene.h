@@ -45,6 +45,8 @@ struct ViewLine {
   Colour colour = 0;
   float width = 1;
   float hidden_share = 0;
+  /// From the point before it, and to the one after it, where its corners meet those of its neighbours; 0: it begins, it ends.
+  Vector3 came = {}, goes = {};
   bool operator==(const ViewLine&) const = default;
 };
 

@@ -35,7 +35,7 @@ std::optional<Site> site_of(const Registry& registry, const Scene& scene) {
   if (type == nullptr) return std::nullopt;
   for (const auto& [id, node] : scene.nodes) {
     if (!node.types.contains("boundary")) continue;
-    const auto value = [&](const char* port) { return set_value(node, *type, type->ports[type->port_index(port)]); };
+    const auto value = [&](const char* port) { return set_value(scene, node, *type, type->ports[type->port_index(port)]); };
     const auto form = value("form");
     const auto* name = std::get_if<std::string>(&form);
     const auto points_of = [&](const char* port) {
@@ -84,9 +84,9 @@ NewVolume place_volume(const Registry& registry, const Scene& scene) {
     if (type == nullptr || base == nullptr || !node.types.contains("smart_volume") ||
         !node.types.contains(std::string(kBaseNode)))
       continue;
-    if (const auto* at = std::get_if<Vector3>(&set_value(node, *base, base->ports[base->port_index("position")])))
+    if (const auto* at = std::get_if<Vector3>(&set_value(scene, node, *base, base->ports[base->port_index("position")])))
       others.push_back(*at);
-    demands += as_number(set_value(node, *type, type->ports[type->port_index("demand")])), ++count;
+    demands += as_number(set_value(scene, node, *type, type->ports[type->port_index("demand")])), ++count;
   }
   if (count > 0) volume.demand = std::max(1.0, std::round(demands / count));
   const auto site = site_of(registry, scene);

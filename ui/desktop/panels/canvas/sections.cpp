@@ -133,7 +133,7 @@ const Value* value_of(const Editor& editor, const NodeBox& box, const Section& s
   }
   const auto node = editor.scene().nodes.find(box.id);
   if (node == editor.scene().nodes.end() || !node->second.types.contains(section.type_id)) return nullptr;
-  return &set_value(node->second, *section.type, section.type->ports[port]);
+  return &set_value(editor.scene(), node->second, *section.type, section.type->ports[port]);
 }
 
 std::string text_of(const Editor& editor, const NodeBox& box, const Section& section, std::size_t port) {
