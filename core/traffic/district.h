@@ -1,6 +1,8 @@
 // One step of a district's traffic: streets, junctions and zones by id in, flows and times out, and what the next step needs.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,18 +58,31 @@ struct DistrictSettings {
   bool operator==(const DistrictSettings&) const = default;
 };
 
-/// What the next step starts from. Rows whose zone or link is gone are passed over.
+/// All that a step depends on besides the last one.
+struct DistrictParts {
+  std::vector<DistrictJunction> junctions;
+  std::vector<DistrictStreet> streets;
+  std::vector<DistrictRules> rules;
+  std::vector<DistrictZone> zones;
+  DistrictSettings settings;
+  bool operator==(const DistrictParts&) const = default;
+};
+
+/// What the next step starts from. What speaks of a zone or a link that is gone is passed over.
 struct DistrictState {
-  struct Flow {
-    std::string origin, link;
-    double flow = 0;
+  struct Zone {
+    std::string id;
+    std::vector<std::uint32_t> used;  ///< of `links`: those that its trips are on, each once
+    std::vector<double> flows;        ///< [1/h], as `used`
+    std::vector<double> trips;        ///< [1/h], to each of `zones`
+    bool operator==(const Zone&) const = default;
   };
-  struct Trips {
-    std::string origin, destination;
-    double trips = 0;
-  };
-  std::vector<Flow> flows;
-  std::vector<Trips> trips;
+  std::vector<std::string> links;  ///< ids
+  std::vector<Zone> zones;
+
+  /// Trips from one zone to another [1/h].
+  double trips(const std::string& origin, const std::string& destination) const;
+  bool operator==(const DistrictState&) const = default;
 };
 
 struct DistrictResult {
@@ -108,10 +123,21 @@ struct DistrictResult {
   DistrictState state;
 };
 
+/// What a step has worked out and the next one can use again: the network, and the shortest ways. It saves work and never changes
+/// a bit of what comes out.
+class DistrictMemo {
+ public:
+  DistrictMemo();
+  DistrictMemo(DistrictMemo&&) noexcept;
+  DistrictMemo& operator=(DistrictMemo&&) noexcept;
+  ~DistrictMemo();
+
+  struct Held;
+  std::unique_ptr<Held> held;  ///< nullptr before the first step
+};
+
 /// Distributes the trips by the times of the last step, puts them on the streets and goes `steps` iterations on, from the last
 /// flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
-Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones,
-                                     const DistrictSettings& settings, const DistrictState& last);
+Result<DistrictResult> step_district(const DistrictParts& parts, const DistrictState& last, DistrictMemo* memo = nullptr);
 
 }  // namespace bl
