@@ -63,7 +63,9 @@ struct TrafficNetworkNode {
     t.doc(
         "Streets, junctions and zones as one network. In every tick it deals the trips of the zones out to each other by travel "
         "time, "
-        "and shifts them between ways towards user equilibrium: the state in which nobody gets there sooner by another way.");
+        "and shifts them between ways towards user equilibrium: the state in which nobody gets there cheaper by another way. "
+        "Cost is "
+        "time, with tolls and distance as time where factors say so; all that is called a time is time alone.");
     t.in(&In::streets, "streets").doc("The streets of this network; a street belongs to one network only.");
     t.in(&In::junctions, "junctions").doc("The junctions where they meet.");
     t.in(&In::zones, "zones").doc("The zones whose trips it carries.");
@@ -87,11 +89,13 @@ struct TrafficNetworkNode {
     t.in(&In::toll_factor, "toll_factor")
         .range(0, 1e6)
         .soft(0, 600)
-        .doc("Seconds that people would drive longer to save one euro.");
+        .doc(
+            "Seconds that people would drive longer to save one euro. Ways and destinations follow it; times are told without "
+            "it.");
     t.in(&In::distance_factor, "distance_factor")
         .range(0, 1e3)
         .soft(0, 0.5)
-        .doc("Seconds that one metre of street counts besides its time.");
+        .doc("Seconds that one metre of street counts besides its time, for ways and destinations; times are told without it.");
     t.in(&In::walking_speed, "walking_speed")
         .unit(Unit::metre_per_second)
         .range(0.1, 10)
@@ -120,7 +124,7 @@ struct TrafficNetworkNode {
         .unit(Unit::ratio)
         .range(1e-12, 0.1)
         .soft(1e-6, 1e-2)
-        .doc("Relative gap at which the ways rest: the share of all time that vanished if everybody took today's shortest way.");
+        .doc("Relative gap at which the ways rest: the share of all cost that vanished if everybody took today's cheapest way.");
     t.in(&In::steps, "steps").range(1, 100).soft(1, 20).doc("Iterations of the assignment in one tick at most.");
   }
 
@@ -134,10 +138,10 @@ struct TrafficNetworkNode {
     t.out(&Out::trips_lost, "trips_lost").unit(Unit::per_hour).doc("Trips that have no way to go; their zones say why.");
     t.out(&Out::mean_travel_time, "mean_travel_time")
         .unit(Unit::second)
-        .doc("Mean time of all trips, with the walk at both ends.");
+        .doc("Mean time of all trips, with the walk at both ends, without what tolls and distance count.");
     t.out(&Out::total_time, "total_time")
         .unit(Unit::second)
-        .doc("Time of all trips of one hour together; tolls and distance count as time.");
+        .doc("Time of all trips of one hour together, without what tolls and distance count.");
     t.out(&Out::objective, "objective")
         .doc("Beckmann's objective: the sum of the areas under the curves of time over flow. Equilibrium is its least.");
     t.out(&Out::largest_load, "largest_load").unit(Unit::ratio).doc("The largest volume over capacity of all streets.");

@@ -223,7 +223,11 @@ class District {
   void read_totals(const EquilibriumFigures& figures) {
     out_.gap = figures.gap;
     out_.trips = figures.trips;
-    out_.total_time = figures.total_cost;
+    for (std::uint32_t l = 0; l < equilibrium_.network().link_count(); ++l) {
+      const double flow = equilibrium_.flows()[l];
+      times_.push_back(equilibrium_.network().time(l, flow));
+      out_.total_time += flow * times_.back();
+    }
     out_.objective = figures.objective;
     out_.iterations = figures.iterations;
     for (const LostTrips& lost : equilibrium_.lost()) {
@@ -253,24 +257,31 @@ class District {
   }
 
   void read_zones() {
-    measure_costs();
     const std::size_t n = zones_.size();
-    std::vector<double> arriving;
-    for (const DistrictZone& zone : zones_) arriving.push_back(zone.arriving);
+    std::vector<double> others;
+    for (const DistrictZone& zone : zones_) others.push_back(zone.arriving);
+    std::vector<double> there(n);
     for (std::size_t z = 0; z < n; ++z) {
-      std::vector<double> others = arriving;
+      const std::vector<double> drive = drive_from(z);
+      for (std::size_t other = 0; other < n; ++other) there[other] = drive[made_.zone_nodes[other]];
       others[z] = 0;
-      out_.zones[z].accessibility = accessibility(std::span(costs_).subspan(z * n, n), others, settings_.fade);
+      out_.zones[z].accessibility = accessibility(there, others, settings_.fade);
+      others[z] = zones_[z].arriving;
+      if (zones_[z].wants_reach) drives_[z] = drive;
     }
     for (const Bush& bush : equilibrium_.bushes()) {
-      const std::size_t from = made_.zone_at[bush.origin];
-      for (const TripDemand& trip : bush.demands) {
-        out_.zones[from].served += trip.trips;
-        out_.zones[from].mean_time += trip.trips * costs_[from * n + made_.zone_at[trip.destination]];
-      }
-    }
-    for (DistrictResult::Zone& zone : out_.zones)
+      DistrictResult::Zone& zone = out_.zones[made_.zone_at[bush.origin]];
+      for (const TripDemand& trip : bush.demands) zone.served += trip.trips;
+      for (std::size_t s = 0; s < bush.links.size(); ++s) zone.mean_time += bush.flows[s] * times_[bush.links[s]];
       if (zone.served > 0) zone.mean_time /= zone.served;
+    }
+  }
+
+  // Times to all nodes on the cheapest ways.
+  std::vector<double> drive_from(std::size_t z) const {
+    const std::span<const double> labels = trees_.labels(z);
+    if (!equilibrium_.network().has_other_costs()) return {labels.begin(), labels.end()};
+    return times_along(equilibrium_.network(), made_.zone_nodes[z], labels, trees_.costs(), times_);
   }
 
   Result<void> read_reach() {
@@ -289,7 +300,7 @@ class District {
   }
 
   void read_reach_of(std::size_t z, const std::vector<double>& walking) {
-    const std::span<const double> drive = trees_.labels(z);
+    const std::vector<double>& drive = drives_.at(z);
     for (std::size_t j = 0; j < made_.parts.junctions.size(); ++j) {
       const double driving = drive[made_.arrivals[j]];
       auto known = [](double time) { return time == kUnreached ? -1.0 : time; };
@@ -328,8 +339,10 @@ class District {
   std::deque<std::pair<std::vector<std::uint32_t>, std::vector<double>>> mapped_;  // those of them that had to be translated
   std::vector<double> last_, trips_;  // from zone i to zone j at [i · zones + j], of the last step and of this one
   std::vector<double> costs_;         // in the same order
-  bool is_recalled_whole_ = true;     // nothing of the last step was passed over
-  bool has_same_trips_ = false;       // as in the last step
+  std::vector<double> times_;         // by link, at the flows of this step
+  std::map<std::size_t, std::vector<double>> drives_;  // times to all nodes, of zones that list them
+  bool is_recalled_whole_ = true;                      // nothing of the last step was passed over
+  bool has_same_trips_ = false;                        // as in the last step
   DistrictResult out_;
 };
 

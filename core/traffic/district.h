@@ -99,15 +99,15 @@ struct DistrictResult {
     int streets = 0;
     double flow = 0, load = 0;  ///< what arrives by streets; the largest volume over capacity of its streets
   };
-  /// Times from a zone to a junction [s]; below 0 where there is no way.
+  /// Times from a zone to a junction [s]; below 0 where there is no way. By car along the cheapest way.
   struct Reach {
     std::string junction;
     double driving = -1, walking = -1;
   };
   struct Zone {
     double served = 0, lost = 0;  ///< trips that leave, and that would [1/h]
-    double mean_time = 0;         ///< of the trips that leave [s]
-    double accessibility = 0;     ///< trips that end elsewhere, faded by the time to get there [1/h]
+    double mean_time = 0;         ///< of the trips that leave, on the ways that they use [s]
+    double accessibility = 0;     ///< trips that end elsewhere, faded by the time that the cheapest way there takes [1/h]
     std::string reason;           ///< why trips are lost; empty where none are
     std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
@@ -115,9 +115,10 @@ struct DistrictResult {
   std::vector<Rules> rules;
   std::vector<Junction> junctions;
   std::vector<Zone> zones;
-  double gap = 0, restlessness = 0;      ///< the latter: share of the trips that wants to go elsewhere than it does
-  double trips = 0, lost = 0;            ///< [1/h]
-  double total_time = 0, objective = 0;  ///< vehicle seconds in an hour (with tolls and distance as time)
+  double gap = 0, restlessness = 0;  ///< the latter: share of the trips that wants to go elsewhere than it does
+  double trips = 0, lost = 0;        ///< [1/h]
+  double total_time = 0;             ///< vehicle seconds in an hour
+  double objective = 0;              ///< Beckmann's, of costs
   int iterations = 0;
   bool is_at_rest = false;  ///< neither trips nor ways have changed: `state` is the last one, bit for bit
   DistrictState state;
@@ -136,8 +137,9 @@ class DistrictMemo {
   std::unique_ptr<Held> held;  ///< nullptr before the first step
 };
 
-/// Distributes the trips by the times of the last step, puts them on the streets and goes `steps` iterations on, from the last
-/// flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
+/// Ways and destinations are chosen by generalised cost: time, with tolls and distance as time. What is told of them is time
+/// alone. Distributes the trips by the costs of the last step, puts them on the streets and goes `steps` iterations on, from the
+/// last flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
 Result<DistrictResult> step_district(const DistrictParts& parts, const DistrictState& last, DistrictMemo* memo = nullptr);
 
 }  // namespace bl

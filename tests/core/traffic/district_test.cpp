@@ -57,6 +57,28 @@ TEST(District, DelaysAtJunctionsAndTollsCount) {
   EXPECT_NEAR(town.step().streets[0].flow_forth, 1, 1e-9);
 }
 
+TEST(District, TollsDecideTheWayAndAreNoTime) {
+  Town town;
+  town.zones[1].leaving = 1;
+  town.zones[1].wants_reach = true;
+  town.streets[0].toll = 2;
+  town.settings.toll_factor = 3;  // 30 s and 6 s of toll against 40 s
+  DistrictResult result = town.step();
+  EXPECT_NEAR(result.streets[0].flow_forth, 1, 1e-9);
+  EXPECT_NEAR(result.zones[1].mean_time, 130, 1e-6);
+  EXPECT_NEAR(result.zones[1].reach[0].driving, 130, 1e-6);
+  EXPECT_NEAR(result.zones[1].accessibility, 100 * std::exp(-130.0 / 600), 1e-6);
+  EXPECT_NEAR(result.total_time, 130, 1e-6);
+  town.settings.toll_factor = 10;  // 20 s: the way round it is cheaper, and takes longer
+  result = town.step();
+  result = town.step();
+  EXPECT_NEAR(result.streets[1].flow_forth, 1, 1e-9);
+  EXPECT_NEAR(result.zones[1].mean_time, 140, 1e-6);
+  EXPECT_NEAR(result.zones[1].reach[0].driving, 140, 1e-6);
+  town.settings.toll_factor = 5;  // both cost the same: the quicker one is told
+  EXPECT_NEAR(town.step().zones[1].reach[0].driving, 130, 1e-6);
+}
+
 TEST(District, TheTimeAtAJunctionDoesNotGrowWithTheStreetsTraffic) {
   Town town;
   town.streets.pop_back();
