@@ -41,15 +41,16 @@ struct TrafficNetworkNode {
     std::vector<DistrictZone> zones;
   };
   struct ZoneReply {
-    double served = 0, lost = 0, mean_time = 0, accessibility = 0;
+    double served = 0, lost = 0, ending = 0, mean_time = 0, accessibility = 0;
     std::string reason;
     Table reach{{"junction", "driving", "walking"}, {}};
   };
   struct Out {
-    double relative_gap = 1, unrest = 1, trips = 0, trips_lost = 0, mean_travel_time = 0, total_time = 0, objective = 0;
+    double relative_gap = 1, unrest = 1, trips = 0, trips_lost = 0, trips_missing = 0, mean_travel_time = 0, total_time = 0,
+           objective = 0;
     double largest_load = 0;
     std::string message;
-    Table loads{{"junction", "volume_over_capacity"}, {}};
+    Table loads{{"junction", "volume_over_capacity"}, {}}, arrivals{{"zone", "wanted", "missing", "reason"}, {}};
     Memory memory;
     std::vector<DistrictResult::Street> streets;
     std::vector<DistrictResult::Junction> junctions;
@@ -109,7 +110,8 @@ struct TrafficNetworkNode {
     t.in(&In::isochrone_bands, "isochrone_bands").range(1, 6).doc("Isochrones that are drawn around a chosen node.");
     t.in(&In::distribution, "distribution",
          {{TripConstraint::origins, "singly", "What leaves each zone holds; what ends where follows attraction and time."},
-          {TripConstraint::both, "doubly", "What ends in each zone holds as well, in proportion."}})
+          {TripConstraint::both, "doubly",
+           "What ends in each zone holds as well, in proportion; what cannot be met is told in `arrivals`."}})
         .doc("Which sums of trips hold.");
     t.in(&In::fade, "fade")
         .unit(Unit::second)
@@ -136,6 +138,9 @@ struct TrafficNetworkNode {
         .doc("The gap while above the wanted one, or the share of trips that want another destination, if that is larger.");
     t.out(&Out::trips, "trips").unit(Unit::per_hour).doc("Trips on the streets.");
     t.out(&Out::trips_lost, "trips_lost").unit(Unit::per_hour).doc("Trips that have no way to go; their zones say why.");
+    t.out(&Out::trips_missing, "trips_missing")
+        .unit(Unit::per_hour)
+        .doc("Trips that should end in zones and do not, where what ends in each zone holds; `arrivals` says why.");
     t.out(&Out::mean_travel_time, "mean_travel_time")
         .unit(Unit::second)
         .doc("Mean time of all trips, with the walk at both ends, without what tolls and distance count.");
@@ -150,6 +155,12 @@ struct TrafficNetworkNode {
         .column({.id = "junction", .is_text = true, .default_value = std::string(), .doc = "Id of the junction."})
         .column({.id = "volume_over_capacity", .unit = Unit::ratio, .doc = "The largest of the streets there."})
         .doc("How far the streets at each junction are used, in ascending id.");
+    t.out(&Out::arrivals, "arrivals")
+        .column({.id = "zone", .is_text = true, .default_value = std::string(), .doc = "Id of the zone."})
+        .column({.id = "wanted", .unit = Unit::per_hour, .doc = "Trips that should end there."})
+        .column({.id = "missing", .unit = Unit::per_hour, .doc = "How many of them do not; below 0 where more end there."})
+        .column({.id = "reason", .is_text = true, .default_value = std::string(), .doc = "Why, as a sentence."})
+        .doc("Zones where another number of trips ends than should, where what ends in each zone holds; in ascending id.");
     t.memory(&Out::memory, &In::last, &Memory::links, "links")
         .column({.id = "link",
                  .is_text = true,
@@ -203,6 +214,7 @@ struct TrafficNetworkNode {
     zones.reads(&Zone::access, "traffic_zone.access").reads(&Zone::wants_reach, "traffic_zone.list_reach");
     zones.writes(&ZoneReply::reach, "traffic_zone.reach");
     zones.writes(&ZoneReply::served, "traffic_zone.trips_served").writes(&ZoneReply::lost, "traffic_zone.trips_lost");
+    zones.writes(&ZoneReply::ending, "traffic_zone.trips_ending");
     zones.writes(&ZoneReply::mean_time, "traffic_zone.mean_travel_time");
     zones.writes(&ZoneReply::accessibility, "traffic_zone.accessibility").writes(&ZoneReply::reason, "traffic_zone.reason");
   }
@@ -297,6 +309,9 @@ struct TrafficNetworkNode {
     out.unrest = std::max(result->gap > in.gap ? result->gap : 0, result->restlessness);
     out.trips = result->trips;
     out.trips_lost = result->lost;
+    out.trips_missing = result->missing;
+    for (const DistrictResult::Arrival& row : result->arrivals)
+      out.arrivals.rows.push_back({sets.zones[row.zone].id, sets.zones[row.zone].arriving, row.missing, row.reason});
     out.mean_travel_time = result->trips > 0 ? result->total_time / result->trips : 0;
     out.total_time = result->total_time;
     out.objective = result->objective;
@@ -317,8 +332,13 @@ struct TrafficNetworkNode {
     kept.state = std::move(result->state);
     out.streets = std::move(result->streets);
     for (const DistrictResult::Zone& zone : result->zones) {
-      ZoneReply& reply = out.zones.emplace_back(ZoneReply{
-          zone.served, zone.lost, zone.mean_time, zone.accessibility, zone.reason, {{"junction", "driving", "walking"}, {}}});
+      ZoneReply& reply = out.zones.emplace_back(ZoneReply{zone.served,
+                                                          zone.lost,
+                                                          zone.ending,
+                                                          zone.mean_time,
+                                                          zone.accessibility,
+                                                          zone.reason,
+                                                          {{"junction", "driving", "walking"}, {}}});
       for (const DistrictResult::Reach& row : zone.reach) reply.reach.rows.push_back({row.junction, row.driving, row.walking});
     }
     return out;

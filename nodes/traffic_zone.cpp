@@ -13,7 +13,7 @@ struct TrafficZone {
     bool list_reach = false;
   };
   struct Out {
-    double trips_served = 0, trips_lost = 0, mean_travel_time = 0, accessibility = 0;
+    double trips_served = 0, trips_lost = 0, trips_ending = 0, mean_travel_time = 0, accessibility = 0;
     Table reach{{"junction", "driving", "walking"}, {}};
     std::string reason = "no traffic network takes care of it, or its network fails";
   };
@@ -47,6 +47,9 @@ struct TrafficZone {
         .doc("Lists the times to all junctions, by car and on foot: what isochrones are drawn from.");
     t.out(&Out::trips_served, "trips_served").unit(Unit::per_hour).doc("Trips that leave and are on the streets.");
     t.out(&Out::trips_lost, "trips_lost").unit(Unit::per_hour).doc("Trips that would leave and have no way to go.");
+    t.out(&Out::trips_ending, "trips_ending")
+        .unit(Unit::per_hour)
+        .doc("Trips that end here. Where that should be `trips_in` and is not, the network's table `arrivals` says why.");
     t.out(&Out::mean_travel_time, "mean_travel_time")
         .unit(Unit::second)
         .doc(

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -20,6 +21,8 @@ namespace {
 constexpr int kSweeps = 8;
 // A pair with a smaller share of what leaves a zone has no trips: halved tick by tick, it would never come to an end.
 constexpr double kLeastShare = 1e-9;
+// Trips that a zone lacks are told where they are more than this share of those that it would take.
+constexpr double kNoticed = 1e-6;
 // Where a smaller share of the trips wants to go elsewhere, all stay: else the last digits would never come to rest.
 constexpr double kRest = 1e-7;
 
@@ -169,6 +172,8 @@ class District {
     }
     measure_costs();
     const TripDistribution wanted = distribute_trips(costs_, leaving, arriving, settings_.fade, settings_.constraint);
+    tell_missing(wanted, std::accumulate(leaving.begin(), leaving.end(), 0.0),
+                 std::accumulate(arriving.begin(), arriving.end(), 0.0));
     const std::vector<double> before = last_;
     double apart = 0, all = 0, changed = 0;
     std::size_t gone = 0;
@@ -198,6 +203,24 @@ class District {
     return demands();
   }
 
+  // What both sums together do not allow: too few trips leave, too many, or those that leave do not get there.
+  void tell_missing(const TripDistribution& wanted, double leaving, double arriving) {
+    for (std::size_t z = 0; z < wanted.missing.size(); ++z) {
+      const double missing = wanted.missing[z], all = zones_[z].arriving;
+      if (std::abs(missing) <= kNoticed * std::max(1.0, all)) continue;
+      out_.missing += std::max(0.0, missing);
+      const bool is_share = std::abs(all - missing - all * (leaving / arriving)) <= kNoticed * std::max(1.0, all);
+      std::string reason;
+      if (missing < 0)
+        reason = is_share ? "more trips leave all zones than would end in them, and each zone gets its share of them"
+                          : "trips end here that cannot get to other zones";
+      else if (is_share) reason = "fewer trips leave all zones than would end in them, and each zone gets its share of them";
+      else if (!(missing < all)) reason = "no trips can get here: no open way leads here from another zone that trips leave";
+      else reason = "too few trips leave the zones from which one can get here";
+      out_.arrivals.push_back({z, missing, reason});
+    }
+  }
+
   // Ascending nodes.
   std::vector<TripDemand> demands() const {
     const std::size_t n = zones_.size();
@@ -216,8 +239,7 @@ class District {
   void tell_lost(std::size_t z, double lost) {
     DistrictResult::Zone& zone = out_.zones[z];
     zone.lost += lost;
-    if (!(lost > 0)) return;
-    if (zone.reason.empty()) zone.reason = "no other zone that trips could end in can be reached";
+    if (lost > 0 && zone.reason.empty()) zone.reason = "no other zone that trips could end in can be reached";
   }
 
   void read_totals(const EquilibriumFigures& figures) {
@@ -271,7 +293,10 @@ class District {
     }
     for (const Bush& bush : equilibrium_.bushes()) {
       DistrictResult::Zone& zone = out_.zones[made_.zone_at[bush.origin]];
-      for (const TripDemand& trip : bush.demands) zone.served += trip.trips;
+      for (const TripDemand& trip : bush.demands) {
+        zone.served += trip.trips;
+        out_.zones[made_.zone_at[trip.destination]].ending += trip.trips;
+      }
       for (std::size_t s = 0; s < bush.links.size(); ++s) zone.mean_time += bush.flows[s] * times_[bush.links[s]];
       if (zone.served > 0) zone.mean_time /= zone.served;
     }

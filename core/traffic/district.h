@@ -106,12 +106,21 @@ struct DistrictResult {
   };
   struct Zone {
     double served = 0, lost = 0;  ///< trips that leave, and that would [1/h]
+    double ending = 0;            ///< trips that end here [1/h]
     double mean_time = 0;         ///< of the trips that leave, on the ways that they use [s]
     double accessibility = 0;     ///< trips that end elsewhere, faded by the time that the cheapest way there takes [1/h]
     std::string reason;           ///< why trips are lost; empty where none are
     std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
-  std::vector<Street> streets;  ///< as given, and so below
+  /// A zone where other than the wanted number of trips ends, though what ends in zones holds.
+  struct Arrival {
+    std::size_t zone = 0;  ///< as given
+    double missing = 0;    ///< of the wanted ones [1/h]; below 0 where more end there
+    std::string reason;
+  };
+  std::vector<Arrival> arrivals;  ///< ascending zone; empty where what ends in zones follows attraction alone
+  double missing = 0;             ///< of all zones that get too few [1/h]
+  std::vector<Street> streets;    ///< as given, and so below
   std::vector<Rules> rules;
   std::vector<Junction> junctions;
   std::vector<Zone> zones;

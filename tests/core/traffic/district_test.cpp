@@ -209,6 +209,59 @@ TEST(District, AStateOfAnotherDistrictDoesNoHarm) {
   EXPECT_NEAR(town.step().streets[0].flow_forth, fresh.step().streets[0].flow_forth, 1e-3);
 }
 
+// Three zones along one street; what ends in them holds.
+Town doubly() {
+  Town town;
+  town.settings.constraint = TripConstraint::both;
+  town.junctions.push_back({"north", {0, 300, 0}, 0});
+  town.streets.push_back({"up", "west", "north", 0, 10, 1000, 0, false, true, true});
+  town.zones = {{"east", {300, 0, 0}, 0, 100, {}}, {"home", {0, 134, 0}, 120, 0, {"west"}}, {"north", {0, 300, 0}, 0, 20, {}}};
+  return town;
+}
+
+TEST(District, SumsThatAgreeMissNothing) {
+  Town town = doubly();
+  DistrictResult result = town.step();
+  EXPECT_TRUE(result.arrivals.empty());
+  EXPECT_EQ(result.missing, 0);
+  EXPECT_NEAR(result.zones[0].ending, 100, 1e-6);
+  EXPECT_NEAR(result.zones[2].ending, 20, 1e-6);
+}
+
+TEST(District, SumsThatDoNotAgreeAreToldZoneByZone) {
+  Town town = doubly();
+  town.zones[1].leaving = 60;
+  DistrictResult result = town.step();
+  ASSERT_EQ(result.arrivals.size(), 2u);
+  EXPECT_NEAR(result.arrivals[0].missing, 50, 1e-6);
+  EXPECT_NEAR(result.arrivals[1].missing, 10, 1e-6);
+  EXPECT_NEAR(result.missing, 60, 1e-6);
+  EXPECT_NE(result.arrivals[0].reason.find("fewer trips leave"), std::string::npos);
+  town.zones[1].leaving = 240;
+  result = town.step();
+  ASSERT_EQ(result.arrivals.size(), 2u);
+  EXPECT_NEAR(result.arrivals[0].missing, -100, 1e-6);
+  EXPECT_EQ(result.missing, 0);
+  EXPECT_NE(result.arrivals[1].reason.find("more trips leave"), std::string::npos);
+}
+
+TEST(District, DestinationsOutOfReachAreToldAndSoIsWhoGetsTheirTrips) {
+  Town town = doubly();
+  town.streets[2].is_open = false;
+  const DistrictResult result = town.step();
+  ASSERT_EQ(result.arrivals.size(), 2u);
+  EXPECT_EQ(result.arrivals[0].zone, 0u);
+  EXPECT_NEAR(result.arrivals[0].missing, -20, 1e-6);
+  EXPECT_NE(result.arrivals[0].reason.find("cannot get to other zones"), std::string::npos);
+  EXPECT_EQ(result.arrivals[1].zone, 2u);
+  EXPECT_NEAR(result.arrivals[1].missing, 20, 1e-6);
+  EXPECT_NEAR(result.missing, 20, 1e-6);
+  EXPECT_NE(result.arrivals[1].reason.find("no trips can get here"), std::string::npos);
+  double ending = 0;
+  for (const auto& zone : result.zones) ending += zone.ending;
+  EXPECT_NEAR(ending + result.lost, 120, 1e-6) << "nobody is lost without a word";
+}
+
 TEST(District, NothingAtAllIsNoError) {
   const auto empty = step_district({}, {});
   ASSERT_TRUE(empty.ok());
