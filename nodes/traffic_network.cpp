@@ -5,14 +5,16 @@
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/traffic/district.h"
+#include "core/traffic/packed_numbers.h"
 
 namespace bl {
 namespace {
 
 struct TrafficNetworkNode {
-  // What the next tick starts from: flow by zone and link, and trips by pair of zones.
+  // What the next tick starts from: where the trips of each zone are and go, and the names of the links.
   struct Memory {
-    Shared<Table> flows{Table{{"origin", "link", "flow"}, {}}}, trips{Table{{"origin", "destination", "trips"}, {}}};
+    Shared<Table> links{Table{{"link"}, {}}}, ways{Table{{"zone", "links", "flows", "trips"}, {}}};
+    bool operator==(const Memory&) const = default;
   };
   struct In {
     Selection streets{{}, "street", {}}, junctions{{}, "junction", {}}, zones{{}, "traffic_zone", {}};
@@ -29,45 +31,30 @@ struct TrafficNetworkNode {
     bool one_way = false, for_cars = true;
     std::vector<Point3> course;
   };
-  struct Crossing {
-    std::string id;
-    Point3 position;
-    double delay = 0;
-  };
   struct Rules {
     std::string id;
     Table turns;
   };
-  struct Zone {
-    std::string id;
-    Point3 position;
-    double trips_out = 0, trips_in = 0;
-    std::vector<std::string> access;
-    bool list_reach = false;
-  };
   struct Sets {
     std::vector<Street> streets;
-    std::vector<Crossing> junctions;
+    std::vector<DistrictJunction> junctions;
     std::vector<Rules> rules;
-    std::vector<Zone> zones;
-  };
-  struct CrossingReply {
-    std::int64_t streets = 0;
-    double flow = 0, load = 0;
+    std::vector<DistrictZone> zones;
   };
   struct ZoneReply {
-    double served = 0, lost = 0, mean_time = 0, accessibility = 0;
+    double served = 0, lost = 0, ending = 0, mean_time = 0, accessibility = 0;
     std::string reason;
     Table reach{{"junction", "driving", "walking"}, {}};
   };
   struct Out {
-    double relative_gap = 1, unrest = 1, trips = 0, trips_lost = 0, mean_travel_time = 0, total_time = 0, objective = 0;
+    double relative_gap = 1, unrest = 1, trips = 0, trips_lost = 0, trips_missing = 0, mean_travel_time = 0, total_time = 0,
+           objective = 0;
     double largest_load = 0;
     std::string message;
-    Table loads{{"junction", "volume_over_capacity"}, {}};
+    Table loads{{"junction", "volume_over_capacity"}, {}}, arrivals{{"zone", "wanted", "missing", "reason"}, {}};
     Memory memory;
     std::vector<DistrictResult::Street> streets;
-    std::vector<CrossingReply> junctions;
+    std::vector<DistrictResult::Junction> junctions;
     std::vector<DistrictResult::Rules> rules;
     std::vector<ZoneReply> zones;
   };
@@ -78,7 +65,9 @@ struct TrafficNetworkNode {
     t.doc(
         "Streets, junctions and zones as one network. In every tick it deals the trips of the zones out to each other by travel "
         "time, "
-        "and shifts them between ways towards user equilibrium: the state in which nobody gets there sooner by another way.");
+        "and shifts them between ways towards user equilibrium: the state in which nobody gets there cheaper by another way. "
+        "Cost is "
+        "time, with tolls and distance as time where factors say so; all that is called a time is time alone.");
     t.in(&In::streets, "streets").doc("The streets of this network; a street belongs to one network only.");
     t.in(&In::junctions, "junctions").doc("The junctions where they meet.");
     t.in(&In::zones, "zones").doc("The zones whose trips it carries.");
@@ -102,11 +91,13 @@ struct TrafficNetworkNode {
     t.in(&In::toll_factor, "toll_factor")
         .range(0, 1e6)
         .soft(0, 600)
-        .doc("Seconds that people would drive longer to save one euro.");
+        .doc(
+            "Seconds that people would drive longer to save one euro. Ways and destinations follow it; times are told without "
+            "it.");
     t.in(&In::distance_factor, "distance_factor")
         .range(0, 1e3)
         .soft(0, 0.5)
-        .doc("Seconds that one metre of street counts besides its time.");
+        .doc("Seconds that one metre of street counts besides its time, for ways and destinations; times are told without it.");
     t.in(&In::walking_speed, "walking_speed")
         .unit(Unit::metre_per_second)
         .range(0.1, 10)
@@ -120,7 +111,8 @@ struct TrafficNetworkNode {
     t.in(&In::isochrone_bands, "isochrone_bands").range(1, 6).doc("Isochrones that are drawn around a chosen node.");
     t.in(&In::distribution, "distribution",
          {{TripConstraint::origins, "singly", "What leaves each zone holds; what ends where follows attraction and time."},
-          {TripConstraint::both, "doubly", "What ends in each zone holds as well, in proportion."}})
+          {TripConstraint::both, "doubly",
+           "What ends in each zone holds as well, in proportion; what cannot be met is told in `arrivals`."}})
         .doc("Which sums of trips hold.");
     t.in(&In::fade, "fade")
         .unit(Unit::second)
@@ -135,7 +127,7 @@ struct TrafficNetworkNode {
         .unit(Unit::ratio)
         .range(1e-12, 0.1)
         .soft(1e-6, 1e-2)
-        .doc("Relative gap at which the ways rest: the share of all time that vanished if everybody took today's shortest way.");
+        .doc("Relative gap at which the ways rest: the share of all cost that vanished if everybody took today's cheapest way.");
     t.in(&In::steps, "steps").range(1, 100).soft(1, 20).doc("Iterations of the assignment in one tick at most.");
   }
 
@@ -144,17 +136,18 @@ struct TrafficNetworkNode {
     t.out(&Out::unrest, "unrest")
         .unit(Unit::ratio)
         .residual()
-        .doc(
-            "The gap while it is above the wanted one, or the share of trips that want another destination, whichever is "
-            "larger.");
+        .doc("The gap while above the wanted one, or the share of trips that want another destination, if that is larger.");
     t.out(&Out::trips, "trips").unit(Unit::per_hour).doc("Trips on the streets.");
     t.out(&Out::trips_lost, "trips_lost").unit(Unit::per_hour).doc("Trips that have no way to go; their zones say why.");
+    t.out(&Out::trips_missing, "trips_missing")
+        .unit(Unit::per_hour)
+        .doc("Trips that should end in zones and do not, where what ends in each zone holds; `arrivals` says why.");
     t.out(&Out::mean_travel_time, "mean_travel_time")
         .unit(Unit::second)
-        .doc("Mean time of all trips, with the walk at both ends.");
+        .doc("Mean time of all trips, with the walk at both ends, without what tolls and distance count.");
     t.out(&Out::total_time, "total_time")
         .unit(Unit::second)
-        .doc("Time of all trips of one hour together; tolls and distance count as time.");
+        .doc("Time of all trips of one hour together, without what tolls and distance count.");
     t.out(&Out::objective, "objective")
         .doc("Beckmann's objective: the sum of the areas under the curves of time over flow. Equilibrium is its least.");
     t.out(&Out::largest_load, "largest_load").unit(Unit::ratio).doc("The largest volume over capacity of all streets.");
@@ -163,19 +156,34 @@ struct TrafficNetworkNode {
         .column({.id = "junction", .is_text = true, .default_value = std::string(), .doc = "Id of the junction."})
         .column({.id = "volume_over_capacity", .unit = Unit::ratio, .doc = "The largest of the streets there."})
         .doc("How far the streets at each junction are used, in ascending id.");
-    t.memory(&Out::memory, &In::last, &Memory::flows, "flows")
-        .column({.id = "origin", .is_text = true, .default_value = std::string(), .doc = "The zone that the trips come from."})
+    t.out(&Out::arrivals, "arrivals")
+        .column({.id = "zone", .is_text = true, .default_value = std::string(), .doc = "Id of the zone."})
+        .column({.id = "wanted", .unit = Unit::per_hour, .doc = "Trips that should end there."})
+        .column({.id = "missing", .unit = Unit::per_hour, .doc = "How many of them do not; below 0 where more end there."})
+        .column({.id = "reason", .is_text = true, .default_value = std::string(), .doc = "Why, as a sentence."})
+        .doc("Zones where another number of trips ends than should, where what ends in each zone holds; in ascending id.");
+    t.memory(&Out::memory, &In::last, &Memory::links, "links")
         .column({.id = "link",
                  .is_text = true,
                  .default_value = std::string(),
                  .doc = "Street and direction, zone and access, or turn."})
-        .column({.id = "flow", .unit = Unit::per_hour, .doc = "Trips per hour."})
-        .doc("Where the trips of each zone are: what the next tick starts from.");
-    t.memory(&Out::memory, &In::last, &Memory::trips, "pairs")
-        .column({.id = "origin", .is_text = true, .default_value = std::string(), .doc = "The zone where they begin."})
-        .column({.id = "destination", .is_text = true, .default_value = std::string(), .doc = "The zone where they end."})
-        .column({.id = "trips", .unit = Unit::per_hour, .doc = "Trips per hour."})
-        .doc("How many trips go from zone to zone.");
+        .doc("What trips can be on, in ascending id; the rows of `ways` count from 0 in this list.");
+    const std::string digits = " Digits of base 64 from `A` to `/`, the lowest first: ";
+    t.memory(&Out::memory, &In::last, &Memory::ways, "ways")
+        .column({.id = "zone", .is_text = true, .default_value = std::string(), .doc = "The zone that the trips come from."})
+        .column({.id = "links",
+                 .is_text = true,
+                 .default_value = std::string(),
+                 .doc = "The links that its trips are on." + digits + "four for each."})
+        .column({.id = "flows",
+                 .is_text = true,
+                 .default_value = std::string(),
+                 .doc = "Trips per hour on these links." + digits + "eleven for the 64 bits of each."})
+        .column({.id = "trips",
+                 .is_text = true,
+                 .default_value = std::string(),
+                 .doc = "Trips per hour to each zone, in the order of these rows; digits as those of flows."})
+        .doc("Where the trips of each zone are, and how many go to each other zone: what the next tick starts from.");
   }
 
   static void declare_sets(Builder& t) {
@@ -193,39 +201,55 @@ struct TrafficNetworkNode {
     streets.writes(&StreetReply::delay, "street.delay").writes(&StreetReply::load, "street.volume_over_capacity");
     streets.writes(&StreetReply::length, "street.used_length").writes(&StreetReply::reason, "street.reason");
     auto junctions = t.set("junctions", &Sets::junctions, &Out::junctions);
-    junctions.reads(&Crossing::id, "node.id").reads(&Crossing::position, "node.position", Unit::metre);
-    junctions.reads(&Crossing::delay, "junction.delay").writes(&CrossingReply::streets, "junction.streets");
-    junctions.writes(&CrossingReply::flow, "junction.flow").writes(&CrossingReply::load, "junction.volume_over_capacity");
+    junctions.reads(&DistrictJunction::id, "node.id").reads(&DistrictJunction::position, "node.position", Unit::metre);
+    using Crossing = DistrictResult::Junction;
+    junctions.reads(&DistrictJunction::delay, "junction.delay").writes(&Crossing::streets, "junction.streets");
+    junctions.writes(&Crossing::flow, "junction.flow").writes(&Crossing::load, "junction.volume_over_capacity");
     auto rules = t.set("junctions", &Sets::rules, &Out::rules);  // those of the junctions that have any
     rules.reads(&Rules::id, "node.id").reads(&Rules::turns, "turn_rules.turns");
     rules.writes(&DistrictResult::Rules::forbidden, "turn_rules.forbidden");
     rules.writes(&DistrictResult::Rules::reason, "turn_rules.reason");
     auto zones = t.set("zones", &Sets::zones, &Out::zones);
+    using Zone = DistrictZone;
     zones.reads(&Zone::id, "node.id").reads(&Zone::position, "node.position", Unit::metre);
-    zones.reads(&Zone::trips_out, "traffic_zone.trips_out").reads(&Zone::trips_in, "traffic_zone.trips_in");
-    zones.reads(&Zone::access, "traffic_zone.access").reads(&Zone::list_reach, "traffic_zone.list_reach");
+    zones.reads(&Zone::leaving, "traffic_zone.trips_out").reads(&Zone::arriving, "traffic_zone.trips_in");
+    zones.reads(&Zone::access, "traffic_zone.access").reads(&Zone::wants_reach, "traffic_zone.list_reach");
     zones.writes(&ZoneReply::reach, "traffic_zone.reach");
     zones.writes(&ZoneReply::served, "traffic_zone.trips_served").writes(&ZoneReply::lost, "traffic_zone.trips_lost");
+    zones.writes(&ZoneReply::ending, "traffic_zone.trips_ending");
     zones.writes(&ZoneReply::mean_time, "traffic_zone.mean_travel_time");
     zones.writes(&ZoneReply::accessibility, "traffic_zone.accessibility").writes(&ZoneReply::reason, "traffic_zone.reason");
   }
 
   static std::string one_of(const Selection& selection) { return selection.ids.size() == 1 ? selection.ids.front() : ""; }
 
+  // A row that cannot be read is as one that is not there: its zone starts anew.
   static DistrictState recalled(const Memory& last) {
     DistrictState state;
-    for (std::size_t r = 0; r < last.flows->rows.size(); ++r)
-      state.flows.push_back({last.flows->text(r, "origin"), last.flows->text(r, "link"), last.flows->number(r, "flow")});
-    for (std::size_t r = 0; r < last.trips->rows.size(); ++r)
-      state.trips.push_back({last.trips->text(r, "origin"), last.trips->text(r, "destination"), last.trips->number(r, "trips")});
+    for (std::size_t r = 0; r < last.links->rows.size(); ++r) state.links.push_back(last.links->text(r, "link"));
+    for (std::size_t r = 0; r < last.ways->rows.size(); ++r) {
+      DistrictState::Zone& zone = state.zones.emplace_back();
+      zone.id = last.ways->text(r, "zone");
+      zone.used = unpacked_indices(last.ways->text(r, "links")).value_or(std::vector<std::uint32_t>());
+      zone.flows = unpacked_numbers(last.ways->text(r, "flows")).value_or(std::vector<double>());
+      zone.trips = unpacked_numbers(last.ways->text(r, "trips")).value_or(std::vector<double>());
+    }
     return state;
   }
 
-  static Memory remembered(const DistrictState& state) {
-    Table flows = *Memory().flows, trips = *Memory().trips;
-    for (const auto& row : state.flows) flows.rows.push_back({row.origin, row.link, row.flow});
-    for (const auto& row : state.trips) trips.rows.push_back({row.origin, row.destination, row.trips});
-    return {std::move(flows), std::move(trips)};
+  // The names of links are those of the last tick, unless streets have changed.
+  static Memory remembered(const DistrictState& state, const Memory& last, bool has_last_links) {
+    Memory memory = last;
+    if (!has_last_links) {
+      Table links = *Memory().links;
+      for (const std::string& link : state.links) links.rows.push_back({link});
+      memory.links = std::move(links);
+    }
+    Table ways = *Memory().ways;
+    for (const DistrictState::Zone& zone : state.zones)
+      ways.rows.push_back({zone.id, packed(zone.used), packed(zone.flows), packed(zone.trips)});
+    memory.ways = std::move(ways);
+    return memory;
   }
 
   static std::vector<DistrictRules> rules_of(const Sets& sets) {
@@ -240,18 +264,17 @@ struct TrafficNetworkNode {
 
   // All that a step depends on.
   struct Step {
-    std::vector<DistrictStreet> streets;
-    std::vector<DistrictJunction> junctions;
-    std::vector<DistrictRules> rules;
-    std::vector<DistrictZone> zones;
-    DistrictSettings settings;
-    Shared<Table> flows, trips;
+    DistrictParts parts;
+    Memory last;
     bool operator==(const Step&) const = default;
   };
-  // The last step and what came of it: a network at rest is asked the same in every tick.
+  // A network at rest is asked the same in every tick, and one that moves starts from what it has just said.
   struct Kept {
     Step step;
-    std::optional<Out> out;
+    std::optional<Out> out;  // of that step, where it ended at rest
+    Memory memory;           // the last one, and the same as numbers
+    DistrictState state;
+    DistrictMemo memo;
   };
 
   static Step step_of(const In& in, const Sets& sets) {
@@ -261,13 +284,9 @@ struct TrafficNetworkNode {
       streets.push_back({s.id, one_of(s.start), one_of(s.end), s.length, s.speed, capacity, s.toll, s.one_way, capacity > 0,
                          s.for_cars, s.course});
     }
-    std::vector<DistrictJunction> junctions;
-    for (const Crossing& c : sets.junctions) junctions.push_back({c.id, c.position, c.delay});
-    std::vector<DistrictZone> zones;
-    for (const Zone& z : sets.zones) zones.push_back({z.id, z.position, z.trips_out, z.trips_in, z.access, z.list_reach});
     const DistrictSettings settings{in.alpha, in.beta,         in.toll_factor, in.distance_factor, in.walking_speed,
                                     in.fade,  in.distribution, in.gap,         in.steps,           in.haste};
-    return {std::move(streets), std::move(junctions), rules_of(sets), std::move(zones), settings, in.last.flows, in.last.trips};
+    return {{sets.junctions, std::move(streets), rules_of(sets), sets.zones, settings}, in.last};
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
@@ -275,19 +294,26 @@ struct TrafficNetworkNode {
     Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
     Step step = step_of(in, sets);
     if (kept.out && kept.step == step) return *kept.out;
-    auto out = worked_out(in, sets, step);
-    kept = {std::move(step), out ? std::optional<Out>(*out) : std::nullopt};
+    if (kept.memory != in.last) kept.state = recalled(in.last);
+    auto out = worked_out(in, sets, step, kept);
+    kept.step = std::move(step);
+    kept.out.reset();
+    if (out && out->memory == in.last) kept.out = *out;
+    kept.memory = out ? out->memory : in.last;
     return out;
   }
 
-  static Result<Out> worked_out(const In& in, const Sets& sets, const Step& step) {
-    auto result = step_district(step.junctions, step.streets, step.rules, step.zones, step.settings, recalled(in.last));
+  static Result<Out> worked_out(const In& in, const Sets& sets, const Step& step, Kept& kept) {
+    auto result = step_district(step.parts, kept.state, &kept.memo);
     if (!result) return Error{result.error().code, "streets", "`" + result.error().place + "`: " + result.error().message};
     Out out;
     out.relative_gap = result->gap;
     out.unrest = std::max(result->gap > in.gap ? result->gap : 0, result->restlessness);
     out.trips = result->trips;
     out.trips_lost = result->lost;
+    out.trips_missing = result->missing;
+    for (const DistrictResult::Arrival& row : result->arrivals)
+      out.arrivals.rows.push_back({sets.zones[row.zone].id, sets.zones[row.zone].arriving, row.missing, row.reason});
     out.mean_travel_time = result->trips > 0 ? result->total_time / result->trips : 0;
     out.total_time = result->total_time;
     out.objective = result->objective;
@@ -301,16 +327,20 @@ struct TrafficNetworkNode {
     out.rules = std::move(result->rules);
     for (std::size_t j = 0; j < out.rules.size(); ++j) left_out(sets.rules[j].id, out.rules[j].reason);
     for (std::size_t z = 0; z < result->zones.size(); ++z) left_out(sets.zones[z].id, result->zones[z].reason);
-    for (std::size_t j = 0; j < result->junctions.size(); ++j) {
-      const DistrictResult::Junction& junction = result->junctions[j];
-      out.junctions.push_back({junction.streets, junction.flow, junction.load});
-      out.loads.rows.push_back({sets.junctions[j].id, junction.load});
-    }
-    out.memory = result->is_at_rest ? in.last : remembered(result->state);
+    for (std::size_t j = 0; j < result->junctions.size(); ++j)
+      out.loads.rows.push_back({sets.junctions[j].id, result->junctions[j].load});
+    out.junctions = std::move(result->junctions);
+    out.memory = result->is_at_rest ? in.last : remembered(result->state, in.last, result->state.links == kept.state.links);
+    kept.state = std::move(result->state);
     out.streets = std::move(result->streets);
     for (const DistrictResult::Zone& zone : result->zones) {
-      ZoneReply& reply = out.zones.emplace_back(ZoneReply{
-          zone.served, zone.lost, zone.mean_time, zone.accessibility, zone.reason, {{"junction", "driving", "walking"}, {}}});
+      ZoneReply& reply = out.zones.emplace_back(ZoneReply{zone.served,
+                                                          zone.lost,
+                                                          zone.ending,
+                                                          zone.mean_time,
+                                                          zone.accessibility,
+                                                          zone.reason,
+                                                          {{"junction", "driving", "walking"}, {}}});
       for (const DistrictResult::Reach& row : zone.reach) reply.reach.rows.push_back({row.junction, row.driving, row.walking});
     }
     return out;

@@ -1,6 +1,7 @@
 // Phase 6: solvers over sets of nodes, within the tick or beside it, and their replies.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "core/graph/phases.h"
@@ -160,17 +161,28 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& m
 
 // Where two write to one port the first one has it, and the other one says so.
 void write_replies(State& next, std::vector<Reply>& replies) {
-  std::map<PortRef, const Reply*> owner;
-  for (Reply& reply : replies) {
-    const auto [it, is_first] = owner.emplace(reply.target, &reply);
-    if (is_first) {
+  std::vector<std::size_t> order(replies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return replies[a].target != replies[b].target ? replies[a].target < replies[b].target : a < b;
+  });
+  std::vector<std::pair<std::size_t, std::size_t>> late;  // replies that came too late, and those before them
+  for (std::size_t first = 0, at = 0; at < order.size(); ++at) {
+    Reply& reply = replies[order[at]];
+    if (at == 0 || reply.target != replies[order[first]].target) {
+      first = at;
       next.nodes[reply.target.node].types[reply.target.type].values[reply.target.port] = std::move(reply.value);
     } else {
-      next.nodes[reply.node].types[reply.type].error =
-          Error{ErrorCode::conflict, place_of(next, reply.node, reply.type),
-                "`" + next.plan->nodes[reply.target.node].id + "` already belongs to `" + next.plan->nodes[it->second->node].id +
-                    "`; a node can be a member of one such set only"};
+      late.emplace_back(order[at], order[first]);
     }
+  }
+  std::sort(late.begin(), late.end());
+  for (const auto& [at, before] : late) {
+    const Reply& reply = replies[at];
+    next.nodes[reply.node].types[reply.type].error =
+        Error{ErrorCode::conflict, place_of(next, reply.node, reply.type),
+              "`" + next.plan->nodes[reply.target.node].id + "` already belongs to `" +
+                  next.plan->nodes[replies[before].node].id + "`; a node can be a member of one such set only"};
   }
 }
 

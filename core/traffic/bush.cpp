@@ -21,8 +21,9 @@ LinkLoads::LinkLoads(const TrafficNetwork& network)
 
 void LinkLoads::set(const TrafficNetwork& network, std::uint32_t link, double flow) {
   flows[link] = std::max(0.0, flow);
-  costs[link] = network.cost(link, flows[link]);
-  slopes[link] = network.slope(link, flows[link]);
+  const auto [cost, slope] = network.cost_and_slope(link, flows[link]);
+  costs[link] = cost;
+  slopes[link] = slope;
 }
 
 BushWorker::BushWorker(const TrafficNetwork& network)
@@ -56,6 +57,84 @@ void BushWorker::plant(Bush& bush, std::span<const TripDemand> demands, std::spa
     if (const std::uint32_t l = short_slot_[bush.order[k]]; l != kNoTrafficIndex) in_bush_[l] = 1;
   rebuild(bush);
   balance(bush);
+}
+
+void BushWorker::replant(Bush& bush, std::span<const TripDemand> demands, const BushFlows& flows, std::span<const double> labels,
+                         std::span<const double> costs, const LinkLoads& loads) {
+  std::fill(pending_.begin(), pending_.end(), 0);
+  chosen_.clear();
+  chosen_flows_.clear();
+  for (std::size_t k = 0; k < flows.links.size(); ++k) {
+    const std::uint32_t l = flows.links[k], i = network_->from(l), j = network_->to(l);
+    const bool leads_on = network_->is_open(l) && labels[i] != kUnreached && j != bush.origin && passes(i, bush.origin);
+    if (!(flows.flows[k] > 0) || !leads_on) continue;
+    ++pending_[j];
+    chosen_.push_back(l);
+    chosen_flows_.push_back(flows.flows[k]);
+  }
+  hang(bush.origin, labels, costs);
+  const auto reached = labels.size() - static_cast<std::size_t>(std::count(labels.begin(), labels.end(), kUnreached));
+  if (!put_in_order(bush, reached)) {
+    std::vector<double> by_link(link_flow_.size(), 0);
+    for (std::size_t k = 0; k < chosen_.size(); ++k) by_link[chosen_[k]] = chosen_flows_[k];
+    return plant(bush, demands, by_link, loads);
+  }
+  bush.demands.clear();
+  for (const TripDemand& demand : demands)
+    if (demand.destination != bush.origin && labels[demand.destination] != kUnreached) bush.demands.push_back(demand);
+  balance(bush);
+}
+
+// A link of a shortest way for every node that nothing flows to.
+void BushWorker::hang(std::uint32_t origin, std::span<const double> labels, std::span<const double> costs) {
+  for (std::uint32_t j = 0; j < labels.size(); ++j) {
+    if (pending_[j] > 0 || j == origin || labels[j] == kUnreached) continue;
+    for (const std::uint32_t l : network_->in_links(j)) {
+      const std::uint32_t i = network_->from(l);
+      if (labels[i] + costs[l] != labels[j] || !network_->is_open(l) || !passes(i, origin)) continue;
+      chosen_.push_back(l);
+      chosen_flows_.push_back(0);
+      pending_[j] = 1;
+      break;
+    }
+  }
+}
+
+// Order and slots of the chosen links, each node as soon as all that leads to it has its place; false where there is no such
+// order. `pending_` counts the links to each node.
+bool BushWorker::put_in_order(Bush& bush, std::size_t reached) {
+  begin_.assign(network_->node_count() + 1, 0);
+  for (const std::uint32_t l : chosen_) ++begin_[network_->from(l) + 1];
+  for (std::size_t n = 1; n < begin_.size(); ++n) begin_[n] += begin_[n - 1];
+  next_.assign(begin_.begin(), begin_.end() - 1);
+  onward_.resize(chosen_.size());
+  for (const std::uint32_t l : chosen_) onward_[next_[network_->from(l)]++] = network_->to(l);
+  arrived_.assign(network_->node_count(), 0);
+  bush.order.assign(1, bush.origin);
+  bush.slot_begin.assign(1, 0);
+  std::vector<std::uint32_t>& slot = next_;  // by node, from here on: where its next link stands
+  std::uint32_t slots = 0;
+  for (std::size_t k = 0; k < bush.order.size(); ++k) {
+    const std::uint32_t i = bush.order[k];
+    place_[i] = static_cast<std::uint32_t>(k);
+    slot[i] = slots;
+    slots += pending_[i];
+    bush.slot_begin.push_back(slots);
+    for (std::uint32_t at = begin_[i]; at < begin_[i + 1]; ++at) {
+      // How many links lead there stays known in `pending_`; those that are still missing are counted beside it.
+      const std::uint32_t j = onward_[at];
+      if (++arrived_[j] == pending_[j]) bush.order.push_back(j);
+    }
+  }
+  if (bush.order.size() < reached) return false;
+  bush.links.resize(chosen_.size());
+  bush.flows.resize(chosen_.size());
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    const std::uint32_t at = slot[network_->to(chosen_[k])]++;
+    bush.links[at] = chosen_[k];
+    bush.flows[at] = chosen_flows_[k];
+  }
+  return true;
 }
 
 // Dijkstra's search in which a node waits for the tails of all links that carry flow to it. So flow always leads onward in the
@@ -257,10 +336,14 @@ double BushWorker::excess(const Bush& bush, const LinkLoads& loads) {
       labels_[bush.order[k]] = std::min(labels_[bush.order[k]], labels_[network_->from(l)] + loads.costs[l]);
     }
   paths_.mend(bush.origin, loads.costs, labels_);
+  return excess(bush, loads, labels_);
+}
+
+double BushWorker::excess(const Bush& bush, const LinkLoads& loads, std::span<const double> labels) const {
   double sum = 0;
   for (std::size_t s = 0; s < bush.links.size(); ++s) {
     const std::uint32_t l = bush.links[s];
-    sum += bush.flows[s] * ((labels_[network_->from(l)] + loads.costs[l]) - labels_[network_->to(l)]);
+    sum += bush.flows[s] * ((labels[network_->from(l)] + loads.costs[l]) - labels[network_->to(l)]);
   }
   return sum;
 }

@@ -22,6 +22,13 @@ struct OriginFlow {
   double flow = 0;
 };
 
+/// The same of one origin for all of its links, each once.
+struct BushFlows {
+  std::uint32_t origin = 0;
+  std::span<const std::uint32_t> links;
+  std::span<const double> flows;  ///< as `links`
+};
+
 /// Nodes in an order in which every link leads onward; links and flows stand by the node they lead to ("slots").
 struct Bush {
   std::uint32_t origin = 0;
@@ -50,6 +57,10 @@ class BushWorker {
   /// Makes order and slots anew around the links that carry flow (flows by link; 0 elsewhere), with shortest ways to all
   /// others, and spreads the demands over them. What cannot be reached any more is left out of `bush.demands`.
   void plant(Bush& bush, std::span<const TripDemand> demands, std::span<const double> flows, const LinkLoads& loads);
+  /// The same around flows that a bush of this origin had before, without a search: `labels` are the shortest ways at `costs`.
+  /// Who has no flow hangs on the lowest link of a shortest way. Where flows run in a circle it is plant() that makes the bush.
+  void replant(Bush& bush, std::span<const TripDemand> demands, const BushFlows& flows, std::span<const double> labels,
+               std::span<const double> costs, const LinkLoads& loads);
   /// Gives every node exactly what leaves it and what ends there, in the shares in which it came; heals rounding as well.
   void balance(Bush& bush);
   /// Drops unused links, adds those that promise a shorter way, and orders the nodes anew.
@@ -59,12 +70,17 @@ class BushWorker {
   double shift(Bush& bush, LinkLoads& loads);
   /// Sum over the bush of flow · (how much longer than the shortest way the link is): 0 or more, exactly.
   double excess(const Bush& bush, const LinkLoads& loads);
+  /// The same where the shortest ways are known.
+  double excess(const Bush& bush, const LinkLoads& loads, std::span<const double> labels) const;
   /// Labels of the last excess().
   const std::vector<double>& labels() const { return labels_; }
 
  private:
   void grow(Bush& bush, std::span<const double> flows, const LinkLoads& loads);
   bool release();
+  bool put_in_order(Bush& bush, std::size_t reached);
+  void hang(std::uint32_t origin, std::span<const double> labels, std::span<const double> costs);
+  bool passes(std::uint32_t node, std::uint32_t origin) const { return node == origin || network_->is_through(node); }
   void rebuild(Bush& bush);
   void label(const Bush& bush, const LinkLoads& loads);
   void shift_at(Bush& bush, std::uint32_t node, LinkLoads& loads);
@@ -76,6 +92,9 @@ class BushWorker {
   std::vector<std::uint32_t> place_, short_slot_, long_slot_, pending_;
   std::vector<std::uint8_t> in_bush_;
   std::vector<std::uint32_t> up_short_, up_long_;
+  std::vector<std::uint32_t> chosen_, begin_, next_, onward_,
+      arrived_;  // of replant(): links of the bush; those that leave each node
+  std::vector<double> chosen_flows_;
 };
 
 }  // namespace bl

@@ -1,344 +1,400 @@
-// Makes a network of a district, moves its trips a step towards equilibrium, and reads the results back.
+// Moves the trips of a district a step towards equilibrium, and reads the results back.
 #include "core/traffic/district.h"
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
-#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
 
-#include "core/traffic/district_turns.h"
+#include "core/traffic/district_network.h"
 #include "core/traffic/equilibrium.h"
 #include "core/traffic/reach.h"
-#include "core/traffic/street_line.h"
 
 namespace bl {
 
 namespace {
 
-// Streets that let pass fewer are closed [1/h]: nobody could wait for them.
-constexpr double kLeastCapacity = 1e-9;
+// At most, of one iteration; no more than the wanted gap needs.
+constexpr int kSweeps = 8;
 // A pair with a smaller share of what leaves a zone has no trips: halved tick by tick, it would never come to an end.
 constexpr double kLeastShare = 1e-9;
+// Trips that a zone lacks are told where they are more than this share of those that it would take.
+constexpr double kNoticed = 1e-6;
 // Where a smaller share of the trips wants to go elsewhere, all stay: else the last digits would never come to rest.
 constexpr double kRest = 1e-7;
 
-std::string zone_name(const std::string& id) { return "z:" + id; }
+}  // namespace
+
+// `equilibrium` works on a network of its own, and the trees on that one.
+struct DistrictMemo::Held {
+  DistrictNetwork network;
+  std::unique_ptr<Equilibrium> equilibrium;
+  std::unique_ptr<ShortestTrees> trees;
+  std::optional<DistrictWalks> walks;
+  std::map<std::size_t, std::vector<double>> walking;  // by zone
+};
+
+DistrictMemo::DistrictMemo() = default;
+DistrictMemo::DistrictMemo(DistrictMemo&&) noexcept = default;
+DistrictMemo& DistrictMemo::operator=(DistrictMemo&&) noexcept = default;
+DistrictMemo::~DistrictMemo() = default;
+
+double DistrictState::trips(const std::string& origin, const std::string& destination) const {
+  const auto place = [&](const std::string& id) {
+    return static_cast<std::size_t>(std::find_if(zones.begin(), zones.end(), [&](const Zone& z) { return z.id == id; }) -
+                                    zones.begin());
+  };
+  const std::size_t from = place(origin), to = place(destination);
+  return from < zones.size() && to < zones[from].trips.size() ? zones[from].trips[to] : 0;
+}
+
+namespace {
+
+// The places of one list's ids in another; the number of those where they are missing.
+std::vector<std::size_t> places_in(const std::vector<std::string>& ids, const std::vector<std::string>& others) {
+  std::vector<std::size_t> places(ids.size());
+  if (ids == others) {
+    for (std::size_t i = 0; i < ids.size(); ++i) places[i] = i;
+    return places;
+  }
+  std::map<std::string_view, std::size_t> place_of;
+  for (std::size_t i = 0; i < others.size(); ++i) place_of.emplace(others[i], i);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto found = place_of.find(ids[i]);
+    places[i] = found == place_of.end() ? others.size() : found->second;
+  }
+  return places;
+}
 
 class District {
  public:
-  District(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-           const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones, const DistrictSettings& settings)
-      : junctions_(junctions), streets_(streets), rules_(rules), zones_(zones), settings_(settings) {
-    for (std::size_t j = 0; j < junctions.size(); ++j) junction_at_[junctions[j].id] = j;
-  }
+  District(const std::vector<DistrictZone>& zones, const DistrictSettings& settings, DistrictMemo::Held& held)
+      : zones_(zones),
+        settings_(settings),
+        made_(held.network),
+        held_(held),
+        equilibrium_(*held.equilibrium),
+        trees_(*held.trees) {}
 
   Result<DistrictResult> step(const DistrictState& last) {
-    out_.streets.resize(streets_.size());
-    out_.junctions.resize(junctions_.size());
-    out_.zones.resize(zones_.size());
-    if (auto made = make_network(); !made) return made.error();
-    find_indices();
-    const std::vector<TripDemand> before = trips_of(last);
-    const std::vector<OriginFlow> flows = flows_of(last);
-    equilibrium_ = std::make_unique<Equilibrium>(*network_, before, flows);
-    equilibrium_->set_demands(trips_wanted(before));
-    for (int i = 0; i < settings_.steps && equilibrium_->figures().gap > settings_.gap; ++i) equilibrium_->iterate();
-    read_totals();
-    for (std::size_t s = 0; s < streets_.size(); ++s) read_street(s);
+    out_.streets = made_.street_results;
+    out_.rules = made_.rule_results;
+    for (const int streets : made_.streets_at) out_.junctions.push_back({streets, 0, 0});
+    for (const std::string& reason : made_.zone_reasons) out_.zones.emplace_back().reason = reason;
+    recall(last);
+    equilibrium_.load(flows_);
+    trees_.update(equilibrium_.costs());
+    equilibrium_.begin(trips_wanted(), flows_, trees_);
+    EquilibriumFigures figures = equilibrium_.figures(trees_);
+    for (int i = 0; i < settings_.steps && figures.gap > settings_.gap; ++i) {
+      equilibrium_.iterate(kSweeps, settings_.gap);
+      figures = equilibrium_.figures(trees_);
+    }
+    read_totals(figures);
+    for (std::size_t s = 0; s < out_.streets.size(); ++s) read_street(s);
     read_zones();
     if (auto read = read_reach(); !read) return read.error();
-    out_.is_at_rest = has_same_trips_ && out_.iterations == 0 && before.size() == last.trips.size() && flows.size() == last.flows.size();
+    out_.is_at_rest = has_same_trips_ && out_.iterations == 0 && is_recalled_whole_;
     if (out_.is_at_rest) out_.state = last;
     else remember();
     return std::move(out_);
   }
 
  private:
-  Result<void> make_network() {
-    std::vector<TrafficNode> nodes = places();
-    std::vector<TrafficLink> links;
-    for (std::size_t s = 0; s < streets_.size(); ++s) add_street(s, links);
-    const std::vector<ForbiddenTurn> turns = forbidden_turns(rules_, streets_, links, out_.rules);
-    for (std::size_t z = 0; z < zones_.size(); ++z) add_access(z);
-    links.insert(links.end(), access_.begin(), access_.end());
-    if (auto split = forbid_turns(nodes, links, turns); !split) return split.error();
-    auto made = TrafficNetwork::make(std::move(nodes), std::move(links), {settings_.toll_factor, settings_.distance_factor});
-    if (!made) return made.error();
-    network_ = std::make_unique<TrafficNetwork>(std::move(*made));
-    return {};
-  }
-
-  std::vector<TrafficNode> places() const {
-    std::vector<TrafficNode> nodes;
-    for (const DistrictJunction& junction : junctions_) nodes.push_back({junction_node(junction.id), true});
-    for (const DistrictZone& zone : zones_) nodes.push_back({zone_name(zone.id), false});
-    return nodes;
-  }
-
-  void add_street(std::size_t s, std::vector<TrafficLink>& links) {
-    const DistrictStreet& street = streets_[s];
-    DistrictResult::Street& result = out_.streets[s];
-    const auto start = junction_at_.find(street.start), end = junction_at_.find(street.end);
-    if (start == junction_at_.end() || end == junction_at_.end()) {
-      const bool is_start = start == junction_at_.end();
-      const std::string& id = is_start ? street.start : street.end;
-      const std::string what = is_start ? "start" : "end";
-      result.reason =
-          id.empty() ? "its " + what + " names no junction" : "its " + what + " `" + id + "` is no junction of this network";
-      return;
-    }
-    const bool is_loop = street.start == street.end;
-    if (is_loop && street.course.empty()) {
-      result.reason = "it begins and ends at the same junction";
-      return;
-    }
-    ++out_.junctions[start->second].streets;
-    if (!is_loop) ++out_.junctions[end->second].streets;
-    result.length = street.length > 0 ? street.length
-                                      : street_length(junctions_[start->second].position, street.course,
-                                                      junctions_[end->second].position);
-    if (!street.is_for_cars) result.reason = "it is for walking only";
-    else if (!street.is_open) result.reason = "it is closed";
-    else if (street.capacity < kLeastCapacity) result.reason = "its capacity is next to nothing, so that it counts as closed";
-    if (!result.reason.empty()) return;
-    const double time = result.length / street.speed;
-    if (is_loop) {  // one may drive round, but no way from zone to zone is the shorter for it
-      result.time_forth = time + junctions_[end->second].delay;
-      if (!street.is_one_way) result.time_back = result.time_forth;
-      return;
-    }
-    links.push_back({street.id + ":forth", junction_node(street.start), junction_node(street.end),
-                     time, street.capacity, settings_.alpha, settings_.beta, result.length, street.toll, true,
-                     junctions_[end->second].delay});
-    if (street.is_one_way) return;
-    links.push_back({street.id + ":back", junction_node(street.end), junction_node(street.start),
-                     time, street.capacity, settings_.alpha, settings_.beta, result.length, street.toll, true,
-                     junctions_[start->second].delay});
-  }
-
-  // On foot between a zone and its junctions.
-  void add_access(std::size_t z) {
-    const DistrictZone& zone = zones_[z];
-    std::vector<std::string> access = zone.access;
-    if (access.empty() && junction_at_.contains(zone.id)) access.push_back(zone.id);
-    std::sort(access.begin(), access.end());
-    access.erase(std::unique(access.begin(), access.end()), access.end());
-    std::string unknown;
-    bool is_attached = false;
-    for (const std::string& id : access) {
-      const auto junction = junction_at_.find(id);
-      if (junction == junction_at_.end()) {
-        unknown += (unknown.empty() ? "`" : ", `") + id + "`";
+  // Flows by ascending node of their zone and link, and trips by zone and zone.
+  void recall(const DistrictState& last) {
+    const std::size_t n = zones_.size();
+    std::vector<std::string> ids, now;
+    for (const DistrictState::Zone& zone : last.zones) ids.push_back(zone.id);
+    for (const DistrictZone& zone : zones_) now.push_back(zone.id);
+    const std::vector<std::size_t> zone_at = places_in(ids, now), link_at = places_in(last.links, made_.link_ids);
+    std::vector<const DistrictState::Zone*> by_node(made_.zone_at.size(), nullptr);
+    last_.assign(n * n, 0);
+    seen_at_.assign(made_.link_ids.size(), kNoTrafficIndex);
+    for (std::size_t z = 0; z < last.zones.size(); ++z) {
+      const DistrictState::Zone& zone = last.zones[z];
+      if (zone_at[z] == n) {
+        is_recalled_whole_ = false;
         continue;
       }
-      is_attached = true;
-      const double walk = distance(zone.position, junctions_[junction->second].position) / settings_.walking_speed;
-      const TrafficLink out{zone.id + ":out:" + id, zone_name(zone.id), junction_node(id), walk, 0, 0, 1, 0, 0, true};
-      const TrafficLink in{zone.id + ":in:" + id, junction_node(id), zone_name(zone.id), walk, 0, 0, 1, 0, 0, true};
-      access_.push_back(out);
-      access_.push_back(in);
+      by_node[made_.zone_nodes[zone_at[z]]] = &zone;
+      for (std::size_t d = 0; d < std::min(zone.trips.size(), last.zones.size()); ++d)
+        if (zone_at[d] < n && zone.trips[d] > 0) last_[zone_at[z] * n + zone_at[d]] = zone.trips[d];
     }
-    if (!unknown.empty()) out_.zones[z].reason = "its access " + unknown + " is no junction of this network";
-    else if (!is_attached) out_.zones[z].reason = "it has no access: lay a link to a junction, or allow a longer walk to one";
+    for (std::uint32_t node = 0; node < by_node.size(); ++node)
+      if (by_node[node] != nullptr) recall_flows(node, *by_node[node], link_at);
   }
 
-  void find_indices() {
-    for (const DistrictZone& zone : zones_) {
-      zone_nodes_.push_back(network_->node_index(zone_name(zone.id)));
-      zone_at_[zone_nodes_.back()] = zone_nodes_.size() - 1;
+  // Where the links are those of the last step, its lists serve as they are.
+  void recall_flows(std::uint32_t node, const DistrictState::Zone& zone, const std::vector<std::size_t>& link_at) {
+    const std::size_t count = std::min(zone.used.size(), zone.flows.size());
+    const auto serves = [&](std::size_t k) {
+      const std::uint32_t l = zone.used[k];
+      if (l >= link_at.size() || link_at[l] != l || l >= made_.link_ids.size() || !(zone.flows[k] > 0)) return false;
+      return std::exchange(seen_at_[l], node) != node;  // twice: broken data
+    };
+    std::size_t k = 0;
+    while (k < count && serves(k)) ++k;
+    if (k == count) {
+      flows_.push_back({node, std::span(zone.used).first(count), std::span(zone.flows).first(count)});
+      return;
     }
+    std::map<std::uint32_t, double> found;
+    for (k = 0; k < count; ++k) {
+      const bool is_there = zone.used[k] < link_at.size() && link_at[zone.used[k]] < made_.link_ids.size();
+      if (is_there && zone.flows[k] > 0) found.emplace(static_cast<std::uint32_t>(link_at[zone.used[k]]), zone.flows[k]);
+      else is_recalled_whole_ = false;
+    }
+    auto& [links, flows] = mapped_.emplace_back();
+    for (const auto& [link, flow] : found) links.push_back(link), flows.push_back(flow);
+    flows_.push_back({node, links, flows});
   }
 
-  std::vector<TripDemand> trips_of(const DistrictState& last) const {
-    std::vector<TripDemand> trips;
-    for (const DistrictState::Trips& row : last.trips) {
-      const std::uint32_t from = network_->node_index(zone_name(row.origin)),
-                          to = network_->node_index(zone_name(row.destination));
-      if (from != kNoTrafficIndex && to != kNoTrafficIndex && row.trips > 0) trips.push_back({from, to, row.trips});
-    }
-    return trips;
-  }
-
-  std::vector<OriginFlow> flows_of(const DistrictState& last) const {
-    std::vector<OriginFlow> flows;
-    for (const DistrictState::Flow& row : last.flows) {
-      const std::uint32_t from = network_->node_index(zone_name(row.origin)), link = network_->link_index(row.link);
-      if (from != kNoTrafficIndex && link != kNoTrafficIndex && row.flow > 0) flows.push_back({from, link, row.flow});
-    }
-    return flows;
-  }
-
-  // Costs between all zones as the streets are now.
-  void measure_times() {
-    times_.clear();
-    for (const std::uint32_t node : zone_nodes_) {
-      const std::vector<double> labels = travel_costs(*network_, node, equilibrium_->costs());
-      for (const std::uint32_t other : zone_nodes_) times_.push_back(labels[other]);
+  // Costs between all zones as the trees are now.
+  void measure_costs() {
+    costs_.clear();
+    for (std::size_t z = 0; z < zones_.size(); ++z) {
+      const std::span<const double> labels = trees_.labels(z);
+      for (const std::uint32_t other : made_.zone_nodes) costs_.push_back(labels[other]);
     }
   }
 
   // The trips that the gravity model wants, approached from those of the last step.
-  std::vector<TripDemand> trips_wanted(const std::vector<TripDemand>& before) {
+  std::vector<TripDemand> trips_wanted() {
     const std::size_t n = zones_.size();
-    std::vector<double> leaving, arriving, last(n * n, 0);
+    std::vector<double> leaving, arriving;
     for (const DistrictZone& zone : zones_) {
       leaving.push_back(zone.leaving);
       arriving.push_back(zone.arriving);
     }
-    measure_times();
-    const TripDistribution wanted = distribute_trips(times_, leaving, arriving, settings_.fade, settings_.constraint);
-    for (const TripDemand& trip : before) last[zone_at_[trip.origin] * n + zone_at_[trip.destination]] += trip.trips;
+    measure_costs();
+    const TripDistribution wanted = distribute_trips(costs_, leaving, arriving, settings_.fade, settings_.constraint);
+    tell_missing(wanted, std::accumulate(leaving.begin(), leaving.end(), 0.0),
+                 std::accumulate(arriving.begin(), arriving.end(), 0.0));
+    const std::vector<double> before = last_;
     double apart = 0, all = 0, changed = 0;
-    std::vector<TripDemand> trips;
+    std::size_t gone = 0;
+    std::vector<double> next(n * n, 0);
     for (std::size_t i = 0; i < n; ++i) {
       // A zone whose sum has changed follows at once; only where its trips go is approached.
       double sum = 0, aim = 0;
-      for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t k = i * n; k < (i + 1) * n; ++k) {
         // Who cannot be reached any more is not waited for: those trips end elsewhere at once.
-        if (times_[i * n + j] == kUnreached) last[i * n + j] = 0;
-        sum += last[i * n + j], aim += wanted.trips[i * n + j];
+        if (costs_[k] == kUnreached) last_[k] = 0;
+        sum += last_[k], aim += wanted.trips[k];
       }
-      for (std::size_t j = 0; j < n; ++j) {
-        const double goal = wanted.trips[i * n + j], held = sum > 0 ? last[i * n + j] * (aim / sum) : goal;
-        apart += std::abs(goal - held);
+      for (std::size_t k = i * n; k < (i + 1) * n; ++k) {
+        const double goal = wanted.trips[k], kept = sum > 0 ? last_[k] * (aim / sum) : goal;
+        apart += std::abs(goal - kept);
         all += goal;
-        changed += std::abs(last[i * n + j] - held);
-        const double trip = held + settings_.haste * (goal - held);
-        if (trip > kLeastShare * aim) trips.push_back({zone_nodes_[i], zone_nodes_[j], trip});
+        changed += std::abs(last_[k] - kept);
+        const double trip = kept + settings_.haste * (goal - kept);
+        if (trip > kLeastShare * aim) next[k] = trip;
+        if ((next[k] > 0) != (before[k] > 0)) ++gone;
       }
       tell_lost(i, wanted.lost[i]);
     }
     out_.restlessness = all > 0 ? apart / all : 0;
-    has_same_trips_ = apart <= kRest * all && changed <= kRest * all && trips.size() == before.size();
-    return has_same_trips_ ? before : trips;
+    has_same_trips_ = apart <= kRest * all && changed <= kRest * all && gone == 0;
+    trips_ = has_same_trips_ ? before : next;
+    return demands();
+  }
+
+  // What both sums together do not allow: too few trips leave, too many, or those that leave do not get there.
+  void tell_missing(const TripDistribution& wanted, double leaving, double arriving) {
+    for (std::size_t z = 0; z < wanted.missing.size(); ++z) {
+      const double missing = wanted.missing[z], all = zones_[z].arriving;
+      if (std::abs(missing) <= kNoticed * std::max(1.0, all)) continue;
+      out_.missing += std::max(0.0, missing);
+      const bool is_share = std::abs(all - missing - all * (leaving / arriving)) <= kNoticed * std::max(1.0, all);
+      std::string reason;
+      if (missing < 0)
+        reason = is_share ? "more trips leave all zones than would end in them, and each zone gets its share of them"
+                          : "trips end here that cannot get to other zones";
+      else if (is_share) reason = "fewer trips leave all zones than would end in them, and each zone gets its share of them";
+      else if (!(missing < all)) reason = "no trips can get here: no open way leads here from another zone that trips leave";
+      else reason = "too few trips leave the zones from which one can get here";
+      out_.arrivals.push_back({z, missing, reason});
+    }
+  }
+
+  // Ascending nodes.
+  std::vector<TripDemand> demands() const {
+    const std::size_t n = zones_.size();
+    std::vector<std::size_t> order(n);
+    for (std::size_t z = 0; z < n; ++z) order[z] = z;
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return made_.zone_nodes[a] < made_.zone_nodes[b]; });
+    std::vector<TripDemand> demands;
+    for (const std::size_t i : order)
+      for (const std::size_t j : order)
+        if (const double trips = trips_[i * n + j]; trips > 0)
+          demands.push_back({made_.zone_nodes[i], made_.zone_nodes[j], trips});
+    return demands;
   }
 
   void tell_lost(std::size_t z, double lost) {
     DistrictResult::Zone& zone = out_.zones[z];
     zone.lost += lost;
-    if (!(lost > 0)) return;
-    if (zone.reason.empty()) zone.reason = "no other zone that trips could end in can be reached";
+    if (lost > 0 && zone.reason.empty()) zone.reason = "no other zone that trips could end in can be reached";
   }
 
-  void read_totals() {
-    const EquilibriumFigures figures = equilibrium_->figures();
+  void read_totals(const EquilibriumFigures& figures) {
     out_.gap = figures.gap;
     out_.trips = figures.trips;
-    out_.total_time = figures.total_cost;
+    for (std::uint32_t l = 0; l < equilibrium_.network().link_count(); ++l) {
+      const double flow = equilibrium_.flows()[l];
+      times_.push_back(equilibrium_.network().time(l, flow));
+      out_.total_time += flow * times_.back();
+    }
     out_.objective = figures.objective;
     out_.iterations = figures.iterations;
-    for (const LostTrips& lost : equilibrium_->lost()) {
-      DistrictResult::Zone& zone = out_.zones[zone_at_[lost.origin]];
+    for (const LostTrips& lost : equilibrium_.lost()) {
+      DistrictResult::Zone& zone = out_.zones[made_.zone_at[lost.origin]];
       zone.lost += lost.trips;
-      if (zone.reason.empty()) zone.reason = "no open street leads to `" + zones_[zone_at_[lost.destination]].id + "`";
+      if (zone.reason.empty()) zone.reason = "no open street leads to `" + zones_[made_.zone_at[lost.destination]].id + "`";
     }
     for (const DistrictResult::Zone& zone : out_.zones) out_.lost += zone.lost;
   }
 
   void read_street(std::size_t s) {
-    const DistrictStreet& street = streets_[s];
+    const TrafficNetwork& network = equilibrium_.network();
     DistrictResult::Street& result = out_.streets[s];
+    const auto [start, end] = made_.street_ends[s];
     for (const bool is_back : {false, true}) {
-      const std::uint32_t link = network_->link_index(street.id + (is_back ? ":back" : ":forth"));
+      const std::uint32_t link = made_.street_links[s][is_back ? 1 : 0];
       if (link == kNoTrafficIndex) continue;
-      const double flow = equilibrium_->flows()[link], time = network_->time(link, flow);
+      const double flow = equilibrium_.flows()[link], time = network.time(link, flow);
       (is_back ? result.flow_back : result.flow_forth) = flow;
       (is_back ? result.time_back : result.time_forth) = time;
-      result.delay = std::max(result.delay, time - network_->time(link, 0));
-      result.load = std::max(result.load, flow / street.capacity);
-      out_.junctions[junction_at_.at(is_back ? street.start : street.end)].flow += flow;
+      result.delay = std::max(result.delay, time - network.time(link, 0));
+      result.load = std::max(result.load, flow / made_.parts.streets[s].capacity);
+      out_.junctions[is_back ? start : end].flow += flow;
     }
-    for (const std::string* id : {&street.start, &street.end})
-      if (const auto junction = junction_at_.find(*id); junction != junction_at_.end())
-        out_.junctions[junction->second].load = std::max(out_.junctions[junction->second].load, result.load);
+    for (const std::uint32_t junction : {start, end})
+      if (junction != kNoTrafficIndex) out_.junctions[junction].load = std::max(out_.junctions[junction].load, result.load);
   }
 
   void read_zones() {
-    measure_times();
     const std::size_t n = zones_.size();
-    std::vector<double> arriving;
-    for (const DistrictZone& zone : zones_) arriving.push_back(zone.arriving);
+    std::vector<double> others;
+    for (const DistrictZone& zone : zones_) others.push_back(zone.arriving);
+    std::vector<double> there(n);
     for (std::size_t z = 0; z < n; ++z) {
-      std::vector<double> others = arriving;
+      const std::vector<double> drive = drive_from(z);
+      for (std::size_t other = 0; other < n; ++other) there[other] = drive[made_.zone_nodes[other]];
       others[z] = 0;
-      out_.zones[z].accessibility = accessibility(std::span(times_).subspan(z * n, n), others, settings_.fade);
+      out_.zones[z].accessibility = accessibility(there, others, settings_.fade);
+      others[z] = zones_[z].arriving;
+      if (zones_[z].wants_reach) drives_[z] = drive;
     }
-    for (const Bush& bush : equilibrium_->bushes()) {
-      const std::size_t from = zone_at_[bush.origin];
+    for (const Bush& bush : equilibrium_.bushes()) {
+      DistrictResult::Zone& zone = out_.zones[made_.zone_at[bush.origin]];
       for (const TripDemand& trip : bush.demands) {
-        out_.zones[from].served += trip.trips;
-        out_.zones[from].mean_time += trip.trips * times_[from * n + zone_at_[trip.destination]];
+        zone.served += trip.trips;
+        out_.zones[made_.zone_at[trip.destination]].ending += trip.trips;
       }
-    }
-    for (DistrictResult::Zone& zone : out_.zones)
+      for (std::size_t s = 0; s < bush.links.size(); ++s) zone.mean_time += bush.flows[s] * times_[bush.links[s]];
       if (zone.served > 0) zone.mean_time /= zone.served;
+    }
   }
 
-  // Walking leads along all streets that are open, both ways, and through the access of the zone to the first junction.
+  // Times to all nodes on the cheapest ways.
+  std::vector<double> drive_from(std::size_t z) const {
+    const std::span<const double> labels = trees_.labels(z);
+    if (!equilibrium_.network().has_other_costs()) return {labels.begin(), labels.end()};
+    return times_along(equilibrium_.network(), made_.zone_nodes[z], labels, trees_.costs(), times_);
+  }
+
   Result<void> read_reach() {
-    if (std::none_of(zones_.begin(), zones_.end(), [](const DistrictZone& zone) { return zone.wants_reach; })) return {};
-    std::vector<TrafficNode> nodes = places();
-    std::vector<TrafficLink> links = access_;
-    for (TrafficLink& link : links) link.length = link.free_time * settings_.walking_speed;
-    for (std::size_t s = 0; s < streets_.size(); ++s) {
-      const DistrictStreet& street = streets_[s];
-      const bool has_ends = junction_at_.contains(street.start) && junction_at_.contains(street.end) && street.start != street.end;
-      if (!street.is_open || !has_ends) continue;
-      const std::string start = junction_node(street.start), end = junction_node(street.end);
-      links.push_back({street.id + ":forth", start, end, 0, 0, 0, 1, out_.streets[s].length, 0, true});
-      links.push_back({street.id + ":back", end, start, 0, 0, 0, 1, out_.streets[s].length, 0, true});
+    for (std::size_t z = 0; z < zones_.size(); ++z) {
+      if (!zones_[z].wants_reach) continue;
+      if (!held_.walks) {
+        auto walks = DistrictWalks::make(made_);
+        if (!walks) return walks.error();
+        held_.walks = std::move(*walks);
+      }
+      std::vector<double>& walking = held_.walking[z];
+      if (walking.empty()) walking = held_.walks->from(made_, z);
+      read_reach_of(z, walking);
     }
-    const auto walks = TrafficNetwork::make(std::move(nodes), std::move(links));
-    if (!walks) return walks.error();
-    const std::vector<double> walking = walking_costs(*walks, settings_.walking_speed);
-    for (std::size_t z = 0; z < zones_.size(); ++z)
-      if (zones_[z].wants_reach) read_reach_of(z, *walks, walking);
     return {};
   }
 
-  void read_reach_of(std::size_t z, const TrafficNetwork& walks, const std::vector<double>& walking) {
-    const std::vector<double> drive = travel_costs(*network_, zone_nodes_[z], equilibrium_->costs());
-    const std::vector<double> walk = travel_costs(walks, walks.node_index(zone_name(zones_[z].id)), walking);
-    for (const DistrictJunction& junction : junctions_) {
-      const std::string name = junction_node(junction.id);
-      const std::uint32_t whole = network_->node_index(name), split = network_->node_index(arrivals_of(name));
-      const double driving = drive[split == kNoTrafficIndex ? whole : split], walking_there = walk[walks.node_index(name)];
-      auto known = [&](double time) { return time == kUnreached ? -1.0 : time; };
-      if (driving != kUnreached || walking_there != kUnreached)
-        out_.zones[z].reach.push_back({junction.id, known(driving), known(walking_there)});
+  void read_reach_of(std::size_t z, const std::vector<double>& walking) {
+    const std::vector<double>& drive = drives_.at(z);
+    for (std::size_t j = 0; j < made_.parts.junctions.size(); ++j) {
+      const double driving = drive[made_.arrivals[j]];
+      auto known = [](double time) { return time == kUnreached ? -1.0 : time; };
+      if (driving != kUnreached || walking[j] != kUnreached)
+        out_.zones[z].reach.push_back({made_.parts.junctions[j].id, known(driving), known(walking[j])});
     }
   }
 
   void remember() {
-    auto zone_of = [&](std::uint32_t node) { return network_->node(node).id.substr(2); };
-    for (const OriginFlow& flow : equilibrium_->origin_flows())
-      out_.state.flows.push_back({zone_of(flow.origin), network_->link(flow.link).id, flow.flow});
-    for (const TripDemand& trip : equilibrium_->demands())
-      out_.state.trips.push_back({zone_of(trip.origin), zone_of(trip.destination), trip.trips});
+    const std::size_t n = zones_.size();
+    out_.state.links = made_.link_ids;
+    for (std::size_t z = 0; z < n; ++z) {
+      const auto row = trips_.begin() + static_cast<std::ptrdiff_t>(z * n);
+      out_.state.zones.push_back({zones_[z].id, {}, {}, {row, row + static_cast<std::ptrdiff_t>(n)}});
+    }
+    for (const Bush& bush : equilibrium_.bushes()) {
+      DistrictState::Zone& zone = out_.state.zones[made_.zone_at[bush.origin]];
+      zone.used.reserve(bush.links.size());
+      zone.flows.reserve(bush.links.size());
+      for (std::size_t s = 0; s < bush.links.size(); ++s) {
+        if (!(bush.flows[s] > 0)) continue;
+        zone.used.push_back(bush.links[s]);
+        zone.flows.push_back(bush.flows[s]);
+      }
+    }
   }
 
-  const std::vector<DistrictJunction>& junctions_;
-  const std::vector<DistrictStreet>& streets_;
-  const std::vector<DistrictRules>& rules_;
   const std::vector<DistrictZone>& zones_;
   const DistrictSettings& settings_;
-  std::map<std::string, std::size_t> junction_at_;
-  std::vector<TrafficLink> access_;  // between zones and junctions, as they were before turns
-  std::unique_ptr<TrafficNetwork> network_;
-  std::unique_ptr<Equilibrium> equilibrium_;
-  std::vector<std::uint32_t> zone_nodes_;
-  std::map<std::uint32_t, std::size_t> zone_at_;  // the other way round
-  std::vector<double> times_;                     // from zone i to zone j at [i · zones + j]
-  bool has_same_trips_ = false;  // as in the last step
+  const DistrictNetwork& made_;
+  DistrictMemo::Held& held_;
+  Equilibrium& equilibrium_;
+  ShortestTrees& trees_;
+  std::vector<std::uint32_t> seen_at_;                                             // by link: the last origin that was on it
+  std::vector<BushFlows> flows_;                                                   // of the last step, ascending node
+  std::deque<std::pair<std::vector<std::uint32_t>, std::vector<double>>> mapped_;  // those of them that had to be translated
+  std::vector<double> last_, trips_;  // from zone i to zone j at [i · zones + j], of the last step and of this one
+  std::vector<double> costs_;         // in the same order
+  std::vector<double> times_;         // by link, at the flows of this step
+  std::map<std::size_t, std::vector<double>> drives_;  // times to all nodes, of zones that list them
+  bool is_recalled_whole_ = true;                      // nothing of the last step was passed over
+  bool has_same_trips_ = false;                        // as in the last step
   DistrictResult out_;
 };
 
+// The network and all that hangs on it; where it is another one, the ways found in the last one are still a good start.
+Result<void> renew(std::unique_ptr<DistrictMemo::Held>& held, Result<DistrictNetwork> made) {
+  if (!made) return made.error();
+  auto fresh = std::make_unique<DistrictMemo::Held>();
+  fresh->network = std::move(*made);
+  fresh->equilibrium = std::make_unique<Equilibrium>(fresh->network.network, std::vector<TripDemand>());
+  if (held && held->network.zone_nodes == fresh->network.zone_nodes) {
+    fresh->trees = std::move(held->trees);
+    fresh->trees->move_to(fresh->equilibrium->network());
+  } else {
+    fresh->trees = std::make_unique<ShortestTrees>(fresh->equilibrium->network(), fresh->network.zone_nodes);
+  }
+  held = std::move(fresh);
+  return {};
+}
+
 }  // namespace
 
-Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones,
-                                     const DistrictSettings& settings, const DistrictState& last) {
-  return District(junctions, streets, rules, zones, settings).step(last);
+Result<DistrictResult> step_district(const DistrictParts& parts, const DistrictState& last, DistrictMemo* memo) {
+  DistrictMemo own;
+  std::unique_ptr<DistrictMemo::Held>& held = (memo != nullptr ? *memo : own).held;
+  if (!held || !held->network.is_made_of(parts))
+    if (auto renewed = renew(held, make_district_network(parts)); !renewed) return renewed.error();
+  return District(parts.zones, parts.settings, *held).step(last);
 }
 
 }  // namespace bl

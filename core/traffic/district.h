@@ -1,6 +1,8 @@
 // One step of a district's traffic: streets, junctions and zones by id in, flows and times out, and what the next step needs.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -57,18 +59,31 @@ struct DistrictSettings {
   bool operator==(const DistrictSettings&) const = default;
 };
 
-/// What the next step starts from. Rows whose zone or link is gone are passed over.
+/// All that a step depends on besides the last one.
+struct DistrictParts {
+  std::vector<DistrictJunction> junctions;
+  std::vector<DistrictStreet> streets;
+  std::vector<DistrictRules> rules;
+  std::vector<DistrictZone> zones;
+  DistrictSettings settings;
+  bool operator==(const DistrictParts&) const = default;
+};
+
+/// What the next step starts from. What speaks of a zone or a link that is gone is passed over.
 struct DistrictState {
-  struct Flow {
-    std::string origin, link;
-    double flow = 0;
+  struct Zone {
+    std::string id;
+    std::vector<std::uint32_t> used;  ///< of `links`: those that its trips are on, each once
+    std::vector<double> flows;        ///< [1/h], as `used`
+    std::vector<double> trips;        ///< [1/h], to each of `zones`
+    bool operator==(const Zone&) const = default;
   };
-  struct Trips {
-    std::string origin, destination;
-    double trips = 0;
-  };
-  std::vector<Flow> flows;
-  std::vector<Trips> trips;
+  std::vector<std::string> links;  ///< ids
+  std::vector<Zone> zones;
+
+  /// Trips from one zone to another [1/h].
+  double trips(const std::string& origin, const std::string& destination) const;
+  bool operator==(const DistrictState&) const = default;
 };
 
 struct DistrictResult {
@@ -85,34 +100,56 @@ struct DistrictResult {
     int streets = 0;
     double flow = 0, load = 0;  ///< what arrives by streets; the largest volume over capacity of its streets
   };
-  /// Times from a zone to a junction [s]; below 0 where there is no way.
+  /// Times from a zone to a junction [s]; below 0 where there is no way. By car along the cheapest way.
   struct Reach {
     std::string junction;
     double driving = -1, walking = -1;
   };
   struct Zone {
     double served = 0, lost = 0;  ///< trips that leave, and that would [1/h]
-    double mean_time = 0;         ///< of the trips that leave [s]
-    double accessibility = 0;     ///< trips that end elsewhere, faded by the time to get there [1/h]
+    double ending = 0;            ///< trips that end here [1/h]
+    double mean_time = 0;         ///< of the trips that leave, on the ways that they use [s]
+    double accessibility = 0;     ///< trips that end elsewhere, faded by the time that the cheapest way there takes [1/h]
     std::string reason;           ///< why trips are lost; empty where none are
     std::vector<Reach> reach;     ///< to junctions that can be reached, as they are given; only where it is wanted
   };
-  std::vector<Street> streets;  ///< as given, and so below
+  /// A zone where other than the wanted number of trips ends, though what ends in zones holds.
+  struct Arrival {
+    std::size_t zone = 0;  ///< as given
+    double missing = 0;    ///< of the wanted ones [1/h]; below 0 where more end there
+    std::string reason;
+  };
+  std::vector<Arrival> arrivals;  ///< ascending zone; empty where what ends in zones follows attraction alone
+  double missing = 0;             ///< of all zones that get too few [1/h]
+  std::vector<Street> streets;    ///< as given, and so below
   std::vector<Rules> rules;
   std::vector<Junction> junctions;
   std::vector<Zone> zones;
-  double gap = 0, restlessness = 0;      ///< the latter: share of the trips that wants to go elsewhere than it does
-  double trips = 0, lost = 0;            ///< [1/h]
-  double total_time = 0, objective = 0;  ///< vehicle seconds in an hour (with tolls and distance as time)
+  double gap = 0, restlessness = 0;  ///< the latter: share of the trips that wants to go elsewhere than it does
+  double trips = 0, lost = 0;        ///< [1/h]
+  double total_time = 0;             ///< vehicle seconds in an hour
+  double objective = 0;              ///< Beckmann's, of costs
   int iterations = 0;
   bool is_at_rest = false;  ///< neither trips nor ways have changed: `state` is the last one, bit for bit
   DistrictState state;
 };
 
-/// Distributes the trips by the times of the last step, puts them on the streets and goes `steps` iterations on, from the last
-/// flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
-Result<DistrictResult> step_district(const std::vector<DistrictJunction>& junctions, const std::vector<DistrictStreet>& streets,
-                                     const std::vector<DistrictRules>& rules, const std::vector<DistrictZone>& zones,
-                                     const DistrictSettings& settings, const DistrictState& last);
+/// What a step has worked out and the next one can use again: the network, and the shortest ways. It saves work and never changes
+/// a bit of what comes out.
+class DistrictMemo {
+ public:
+  DistrictMemo();
+  DistrictMemo(DistrictMemo&&) noexcept;
+  DistrictMemo& operator=(DistrictMemo&&) noexcept;
+  ~DistrictMemo();
+
+  struct Held;
+  std::unique_ptr<Held> held;  ///< nullptr before the first step
+};
+
+/// Ways and destinations are chosen by generalised cost: time, with tolls and distance as time. What is told of them is time
+/// alone. Distributes the trips by the costs of the last step, puts them on the streets and goes `steps` iterations on, from the
+/// last flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
+Result<DistrictResult> step_district(const DistrictParts& parts, const DistrictState& last, DistrictMemo* memo = nullptr);
 
 }  // namespace bl

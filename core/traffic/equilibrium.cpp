@@ -14,6 +14,9 @@ bool comes_before(const TripDemand& a, const TripDemand& b) {
 
 // One entry for each pair, in order. Sums do not depend on the order given: equal pairs are added by ascending trips.
 std::vector<TripDemand> tidied(std::vector<TripDemand> demands) {
+  const auto is_wrong = [](const TripDemand& a, const TripDemand& b) { return !comes_before(a, b) || !(b.trips > 0); };
+  const bool is_tidy = std::adjacent_find(demands.begin(), demands.end(), is_wrong) == demands.end();
+  if (is_tidy && (demands.empty() || demands.front().trips > 0)) return demands;
   std::sort(demands.begin(), demands.end(), [](const TripDemand& a, const TripDemand& b) {
     return comes_before(a, b) || (!comes_before(b, a) && a.trips < b.trips);
   });
@@ -42,23 +45,54 @@ void Equilibrium::plant(std::span<const OriginFlow> start) {
   loads_ = LinkLoads(network_);
   for (const OriginFlow& flow : kept)
     if (network_.is_open(flow.link)) loads_.set(network_, flow.link, loads_.flows[flow.link] + flow.flow);
-  bushes_.clear();
-  lost_.clear();
-  within_ = 0;
   std::vector<double> flows(network_.link_count(), 0);
   auto at = kept.begin();
-  for (auto first = demands_.begin(); first != demands_.end();) {
-    const auto last = std::find_if(first, demands_.end(), [&](const TripDemand& d) { return d.origin != first->origin; });
-    Bush& bush = bushes_.emplace_back();
-    bush.origin = first->origin;
+  plant_all([&](Bush& bush, std::span<const TripDemand> demands) {
     while (at != kept.end() && at->origin < bush.origin) ++at;
     const auto own = at;
     for (; at != kept.end() && at->origin == bush.origin; ++at) flows[at->link] += at->flow;
-    worker_.plant(bush, std::span(first, last), flows, loads_);
-    if (own == at)
+    worker_.plant(bush, demands, flows, loads_);
+    for (auto flow = own; flow != at; ++flow) flows[flow->link] = 0;
+    return own != at;
+  });
+}
+
+void Equilibrium::load(std::span<const BushFlows> flows) {
+  std::vector<double> sums(network_.link_count(), 0);
+  for (const BushFlows& own : flows)
+    for (std::size_t k = 0; k < own.links.size(); ++k)
+      if (network_.is_open(own.links[k])) sums[own.links[k]] += own.flows[k];
+  for (std::uint32_t l = 0; l < sums.size(); ++l) loads_.set(network_, l, sums[l]);
+}
+
+void Equilibrium::begin(std::vector<TripDemand> demands, std::span<const BushFlows> flows, const ShortestTrees& trees) {
+  demands_ = tidied(std::move(demands));
+  iterations_ = 0;
+  const std::vector<double> nothing(network_.link_count(), 0);
+  auto at = flows.begin();
+  plant_all([&](Bush& bush, std::span<const TripDemand> own) {
+    while (at != flows.end() && at->origin < bush.origin) ++at;
+    const bool is_warm = at != flows.end() && at->origin == bush.origin && !at->links.empty();
+    if (is_warm) worker_.replant(bush, own, *at, trees.labels_of(bush.origin), trees.costs(), loads_);
+    else worker_.plant(bush, own, nothing, loads_);
+    return is_warm;
+  });
+}
+
+// `plant_one` makes the bush of one origin with its demands, and says whether its flows are among the loads already.
+template <class PlantOne>
+void Equilibrium::plant_all(PlantOne&& plant_one) {
+  lost_.clear();
+  within_ = 0;
+  std::size_t count = 0;
+  for (auto first = demands_.begin(); first != demands_.end();) {
+    const auto last = std::find_if(first, demands_.end(), [&](const TripDemand& d) { return d.origin != first->origin; });
+    if (count == bushes_.size()) bushes_.emplace_back();
+    Bush& bush = bushes_[count++];  // of whichever origin it was: its memory is used again
+    bush.origin = first->origin;
+    if (!plant_one(bush, std::span<const TripDemand>(first, last)))
       for (std::size_t s = 0; s < bush.links.size(); ++s)
         if (bush.flows[s] > 0) loads_.set(network_, bush.links[s], loads_.flows[bush.links[s]] + bush.flows[s]);
-    for (auto flow = own; flow != at; ++flow) flows[flow->link] = 0;
     auto served = bush.demands.begin();
     for (; first != last; ++first) {
       if (served != bush.demands.end() && served->destination == first->destination) ++served;
@@ -66,6 +100,7 @@ void Equilibrium::plant(std::span<const OriginFlow> start) {
       else lost_.push_back({first->origin, first->destination, first->trips, "no open way leads there"});
     }
   }
+  bushes_.resize(count);
   add_up();
 }
 
@@ -77,7 +112,7 @@ void Equilibrium::add_up() {
   for (std::uint32_t l = 0; l < flows.size(); ++l) loads_.set(network_, l, flows[l]);
 }
 
-void Equilibrium::iterate(int sweeps) {
+void Equilibrium::iterate(int sweeps, double enough) {
   for (Bush& bush : bushes_) {
     worker_.improve(bush, loads_);
     worker_.shift(bush, loads_);
@@ -85,7 +120,7 @@ void Equilibrium::iterate(int sweeps) {
   for (int sweep = 1; sweep < sweeps; ++sweep) {
     double largest = 0;
     for (Bush& bush : bushes_) largest = std::max(largest, worker_.shift(bush, loads_));
-    if (largest == 0) break;
+    if (largest <= enough) break;
   }
   add_up();
   ++iterations_;
@@ -124,14 +159,24 @@ void Equilibrium::set_demands(std::vector<TripDemand> demands) {
 }
 
 EquilibriumFigures Equilibrium::figures() {
+  double excess = 0;
+  for (const Bush& bush : bushes_) excess += worker_.excess(bush, loads_);
+  return totals(excess);
+}
+
+EquilibriumFigures Equilibrium::figures(ShortestTrees& trees) {
+  trees.update(loads_.costs);
+  double excess = 0;
+  for (const Bush& bush : bushes_) excess += worker_.excess(bush, loads_, trees.labels_of(bush.origin));
+  return totals(excess);
+}
+
+EquilibriumFigures Equilibrium::totals(double excess) const {
   EquilibriumFigures figures;
   figures.iterations = iterations_;
   figures.within = within_;
-  double excess = 0;
-  for (const Bush& bush : bushes_) {
-    excess += worker_.excess(bush, loads_);
+  for (const Bush& bush : bushes_)
     for (const TripDemand& demand : bush.demands) figures.trips += demand.trips;
-  }
   for (const LostTrips& lost : lost_) figures.lost += lost.trips;
   for (std::uint32_t l = 0; l < network_.link_count(); ++l) {
     if (!(loads_.flows[l] > 0)) continue;

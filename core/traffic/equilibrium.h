@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/traffic/bush.h"
+#include "core/traffic/shortest_trees.h"
 
 namespace bl {
 
@@ -45,8 +46,9 @@ class Equilibrium {
   Equilibrium(const Equilibrium&) = delete;  // the bushes work on this very network
   Equilibrium& operator=(const Equilibrium&) = delete;
 
-  /// One iteration: bushes are improved, then flow is shifted until `sweeps` are done.
-  void iterate(int sweeps = 8);
+  /// One iteration: bushes are improved, then flow is shifted until `sweeps` are done, or until used ways differ nowhere by more
+  /// than the share `enough`: who wants no smaller gap need not sweep for it.
+  void iterate(int sweeps = 8, double enough = 0);
   /// Iterates until the gap is reached; false where `most_iterations` did not suffice.
   bool run(double gap, int most_iterations, int sweeps = 8);
 
@@ -57,9 +59,18 @@ class Equilibrium {
   void set_open(std::uint32_t link, bool is_open);
   void set_demands(std::vector<TripDemand> demands);
 
+  /// For whoever goes on from flows that were kept and knows the shortest ways of all origins: in two steps, because the demands
+  /// may follow from the costs in between. load() puts the flows on the streets and begin() plants the bushes around them, with
+  /// the ways of `trees`, which have to be those at the costs after load(). `flows` in ascending origin. What comes of it depends
+  /// on nothing that was here before.
+  void load(std::span<const BushFlows> flows);
+  void begin(std::vector<TripDemand> demands, std::span<const BushFlows> flows, const ShortestTrees& trees);
+
   const TrafficNetwork& network() const { return network_; }
   /// Measures gap and totals of the state as it is.
   EquilibriumFigures figures();
+  /// The same figures with the ways of `trees`, which are brought to the costs as they are.
+  EquilibriumFigures figures(ShortestTrees& trees);
   const std::vector<double>& flows() const { return loads_.flows; }
   const std::vector<double>& costs() const { return loads_.costs; }
   const std::vector<LostTrips>& lost() const { return lost_; }
@@ -72,7 +83,10 @@ class Equilibrium {
 
  private:
   void plant(std::span<const OriginFlow> start);
+  template <class PlantOne>
+  void plant_all(PlantOne&& plant_one);
   void add_up();
+  EquilibriumFigures totals(double excess) const;
 
   TrafficNetwork network_;
   std::vector<TripDemand> demands_;  ///< ascending origin and destination

@@ -25,9 +25,21 @@ std::uint32_t index_of(const std::vector<Item>& items, std::string_view id) {
   return it != items.end() && it->id == id ? static_cast<std::uint32_t>(it - items.begin()) : kNoTrafficIndex;
 }
 
+// Links by the node at one of their ends, ascending.
+void order_by_end(const std::vector<std::uint32_t>& ends, std::size_t nodes, std::vector<std::uint32_t>& begin,
+                  std::vector<std::uint32_t>& links) {
+  begin.assign(nodes + 1, 0);
+  for (const std::uint32_t node : ends) ++begin[node + 1];
+  for (std::size_t n = 1; n < begin.size(); ++n) begin[n] += begin[n - 1];
+  links.resize(ends.size());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for (std::uint32_t l = 0; l < ends.size(); ++l) links[next[ends[l]]++] = l;
+}
+
 // Beyond this factor a delay goes on along its tangent.
 constexpr double kSteepest = 1e9;
-// Where the slope of a root is taken for less: at no flow it rises upright, and no step would ever lead away from there [capacity].
+// Where the slope of a root is taken for less: at no flow it rises upright, and no step would ever lead away from there
+// [capacity].
 constexpr double kRootFoot = 1e-6;
 
 bool is_amount(double number) { return std::isfinite(number) && number >= 0; }
@@ -78,8 +90,6 @@ Result<TrafficNetwork> TrafficNetwork::make(std::vector<TrafficNode> nodes, std:
   network.nodes_ = std::move(nodes);
   network.links_ = std::move(links);
   for (const TrafficNode& node : network.nodes_) network.is_through_.push_back(node.is_through);
-  std::vector<std::uint32_t>& begin = network.out_begin_;
-  begin.assign(network.nodes_.size() + 1, 0);
   for (const TrafficLink& link : network.links_) {
     if (auto good = check_link(link); !good) return good.error();
     const std::uint32_t from = network.node_index(link.from), to = network.node_index(link.to);
@@ -95,12 +105,10 @@ Result<TrafficNetwork> TrafficNetwork::make(std::vector<TrafficNode> nodes, std:
     network.to_.push_back(to);
     network.is_open_.push_back(link.is_open);
     network.fixed_.push_back(fixed);
-    ++begin[from + 1];
+    network.delays_.push_back(delay_of(link));
   }
-  for (std::size_t n = 1; n < begin.size(); ++n) begin[n] += begin[n - 1];
-  network.out_.resize(network.links_.size());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (std::uint32_t l = 0; l < network.links_.size(); ++l) network.out_[next[network.from_[l]]++] = l;
+  order_by_end(network.from_, network.nodes_.size(), network.out_begin_, network.out_);
+  order_by_end(network.to_, network.nodes_.size(), network.in_begin_, network.in_);
   return network;
 }
 
@@ -112,6 +120,7 @@ Result<void> TrafficNetwork::set_capacity(std::uint32_t link, double capacity) {
   changed.capacity = capacity;
   if (auto good = check_link(changed); !good) return good;
   links_[link] = std::move(changed);
+  delays_[link] = delay_of(links_[link]);
   return {};
 }
 
@@ -120,27 +129,34 @@ Result<void> TrafficNetwork::set_free_time(std::uint32_t link, double free_time)
   changed.free_time = free_time;
   if (auto good = check_link(changed); !good) return good;
   links_[link] = std::move(changed);
+  delays_[link] = delay_of(links_[link]);
   return {};
+}
+
+bool TrafficNetwork::has_other_costs() const {
+  return std::any_of(fixed_.begin(), fixed_.end(), [](double cost) { return cost != 0; });
 }
 
 // Nothing is added where the time does not depend on the flow; there capacities may be 0.
 double TrafficNetwork::time(std::uint32_t index, double flow) const {
-  const TrafficLink& link = links_[index];
-  const double scale = link.free_time * link.alpha;
-  return link.free_time + link.wait + (scale > 0 ? scale * rise_of(flow / link.capacity, link.power).value : 0);
+  const Delay& delay = delays_[index];
+  return delay.least + (delay.scale > 0 ? delay.scale * rise_of(flow / delay.capacity, delay.power).value : 0);
 }
 
-double TrafficNetwork::slope(std::uint32_t index, double flow) const {
-  const TrafficLink& link = links_[index];
-  const double scale = link.free_time * link.alpha;
-  return scale > 0 && link.power > 0 ? scale * rise_of(flow / link.capacity, link.power).slope / link.capacity : 0;
+double TrafficNetwork::slope(std::uint32_t index, double flow) const { return cost_and_slope(index, flow).slope; }
+
+TrafficNetwork::CostAndSlope TrafficNetwork::cost_and_slope(std::uint32_t index, double flow) const {
+  const Delay& delay = delays_[index];
+  if (!(delay.scale > 0)) return {delay.least + fixed_[index], 0};
+  const Rise rise = rise_of(flow / delay.capacity, delay.power);
+  return {delay.least + delay.scale * rise.value + fixed_[index],
+          delay.power > 0 ? delay.scale * rise.slope / delay.capacity : 0};
 }
 
 double TrafficNetwork::integral(std::uint32_t index, double flow) const {
-  const TrafficLink& link = links_[index];
-  const double scale = link.free_time * link.alpha;
-  return (link.free_time + link.wait + fixed_[index]) * flow +
-         (scale > 0 ? scale * link.capacity * rise_of(flow / link.capacity, link.power).area : 0);
+  const Delay& delay = delays_[index];
+  return (delay.least + fixed_[index]) * flow +
+         (delay.scale > 0 ? delay.scale * delay.capacity * rise_of(flow / delay.capacity, delay.power).area : 0);
 }
 
 }  // namespace bl

@@ -62,6 +62,17 @@ class TrafficNetwork {
     return std::span(out_).subspan(out_begin_[node], out_begin_[node + 1] - out_begin_[node]);
   }
 
+  /// Links that lead to a node, ascending.
+  std::span<const std::uint32_t> in_links(std::uint32_t node) const {
+    return std::span(in_).subspan(in_begin_[node], in_begin_[node + 1] - in_begin_[node]);
+  }
+  /// The same nodes and links, whatever passing costs: what was a way there is one here.
+  bool has_structure_of(const TrafficNetwork& other) const {
+    return from_ == other.from_ && to_ == other.to_ && is_open_ == other.is_open_ && is_through_ == other.is_through_;
+  }
+  /// Does some link cost anything besides time?
+  bool has_other_costs() const;
+
   /// Edits; they keep all indices. A capacity must be above 0: a street without any is closed.
   Result<void> set_capacity(std::uint32_t link, double capacity);
   Result<void> set_free_time(std::uint32_t link, double free_time);
@@ -74,13 +85,29 @@ class TrafficNetwork {
   double time(std::uint32_t link, double flow) const;
   /// How fast the cost grows with the flow.
   double slope(std::uint32_t link, double flow) const;
+  /// Both at once, for those who need both.
+  struct CostAndSlope {
+    double cost = 0, slope = 0;
+  };
+  CostAndSlope cost_and_slope(std::uint32_t link, double flow) const;
   /// The area under the cost from no flow to this one: the link's part of Beckmann's objective.
   double integral(std::uint32_t link, double flow) const;
 
  private:
+  // What the delay formula needs of a link, without its texts: costs are asked for more often than anything else.
+  struct Delay {
+    double least = 0;  // time and wait at no flow
+    double scale = 0;  // how much the formula adds at capacity
+    double capacity = 0, power = 0;
+  };
+  static Delay delay_of(const TrafficLink& link) {
+    return {link.free_time + link.wait, link.free_time * link.alpha, link.capacity, link.power};
+  }
+
   std::vector<TrafficNode> nodes_;
   std::vector<TrafficLink> links_;
-  std::vector<std::uint32_t> from_, to_, out_, out_begin_;
+  std::vector<Delay> delays_;
+  std::vector<std::uint32_t> from_, to_, out_, out_begin_, in_, in_begin_;
   std::vector<std::uint8_t> is_open_, is_through_;
   std::vector<double> fixed_;  // toll and distance parts of the cost
 };

@@ -20,6 +20,27 @@ std::vector<double> travel_costs(const TrafficNetwork& network, std::uint32_t fr
   return {paths.labels().begin(), paths.labels().end()};
 }
 
+// A search by time among the links of cheapest ways alone.
+std::vector<double> times_along(const TrafficNetwork& network, std::uint32_t from, std::span<const double> labels,
+                                std::span<const double> costs, std::span<const double> times) {
+  std::vector<double> along(network.node_count(), kUnreached);
+  NodeHeap heap(network.node_count());
+  along[from] = 0;
+  heap.push(from, along);
+  while (!heap.is_empty()) {
+    const std::uint32_t i = heap.pop(along);
+    if (i != from && !network.is_through(i)) continue;
+    for (const std::uint32_t l : network.out_links(i)) {
+      const std::uint32_t j = network.to(l);
+      const bool is_cheapest = network.is_open(l) && labels[i] + costs[l] == labels[j];
+      if (!is_cheapest || !(along[i] + times[l] < along[j])) continue;
+      along[j] = along[i] + times[l];
+      heap.push(j, along);
+    }
+  }
+  return along;
+}
+
 std::vector<ReachedLink> reached_links(const TrafficNetwork& network, std::uint32_t from, std::span<const double> at_nodes,
                                        std::span<const double> costs, double limit) {
   std::vector<ReachedLink> reached;

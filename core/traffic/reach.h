@@ -15,6 +15,11 @@ std::vector<double> walking_costs(const TrafficNetwork& network, double speed);
 /// Least costs from a node to all nodes; kUnreached where no open way leads.
 std::vector<double> travel_costs(const TrafficNetwork& network, std::uint32_t from, std::span<const double> costs);
 
+/// How long the cheapest ways from a node take, where `costs` hold more than time: `labels` are the least costs from it, as of
+/// travel_costs(). Of several ways that cost the same the quickest counts.
+std::vector<double> times_along(const TrafficNetwork& network, std::uint32_t from, std::span<const double> labels,
+                                std::span<const double> costs, std::span<const double> times);
+
 /// The first part of a link that is reached within a limit: the share of its length from where it begins.
 struct ReachedLink {
   std::uint32_t link = 0;

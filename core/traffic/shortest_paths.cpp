@@ -63,36 +63,47 @@ void NodeHeap::sink(std::size_t at, std::span<const double> labels) {
 
 ShortestPaths::ShortestPaths(const TrafficNetwork& network) : network_(&network), heap_(network.node_count()) {}
 
+template <class Push>
+void ShortestPaths::relax(std::uint32_t node, std::span<const double> costs, std::span<double> labels,
+                          std::span<std::uint32_t> last_links, Push&& push) {
+  for (const std::uint32_t l : network_->out_links(node)) {
+    const std::uint32_t j = network_->to(l);
+    const double way = labels[node] + costs[l];
+    if (!(way < labels[j]) || !network_->is_open(l)) continue;
+    labels[j] = way;
+    if (!last_links.empty()) last_links[j] = l;
+    push(j);
+  }
+}
+
 void ShortestPaths::run(std::uint32_t origin, std::span<const double> costs) {
   labels_.assign(network_->node_count(), kUnreached);
   last_links_.assign(network_->node_count(), kNoTrafficIndex);
   labels_[origin] = 0;
   heap_.push(origin, labels_);
-  spread(origin, costs, labels_, last_links_.data());
-}
-
-void ShortestPaths::mend(std::uint32_t origin, std::span<const double> costs, std::vector<double>& labels) {
-  for (std::uint32_t l = 0; l < network_->link_count(); ++l) {
-    const std::uint32_t i = network_->from(l), j = network_->to(l);
-    if (!network_->is_open(l) || (i != origin && !network_->is_through(i)) || !(labels[i] + costs[l] < labels[j])) continue;
-    labels[j] = labels[i] + costs[l];
-    heap_.push(j, labels);
-  }
-  spread(origin, costs, labels, nullptr);
-}
-
-void ShortestPaths::spread(std::uint32_t origin, std::span<const double> costs, std::vector<double>& labels,
-                           std::uint32_t* last_links) {
   while (!heap_.is_empty()) {
-    const std::uint32_t i = heap_.pop(labels);
-    if (i != origin && !network_->is_through(i)) continue;
-    for (const std::uint32_t l : network_->out_links(i)) {
-      const std::uint32_t j = network_->to(l);
-      if (!network_->is_open(l) || !(labels[i] + costs[l] < labels[j])) continue;
-      labels[j] = labels[i] + costs[l];
-      if (last_links != nullptr) last_links[j] = l;
-      heap_.push(j, labels);
-    }
+    const std::uint32_t i = heap_.pop(labels_);
+    if (i == origin || network_->is_through(i))
+      relax(i, costs, labels_, last_links_, [&](std::uint32_t j) { heap_.push(j, labels_); });
+  }
+}
+
+// Few labels fall, and by little, so that a queue does it; the labels are the same in whatever order they fall.
+void ShortestPaths::mend(std::uint32_t origin, std::span<const double> costs, std::span<double> labels,
+                         std::span<std::uint32_t> last_links) {
+  is_waiting_.resize(labels.size(), 0);
+  queue_.clear();
+  const auto push = [&](std::uint32_t node) {
+    if (is_waiting_[node]) return;
+    is_waiting_[node] = 1;
+    queue_.push_back(node);
+  };
+  for (std::uint32_t i = 0; i < labels.size(); ++i)
+    if (labels[i] != kUnreached && (i == origin || network_->is_through(i))) relax(i, costs, labels, last_links, push);
+  for (std::size_t at = 0; at < queue_.size(); ++at) {
+    const std::uint32_t i = queue_[at];
+    is_waiting_[i] = 0;
+    if (i == origin || network_->is_through(i)) relax(i, costs, labels, last_links, push);
   }
 }
 

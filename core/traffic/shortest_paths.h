@@ -37,19 +37,26 @@ class ShortestPaths {
   /// Labels of all nodes from `origin`; links that are closed, and nodes that let nothing through, are minded.
   void run(std::uint32_t origin, std::span<const double> costs);
   /// The same result from labels that are lengths of real paths already (or kUnreached): only what is too long is mended.
-  void mend(std::uint32_t origin, std::span<const double> costs, std::vector<double>& labels);
+  /// `last_links`: of those paths, one for each node, and mended as well; nothing where nobody needs them. Labels are the very
+  /// same numbers as those of run(), because rounding never makes a longer way the shorter one; among equals the links may
+  /// differ.
+  void mend(std::uint32_t origin, std::span<const double> costs, std::span<double> labels,
+            std::span<std::uint32_t> last_links = {});
 
   std::span<const double> labels() const { return labels_; }
   /// The last link of the path to a node; kNoTrafficIndex at the origin and where nothing leads. Only after run().
   std::span<const std::uint32_t> last_links() const { return last_links_; }
 
  private:
-  void spread(std::uint32_t origin, std::span<const double> costs, std::vector<double>& labels, std::uint32_t* last_links);
+  template <class Push>
+  void relax(std::uint32_t node, std::span<const double> costs, std::span<double> labels, std::span<std::uint32_t> last_links,
+             Push&& push);
 
   const TrafficNetwork* network_;
   NodeHeap heap_;
   std::vector<double> labels_;
-  std::vector<std::uint32_t> last_links_;
+  std::vector<std::uint32_t> last_links_, queue_;
+  std::vector<std::uint8_t> is_waiting_;
 };
 
 }  // namespace bl

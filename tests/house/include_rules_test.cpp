@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Files that may be longer than line_limit(), each with its reason. A row that is no longer needed fails, too.
-const std::map<std::string, std::string> long_files = {};
+const std::map<std::string, std::string> long_files = {
+    {"nodes/traffic_network.cpp", "one declaration of four sets, of what they get back and of a memory; the algorithm is in core/traffic"}};
 
 struct SourceFile {
   std::string path, text;

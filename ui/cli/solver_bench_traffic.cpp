@@ -12,6 +12,7 @@
 #include "core/file/file_io.h"
 #include "core/traffic/equilibrium.h"
 #include "ui/cli/bench_frank_wolfe.h"
+#include "ui/cli/solver_bench_district.h"
 #include "ui/cli/solver_bench_rows.h"
 
 namespace bl::cli {
@@ -291,7 +292,9 @@ BenchTables bench_traffic(const SolverBench& bench) {
     goes_on = goes_on && measure_warm(bench, town, 1e-4, equilibria) && measure_paths(bench, town, ways);
   }
   if (!goes_on) return Error{ErrorCode::cancelled, "", "stopped"};
-  return std::vector<BenchTable>{equilibria, ways};
+  auto districts = bench_districts(bench);
+  if (!districts) return districts.error();
+  return std::vector<BenchTable>{equilibria, ways, *districts};
 }
 
 }  // namespace bl::cli

@@ -19,7 +19,7 @@ struct Town {
   DistrictState state;
 
   DistrictResult step() {
-    auto result = step_district(junctions, streets, rules, zones, settings, state);
+    auto result = step_district({junctions, streets, rules, zones, settings}, state);
     EXPECT_TRUE(result.ok()) << result.error().text();
     state = result->state;
     return *result;
@@ -57,6 +57,28 @@ TEST(District, DelaysAtJunctionsAndTollsCount) {
   EXPECT_NEAR(town.step().streets[0].flow_forth, 1, 1e-9);
 }
 
+TEST(District, TollsDecideTheWayAndAreNoTime) {
+  Town town;
+  town.zones[1].leaving = 1;
+  town.zones[1].wants_reach = true;
+  town.streets[0].toll = 2;
+  town.settings.toll_factor = 3;  // 30 s and 6 s of toll against 40 s
+  DistrictResult result = town.step();
+  EXPECT_NEAR(result.streets[0].flow_forth, 1, 1e-9);
+  EXPECT_NEAR(result.zones[1].mean_time, 130, 1e-6);
+  EXPECT_NEAR(result.zones[1].reach[0].driving, 130, 1e-6);
+  EXPECT_NEAR(result.zones[1].accessibility, 100 * std::exp(-130.0 / 600), 1e-6);
+  EXPECT_NEAR(result.total_time, 130, 1e-6);
+  town.settings.toll_factor = 10;  // 20 s: the way round it is cheaper, and takes longer
+  result = town.step();
+  result = town.step();
+  EXPECT_NEAR(result.streets[1].flow_forth, 1, 1e-9);
+  EXPECT_NEAR(result.zones[1].mean_time, 140, 1e-6);
+  EXPECT_NEAR(result.zones[1].reach[0].driving, 140, 1e-6);
+  town.settings.toll_factor = 5;  // both cost the same: the quicker one is told
+  EXPECT_NEAR(town.step().zones[1].reach[0].driving, 130, 1e-6);
+}
+
 TEST(District, TheTimeAtAJunctionDoesNotGrowWithTheStreetsTraffic) {
   Town town;
   town.streets.pop_back();
@@ -92,7 +114,7 @@ TEST(District, TripsToWhereNobodyCanGoEndElsewhereAtOnce) {
   EXPECT_EQ(result.lost, 0);
   EXPECT_EQ(result.zones[1].reason, "");
   EXPECT_NEAR(result.zones[1].served, 2500, 1e-9);
-  for (const auto& trip : result.state.trips) EXPECT_NE(trip.destination, "north");
+  EXPECT_EQ(result.state.trips("home", "north"), 0);
 }
 
 TEST(District, RestIsExactAndEndsWithAnyChange) {
@@ -205,16 +227,70 @@ TEST(District, SmallStepsLeadWhereALongRunLeads) {
 
 TEST(District, AStateOfAnotherDistrictDoesNoHarm) {
   Town town;
-  town.state.flows = {
-      {"home", "gone:forth", 5}, {"nobody", "high:forth", 7}, {"home", "high:back", 1e6}, {"home", "high:forth", -3}};
-  town.state.trips = {{"home", "gone", 5}, {"home", "east", -1}, {"home", "home", 4}};
+  town.state.links = {"gone:forth", "high:forth", "low:back", "low:forth"};
+  town.state.zones = {{"gone", {1}, {5}, {1, 2, 3}},
+                      {"east", {}, {}, {}},
+                      {"home", {0, 1, 1, 99, 2, 3}, {7, 100, 3, 5, -3, 0}, {5, -1, 4}}};
   for (int i = 0; i < 30; ++i) town.step();
   Town fresh;
   EXPECT_NEAR(town.step().streets[0].flow_forth, fresh.step().streets[0].flow_forth, 1e-3);
 }
 
+// Three zones along one street; what ends in them holds.
+Town doubly() {
+  Town town;
+  town.settings.constraint = TripConstraint::both;
+  town.junctions.push_back({"north", {0, 300, 0}, 0});
+  town.streets.push_back({"up", "west", "north", 0, 10, 1000, 0, false, true, true});
+  town.zones = {{"east", {300, 0, 0}, 0, 100, {}}, {"home", {0, 134, 0}, 120, 0, {"west"}}, {"north", {0, 300, 0}, 0, 20, {}}};
+  return town;
+}
+
+TEST(District, SumsThatAgreeMissNothing) {
+  Town town = doubly();
+  DistrictResult result = town.step();
+  EXPECT_TRUE(result.arrivals.empty());
+  EXPECT_EQ(result.missing, 0);
+  EXPECT_NEAR(result.zones[0].ending, 100, 1e-6);
+  EXPECT_NEAR(result.zones[2].ending, 20, 1e-6);
+}
+
+TEST(District, SumsThatDoNotAgreeAreToldZoneByZone) {
+  Town town = doubly();
+  town.zones[1].leaving = 60;
+  DistrictResult result = town.step();
+  ASSERT_EQ(result.arrivals.size(), 2u);
+  EXPECT_NEAR(result.arrivals[0].missing, 50, 1e-6);
+  EXPECT_NEAR(result.arrivals[1].missing, 10, 1e-6);
+  EXPECT_NEAR(result.missing, 60, 1e-6);
+  EXPECT_NE(result.arrivals[0].reason.find("fewer trips leave"), std::string::npos);
+  town.zones[1].leaving = 240;
+  result = town.step();
+  ASSERT_EQ(result.arrivals.size(), 2u);
+  EXPECT_NEAR(result.arrivals[0].missing, -100, 1e-6);
+  EXPECT_EQ(result.missing, 0);
+  EXPECT_NE(result.arrivals[1].reason.find("more trips leave"), std::string::npos);
+}
+
+TEST(District, DestinationsOutOfReachAreToldAndSoIsWhoGetsTheirTrips) {
+  Town town = doubly();
+  town.streets[2].is_open = false;
+  const DistrictResult result = town.step();
+  ASSERT_EQ(result.arrivals.size(), 2u);
+  EXPECT_EQ(result.arrivals[0].zone, 0u);
+  EXPECT_NEAR(result.arrivals[0].missing, -20, 1e-6);
+  EXPECT_NE(result.arrivals[0].reason.find("cannot get to other zones"), std::string::npos);
+  EXPECT_EQ(result.arrivals[1].zone, 2u);
+  EXPECT_NEAR(result.arrivals[1].missing, 20, 1e-6);
+  EXPECT_NEAR(result.missing, 20, 1e-6);
+  EXPECT_NE(result.arrivals[1].reason.find("no trips can get here"), std::string::npos);
+  double ending = 0;
+  for (const auto& zone : result.zones) ending += zone.ending;
+  EXPECT_NEAR(ending + result.lost, 120, 1e-6) << "nobody is lost without a word";
+}
+
 TEST(District, NothingAtAllIsNoError) {
-  const auto empty = step_district({}, {}, {}, {}, {}, {});
+  const auto empty = step_district({}, {});
   ASSERT_TRUE(empty.ok());
   EXPECT_EQ(empty->trips, 0);
   EXPECT_EQ(empty->gap, 0);
@@ -236,7 +312,7 @@ TEST(District, ImpossibleNumbersHaveTheirPlace) {
   Town town;
   town.streets[0].toll = -1000;
   town.settings.toll_factor = 1;
-  const auto result = step_district(town.junctions, town.streets, town.rules, town.zones, town.settings, town.state);
+  const auto result = step_district({town.junctions, town.streets, town.rules, town.zones, town.settings}, town.state);
   ASSERT_FALSE(result.ok());
   EXPECT_EQ(result.error().place, "high:back");
 }
@@ -349,7 +425,8 @@ TEST(District, ASettledDistrictWithRulesStaysAsItIs) {
   EXPECT_GT(one.streets[0].flow_back, 100) << "others turn round";
   EXPECT_NEAR(one.streets[3].flow_forth + one.streets[0].flow_back, 1800, 1e-9);
   for (std::size_t s = 0; s < one.streets.size(); ++s) EXPECT_NEAR(one.streets[s].flow_forth, two.streets[s].flow_forth, 1e-9);
-  for (const auto& row : town.state.flows) EXPECT_GT(row.flow, 0);
+  for (const DistrictState::Zone& zone : town.state.zones)
+    for (const double flow : zone.flows) EXPECT_GT(flow, 0);
 }
 
 }  // namespace

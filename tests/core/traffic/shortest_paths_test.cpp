@@ -4,6 +4,7 @@
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 
+#include "core/traffic/shortest_trees.h"
 #include "tests/core/traffic/traffic_case.h"
 
 namespace bl {
@@ -87,6 +88,27 @@ TEST(ShortestPaths, NothingPassesAZoneThatLetsNothingThrough) {
   paths.run(network.node_index("z"), costs);
   EXPECT_EQ(paths.labels()[network.node_index("b")], 1);
   EXPECT_EQ(paths.labels()[network.node_index("a")], kUnreached);
+}
+
+TEST(ShortestTrees, TheyAreThoseOfASearchWhateverCameBefore) {
+  const TrafficNetwork network = traffic_test::random_grid(5, 7, 0).network();
+  Random random(5);
+  std::vector<std::uint32_t> origins{0, 9, 30};
+  ShortestTrees trees(network, origins);
+  std::vector<double> costs;
+  for (std::uint32_t l = 0; l < network.link_count(); ++l) costs.push_back(network.cost(l, 0));
+  for (int round = 0; round < 50; ++round) {
+    trees.update(costs);
+    for (std::size_t k = 0; k < origins.size(); ++k) {
+      ShortestPaths paths(network);
+      paths.run(origins[k], costs);
+      EXPECT_TRUE(std::equal(paths.labels().begin(), paths.labels().end(), trees.labels(k).begin())) << round;
+      EXPECT_EQ(trees.labels_of(origins[k]).data(), trees.labels(k).data());
+    }
+    // Whole numbers now and then, so that many ways are equally long; and streets without any length.
+    for (double& cost : costs) cost = round % 3 == 0 ? static_cast<double>(random.below(4)) : cost * random.uniform(0.8, 1.2);
+  }
+  EXPECT_TRUE(trees.labels_of(1).empty());
 }
 
 }  // namespace

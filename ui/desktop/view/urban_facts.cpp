@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/sun/solar_position.h"
+#include "core/traffic/packed_numbers.h"
 #include "ui/cli/report/report_model.h"
 #include "ui/desktop/view/scene_facts.h"
 
@@ -60,12 +61,22 @@ void read_street(const State& state, std::uint32_t node, UrbanFacts& urban) {
 
 // The flows of a network are kept by origin: "street:forth" or "street:back" of each zone's trips.
 void read_routes(const State& state, std::uint32_t node, UrbanFacts& urban) {
-  const Table* flows = report::table_at(state, node, "traffic_network", "flows");
-  for (std::size_t row = 0; flows != nullptr && row < flows->rows.size(); ++row) {
-    const std::string& link = flows->text(row, "link");
-    const std::string street = link.substr(0, link.rfind(':'));
-    const std::uint32_t from = state.plan->node_index(flows->text(row, "origin")), by = state.plan->node_index(street);
-    if (from < state.plan->nodes.size() && by < state.plan->nodes.size()) urban.routes[from][by] += flows->number(row, "flow");
+  const Table *links = report::table_at(state, node, "traffic_network", "links"),
+              *ways = report::table_at(state, node, "traffic_network", "ways");
+  if (links == nullptr || ways == nullptr) return;
+  std::vector<std::uint32_t> street_of;  // by link; the number of nodes where it is no street
+  for (std::size_t l = 0; l < links->rows.size(); ++l) {
+    const std::string& link = links->text(l, "link");
+    street_of.push_back(state.plan->node_index(link.substr(0, link.rfind(':'))));
+  }
+  for (std::size_t row = 0; row < ways->rows.size(); ++row) {
+    const std::uint32_t from = state.plan->node_index(ways->text(row, "zone"));
+    const auto used = unpacked_indices(ways->text(row, "links"));
+    const auto flows = unpacked_numbers(ways->text(row, "flows"));
+    if (from == state.plan->nodes.size() || !used || !flows) continue;
+    for (std::size_t k = 0; k < std::min(used->size(), flows->size()); ++k)
+      if ((*used)[k] < street_of.size() && street_of[(*used)[k]] < state.plan->nodes.size())
+        urban.routes[from][street_of[(*used)[k]]] += (*flows)[k];
   }
 }
 
