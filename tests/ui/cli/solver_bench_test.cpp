@@ -57,6 +57,7 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
                                                {"rays", 2},
                                                {"traffic", 3},
                                                {"ways", 1},
+                                               {"districts", 2},
                                                {"study", 3}}));
   EXPECT_EQ(hashes.size(), 8u);
   for (const auto& [work, found] : hashes) EXPECT_EQ(found.size(), 1u) << work;
