@@ -1,6 +1,8 @@
 // Keeps nodes at a height above the ground.
 #include <cmath>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "core/base/text.h"
 #include "core/define/link_builder.h"
@@ -44,13 +46,30 @@ struct TerrainFollow {
     l.proposes(&Out::move, End::to, "node.position", Unit::metre);
   }
 
-  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
-    HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
+  // The grid is kept for the other nodes that the link looks at in the same tick; another terrain is another table.
+  struct Kept {
+    std::optional<Shared<Table>> table;
+    std::vector<std::string_view> rows;  // of that table
+  };
+
+  static void find_rows(const Ends& ends, Kept& kept) {
+    if (kept.table && &**kept.table == &*ends.rows) return;
+    kept.table = ends.rows;
+    kept.rows.clear();
     const std::size_t column = ends.rows->column("heights");
     for (const auto& row : ends.rows->rows)
       if (const std::string* text = column < row.size() ? std::get_if<std::string>(&row[column]) : nullptr)
-        grid.rows.push_back(*text);
+        kept.rows.push_back(*text);
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
+    Kept own;
+    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
+    HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
+    find_rows(ends, kept);
+    grid.rows.swap(kept.rows);  // lent for the question
     const auto ground = grid.sample(ends.position.x, ends.position.y);
+    grid.rows.swap(kept.rows);
     if (!ground && in.needs_ground)
       return Error{ErrorCode::not_found, "to",
                    "there is no ground at (" + fixed(ends.position.x, 1) + ", " + fixed(ends.position.y, 1) +
