@@ -195,6 +195,13 @@ class Reader {
     return running_value_from_json(**port, json, place);
   }
 
+  // A known typification had this port once. Running figures follow from the rest, so that a scene is not lost for one of them.
+  bool is_of_older_program(const std::string& path) const {
+    const auto parsed = parse_port_path(path);
+    const TypificationDefinition* type = parsed ? registry_->typification(parsed->typification) : nullptr;
+    return type != nullptr && type->find_port(parsed->port) == nullptr;
+  }
+
   void read_state(const Json& json) {
     if (!json.is_object()) return fail({ErrorCode::wrong_kind, "state", "expects an object"});
     if (!note(check_keys(json, {"tick", "calm", "nodes", "held", "analyses", "meshes"}, "state"))) return;
@@ -232,7 +239,13 @@ class Reader {
         return false;
       }
       for (const auto& [path, content] : values.items()) {
-        auto value = state_value(node, path, content, place + "/" + node + "/" + path);
+        const std::string here = place + "/" + node + "/" + path;
+        if (is_of_older_program(path)) {
+          reading_.problems.push_back(
+              {false, {ErrorCode::not_found, here, "this program keeps no such figure; what follows from it is worked out again"}});
+          continue;
+        }
+        auto value = state_value(node, path, content, here);
         if (!note(value)) return false;
         take(node, path, std::move(*value));
       }

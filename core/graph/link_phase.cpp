@@ -1,6 +1,7 @@
 // Phase 3: links turn the frozen state into voices.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/graph/phases.h"
 
@@ -41,8 +42,11 @@ struct Collected {
   Voice voice(PortRef target, const PortDefinition& port, double strength) const {
     if (port.rule == CombineRule::collect) {
       std::vector<std::string> all = texts;
-      std::sort(all.begin(), all.end());
-      all.erase(std::unique(all.begin(), all.end()), all.end());
+      // Mostly they come in order, because pairs do.
+      if (std::adjacent_find(all.begin(), all.end(), std::greater_equal<>()) != all.end()) {
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+      }
       return {target, Shared(std::move(all)), 0, strength};
     }
     const int voices = port.rule == CombineRule::blend ? count : port.rule == CombineRule::sum ? std::max(1, moving) : 1;

@@ -1,6 +1,7 @@
 // Phase 4: voices on one port become its effective value and its tension.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/graph/phases.h"
 
@@ -87,6 +88,15 @@ void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t
 // Texts of all voices beside those that people set, sorted, each once. A lock leaves the set ones; what it keeps out is tension.
 void resolve_texts(const Value& set, bool is_locked, std::span<const Heard> heard, Value& value, double& tension) {
   using Texts = Shared<std::vector<std::string>>;
+  // The rule: people have set none, one link speaks, and its list is as it has to be.
+  if (std::get<Texts>(set)->empty() && !is_locked && heard.size() == 1 && heard.front().voice->strength > 0) {
+    const auto& only = std::get<Texts>(heard.front().voice->value);
+    const bool is_tidy = std::adjacent_find(only->begin(), only->end(), std::greater_equal<>()) == only->end();
+    if (is_tidy && (only->empty() || !only->front().empty())) {
+      value = only;
+      return;
+    }
+  }
   std::vector<std::string> own = *std::get<Texts>(set), all = own;
   for (const Heard& h : heard)
     if (h.voice->strength > 0)

@@ -60,6 +60,16 @@ TEST(TrafficNetwork, ASavedStateGoesOnBitForBit) {
   }
 }
 
+TEST(TrafficNetwork, FiguresThatAnOlderProgramKeptAreNoReasonToLoseAScene) {
+  const SceneReading reading = read_scene(
+      R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "n", "types": {"traffic_network": {}}}],
+          "state": {"tick": 5, "nodes": {"n": {"traffic_network.flows": [{"origin": "a", "link": "b", "flow": 3}]}}}})",
+      full_registry());
+  EXPECT_TRUE(reading.is_usable());
+  ASSERT_EQ(reading.problems.size(), 1u);
+  EXPECT_NE(reading.problems.front().error.text().find("worked out again"), std::string::npos);
+}
+
 TEST(TrafficNetwork, AnEditIsAnsweredFromTheOldFlows) {
   World world = World::from_file("scenes/nodes/traffic_network.json");
   ASSERT_TRUE(world.settle(200));
