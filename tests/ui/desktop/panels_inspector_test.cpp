@@ -1,5 +1,6 @@
 // The inspector, driven by keys and mouse on the null renderer.
 #include "tests/ui/desktop/panels_support.h"
+#include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/inspector_value.h"
 
@@ -7,6 +8,18 @@ namespace bl::desktop {
 namespace {
 
 constexpr const char* kQuarter = "scenes/start/quarter.json";
+
+TEST(Quantities, LongTimesAreSaidInMinutesAndHours) {
+  const std::string blank = "\xC2\xA0";
+  EXPECT_EQ(report::quantity(90, Unit::second), "90.0" + blank + "s");
+  EXPECT_EQ(report::quantity(150, Unit::second), "2.50" + blank + "min");
+  EXPECT_EQ(report::quantity(-33138, Unit::second), "\xE2\x88\x92" "9.21" + blank + "h");
+  EXPECT_EQ(report::quantity(33138, Unit::metre), "33" "\xE2\x80\xAF" "138" + blank + "m");
+  EXPECT_EQ(shown_number(30600, Unit::second), "8.5" + blank + "h");
+  EXPECT_EQ(shown_number(35621, Unit::second), "9.895" + blank + "h");
+  EXPECT_EQ(shown_number(60, Unit::second), "60" + blank + "s");
+  EXPECT_EQ(typed_form(30600, Unit::second), "30600 s");
+}
 
 TEST(Inspector, ANumberWithTheWrongUnitIsRefusedWithAReason) {
   PanelDesktop desktop(kQuarter);

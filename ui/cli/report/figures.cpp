@@ -33,9 +33,16 @@ std::string readable(double value) {
   return grouped(value, size >= 100 || size == 0 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3);
 }
 
+const UnitInfo& handy_unit(double value, Unit unit) {
+  constexpr double kFromMinutes = 120, kFromHours = 7200;
+  if (unit != Unit::second || !(std::abs(value) >= kFromMinutes)) return info(unit);
+  return *find_unit(std::abs(value) >= kFromHours ? "h" : "min");
+}
+
 std::string quantity(double value, Unit unit) {
-  const std::string symbol(info(unit).pretty);
-  return symbol.empty() ? readable(value) : readable(value) + "\xC2\xA0" + symbol;
+  const UnitInfo& handy = handy_unit(value, unit);
+  const std::string text = readable(value / handy.scale);
+  return handy.pretty.empty() ? text : text + "\xC2\xA0" + std::string(handy.pretty);
 }
 
 std::string percent(double share) {

@@ -11,7 +11,9 @@ namespace bl::report {
 std::string grouped(double value, int decimals = 0);
 /// As many decimals as the size of the number deserves: "12 480", "84.2", "0.316".
 std::string readable(double value);
-/// `readable` with the unit's printed symbol: "84.2 m²".
+/// What people say it in: seconds are minutes from two of them on, and hours from two hours on; all else is as it is.
+const UnitInfo& handy_unit(double value, Unit unit);
+/// `readable` with the printed symbol of its handy unit: "84.2 m²", "8.50 h".
 std::string quantity(double value, Unit unit);
 /// A share as a percentage of two or three digits: "0.42 %".
 std::string percent(double share);

@@ -83,7 +83,7 @@ std::string span_text(const State& state, const std::vector<PortRef>& refs, cons
   }
   if (is_same) return value_text(state.value(refs.front()), port, unit);
   if (!is_number) return "several";
-  const Unit first_unit = unit == Unit::ratio ? unit : Unit::none;
+  const Unit first_unit = unit == Unit::ratio || unit == Unit::second ? unit : Unit::none;  // these may be said in another
   return value_text(low, port, first_unit) + " to " + value_text(high, port, unit);
 }
 

@@ -228,18 +228,21 @@ Result<double> typed_number(std::string_view text, Unit unit, double now) {
 }
 
 std::string shown_number(double value, Unit unit) {
+  const UnitInfo& handy = report::handy_unit(value, unit);
+  const bool is_scaled = handy.scale != info(unit).scale;
+  value /= handy.scale / info(unit).scale;
   const double size = std::abs(value);
   std::string text;
   if (size > 0 && (size < 1e-6 || size >= 1e12)) {
     text = shortest(value);
   } else {
-    const int most = size >= 1 ? std::max(0, 8 - static_cast<int>(std::log10(size))) : 8;
+    const int most = is_scaled ? 3 : size >= 1 ? std::max(0, 8 - static_cast<int>(std::log10(size))) : 8;
     int decimals = 0;
     for (double scale = 1; decimals < most && std::abs(std::round(value * scale) / scale - value) > 1e-9 * size; scale *= 10)
       ++decimals;
     text = report::grouped(value, decimals);
   }
-  const std::string symbol(info(unit).pretty);
+  const std::string symbol(handy.pretty);
   return symbol.empty() ? text : text + "\xC2\xA0" + symbol;
 }
 
