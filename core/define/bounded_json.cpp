@@ -33,8 +33,7 @@ class Bytes {
     ++at_;
     return *this;
   }
-  friend bool operator!=(const Bytes& a, const Bytes&) { return a.at_ != a.piece_ || a.has_more(); }
-  friend bool operator==(const Bytes& a, const Bytes& b) { return !(a != b); }
+  friend bool operator==(const Bytes& a, const Bytes&) { return a.at_ == a.piece_ && !a.has_more(); }
 
  private:
   bool has_more() const {
