@@ -86,6 +86,7 @@ Result<void> check_json_bounds(std::string_view text) {
     if (c != ']' && c != '}' && ++values > kMostJsonValues) many = at;
     return deep == std::string_view::npos && many == std::string_view::npos;
   });
+  if (is_stop_wished()) return Error{ErrorCode::cancelled, "", "The reading was stopped."};
   if (deep != std::string_view::npos)
     return Error{ErrorCode::out_of_range, place_in_text(text, deep),
                  "The text is nested deeper than " + std::to_string(kMostJsonDepth) +

@@ -80,7 +80,9 @@ std::vector<std::string> column_ids(const PortDefinition& port) {
   return ids;
 }
 
-Result<Scalar> field_from_json(const ColumnDefinition& column, const Json& json, const std::string& place) {
+using ReadNumber = Result<Value> (*)(const PortDefinition&, const Json&, const std::string&);
+
+Result<Scalar> field_from_json(const ColumnDefinition& column, const Json& json, const std::string& place, ReadNumber read) {
   if (column.is_text) {
     if (!json.is_string()) return Error{ErrorCode::wrong_kind, place, "expects a text, found " + shown(json)};
     return Scalar(json.get<std::string>());
@@ -89,12 +91,12 @@ Result<Scalar> field_from_json(const ColumnDefinition& column, const Json& json,
   port.unit = column.unit;
   port.hard_minimum = column.minimum;
   port.hard_maximum = column.maximum;
-  auto number = value_from_json(port, json, place);
+  auto number = read(port, json, place);
   if (!number) return number.error();
   return Scalar(std::get<double>(*number));
 }
 
-Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
+Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& json, const std::string& place, ReadNumber read) {
   if (!json.is_array()) return wrong_kind(port, json, place);
   Table table;
   table.columns = column_ids(port);
@@ -111,7 +113,7 @@ Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& js
         row.push_back(column.default_value);
         continue;
       }
-      auto field = field_from_json(column, *it, row_place + "/" + column.id);
+      auto field = field_from_json(column, *it, row_place + "/" + column.id, read);
       if (!field) return field.error();
       row.push_back(std::move(*field));
     }
@@ -156,7 +158,7 @@ Result<Value> decode(const PortDefinition& port, const Json& json, const std::st
       if (!selection) return selection.error();
       return Value(Shared<Selection>(std::move(*selection)));
     }
-    case ValueKind::table: return as_value(table_from_json(port, json, place));
+    case ValueKind::table: return as_value(table_from_json(port, json, place, value_from_json));
     case ValueKind::mesh: break;
   }
   return Error{ErrorCode::wrong_kind, place, "meshes cannot be set; they are computed"};
@@ -305,6 +307,10 @@ Result<Value> value_from_json(const PortDefinition& port, const Json& json, cons
 }
 
 Result<Value> running_value_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
+  if (port.kind == ValueKind::table) {
+    auto table = table_from_json(port, json, place, running_value_from_json);
+    return table ? Result<Value>(Value(std::move(*table))) : Result<Value>(table.error());
+  }
   const bool has_range = port.kind == ValueKind::number || port.kind == ValueKind::integer || port.kind == ValueKind::point ||
                          port.kind == ValueKind::points;
   if (!has_range) return value_from_json(port, json, place);

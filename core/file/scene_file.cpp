@@ -84,6 +84,7 @@ class Reader {
     read_scripts(file);
     read_records(file, "nodes",
                  [this](Json& json, const std::string& id, const std::string& place) { read_node(json, id, place); });
+    settle_what_nodes_said();
     read_records(file, "links",
                  [this](Json& json, const std::string& id, const std::string& place) { read_link(json, id, place); });
     if (const auto it = file.find("view"); it != file.end()) {
@@ -153,24 +154,43 @@ class Reader {
           if (!note(upgrade_values(*type, revision_of(type_id), values, place + "/types/" + type_id)) ||
               !take_over(*type, values, place + "/types/" + type_id))
             return;
-    if (auto node = node_from_json(json, *registry_, place); note(node)) reading_.scene.nodes.emplace(id, std::move(*node));
+    if (auto node = node_from_json(json, *registry_, place); note(node)) {
+      for (const auto& [type_id, values] : node->types)
+        for (const PortDefinition& port : registry_->typification(type_id)->ports)
+          if (port.of_scene == OfScene::always) node->locked.erase(type_id + "." + port.id);  // nobody could change it anyway
+      reading_.scene.nodes.emplace(id, std::move(*node));
+    }
   }
 
-  // Older files say at a node what now is said once for the scene: it becomes the setting where there is none yet.
+  // Older files say at a node what now is said once for the scene.
   bool take_over(const TypificationDefinition& type, Json& values, const std::string& place) {
     for (const PortDefinition& port : type.ports) {
       if (port.of_scene != OfScene::always || !values.is_object() || !values.contains(port.id)) continue;
       auto value = value_from_json(port, values[port.id], place + "/" + port.id);
       if (!note(value)) return false;
       values.erase(port.id);
-      const auto [setting, is_new] = reading_.scene.settings.emplace(port.id, *value);
-      if (!is_new && setting->second != *value)
-        reading_.problems.push_back({false,
-                                     {ErrorCode::conflict, place + "/" + port.id,
-                                      "the scene's setting `" + port.id +
-                                          "` holds instead; it is said once for all nodes and differs from what stood here"}});
+      said_at_nodes_.try_emplace({port.id, place + "/" + port.id}, std::move(*value));
     }
     return true;
+  }
+
+  // The first place that says something becomes the setting where there is none, whatever the order in the file; others are told.
+  void settle_what_nodes_said() {
+    for (const auto& [where, value] : said_at_nodes_) {
+      const auto& [port, place] = where;
+      const PortDefinition& setting = *settings_type().find_port(port);
+      PortValues& settings = reading_.scene.settings;
+      const bool is_taken = !settings.contains(port) && value != setting.default_value;
+      if (is_taken) settings[port] = value;
+      const bool is_so = set_value(settings, {}, setting) == value;
+      if (!is_taken && is_so) continue;
+      reading_.problems.push_back(
+          {false,
+           {ErrorCode::conflict, place,
+            is_taken ? "is said once for the scene now: this became its setting, and holds for all nodes"
+                     : "the scene's setting `" + port +
+                           "` holds instead; it is said once for all nodes and differs from what stood here"}});
+    }
   }
 
   void read_link(Json& json, const std::string& id, const std::string& place) {
@@ -242,7 +262,8 @@ class Reader {
         const std::string here = place + "/" + node + "/" + path;
         if (is_of_older_program(path)) {
           reading_.problems.push_back(
-              {false, {ErrorCode::not_found, here, "this program keeps no such figure; what follows from it is worked out again"}});
+              {false,
+               {ErrorCode::not_found, here, "this program keeps no such figure; what follows from it is worked out again"}});
           continue;
         }
         auto value = state_value(node, path, content, here);
@@ -336,6 +357,7 @@ class Reader {
   const Registry* registry_;  // with the kinds of the scene's scripts
   SceneReading reading_;
   std::map<std::string, std::int64_t> revisions_;
+  std::map<std::pair<std::string, std::string>, Value> said_at_nodes_;  // by setting and place
 };
 
 // One line per element, so that a diff shows the lines that changed.

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
+#include <cmath>
 
 namespace bl {
 
@@ -11,6 +13,8 @@ namespace {
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::size_t kPerNumber = 11, kPerIndex = 4;
 constexpr std::uint8_t kNone = 64;
+// Larger ones, and what is no number, come from a broken file.
+constexpr double kLargest = 1e15;
 
 constexpr std::array<std::uint8_t, 256> values_of_digits() {
   std::array<std::uint8_t, 256> values{};
@@ -48,7 +52,10 @@ std::string packed(std::span<const double> numbers) {
 
 std::string packed(std::span<const std::uint32_t> indices) {
   std::string text(kPerIndex * indices.size(), '\0');
-  for (std::size_t i = 0; i < indices.size(); ++i) write(indices[i], kPerIndex, &text[kPerIndex * i]);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    assert(indices[i] < 1u << (6 * kPerIndex));
+    write(indices[i], kPerIndex, &text[kPerIndex * i]);
+  }
   return text;
 }
 
@@ -58,7 +65,7 @@ std::optional<std::vector<double>> unpacked_numbers(std::string_view text) {
   numbers.reserve(text.size() / kPerNumber);
   for (std::size_t at = 0; at < text.size(); at += kPerNumber) {
     const auto bits = read<std::uint64_t>(text.substr(at, kPerNumber));
-    if (!bits) return std::nullopt;
+    if (!bits || !(std::abs(std::bit_cast<double>(*bits)) <= kLargest)) return std::nullopt;
     numbers.push_back(std::bit_cast<double>(*bits));
   }
   return numbers;

@@ -11,6 +11,10 @@ void SetPort::declare(CommandBuilder<SetPort>& c) {
 }
 
 Inverse SetPort::apply(SceneEdit& edit, const In& in) {
+  // Older logs set at a node what now is said once for the scene.
+  if (const auto path = parse_port_path(in.port.path))
+    if (const auto port = edit.registry().port(*path); port && (*port)->of_scene == OfScene::always && edit.node(in.node))
+      return SetSetting::apply(edit, {path->port, in.value});
   const auto site = find_setting(edit, in.node, in.port);
   if (!site) return site.error();
   const std::string path = site->type->id + "." + site->port->id,

@@ -118,7 +118,7 @@ TEST(Osc, AMessageIsAsOldAsItHasWaited) {
   ASSERT_TRUE(test::eventually(waited));
   live.step();
   EXPECT_EQ(live.quality("s"), "stale");
-  EXPECT_GE(live.number("s", "sensor.age"), 0.055);
+  EXPECT_GE(live.number("s", "sensor.age"), 0.03);  // a later one of those that were sent may have come after the first
   EXPECT_EQ(live.replayed(2), live.hash());
 }
 
