@@ -291,7 +291,7 @@ Result<void> check_value(const PortDefinition& port, const Value& value, const s
 }
 
 bool is_kept(const PortDefinition& port, const Value& value) {
-  return port.is_required || port.of_scene == OfScene::unless_set || value != port.default_value;
+  return port.is_required || port.keeps_default || value != port.default_value;
 }
 
 std::string why_unsettable(const PortDefinition& port) {

@@ -20,7 +20,7 @@ Json value_to_json(const Value& value, const PortDefinition& port);
 Result<Value> value_from_json(const PortDefinition& port, const Json& json, const std::string& place);
 /// The same without the ranges of settings, beyond which figures that a run has worked out may lie.
 Result<Value> running_value_from_json(const PortDefinition& port, const Json& json, const std::string& place);
-/// Is a value that people gave more than the default? Where a port may follow the scene, its default is a choice like others.
+/// Is a value that people gave more than the default?
 bool is_kept(const PortDefinition& port, const Value& value);
 /// Why nobody can set the port at its node; empty where people can.
 std::string why_unsettable(const PortDefinition& port);

@@ -74,6 +74,7 @@ struct PortDefinition {
   Unit unit = Unit::none;
   std::string unit_from;     ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
   bool is_computed = false;  ///< written by evaluations only; never set by people or links
+  bool keeps_default = false;  ///< to say the default is more than to say nothing: a place on the equator is one
   bool is_required = false;  ///< has no usable default (ids in commands)
   bool is_residual = false;  ///< a scene is settled when every residual is within its tolerance
   OfScene of_scene = OfScene::no;

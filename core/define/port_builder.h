@@ -29,6 +29,12 @@ class PortBuilder {
   /// The scene's setting of the same id, kind and unit is handed in: what holds for the whole scene is said in one place.
   PortBuilder& of_scene(OfScene when) {
     port_->of_scene = when;
+    port_->keeps_default = when == OfScene::unless_set;
+    return *this;
+  }
+  /// A value that equals the default is kept like any other: it differs from none at all.
+  PortBuilder& keeps_default() {
+    port_->keeps_default = true;
     return *this;
   }
   PortBuilder& required() {

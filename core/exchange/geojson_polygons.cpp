@@ -243,6 +243,8 @@ Result<std::array<double, 2>> Reader::read_position(const Json& position, const 
 
 Result<GeoDocument> read_geojson_polygons(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+    return Error{ErrorCode::missing, "line 1, column 1", "The file is empty: GeoJSON is needed."};
   if (auto foreign = foreign_bytes(text, "GeoJSON", "export it as GeoJSON, which is text")) return *foreign;
   const auto json = read_bounded_json(text, "GeoJSON");
   if (!json) return json.error();

@@ -17,6 +17,8 @@ struct GeoReference {
   double origin_x = 0, origin_y = 0;   ///< the local origin in `crs` [m]
   double latitude = 0, longitude = 0;  ///< of the local origin, WGS84 [deg]
   double true_north = 0;               ///< direction of true north, clockwise from local +y [deg]
+  /// Is it known where on earth it lies? Zeros stand for not.
+  bool is_on_earth() const { return latitude != 0 || longitude != 0; }
   bool operator==(const GeoReference&) const = default;
 };
 

@@ -62,14 +62,16 @@ void check_place(const Scene& scene, const std::string& id, const NodeRecord& no
   const Settings settings = settings_of(scene);
   constexpr double kApart = 0.1;  // [degrees] more is no rounding
   const PortDefinition* north = type.find_port("true_north");
-  if (north == nullptr || north->of_scene != OfScene::always || (settings.latitude == 0 && settings.longitude == 0)) return;
+  if (north == nullptr || north->of_scene != OfScene::always) return;
   const struct {
     const char* port;
     double scene;
   } sides[] = {{"latitude", settings.latitude}, {"longitude", settings.longitude}};
   for (const auto& side : sides) {
     const PortDefinition* port = type.find_port(side.port);
-    if (port == nullptr || port->kind != ValueKind::number) continue;
+    const PortValues& said = node.types.at(type.id);
+    if (port == nullptr || port->kind != ValueKind::number || !said.contains(port->id) || !scene.settings.contains(port->id))
+      continue;
     const double own = as_number(set_value(scene, node, type, *port));
     if (std::abs(own - side.scene) <= kApart) continue;
     problems.push_back({false,

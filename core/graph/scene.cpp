@@ -41,11 +41,13 @@ TypeDefinition declare_settings() {
   port(&Settings::latitude, "latitude")
       .unit(Unit::degree)
       .range(-90, 90)
-      .doc("Latitude of the local origin (WGS84), north positive.");
+      .keeps_default()
+      .doc("Latitude of the local origin (WGS84), north positive; where none is set, suns stand where they say.");
   port(&Settings::longitude, "longitude")
       .unit(Unit::degree)
       .range(-180, 180)
-      .doc("Longitude of the local origin (WGS84), east positive.");
+      .keeps_default()
+      .doc("Longitude of the local origin (WGS84), east positive; where none is set, suns stand where they say.");
   port(&Settings::true_north, "true_north")
       .unit(Unit::degree)
       .range(-360, 360)

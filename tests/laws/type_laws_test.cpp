@@ -60,9 +60,13 @@ TEST(TypeLaws, PortIdsAreUniqueAndSettingsComeFirst) {
 TEST(TypeLaws, WhatHoldsForTheSceneIsASettingOfTheSameKindAndUnit) {
   for_each_type([](const TypeDefinition& type) {
     for (const PortDefinition& port : type.ports) {
-      if (port.of_scene != OfScene::always) continue;
+      if (port.of_scene == OfScene::no) continue;
       const PortDefinition* setting = settings_type().find_port(port.id);
       ASSERT_NE(setting, nullptr) << type.id << "." << port.id;
+      // Who may follow the scene has to see whether it says something.
+      EXPECT_EQ(port.keeps_default, port.of_scene == OfScene::unless_set) << type.id << "." << port.id;
+      EXPECT_EQ(setting->keeps_default, port.keeps_default) << type.id << "." << port.id;
+      if (port.of_scene != OfScene::always) continue;
       EXPECT_EQ(setting->kind, port.kind) << type.id << "." << port.id;
       EXPECT_EQ(setting->unit, port.unit) << type.id << "." << port.id;
       EXPECT_EQ(setting->default_value, port.default_value) << type.id << "." << port.id;

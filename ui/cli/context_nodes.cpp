@@ -101,8 +101,10 @@ void ContextNodes::place(const GeoReference& reference) {
   set("coordinate_system", reference.crs);
   set("origin_x", reference.origin_x);
   set("origin_y", reference.origin_y);
-  set("latitude", reference.latitude);
-  set("longitude", reference.longitude);
+  if (reference.is_on_earth()) {
+    set("latitude", reference.latitude);
+    set("longitude", reference.longitude);
+  }
   set("true_north", reference.true_north);
 }
 

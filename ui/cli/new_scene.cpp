@@ -52,8 +52,10 @@ class Builder {
     setting("coordinate_system", reference.crs);
     setting("origin_x", reference.origin_x);
     setting("origin_y", reference.origin_y);
-    setting("latitude", reference.latitude);
-    setting("longitude", reference.longitude);
+    if (reference.is_on_earth()) {
+      setting("latitude", reference.latitude);
+      setting("longitude", reference.longitude);
+    }
     setting("true_north", reference.true_north);
   }
 

@@ -217,7 +217,7 @@ TEST(PlanBoundary, RingErrors) {
 }
 
 TEST(PlanBoundary, FormatErrors) {
-  EXPECT_EQ(error_of(""), "line 1, column 1: The text is not valid JSON from here on; is the file complete, and is it GeoJSON?");
+  EXPECT_EQ(error_of(""), "line 1, column 1: The file is empty: GeoJSON is needed.");
   EXPECT_EQ(error_of("{\n\"type\": oops}"),
             "line 2, column 9: The text is not valid JSON from here on; is the file complete, and is it GeoJSON?");
   EXPECT_EQ(error_of("[1, 2]"),

@@ -137,6 +137,18 @@ TEST(Failure, TheSunStandsWhereTheSceneLiesUnlessItIsSetElsewhere) {
   EXPECT_NEAR(altitude(world), at_52 + 4, 0.02);
 }
 
+TEST(Failure, ASceneOnTheEquatorHasItsSunThere) {
+  World world = World::from_text(one_sun(R"("latitude": 0, "longitude": 0)"));
+  const std::string text = write_scene(world.session().scene(), full_registry());
+  EXPECT_NE(text.find("\"latitude\": 0"), std::string::npos) << text;
+  world.tick();
+  EXPECT_GT(world.number("sun", "sun_and_sky.transit_altitude"), 88);
+  ASSERT_EQ(world.submit(command<SetSetting>({"latitude", {"null"}})), "");
+  world.tick();
+  EXPECT_LT(world.number("sun", "sun_and_sky.transit_altitude"), 60);
+  EXPECT_EQ(problems_of(R"("longitude": 60)", ""), "");  // nobody has said two things
+}
+
 TEST(Failure, RunningTablesMayHoldWhatNobodyCouldType) {
   const std::string text =
       R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "z", "types": {"traffic_zone": {}}}], "links": [],

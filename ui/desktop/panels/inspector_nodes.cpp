@@ -179,7 +179,7 @@ void change_ports(Editor& editor, const std::vector<std::string>& nodes, const T
     if (node == editor.scene().nodes.end() || !node->second.types.contains(type.id)) continue;
     const Value& old = set_value(editor.scene(), node->second, type, port);
     const Value fresh = change.make(old);
-    if (fresh == old) continue;
+    if (fresh == old && !(port.keeps_default && !node->second.types.at(type.id).contains(port.id))) continue;
     if (auto checked = check_value(port, fresh, ""); !checked) return complain(editor, key, checked.error().message);
     commands.push_back(command<SetPort>({id, {path_of(type, port)}, {write_json_line(value_to_json(fresh, port))}}));
   }

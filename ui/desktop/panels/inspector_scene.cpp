@@ -41,20 +41,20 @@ void inspect_scene(Editor& editor) {
     const std::string key = "settings." + port.id;
     const auto found = scene.settings.find(port.id);
     const Value value = found == scene.settings.end() ? port.default_value : found->second;
-    const bool is_default = value == port.default_value;
+    const bool is_default = port.keeps_default ? found == scene.settings.end() : value == port.default_value;
     float width = 0;
     const RowEvent event =
         begin_row(editor, key, label_of(port.id), port.doc, facts_of(port, port.unit), {!is_default, false, false, false}, width);
     auto change = value_field(editor, {key, &port, port.unit, value, false, false, is_default}, width);
     draw_complaint(editor, key, width);
     end_row();
-    if (event.wants_reset) change = constant(port.default_value);
-    if (!change) continue;
+    if (event.wants_reset) editor.submit(command<SetSetting>({port.id, {"null"}}));
+    if (event.wants_reset || !change) continue;
     PanelMemory& memory = memory_of(editor);
     if (memory.complaint_key == key) memory.complaint_key.clear();
     const Value fresh = change->make(value);
     if (auto checked = check_value(port, fresh, ""); !checked) complain(editor, key, checked.error().message);
-    else if (!(fresh == value))
+    else if (!(fresh == value) || (port.keeps_default && is_default))
       editor.submit(command<SetSetting>({port.id, {write_json_line(value_to_json(fresh, port))}}),
                     change->is_live ? memory.scrub.gesture : 0);
   }

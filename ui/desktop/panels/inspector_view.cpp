@@ -1,20 +1,26 @@
 // Merges the settings of what is chosen, and keeps the voices on them for as long as a state lasts.
 #include <algorithm>
 
+#include "core/define/codec.h"
 #include "ui/desktop/panels/inspector.h"
 
 namespace bl::desktop {
 
 namespace {
 
-// `unset`: what holds where nobody has said anything.
-SharedPort first_of(const PortDefinition& port, Unit unit, const Value& value, const Value& unset) {
-  return {&port, unit, value, false, value == unset, false, false};
+SharedPort first_of(const PortDefinition& port, Unit unit, const Value& value, bool is_default) {
+  return {&port, unit, value, false, is_default, false, false};
 }
 
-void add(SharedPort& shared, Unit unit, const Value& value, const Value& unset) {
+void add(SharedPort& shared, Unit unit, const Value& value, bool is_default) {
   if (!shared.is_mixed && !(value == shared.value && unit == shared.unit)) shared.is_mixed = true;
-  shared.is_default = shared.is_default && value == unset;
+  shared.is_default = shared.is_default && is_default;
+}
+
+// Nobody has said anything, or no more than the default.
+bool is_default(const PortValues& values, const PortDefinition& port) {
+  const auto found = values.find(port.id);
+  return found == values.end() || !is_kept(port, found->second);
 }
 
 const Value& parameter_of(const LinkRecord& link, const PortDefinition& port) {
@@ -80,13 +86,13 @@ void InspectorView::merge_nodes(const Editor& editor) {
     SharedType shared{type, {}};
     for (const PortDefinition& port : type->ports) {
       if (port.is_computed || port.of_scene == OfScene::always) continue;
-      const Value& unset = set_value(scene.settings, {}, port);
-      SharedPort setting =
-          first_of(port, unit_of(editor.types(), first, *type, port), set_value(scene, first, *type, port), unset);
+      SharedPort setting = first_of(port, unit_of(editor.types(), first, *type, port), set_value(scene, first, *type, port),
+                                    is_default(first.types.at(type->id), port));
       std::size_t locked = 0;
       for (const std::string& n : nodes_) {
         const NodeRecord& node = scene.nodes.at(n);
-        add(setting, unit_of(editor.types(), node, *type, port), set_value(scene, node, *type, port), unset);
+        add(setting, unit_of(editor.types(), node, *type, port), set_value(scene, node, *type, port),
+            is_default(node.types.at(type->id), port));
         if (node.locked.contains(type->id + "." + port.id)) ++locked;
       }
       setting.is_locked = locked == nodes_.size();
@@ -112,11 +118,11 @@ void InspectorView::merge_links(const Editor& editor) {
   kind_ = is_one_kind ? editor.types().link(first.kind) : nullptr;
   if (kind_ == nullptr) return;
   for (const PortDefinition& port : kind_->ports) {
-    SharedPort shared =
-        first_of(port, unit_of_parameter(editor, *kind_, first, port), parameter_of(first, port), port.default_value);
+    SharedPort shared = first_of(port, unit_of_parameter(editor, *kind_, first, port), parameter_of(first, port),
+                                 is_default(first.parameters, port));
     for (const std::string& l : links_) {
       const LinkRecord& link = scene.links.at(l);
-      add(shared, unit_of_parameter(editor, *kind_, link, port), parameter_of(link, port), port.default_value);
+      add(shared, unit_of_parameter(editor, *kind_, link, port), parameter_of(link, port), is_default(link.parameters, port));
     }
     parameters_.push_back(std::move(shared));
   }

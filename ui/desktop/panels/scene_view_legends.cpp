@@ -27,13 +27,14 @@ std::size_t rows_in(const Legend& legend, float room, float line) {
 
 }  // namespace
 
-// The one that somebody has asked for first, then what the volumes' colours say.
+// The one that somebody has asked for first, then what the volumes' colours say; last what comes and goes with the mouse, so that
+// it moves no other.
 std::vector<Legend> SceneView::legends() const {
   std::vector<Legend> all =
       urban_legends(*facts_, choices_, editor_->theme, [this](const char* layer) { return shows(layer); });
   all.insert(all.begin(), colouring_.legend);
   if (width() < editor_->theme.px(kNarrow))
-    all.insert(all.begin(), isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme));
+    all.push_back(isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme));
   std::erase_if(all, [](const Legend& legend) { return legend.rows.empty() && legend.ramp.empty(); });
   const auto wanted = std::find_if(all.begin(), all.end(), [this](const Legend& l) { return l.title == wanted_legend_; });
   if (wanted != all.end()) std::rotate(all.begin(), wanted, wanted + 1);
