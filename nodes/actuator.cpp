@@ -10,7 +10,7 @@ namespace bl {
 namespace {
 
 constexpr std::string_view kSlot = "{value}";
-constexpr std::size_t kLongest = 1000;
+constexpr std::size_t kLongestFormat = 1000;
 
 struct Actuator {
   struct In {
@@ -51,8 +51,8 @@ struct Actuator {
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) {
-    if (in.format.size() > kLongest)
-      return Error{ErrorCode::out_of_range, "format", "is longer than " + std::to_string(kLongest) + " characters"};
+    if (in.format.size() > kLongestFormat)
+      return Error{ErrorCode::out_of_range, "format", "is longer than " + std::to_string(kLongestFormat) + " characters"};
     if (!in.address.empty()) {
       const auto address = parse_live_address(in.address);
       if (!address) return address.error().within("address");

@@ -19,7 +19,7 @@ constexpr std::array kInputs = {"a", "b", "c", "d"};
 constexpr std::array kBases = {&Dimension::length, &Dimension::time, &Dimension::angle, &Dimension::money};
 constexpr std::array kBaseNames = {"m", "s", "deg", "EUR"};
 // Rescaling by 64 is exact in binary, also under square and cube roots, so that a sound formula rescales without rounding.
-constexpr int kScaleBits = 6, kSamples = 24, kLargestPower = 9, kLongest = 500;
+constexpr int kScaleBits = 6, kSamples = 24, kLargestPower = 9, kLongestFormula = 500;
 
 struct Expression {
   struct In {
@@ -86,9 +86,9 @@ struct Expression {
     Result<void> read(const std::string& text) {
       const auto refuse = [](const std::string& sentence) { return Error{ErrorCode::parse, "formula", sentence}; };
       if (text.find_first_not_of(' ') == std::string::npos) return refuse("the formula is empty: write one, such as `a + b`");
-      if (std::ssize(text) > kLongest)
+      if (std::ssize(text) > kLongestFormula)
         return refuse("the formula has " + std::to_string(text.size()) + " characters: shorten it to " +
-                      std::to_string(kLongest));
+                      std::to_string(kLongestFormula));
       for (std::size_t i = text.find('='); i != std::string::npos; i = text.find('=', i + 1)) {
         if (i + 1 < text.size() && text[i + 1] == '=') ++i;
         else if (i == 0 || (text[i - 1] != '<' && text[i - 1] != '>' && text[i - 1] != '!'))

@@ -24,6 +24,12 @@ std::string fixed(double number, int decimals) {
   return text;
 }
 
+std::string rough(double number) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, 3).ptr;
+  return {buffer, end};
+}
+
 std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   double number = 0;

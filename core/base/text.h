@@ -12,6 +12,8 @@ namespace bl {
 std::string shortest(double number);
 /// With a fixed number of decimals (from 0), for people; never "-0.00".
 std::string fixed(double number, int decimals);
+/// With three significant digits, in scientific notation where that is shorter: for errors and shares.
+std::string rough(double number);
 /// The whole text as a finite double with a decimal point; nothing where anything is left over.
 std::optional<double> parse_number(std::string_view text);
 /// Of `names`, the one that `name` was probably meant to be (few edits away), or empty.

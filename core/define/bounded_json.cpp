@@ -13,7 +13,7 @@ namespace bl {
 
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 // Asked so often whether to go on [bytes]: the parser needs some milliseconds for them.
 constexpr std::size_t kPiece = std::size_t{1} << 18;
@@ -97,16 +97,16 @@ Result<void> check_json_bounds(std::string_view text) {
   return {};
 }
 
-Result<Json> read_bounded_json(std::string_view text, std::string_view format) {
+Result<SortedJson> read_bounded_json(std::string_view text, std::string_view format) {
   if (auto bounded = check_json_bounds(text); !bounded) return bounded.error();
   try {
     const char *begin = text.data(), *end = begin + text.size();
-    return Json::parse(Bytes(begin, end), Bytes(end, end));
-  } catch (const Json::parse_error& error) {
+    return SortedJson::parse(Bytes(begin, end), Bytes(end, end));
+  } catch (const SortedJson::parse_error& error) {
     if (is_stop_wished()) return Error{ErrorCode::cancelled, "", "The reading was stopped."};
     return Error{ErrorCode::parse, place_in_text(text, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size())),
                  "The text is not valid JSON from here on; is the file complete, and is it " + std::string(format) + "?"};
-  } catch (const Json::exception&) {
+  } catch (const SortedJson::exception&) {
     return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
   }
 }

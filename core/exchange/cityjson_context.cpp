@@ -34,13 +34,14 @@ std::string attribute(const CityObject& object, std::initializer_list<const char
   return {};
 }
 
-void note(std::string& text, const std::string& more) {
+void note_of_building(std::string& text, const std::string& more) {
   if (!more.empty()) text += (text.empty() ? "" : ", ") + more;
 }
 
-class Importer {
+class CityImporter {
  public:
-  Importer(const CityModel& model, const ContextOptions& options, const LocalFrame& frame, double height_unit, Context& context)
+  CityImporter(const CityModel& model, const ContextOptions& options, const LocalFrame& frame, double height_unit,
+               Context& context)
       : model_(model), options_(options), context_(context) {
     for (const auto& list : model.vertices) {
       auto& local = vertices_.emplace_back();
@@ -71,7 +72,7 @@ class Importer {
     const CityGeometry* best = nullptr;
     for (const CityGeometry& geometry : object.geometries) {
       if (!geometry.fault.empty()) {
-        note(faults, geometry.fault);
+        note_of_building(faults, geometry.fault);
         continue;
       }
       if (geometry.level_of_detail > options_.level_of_detail) continue;
@@ -154,7 +155,7 @@ class Importer {
           {std::move(hull.ring), {}, hull.fault.empty() ? "its outline is the hull of its corners" : "", hull.fault});
       return outers;
     }
-    if (!fault.empty()) note(outers.front().mended, "a ring left out: " + fault);
+    if (!fault.empty()) note_of_building(outers.front().mended, "a ring left out: " + fault);
     std::sort(outers.begin(), outers.end(),
               [](const Outline& a, const Outline& b) { return signed_area(a.outer) > signed_area(b.outer); });
     const BoxGrid grid = BoxGrid::of(outers, [](const Outline& outline) -> const Ring& { return outline.outer; });
@@ -193,7 +194,7 @@ class Importer {
     const std::vector<Point3> points = corners(object, *geometry);
     std::vector<Outline> found = outlines_in_reach(object, *geometry, points);
     if (found.empty()) return;
-    note(mended, found.front().mended);
+    note_of_building(mended, found.front().mended);
     ContextBuilding made;
     made.id = object.id;
     made.row = next_row();
@@ -205,8 +206,8 @@ class Importer {
     if (const std::string beyond = out_of_heights(made.base, made.height); !beyond.empty())
       return context_.report.skip(object.type, object.id, beyond, "from " + shortest(made.base) + " m");
     if (found.size() > 1)
-      note(mended,
-           std::to_string(found.size() - 1) + (made.solid ? " more outlines only in its solid" : " smaller outlines left out"));
+      note_of_building(mended, std::to_string(found.size() - 1) +
+                                   (made.solid ? " more outlines only in its solid" : " smaller outlines left out"));
     const std::string reason = made.solid ? "building with a solid" : "building as an extrusion";
     if (mended.empty()) context_.report.take(object.type, object.id, reason);
     else context_.report.repair(object.type, object.id, reason, mended);
@@ -237,14 +238,15 @@ class Importer {
       made.height = high->z - low->z;
       made.height_source = HeightSource::geometry;
       effort_ += triangles_effort(geometry.surfaces);
-      if (effort_ > kMostEffort) return note(mended, "its faces have too many corners: drawn as an extrusion");
+      if (effort_ > kMostEffort) return note_of_building(mended, "its faces have too many corners: drawn as an extrusion");
       CitySolid solid = city_solid(vertices_[object.vertices], geometry.surfaces);
       if (solid.is_closed && solid.volume > 0) {
-        if (solid.had_no_floor) note(mended, "its solid had no floor, which was added");
-        if (solid.was_turned) note(mended, "surfaces that looked inward were turned");
+        if (solid.had_no_floor) note_of_building(mended, "its solid had no floor, which was added");
+        if (solid.was_turned) note_of_building(mended, "surfaces that looked inward were turned");
         made.solid = std::make_shared<const Mesh>(std::move(solid.mesh));
       } else if (geometry.solids > 0) {
-        note(mended, "its solid is not closed (" + std::to_string(solid.open_edges) + " open edges): drawn as an extrusion");
+        note_of_building(mended,
+                         "its solid is not closed (" + std::to_string(solid.open_edges) + " open edges): drawn as an extrusion");
       }
       return;
     }
@@ -264,7 +266,7 @@ class Importer {
     std::vector<Outline> found = outlines_in_reach(object, *geometry, corners(object, *geometry));
     if (found.empty()) return;
     for (std::size_t i = 0; i < found.size(); ++i) {
-      note(mended, found[i].mended);
+      note_of_building(mended, found[i].mended);
       const std::string id = found.size() > 1 ? object.id + "/" + std::to_string(i + 1) : object.id;
       const std::string use = attribute(object, {"function", "class", "usage"});
       context_.areas.push_back({id, attribute(object, {"name"}), use.empty() ? object.type : object.type + "=" + use,
@@ -305,7 +307,7 @@ Result<Context> read_cityjson_context(std::string_view bytes, const ContextOptio
   context.notes = frame->notes();
   context.notes.insert(context.notes.end(), model->notes.begin(), model->notes.end());
   const double unit = context_height_unit(options, 0, model->crs, context.notes);
-  Importer(*model, options, *frame, unit, context).run();
+  CityImporter(*model, options, *frame, unit, context).run();
   if (options.watch != nullptr && options.watch->is_stopped) return stopped_error();
   assume_heights(options, context);
   return context;

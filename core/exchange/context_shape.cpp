@@ -13,9 +13,9 @@ namespace bl {
 
 namespace {
 
-constexpr double kSamePoint = 1e-3;     // [m]
-constexpr double kSpikeWidth = 1e-3;    // [m]
-constexpr double kSmallestArea = 1e-2;  // [m²]
+constexpr double kSamePoint = 1e-3;      // [m]
+constexpr double kSpikeWidth = 1e-3;     // [m]
+constexpr double kSmallestShape = 1e-2;  // [m²]
 constexpr std::size_t kMostCorners = 100000, kFewestNeighbours = 3;
 
 std::string point_text(const Point3& p) { return "(" + fixed(p.x, 3) + ", " + fixed(p.y, 3) + ")"; }
@@ -127,7 +127,7 @@ SoundRing sound_ring(std::vector<Point3> points, bool counter_clockwise) {
     return result;
   }
   const double area = signed_area(points);
-  if (std::abs(area) < kSmallestArea) {
+  if (std::abs(area) < kSmallestShape) {
     result.fault = "its outline encloses no area";
     return result;
   }
@@ -190,7 +190,8 @@ ImportReport with_details(const ImportReport& report, const std::map<std::size_t
   ImportReport out;
   for (std::size_t k = 0; k < report.rows().size(); ++k) {
     ImportRow row = report.rows()[k];
-    if (const auto found = details.find(k); found != details.end()) row.detail += (row.detail.empty() ? "" : "; ") + found->second;
+    if (const auto found = details.find(k); found != details.end())
+      row.detail += (row.detail.empty() ? "" : "; ") + found->second;
     out.add(std::move(row));
   }
   return out;
@@ -230,7 +231,8 @@ void assume_heights(const ContextOptions& options, Context& context) {
       building.height = *middle;
     }
     ++(has_neighbours ? by_neighbours : by_default);
-    told[building.row] = std::string(has_neighbours ? kHeightOfNeighbours : kHeightAssumed) + ": " + shortest(building.height) + " m";
+    told[building.row] =
+        std::string(has_neighbours ? kHeightOfNeighbours : kHeightAssumed) + ": " + shortest(building.height) + " m";
   }
   if (!told.empty()) context.report = with_details(context.report, told);
   if (by_neighbours > 0)

@@ -59,7 +59,7 @@ Result<void> place_points(std::vector<RawPoint> raw, const std::vector<SkippedPo
   return {};
 }
 
-struct Column {
+struct LayerColumn {
   std::size_t index = 0;
   char decimal = '.';
   std::string unit;
@@ -89,7 +89,7 @@ class TableReader {
   }
 
   Result<std::vector<RawPoint>> read(ImportReport& report, std::vector<SkippedPoint>& skipped) const {
-    std::array<Column, 3> columns;
+    std::array<LayerColumn, 3> columns;
     for (const auto& [i, index] : {std::pair{0u, *x_}, {1u, *y_}, {2u, value_}}) {
       auto decimal = decimal_of(index);
       if (!decimal) return decimal.error();
@@ -121,7 +121,7 @@ class TableReader {
     return index < record.fields.size() ? record.fields[index] : std::string();
   }
 
-  static std::optional<double> number(const CsvRecord& record, const Column& column) {
+  static std::optional<double> number(const CsvRecord& record, const LayerColumn& column) {
     const std::string field = text(record, column.index);
     if (field.empty()) return std::nullopt;
     std::string plain = field;
@@ -161,7 +161,9 @@ class TableReader {
       if (is_numeric(i)) numeric.push_back(i);
     }
     if (!wanted_.empty())
-      return Error{ErrorCode::not_found, line, "There is no column `" + wanted_ + "`" + (did_you_mean(wanted_, names).empty() ? "." : did_you_mean(wanted_, names))};
+      return Error{
+          ErrorCode::not_found, line,
+          "There is no column `" + wanted_ + "`" + (did_you_mean(wanted_, names).empty() ? "." : did_you_mean(wanted_, names))};
     if (numeric.size() == 1) {
       value_ = numeric.front();
       return {};

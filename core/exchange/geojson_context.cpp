@@ -69,13 +69,13 @@ class Properties {
   std::map<std::string, std::string> values_;
 };
 
-void note(std::string& text, const std::string& more) {
+void note_of_feature(std::string& text, const std::string& more) {
   if (!more.empty()) text += (text.empty() ? "" : ", ") + more;
 }
 
-class Importer {
+class GeoImporter {
  public:
-  Importer(const ContextOptions& options, const LocalFrame& frame, Context& context)
+  GeoImporter(const ContextOptions& options, const LocalFrame& frame, Context& context)
       : options_(options), frame_(frame), context_(context) {}
 
   void read(const GeoFeature& feature, std::size_t index) {
@@ -132,15 +132,15 @@ class Importer {
       const std::string why = polygon(feature.polygons[i], properties, kind, id, trouble);
       if (why.empty()) {
         ++taken;
-        note(mended, trouble);
+        note_of_feature(mended, trouble);
       } else {
         if (fault.empty()) fault = why;
-        note(where, trouble);
+        note_of_feature(where, trouble);
       }
     }
     if (taken == 0) return context_.report.skip("feature", shown, kind + ": " + fault, where);
     if (taken < feature.polygons.size())
-      note(mended, std::to_string(feature.polygons.size() - taken) + " of its polygons left out: " + fault);
+      note_of_feature(mended, std::to_string(feature.polygons.size() - taken) + " of its polygons left out: " + fault);
     if (mended.empty()) context_.report.take("feature", shown, kind);
     else context_.report.repair("feature", shown, kind, mended);
   }
@@ -156,9 +156,9 @@ class Importer {
     std::vector<Ring> holes;
     for (std::size_t r = 1; r < polygon.rings.size(); ++r) {
       SoundRing hole = sound_ring(local(polygon.rings[r]), false);
-      if (!hole.fault.empty()) note(mended, "a hole left out: " + hole.fault);
+      if (!hole.fault.empty()) note_of_feature(mended, "a hole left out: " + hole.fault);
       else {
-        note(mended, hole.mended);
+        note_of_feature(mended, hole.mended);
         holes.push_back(std::move(hole.ring));
       }
     }
@@ -166,9 +166,8 @@ class Importer {
       if (const std::string fault = limit_corners(outer.ring, holes, mended); !fault.empty()) return fault;
     sort_holes(outer.ring, holes, mended);
     if (kind != "building") {
-      context_.areas.push_back(
-          {id, properties.get("name"), properties.get("use"), std::move(outer.ring), std::move(holes), kind == "plot",
-           next_row()});
+      context_.areas.push_back({id, properties.get("name"), properties.get("use"), std::move(outer.ring), std::move(holes),
+                                kind == "plot", next_row()});
       return {};
     }
     OsmTags tags;
@@ -179,11 +178,11 @@ class Importer {
     building.base = height.base;
     building.height = height.height;
     building.height_source = height.is_from_levels ? HeightSource::levels : HeightSource::tag;
-    if (!height.fault.empty()) note(mended, "not understood: " + height.fault);
+    if (!height.fault.empty()) note_of_feature(mended, "not understood: " + height.fault);
     if (const std::string ground = properties.get("ground"); !ground.empty()) {
       const auto level = osm_length(ground);
       if (level) building.base += *level, building.is_above_sea = true;
-      else note(mended, "not understood: height of its ground " + ground.substr(0, 40));
+      else note_of_feature(mended, "not understood: height of its ground " + ground.substr(0, 40));
     }
     if (const std::string beyond = out_of_heights(building.base, building.height); !beyond.empty()) return beyond;
     building.id = id;
@@ -224,7 +223,7 @@ class Importer {
         fault = why;
         continue;
       }
-      if (line.size() < given) note(mended, std::to_string(given - line.size()) + " repeated points dropped");
+      if (line.size() < given) note_of_feature(mended, std::to_string(given - line.size()) + " repeated points dropped");
       if (road.direction < 0) std::reverse(line.begin(), line.end());
       const std::string id = feature.lines.size() > 1 ? id_ + "/" + std::to_string(i + 1) : id_;
       raw_.push_back({std::move(line), road, id, properties.get("name"), next_row()});
@@ -232,7 +231,7 @@ class Importer {
     }
     if (taken == 0) return context_.report.skip("feature", shown, "street: " + fault);
     if (taken < feature.lines.size())
-      note(mended, std::to_string(feature.lines.size() - taken) + " of its lines left out: " + fault);
+      note_of_feature(mended, std::to_string(feature.lines.size() - taken) + " of its lines left out: " + fault);
     if (mended.empty()) context_.report.take("feature", shown, "street");
     else context_.report.repair("feature", shown, "street", mended);
   }
@@ -329,16 +328,16 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   context.reference = frame->reference();
   context.notes = document->notes;
   context.notes.insert(context.notes.end(), frame->notes().begin(), frame->notes().end());
-  Importer importer(options, *frame, context);
+  GeoImporter importer(options, *frame, context);
   for (std::size_t i = 0; i < document->features.size(); ++i) {
     if (i % 256 == 0 && !goes_on(options.watch, "features", i, document->features.size())) return stopped_error();
     importer.read(document->features[i], i);
   }
   importer.cut_streets();
   if (importer.unsure > 0)
-    context.notes.push_back(
-        "The properties of " + std::to_string(importer.unsure) +
-        " polygons do not say what they are: they were taken as buildings. Say so by `--as plot` or `--as area` if they are something else.");
+    context.notes.push_back("The properties of " + std::to_string(importer.unsure) +
+                            " polygons do not say what they are: they were taken as buildings. Say so by `--as plot` or `--as "
+                            "area` if they are something else.");
   assume_heights(options, context);
   return context;
 }

@@ -17,31 +17,31 @@ namespace bl {
 
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 std::string join(const std::string& place, std::string_view step) {
   return place.empty() ? std::string(step) : place + "/" + std::string(step);
 }
 std::string join(const std::string& place, std::size_t step) { return join(place, std::to_string(step)); }
 
-const Json* member(const Json& object, const char* name) {
+const SortedJson* member(const SortedJson& object, const char* name) {
   const auto found = object.find(name);
   return found == object.end() ? nullptr : &*found;
 }
 
-std::string type_of(const Json& object) {
-  const Json* type = object.is_object() ? member(object, "type") : nullptr;
+std::string type_of(const SortedJson& object) {
+  const SortedJson* type = object.is_object() ? member(object, "type") : nullptr;
   return type && type->is_string() ? type->get<std::string>() : std::string();
 }
 
-std::string plain_text(const Json& value) {
+std::string plain_text(const SortedJson& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float()) return shortest(value.get<double>());
   return value.dump();
 }
 
 // A value in a few characters. The library's own dump recurses, and would overflow the stack on deeply nested arrays.
-std::string brief(const Json& value) {
+std::string brief(const SortedJson& value) {
   if (value.is_object()) return "{...}";
   if (!value.is_array()) return value.dump().substr(0, 40);
   std::string text = "[";
@@ -54,36 +54,36 @@ const std::vector<std::string> kTypes = {"FeatureCollection",  "Feature", "Polyg
                                          "GeometryCollection", "Point",   "MultiPoint", "LineString",
                                          "MultiLineString"};
 
-class Reader {
+class PolygonReader {
  public:
-  Result<GeoDocument> read(const Json& root);
+  Result<GeoDocument> read(const SortedJson& root);
 
  private:
-  Result<std::string> crs_of(const Json& object, const std::string& place, const std::string& inherited);
-  Result<void> read_feature(const Json& object, const std::string& place, const std::string& crs);
-  Result<void> read_geometry(const Json& object, const std::string& place, GeoFeature& feature);
-  Result<void> read_polygon(const Json& coordinates, const std::string& place, GeoFeature& feature);
-  Result<void> read_places(const Json& coordinates, const std::string& place, const std::string& type, GeoFeature& feature);
-  Result<std::vector<std::array<double, 2>>> read_positions(const Json& list, const std::string& place);
-  Result<std::array<double, 2>> read_position(const Json& position, const std::string& place);
+  Result<std::string> crs_of(const SortedJson& object, const std::string& place, const std::string& inherited);
+  Result<void> read_feature(const SortedJson& object, const std::string& place, const std::string& crs);
+  Result<void> read_geometry(const SortedJson& object, const std::string& place, GeoFeature& feature);
+  Result<void> read_polygon(const SortedJson& coordinates, const std::string& place, GeoFeature& feature);
+  Result<void> read_places(const SortedJson& coordinates, const std::string& place, const std::string& type, GeoFeature& feature);
+  Result<std::vector<std::array<double, 2>>> read_positions(const SortedJson& list, const std::string& place);
+  Result<std::array<double, 2>> read_position(const SortedJson& position, const std::string& place);
 
   GeoDocument document_;
   bool heights_ = false;
 };
 
 // The member `crs` of the 2008 format: {"type": "name", "properties": {"name": ...}} or {"type": "EPSG", ... "code"}.
-Result<std::string> Reader::crs_of(const Json& object, const std::string& place, const std::string& inherited) {
-  const Json* crs = member(object, "crs");
+Result<std::string> PolygonReader::crs_of(const SortedJson& object, const std::string& place, const std::string& inherited) {
+  const SortedJson* crs = member(object, "crs");
   if (crs == nullptr) return inherited;
   if (crs->is_null()) {
     document_.notes.push_back(
         "The member `crs` is null, which says that the CRS is not known; WGS84 longitude and latitude were assumed.");
     return inherited;
   }
-  const Json* properties = crs->is_object() ? member(*crs, "properties") : nullptr;
+  const SortedJson* properties = crs->is_object() ? member(*crs, "properties") : nullptr;
   if (properties && properties->is_object()) {
-    const Json* name = member(*properties, "name");
-    const Json* code = member(*properties, "code");
+    const SortedJson* name = member(*properties, "name");
+    const SortedJson* code = member(*properties, "code");
     if (name && name->is_string()) return tidy_crs_name(name->get<std::string>());
     if (code && (code->is_number_integer() || code->is_string())) return tidy_crs_name("EPSG:" + plain_text(*code));
   }
@@ -92,7 +92,7 @@ Result<std::string> Reader::crs_of(const Json& object, const std::string& place,
                "give the CRS as an option."};
 }
 
-Result<GeoDocument> Reader::read(const Json& root) {
+Result<GeoDocument> PolygonReader::read(const SortedJson& root) {
   const std::string type = type_of(root);
   if (type.empty())
     return Error{
@@ -101,7 +101,7 @@ Result<GeoDocument> Reader::read(const Json& root) {
   auto crs = crs_of(root, "", "OGC:CRS84");
   if (!crs) return crs.error();
   if (type == "FeatureCollection") {
-    const Json* features = member(root, "features");
+    const SortedJson* features = member(root, "features");
     if (features == nullptr || !features->is_array())
       return Error{ErrorCode::missing, "features", "A FeatureCollection needs an array `features`; it is missing or no array."};
     for (std::size_t i = 0; i < features->size(); ++i) {
@@ -115,7 +115,7 @@ Result<GeoDocument> Reader::read(const Json& root) {
   return std::move(document_);
 }
 
-Result<void> Reader::read_feature(const Json& object, const std::string& place, const std::string& crs) {
+Result<void> PolygonReader::read_feature(const SortedJson& object, const std::string& place, const std::string& crs) {
   if (!object.is_object())
     return Error{ErrorCode::parse, place, "A feature must be an object; this is " + std::string(object.type_name()) + "."};
   GeoFeature feature;
@@ -124,13 +124,13 @@ Result<void> Reader::read_feature(const Json& object, const std::string& place, 
   auto own_crs = place.empty() ? Result<std::string>(crs) : crs_of(object, place, crs);
   if (!own_crs) return own_crs.error();
   feature.crs = *own_crs;
-  const Json* geometry = is_feature ? member(object, "geometry") : &object;
+  const SortedJson* geometry = is_feature ? member(object, "geometry") : &object;
   if (is_feature) {
-    const Json* properties = member(object, "properties");
+    const SortedJson* properties = member(object, "properties");
     if (properties && properties->is_object())
       for (const auto& [name, value] : properties->items())
         if (value.is_primitive() && !value.is_null()) feature.properties.emplace_back(name, plain_text(value));
-    const Json* id = member(object, "id");
+    const SortedJson* id = member(object, "id");
     if (id && (id->is_string() || id->is_number())) feature.properties.emplace_back("id", plain_text(*id));
   }
   if (geometry && !geometry->is_null()) {
@@ -140,7 +140,7 @@ Result<void> Reader::read_feature(const Json& object, const std::string& place, 
   return {};
 }
 
-Result<void> Reader::read_geometry(const Json& object, const std::string& place, GeoFeature& feature) {
+Result<void> PolygonReader::read_geometry(const SortedJson& object, const std::string& place, GeoFeature& feature) {
   const std::string type = type_of(object);
   if (std::find(kTypes.begin() + 2, kTypes.end(), type) == kTypes.end())
     return Error{ErrorCode::unknown_type, join(place, "type"),
@@ -150,7 +150,7 @@ Result<void> Reader::read_geometry(const Json& object, const std::string& place,
   if (!crs) return crs.error();
   feature.crs = *crs;
   if (type == "GeometryCollection") {
-    const Json* parts = member(object, "geometries");
+    const SortedJson* parts = member(object, "geometries");
     if (parts == nullptr || !parts->is_array())
       return Error{ErrorCode::missing, join(place, "geometries"), "A GeometryCollection needs an array `geometries`."};
     // A collection within a collection is legal but discouraged; refusing it bounds the depth of this recursion.
@@ -163,7 +163,7 @@ Result<void> Reader::read_geometry(const Json& object, const std::string& place,
     }
     return {};
   }
-  const Json* coordinates = member(object, "coordinates");
+  const SortedJson* coordinates = member(object, "coordinates");
   const std::string coordinates_place = join(place, "coordinates");
   if (coordinates == nullptr || !coordinates->is_array())
     return Error{ErrorCode::missing, coordinates_place,
@@ -175,8 +175,8 @@ Result<void> Reader::read_geometry(const Json& object, const std::string& place,
   return {};
 }
 
-Result<void> Reader::read_places(const Json& coordinates, const std::string& place, const std::string& type,
-                                 GeoFeature& feature) {
+Result<void> PolygonReader::read_places(const SortedJson& coordinates, const std::string& place, const std::string& type,
+                                        GeoFeature& feature) {
   if (type == "Point") {
     if (coordinates.empty()) return {};  // RFC 7946: an empty one is like none
     auto position = read_position(coordinates, place);
@@ -198,7 +198,7 @@ Result<void> Reader::read_places(const Json& coordinates, const std::string& pla
   return {};
 }
 
-Result<std::vector<std::array<double, 2>>> Reader::read_positions(const Json& list, const std::string& place) {
+Result<std::vector<std::array<double, 2>>> PolygonReader::read_positions(const SortedJson& list, const std::string& place) {
   if (!list.is_array()) return Error{ErrorCode::parse, place, "A line must be an array of positions [x, y]."};
   std::vector<std::array<double, 2>> positions;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -209,12 +209,12 @@ Result<std::vector<std::array<double, 2>>> Reader::read_positions(const Json& li
   return positions;
 }
 
-Result<void> Reader::read_polygon(const Json& coordinates, const std::string& place, GeoFeature& feature) {
+Result<void> PolygonReader::read_polygon(const SortedJson& coordinates, const std::string& place, GeoFeature& feature) {
   GeoPolygon polygon;
   polygon.place = place;
   if (!coordinates.is_array()) return Error{ErrorCode::parse, place, "A polygon must be an array of rings."};
   for (std::size_t r = 0; r < coordinates.size(); ++r) {
-    const Json& ring = coordinates[r];
+    const SortedJson& ring = coordinates[r];
     const std::string ring_place = join(place, r);
     if (!ring.is_array()) return Error{ErrorCode::parse, ring_place, "A ring must be an array of positions [x, y]."};
     polygon.rings.emplace_back();
@@ -228,7 +228,7 @@ Result<void> Reader::read_polygon(const Json& coordinates, const std::string& pl
   return {};
 }
 
-Result<std::array<double, 2>> Reader::read_position(const Json& position, const std::string& place) {
+Result<std::array<double, 2>> PolygonReader::read_position(const SortedJson& position, const std::string& place) {
   if (!position.is_array() || position.size() < 2 || !position[0].is_number() || !position[1].is_number())
     return Error{ErrorCode::parse, place,
                  "A position must be an array of two numbers [x, y] (longitude, latitude); this is " + brief(position) + "."};
@@ -249,8 +249,8 @@ Result<GeoDocument> read_geojson_polygons(std::string_view text) {
   const auto json = read_bounded_json(text, "GeoJSON");
   if (!json) return json.error();
   try {
-    return Reader().read(*json);
-  } catch (const Json::exception&) {
+    return PolygonReader().read(*json);
+  } catch (const SortedJson::exception&) {
     return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
   }
 }

@@ -34,7 +34,9 @@ Error cut_off(const char* what) {
 constexpr const char* kCutOff = "the file is cut off: its lower part is missing";
 
 // A PNG ends with its chunk IEND, a JPEG with the marker EOI, after which cameras may append something of their own.
-bool is_complete_png(std::string_view bytes) { return bytes.substr(bytes.size() < 64 ? 0 : bytes.size() - 64).find("IEND") != std::string_view::npos; }
+bool is_complete_png(std::string_view bytes) {
+  return bytes.substr(bytes.size() < 64 ? 0 : bytes.size() - 64).find("IEND") != std::string_view::npos;
+}
 
 // From where the picture's own data begin: pictures in miniature within EXIF have an end of their own.
 bool is_complete_jpeg(std::string_view bytes) {
@@ -96,7 +98,8 @@ class Tags {
     const ExifEntry* entry = exif_content_get_entry(data_->ifd[part], tag);
     return entry != nullptr && entry->data != nullptr ? entry : nullptr;
   }
-  /// Text without the blanks around it. A copyright has two parts, the photographer's and the editor's: all of them, or the first.
+  /// Text without the blanks around it. A copyright has two parts, the photographer's and the editor's: all of them, or the
+  /// first.
   std::string text(ExifIfd part, ExifTag tag, bool has_parts = false) const {
     const ExifEntry* entry = find(part, tag);
     if (entry == nullptr || entry->format != EXIF_FORMAT_ASCII) return "";
@@ -157,13 +160,13 @@ class Tags {
   mutable bool has_guessed_ = false;
 };
 
-constexpr auto tag_of(int number) { return static_cast<ExifTag>(number); }
+constexpr auto exif_tag(int number) { return static_cast<ExifTag>(number); }
 
 // Degrees, minutes and seconds with a letter for the side; nothing where a part is missing or makes no sense.
 std::optional<double> coordinate(const Tags& tags, int value, int side, char negative, double most) {
-  const auto degrees = tags.number(EXIF_IFD_GPS, tag_of(value), 0), minutes = tags.number(EXIF_IFD_GPS, tag_of(value), 1),
-             seconds = tags.number(EXIF_IFD_GPS, tag_of(value), 2);
-  const std::string letter = tags.text(EXIF_IFD_GPS, tag_of(side));
+  const auto degrees = tags.number(EXIF_IFD_GPS, exif_tag(value), 0), minutes = tags.number(EXIF_IFD_GPS, exif_tag(value), 1),
+             seconds = tags.number(EXIF_IFD_GPS, exif_tag(value), 2);
+  const std::string letter = tags.text(EXIF_IFD_GPS, exif_tag(side));
   if (!degrees || !minutes || letter.empty()) return std::nullopt;
   const double size = *degrees + *minutes / 60 + seconds.value_or(0) / 3600;
   if (!(size <= most)) return std::nullopt;
@@ -188,11 +191,11 @@ void read_place(const Tags& tags, ImageFacts& facts) {
     facts.latitude = facts.longitude = std::nullopt;
     facts.notes.emplace_back("its place is incomplete and was left out");
   }
-  facts.altitude = tags.number(EXIF_IFD_GPS, tag_of(EXIF_TAG_GPS_ALTITUDE));
-  if (facts.altitude && tags.number(EXIF_IFD_GPS, tag_of(EXIF_TAG_GPS_ALTITUDE_REF)).value_or(0) == 1) *facts.altitude *= -1;
-  facts.bearing = tags.number(EXIF_IFD_GPS, tag_of(EXIF_TAG_GPS_IMG_DIRECTION));
+  facts.altitude = tags.number(EXIF_IFD_GPS, exif_tag(EXIF_TAG_GPS_ALTITUDE));
+  if (facts.altitude && tags.number(EXIF_IFD_GPS, exif_tag(EXIF_TAG_GPS_ALTITUDE_REF)).value_or(0) == 1) *facts.altitude *= -1;
+  facts.bearing = tags.number(EXIF_IFD_GPS, exif_tag(EXIF_TAG_GPS_IMG_DIRECTION));
   if (facts.bearing && !(*facts.bearing >= 0 && *facts.bearing <= 360)) facts.bearing.reset();
-  if (facts.bearing && tags.text(EXIF_IFD_GPS, tag_of(EXIF_TAG_GPS_IMG_DIRECTION_REF)) == "M")
+  if (facts.bearing && tags.text(EXIF_IFD_GPS, exif_tag(EXIF_TAG_GPS_IMG_DIRECTION_REF)) == "M")
     facts.notes.emplace_back("its direction is against magnetic north and was taken as it is");
 }
 
@@ -236,15 +239,15 @@ Result<ImageFacts> read_image_facts(std::string_view bytes) {
   facts.author = tags.text(EXIF_IFD_0, EXIF_TAG_ARTIST);
   facts.licence = tags.text(EXIF_IFD_0, EXIF_TAG_COPYRIGHT, true);
   facts.note = tags.text(EXIF_IFD_0, EXIF_TAG_IMAGE_DESCRIPTION);
-  if (tags.has_guessed()) facts.notes.emplace_back("its texts are not UTF-8 and were read as Latin-1: check letters with accents");
+  if (tags.has_guessed())
+    facts.notes.emplace_back("its texts are not UTF-8 and were read as Latin-1: check letters with accents");
   read_place(tags, facts);
   read_description(facts);
   // The focal length on film gives the angle across its diagonal: it is the same for all formats.
   const auto focal = tags.number(EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM);
   if (focal && *focal > 1) {
     const double diagonal = std::hypot(facts.width, facts.height);
-    facts.field_of_view =
-        2 * std::atan(0.5 * kFilmDiagonal * facts.seen_width() / diagonal / *focal) * 180 / std::numbers::pi;
+    facts.field_of_view = 2 * std::atan(0.5 * kFilmDiagonal * facts.seen_width() / diagonal / *focal) * 180 / std::numbers::pi;
   }
   return facts;
 }

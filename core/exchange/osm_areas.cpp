@@ -16,8 +16,8 @@ namespace bl {
 
 namespace {
 
-constexpr double kCovered = 0.9;      // [ratio] of a building: parts that cover less do not replace it
-constexpr double kSameHeight = 0.01;  // [m]
+constexpr double kCovered = 0.9;          // [ratio] of a building: parts that cover less do not replace it
+constexpr double kSameAreaHeight = 0.01;  // [m]
 
 // An outline with its holes, and where its row stands.
 struct Shape {
@@ -256,8 +256,8 @@ class Areas {
   void take(const Shape& shape) {
     const OsmTags& tags = *shape.tags;
     if (!is_osm_building(tags) && !is_osm_part(tags)) {
-      in_.context->areas.push_back({shape.id, tag_of(tags, "name"), osm_ground(tags), shape.outer, shape.holes, false,
-                                    in_.index_of(*shape.row)});
+      in_.context->areas.push_back(
+          {shape.id, tag_of(tags, "name"), osm_ground(tags), shape.outer, shape.holes, false, in_.index_of(*shape.row)});
       return;
     }
     Candidate candidate;
@@ -302,7 +302,7 @@ class Areas {
       std::vector<PlanShape> grounded;
       for (const std::size_t p : list) {
         parts_[p].building.whole = whole.building.id;
-        if (parts_[p].building.base < kSameHeight) {
+        if (parts_[p].building.base < kSameAreaHeight) {
           on_ground += ground_area(parts_[p].building);
           grounded.push_back({&parts_[p].building.outer});
           for (const Ring& hole : parts_[p].building.holes) grounded.back().push_back(&hole);
@@ -319,7 +319,7 @@ class Areas {
         for (const std::size_t p : list)
           if (parts_[p].building.height == 0 && whole.building.height > 0) {
             parts_[p].building.height =
-                std::max(kSameHeight, whole.building.base + whole.building.height - parts_[p].building.base);
+                std::max(kSameAreaHeight, whole.building.base + whole.building.height - parts_[p].building.base);
             parts_[p].building.height_source = whole.building.height_source;
           }
       } else {
@@ -330,8 +330,8 @@ class Areas {
 
   void raise(Candidate& part, const Candidate& whole) {
     const double roof = whole.building.base + whole.building.height, top = part.building.base + part.building.height;
-    if (whole.building.height > 0 && part.building.height > 0 && top > roof + kSameHeight) {
-      if (part.building.base >= roof - kSameHeight) return;
+    if (whole.building.height > 0 && part.building.height > 0 && top > roof + kSameAreaHeight) {
+      if (part.building.base >= roof - kSameAreaHeight) return;
       part.building.base = roof;
       part.building.height = top - roof;
       note(part.row->detail, "begins at the roof of its building, whose parts do not cover it");

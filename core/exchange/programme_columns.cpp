@@ -10,7 +10,7 @@ namespace bl {
 
 namespace {
 
-using Column = ProgrammeColumn;
+using ProgrammeColumn = ProgrammeColumn;
 
 // Ways to write a unit in a header → the symbol of the unit table.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {{{"m2", "m2"},
@@ -79,7 +79,7 @@ class Matcher {
 
  private:
   Result<void> take(const ProgrammeColumnInfo& info, std::size_t index);
-  Error missing(const std::string& what, const std::vector<Column>& accepted) const;
+  Error missing(const std::string& what, const std::vector<ProgrammeColumn>& accepted) const;
 
   const CsvRecord& record_;
   std::vector<bool> taken_;
@@ -111,9 +111,10 @@ Result<void> Matcher::take_chosen(const std::map<std::string, std::string>& chos
   for (const auto& [name, wanted] : chosen) {
     const ProgrammeColumnInfo* info = column_called(name);
     if (info == nullptr)
-      return Error{
-          ErrorCode::unknown_field, "columns",
-          "`" + name + "` is no column of a programme" + (did_you_mean(name, ours).empty() ? "." : did_you_mean(name, ours)) + " There are: " + list_of(ours) + "."};
+      return Error{ErrorCode::unknown_field, "columns",
+                   "`" + name + "` is no column of a programme" +
+                       (did_you_mean(name, ours).empty() ? "." : did_you_mean(name, ours)) + " There are: " + list_of(ours) +
+                       "."};
     std::size_t index = record_.fields.size();
     for (std::size_t i = record_.fields.size(); i-- > 0;)
       if (record_.fields[i] == wanted ||
@@ -143,8 +144,8 @@ Result<void> Matcher::take_aliases() {
       if (auto done = take(info, i); !done) return done;
     }
   }
-  auto &use = header_.columns[static_cast<std::size_t>(Column::use)],
-       &name = header_.columns[static_cast<std::size_t>(Column::name)];
+  auto &use = header_.columns[static_cast<std::size_t>(ProgrammeColumn::use)],
+       &name = header_.columns[static_cast<std::size_t>(ProgrammeColumn::name)];
   if (!use && name) {
     header_.notes.push_back("There is no column `use`; the column `" + name->header + "` was taken for it.");
     use = std::exchange(name, std::nullopt);
@@ -152,9 +153,9 @@ Result<void> Matcher::take_aliases() {
   return {};
 }
 
-Error Matcher::missing(const std::string& what, const std::vector<Column>& accepted) const {
+Error Matcher::missing(const std::string& what, const std::vector<ProgrammeColumn>& accepted) const {
   std::vector<std::string> names;
-  for (const Column column : accepted)
+  for (const ProgrammeColumn column : accepted)
     for (const std::string_view alias : programme_columns()[static_cast<std::size_t>(column)].aliases) names.emplace_back(alias);
   return Error{ErrorCode::missing, "line " + std::to_string(record_.line),
                "There is no column " + what + ". The header has: " + list_of(record_.fields) +
@@ -162,16 +163,17 @@ Error Matcher::missing(const std::string& what, const std::vector<Column>& accep
 }
 
 Result<ProgrammeHeader> Matcher::finish() {
-  if (!header_.at(Column::use)) return missing("use", {Column::use, Column::name});
-  if (!header_.at(Column::floor_area) && !(header_.at(Column::floor_area_min) && header_.at(Column::floor_area_max)))
-    return missing("floor_area_m2", {Column::floor_area});
+  if (!header_.at(ProgrammeColumn::use)) return missing("use", {ProgrammeColumn::use, ProgrammeColumn::name});
+  if (!header_.at(ProgrammeColumn::floor_area) &&
+      !(header_.at(ProgrammeColumn::floor_area_min) && header_.at(ProgrammeColumn::floor_area_max)))
+    return missing("floor_area_m2", {ProgrammeColumn::floor_area});
   std::vector<std::string> ours;
   for (const ProgrammeColumnInfo& info : programme_columns())
     if (!header_.at(info.column)) ours.emplace_back(info.aliases.front());
   for (std::size_t i = 0; i < record_.fields.size(); ++i) {
     if (taken_[i]) continue;
     const std::string hint = did_you_mean(normal_header(record_.fields[i]).name, ours);
-    header_.notes.push_back("Column " + std::to_string(i + 1) + " `" + record_.fields[i] + "` was left out" +
+    header_.notes.push_back("ProgrammeColumn " + std::to_string(i + 1) + " `" + record_.fields[i] + "` was left out" +
                             (hint.empty() ? "." : hint));
   }
   return std::move(header_);
@@ -181,33 +183,33 @@ Result<ProgrammeHeader> Matcher::finish() {
 
 const std::array<ProgrammeColumnInfo, kProgrammeColumns>& programme_columns() {
   static const std::array<ProgrammeColumnInfo, kProgrammeColumns> columns = {{
-      {Column::use, "use", Unit::none, {"use", "function", "usage", "program", "programme", "activity"}},
-      {Column::name, "name", Unit::none, {"name", "room", "room_name", "space", "space_name", "title"}},
-      {Column::floor_area,
+      {ProgrammeColumn::use, "use", Unit::none, {"use", "function", "usage", "program", "programme", "activity"}},
+      {ProgrammeColumn::name, "name", Unit::none, {"name", "room", "room_name", "space", "space_name", "title"}},
+      {ProgrammeColumn::floor_area,
        "floor_area_m2",
        Unit::square_metre,
        {"floor_area", "area", "floorarea", "target_area", "area_target", "floor_area_target", "floor_space", "size"}},
-      {Column::floor_area_min,
+      {ProgrammeColumn::floor_area_min,
        "floor_area_min_m2",
        Unit::square_metre,
        {"floor_area_min", "min_floor_area", "area_min", "min_area", "minimum_area", "minimum_floor_area"}},
-      {Column::floor_area_max,
+      {ProgrammeColumn::floor_area_max,
        "floor_area_max_m2",
        Unit::square_metre,
        {"floor_area_max", "max_floor_area", "area_max", "max_area", "maximum_area", "maximum_floor_area"}},
-      {Column::count,
+      {ProgrammeColumn::count,
        "count",
        Unit::count,
        {"count", "quantity", "room_quantity", "number_of_rooms", "amount", "items", "pieces"}},
-      {Column::storey_height,
+      {ProgrammeColumn::storey_height,
        "storey_height_m",
        Unit::metre,
        {"storey_height", "story_height", "floor_height", "room_height", "height", "clear_height"}},
-      {Column::adjacent_to,
+      {ProgrammeColumn::adjacent_to,
        "adjacent_to",
        Unit::none,
        {"adjacent_to", "adjacent", "adjacency", "adjacencies", "next_to", "near", "neighbours", "neighbors"}},
-      {Column::tags, "tags", Unit::none, {"tags", "tag", "labels", "keywords"}},
+      {ProgrammeColumn::tags, "tags", Unit::none, {"tags", "tag", "labels", "keywords"}},
   }};
   return columns;
 }

@@ -15,10 +15,10 @@ namespace bl {
 
 namespace {
 
-using Column = ProgrammeColumn;
+using BriefColumn = ProgrammeColumn;
 
-constexpr std::array kNumbers = {Column::floor_area, Column::floor_area_min, Column::floor_area_max, Column::count,
-                                 Column::storey_height};
+constexpr std::array kNumbers = {BriefColumn::floor_area, BriefColumn::floor_area_min, BriefColumn::floor_area_max,
+                                 BriefColumn::count, BriefColumn::storey_height};
 constexpr double kMostItems = 100000;    // of one row: more is a number in the wrong column
 constexpr double kTallestStorey = 1000;  // [m]
 constexpr double kLargestArea = 1e9;     // [m²] of one item
@@ -34,16 +34,16 @@ std::vector<std::string> split_list(std::string_view text, std::string_view sepa
   return parts;
 }
 
-class Importer {
+class ProgrammeImporter {
  public:
-  explicit Importer(const ProgrammeOptions& options) : options_(options) {}
+  explicit ProgrammeImporter(const ProgrammeOptions& options) : options_(options) {}
   Result<ProgrammeImport> read(std::string_view text);
 
  private:
-  std::string field(const CsvRecord& record, Column column) const;
-  std::string place(const CsvRecord& record, Column column) const;
+  std::string field(const CsvRecord& record, BriefColumn column) const;
+  std::string place(const CsvRecord& record, BriefColumn column) const;
   Result<void> decide_decimals();
-  Result<std::optional<double>> number(const CsvRecord& record, Column column) const;
+  Result<std::optional<double>> number(const CsvRecord& record, BriefColumn column) const;
   Result<void> check_width(const CsvRecord& record) const;
   Result<ProgrammeRow> read_row(const CsvRecord& record);
   Result<void> settle_area(const CsvRecord& record, ProgrammeRow& row);
@@ -58,24 +58,24 @@ class Importer {
   ProgrammeImport import_;
 };
 
-std::string Importer::field(const CsvRecord& record, Column column) const {
+std::string ProgrammeImporter::field(const CsvRecord& record, BriefColumn column) const {
   const auto& found = header_.at(column);
   return found && found->index < record.fields.size() ? record.fields[found->index] : std::string();
 }
 
-std::string Importer::place(const CsvRecord& record, Column column) const {
+std::string ProgrammeImporter::place(const CsvRecord& record, BriefColumn column) const {
   const auto& found = header_.at(column);
   const std::string line = "line " + std::to_string(record.line);
   return found ? line + ", column " + std::to_string(found->index + 1) + " `" + found->header + "`" : line;
 }
 
 // The decimal mark of a column: the option, its own evidence, or else that of the other columns of the file.
-Result<void> Importer::decide_decimals() {
+Result<void> ProgrammeImporter::decide_decimals() {
   if (options_.decimal && *options_.decimal != '.' && *options_.decimal != ',')
     return Error{ErrorCode::parse, "decimal", "The decimal mark must be a point or a comma."};
   char of_file = 0;
   bool mixed = false;
-  for (const Column column : kNumbers) {
+  for (const BriefColumn column : kNumbers) {
     const auto& found = header_.at(column);
     if (!found) continue;
     std::vector<NumberField> fields;
@@ -96,7 +96,7 @@ Result<void> Importer::decide_decimals() {
   return {};
 }
 
-Result<std::optional<double>> Importer::number(const CsvRecord& record, Column column) const {
+Result<std::optional<double>> ProgrammeImporter::number(const CsvRecord& record, BriefColumn column) const {
   const std::string text = field(record, column);
   if (text.empty()) return std::optional<double>();
   const auto index = static_cast<std::size_t>(column);
@@ -114,7 +114,7 @@ Result<std::optional<double>> Importer::number(const CsvRecord& record, Column c
   return Error{ErrorCode::parse, place(record, column), "`" + text + "` is not understood. Write " + units + "."};
 }
 
-Result<void> Importer::check_width(const CsvRecord& record) const {
+Result<void> ProgrammeImporter::check_width(const CsvRecord& record) const {
   const std::size_t columns = csv_.records.front().fields.size();
   for (std::size_t i = columns; i < record.fields.size(); ++i)
     if (!record.fields[i].empty())
@@ -129,9 +129,9 @@ Result<void> Importer::check_width(const CsvRecord& record) const {
 }
 
 // Area and its bounds: the target may be missing where both bounds are given.
-Result<void> Importer::settle_area(const CsvRecord& record, ProgrammeRow& row) {
+Result<void> ProgrammeImporter::settle_area(const CsvRecord& record, ProgrammeRow& row) {
   std::array<std::optional<double>, 3> areas;
-  const std::array columns = {Column::floor_area, Column::floor_area_min, Column::floor_area_max};
+  const std::array columns = {BriefColumn::floor_area, BriefColumn::floor_area_min, BriefColumn::floor_area_max};
   for (std::size_t k = 0; k < 3; ++k) {
     auto value = number(record, columns[k]);
     if (!value) return value.error();
@@ -148,7 +148,8 @@ Result<void> Importer::settle_area(const CsvRecord& record, ProgrammeRow& row) {
                             shortest(*areas[0]) + " m².");
   }
   if (!areas[0])
-    return Error{ErrorCode::missing, place(record, Column::floor_area), "The floor area is empty. Give one, or remove the row."};
+    return Error{ErrorCode::missing, place(record, BriefColumn::floor_area),
+                 "The floor area is empty. Give one, or remove the row."};
   row.floor_area = *areas[0];
   if ((areas[1] && *areas[1] > row.floor_area) || (areas[2] && *areas[2] < row.floor_area))
     return Error{ErrorCode::conflict, place(record, areas[1] && *areas[1] > row.floor_area ? columns[1] : columns[2]),
@@ -158,35 +159,35 @@ Result<void> Importer::settle_area(const CsvRecord& record, ProgrammeRow& row) {
   return {};
 }
 
-Result<ProgrammeRow> Importer::read_row(const CsvRecord& record) {
+Result<ProgrammeRow> ProgrammeImporter::read_row(const CsvRecord& record) {
   if (auto fits = check_width(record); !fits) return fits.error();
   ProgrammeRow row;
   row.line = record.line;
-  row.use = field(record, Column::use);
+  row.use = field(record, BriefColumn::use);
   if (row.use.empty())
-    return Error{ErrorCode::missing, place(record, Column::use), "The use is empty. Name it, or remove the row."};
-  row.name = field(record, Column::name);
+    return Error{ErrorCode::missing, place(record, BriefColumn::use), "The use is empty. Name it, or remove the row."};
+  row.name = field(record, BriefColumn::name);
   if (auto area = settle_area(record, row); !area) return area.error();
-  auto count = number(record, Column::count);
+  auto count = number(record, BriefColumn::count);
   if (!count) return count.error();
   const double items = count->value_or(1);
   if (!(items >= 1 && items <= kMostItems && items == std::floor(items)))
-    return Error{ErrorCode::out_of_range, place(record, Column::count),
+    return Error{ErrorCode::out_of_range, place(record, BriefColumn::count),
                  "The count is " + shortest(items) + ". It must be a whole number from 1 to 100000."};
   row.count = static_cast<int>(items);
-  auto height = number(record, Column::storey_height);
+  auto height = number(record, BriefColumn::storey_height);
   if (!height) return height.error();
   row.storey_height = height->value_or(options_.storey_height);
   if (!(row.storey_height > 0 && row.storey_height <= kTallestStorey))
-    return Error{ErrorCode::out_of_range, place(record, Column::storey_height),
+    return Error{ErrorCode::out_of_range, place(record, BriefColumn::storey_height),
                  "The storey height is " + shortest(row.storey_height) + " m. It must be greater than zero and at most 1000 m."};
-  row.adjacent_to = split_list(field(record, Column::adjacent_to), "|;");
-  row.tags = split_list(field(record, Column::tags), "|;,");
+  row.adjacent_to = split_list(field(record, BriefColumn::adjacent_to), "|;");
+  row.tags = split_list(field(record, BriefColumn::tags), "|;,");
   return row;
 }
 
 // Later rows of a use get a number: shop, shop 2, shop 3; capitals make no difference.
-void Importer::make_unique() {
+void ProgrammeImporter::make_unique() {
   std::set<std::string> seen, written;
   for (const ProgrammeRow& row : import_.rows) written.insert(lower_case(row.use));
   for (ProgrammeRow& row : import_.rows) {
@@ -205,7 +206,7 @@ void Importer::make_unique() {
 }
 
 // A name of several rows means all of them.
-Result<void> Importer::join_neighbours() {
+Result<void> ProgrammeImporter::join_neighbours() {
   std::vector<std::string> uses;
   std::map<std::string, std::vector<std::size_t>> rows_of;
   for (std::size_t i = 0; i < import_.rows.size(); ++i) {
@@ -219,7 +220,7 @@ Result<void> Importer::join_neighbours() {
     for (const std::string& name : row.adjacent_to) {
       const auto found = rows_of.find(lower_case(name));
       if (found == rows_of.end())
-        return Error{ErrorCode::not_found, place(csv_.records[i + 1], Column::adjacent_to),
+        return Error{ErrorCode::not_found, place(csv_.records[i + 1], BriefColumn::adjacent_to),
                      "`" + name + "` is no use of this table" +
                          (did_you_mean(name, uses).empty() ? ". Write the name of another row." : did_you_mean(name, uses))};
       for (const std::size_t other : found->second) {
@@ -236,7 +237,7 @@ Result<void> Importer::join_neighbours() {
   return {};
 }
 
-Result<ProgrammeImport> Importer::read(std::string_view text) {
+Result<ProgrammeImport> ProgrammeImporter::read(std::string_view text) {
   auto csv = read_csv(text, options_.separator);
   if (!csv) return csv.error();
   csv_ = *std::move(csv);
@@ -267,7 +268,7 @@ Result<ProgrammeImport> Importer::read(std::string_view text) {
 }  // namespace
 
 Result<ProgrammeImport> read_programme_csv(std::string_view text, const ProgrammeOptions& options) {
-  return Importer(options).read(text);
+  return ProgrammeImporter(options).read(text);
 }
 
 }  // namespace bl

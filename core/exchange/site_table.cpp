@@ -14,7 +14,7 @@ namespace bl {
 
 namespace {
 
-enum Column : std::size_t { kX, kY, kZ, kWeight, kRadius, kDemand, kLeast, kMost, kGroup, kName, kColumns };
+enum SiteColumn : std::size_t { kX, kY, kZ, kWeight, kRadius, kDemand, kLeast, kMost, kGroup, kName, kColumns };
 
 struct ColumnInfo {
   Unit unit;                              // Unit::none for text
@@ -47,13 +47,13 @@ const std::array<ColumnInfo, kColumns>& site_columns() {
 std::string_view own_name(std::size_t column) { return site_columns()[column].aliases.front(); }
 
 // Of the header, shortened so that a line that is no header at all stays readable.
-std::string list_of(const std::vector<std::string>& fields) {
+std::string fields_in_words(const std::vector<std::string>& fields) {
   std::string list;
   for (std::size_t i = 0; i < fields.size() && i < 12; ++i) list += (i > 0 ? ", `" : "`") + fields[i].substr(0, 40) + "`";
   return fields.size() > 12 ? list + ", ..." : list;
 }
 
-class Importer {
+class SiteImporter {
  public:
   Result<SiteTable> read(std::string_view text);
 
@@ -70,13 +70,13 @@ class Importer {
   std::array<char, kColumns> decimals_{};
 };
 
-std::string Importer::place(const CsvRecord& record, std::size_t column) const {
+std::string SiteImporter::place(const CsvRecord& record, std::size_t column) const {
   const std::string line = "line " + std::to_string(record.line);
   return found_[column] ? line + ", column " + std::to_string(found_[column]->index + 1) + " `" + found_[column]->header + "`"
                         : line;
 }
 
-Result<void> Importer::take(std::size_t column, std::size_t index) {
+Result<void> SiteImporter::take(std::size_t column, std::size_t index) {
   const std::string& header = csv_.records.front().fields[index];
   const std::string here =
       "line " + std::to_string(csv_.records.front().line) + ", column " + std::to_string(index + 1) + " `" + header + "`";
@@ -96,7 +96,7 @@ Result<void> Importer::take(std::size_t column, std::size_t index) {
   return {};
 }
 
-Result<void> Importer::match_header() {
+Result<void> SiteImporter::match_header() {
   const CsvRecord& header = csv_.records.front();
   const std::string line = "line " + std::to_string(header.line);
   const auto is_number = [](const std::string& field) { return parse_table_number(field, 0, Unit::none, "").has_value(); };
@@ -125,7 +125,7 @@ Result<void> Importer::match_header() {
   for (const std::size_t column : {kX, kY, kZ})
     if (!found_[column])
       return Error{ErrorCode::missing, line,
-                   "There is no column " + std::string(own_name(column)) + " among " + list_of(header.fields) +
+                   "There is no column " + std::string(own_name(column)) + " among " + fields_in_words(header.fields) +
                        "; accepted are " + site_table_columns() + "."};
   if (found_[kWeight] && found_[kRadius])
     return Error{ErrorCode::conflict, line, "Both weight and radius are given: keep one (the weight is the radius squared)."};
@@ -134,7 +134,7 @@ Result<void> Importer::match_header() {
 
 // The decimal mark of each column: its own evidence, or else that of the other columns. Between commas that separate
 // fields a lone point can only be a decimal point, since groups of thousands would need quotes about decimal commas.
-Result<void> Importer::decide_decimals() {
+Result<void> SiteImporter::decide_decimals() {
   char of_file = csv_.separator == ',' ? '.' : '\0';
   for (std::size_t column = 0; column < kColumns; ++column) {
     if (!found_[column] || site_columns()[column].unit == Unit::none) continue;
@@ -153,7 +153,7 @@ Result<void> Importer::decide_decimals() {
   return {};
 }
 
-Result<std::optional<double>> Importer::number(const CsvRecord& record, std::size_t column) const {
+Result<std::optional<double>> SiteImporter::number(const CsvRecord& record, std::size_t column) const {
   if (!found_[column] || found_[column]->index >= record.fields.size()) return std::optional<double>();
   const std::string& text = record.fields[found_[column]->index];
   if (text.empty()) return std::optional<double>();
@@ -167,7 +167,7 @@ Result<std::optional<double>> Importer::number(const CsvRecord& record, std::siz
   return value;
 }
 
-Result<SiteRow> Importer::read_row(const CsvRecord& record) const {
+Result<SiteRow> SiteImporter::read_row(const CsvRecord& record) const {
   const std::vector<std::string>& header = csv_.records.front().fields;
   for (std::size_t i = 0; i < record.fields.size(); ++i)
     if (!record.fields[i].empty() && (i >= header.size() || header[i].empty()))
@@ -198,7 +198,7 @@ Result<SiteRow> Importer::read_row(const CsvRecord& record) const {
   return row;
 }
 
-Result<SiteTable> Importer::read(std::string_view text) {
+Result<SiteTable> SiteImporter::read(std::string_view text) {
   auto csv = read_csv(text);
   if (!csv) return csv.error();
   csv_ = std::move(*csv);
@@ -229,6 +229,6 @@ std::string site_table_columns() {
   return list;
 }
 
-Result<SiteTable> read_site_table(std::string_view text) { return Importer().read(text); }
+Result<SiteTable> read_site_table(std::string_view text) { return SiteImporter().read(text); }
 
 }  // namespace bl

@@ -18,17 +18,17 @@ namespace {
 constexpr double kMostNodes = 5e6;
 
 // Where the wanted columns stand: as named, or in the order of the format's description.
-struct Column {
+struct TntpColumn {
   std::string_view what;
   std::array<std::string_view, 6> names;
   std::size_t usual;
   std::optional<double> missing;  // empty: the column is needed
 };
 
-std::vector<std::size_t> places_of(std::span<const Column> columns, const std::vector<std::string>& names) {
+std::vector<std::size_t> places_of(std::span<const TntpColumn> columns, const std::vector<std::string>& names) {
   std::vector<std::size_t> places;
   std::size_t known = 0;
-  for (const Column& column : columns) {
+  for (const TntpColumn& column : columns) {
     std::size_t place = names.size();
     for (const std::string_view name : column.names)
       if (place == names.size() && !name.empty())
@@ -46,7 +46,8 @@ std::vector<std::size_t> places_of(std::span<const Column> columns, const std::v
 }
 
 // The numbers of one row by column.
-Result<std::vector<double>> row_of(const TntpLine& line, std::span<const Column> columns, std::span<const std::size_t> places) {
+Result<std::vector<double>> row_of(const TntpLine& line, std::span<const TntpColumn> columns,
+                                   std::span<const std::size_t> places) {
   std::vector<double> row;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (places[c] >= line.fields.size()) {
@@ -82,16 +83,16 @@ Result<std::int64_t> count_of(const TntpText& text, const std::string& name, std
   return static_cast<std::int64_t>(*number);
 }
 
-const std::array<Column, 9> kLinkColumns = {
-    Column{"node it begins at", {"initnode", "from", "tail", "init", "fromnode", "a"}, 0, {}},
-    Column{"node it ends at", {"termnode", "to", "head", "term", "tonode", "b_node"}, 1, {}},
-    Column{"capacity", {"capacity", "cap"}, 2, {}},
-    Column{"length", {"length", "distance"}, 3, 0.0},
-    Column{"free flow time", {"freeflowtime", "fft", "freetime", "time"}, 4, {}},
-    Column{"factor B", {"b", "alpha"}, 5, 0.15},
-    Column{"power", {"power", "beta"}, 6, 4.0},
-    Column{"toll", {"toll"}, 8, 0.0},
-    Column{"type", {"linktype", "type"}, 9, 0.0},
+const std::array<TntpColumn, 9> kLinkColumns = {
+    TntpColumn{"node it begins at", {"initnode", "from", "tail", "init", "fromnode", "a"}, 0, {}},
+    TntpColumn{"node it ends at", {"termnode", "to", "head", "term", "tonode", "b_node"}, 1, {}},
+    TntpColumn{"capacity", {"capacity", "cap"}, 2, {}},
+    TntpColumn{"length", {"length", "distance"}, 3, 0.0},
+    TntpColumn{"free flow time", {"freeflowtime", "fft", "freetime", "time"}, 4, {}},
+    TntpColumn{"factor B", {"b", "alpha"}, 5, 0.15},
+    TntpColumn{"power", {"power", "beta"}, 6, 4.0},
+    TntpColumn{"toll", {"toll"}, 8, 0.0},
+    TntpColumn{"type", {"linktype", "type"}, 9, 0.0},
 };
 
 Result<TrafficLink> link_of(const TntpLine& line, std::span<const std::size_t> places, std::map<std::string, int>& twins) {
@@ -220,11 +221,11 @@ Result<TntpTrips> read_tntp_trips(std::string_view text) {
 }
 
 Result<TntpFlows> read_tntp_flows(std::string_view text) {
-  static const std::array<Column, 4> kColumns = {
-      Column{"node it begins at", {"from", "tail", "initnode", "fromnode"}, 0, {}},
-      Column{"node it ends at", {"to", "head", "termnode", "tonode"}, 1, {}},
-      Column{"volume", {"volume", "flow", "volumecapacity"}, 2, {}},
-      Column{"cost", {"cost", "time", "traveltime"}, 3, 0.0},
+  static const std::array<TntpColumn, 4> kColumns = {
+      TntpColumn{"node it begins at", {"from", "tail", "initnode", "fromnode"}, 0, {}},
+      TntpColumn{"node it ends at", {"to", "head", "termnode", "tonode"}, 1, {}},
+      TntpColumn{"volume", {"volume", "flow", "volumecapacity"}, 2, {}},
+      TntpColumn{"cost", {"cost", "time", "traveltime"}, 3, 0.0},
   };
   const auto split = split_tntp(text);
   if (!split) return split.error();
@@ -243,10 +244,10 @@ Result<TntpFlows> read_tntp_flows(std::string_view text) {
 }
 
 Result<TntpPlaces> read_tntp_places(std::string_view text) {
-  static const std::array<Column, 3> kColumns = {
-      Column{"node", {"node", "id", "nodeid"}, 0, {}},
-      Column{"x", {"x", "xcoord", "lon", "longitude"}, 1, {}},
-      Column{"y", {"y", "ycoord", "lat", "latitude"}, 2, {}},
+  static const std::array<TntpColumn, 3> kColumns = {
+      TntpColumn{"node", {"node", "id", "nodeid"}, 0, {}},
+      TntpColumn{"x", {"x", "xcoord", "lon", "longitude"}, 1, {}},
+      TntpColumn{"y", {"y", "ycoord", "lat", "latitude"}, 2, {}},
   };
   const auto split = split_tntp(text);
   if (!split) return split.error();

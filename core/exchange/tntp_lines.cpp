@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kSeparators = " \t\r\f\v,;:";
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\f\v");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r\f\v") - first + 1);
@@ -63,7 +63,8 @@ Result<void> take_metadata(std::string_view line, int number, TntpText& out) {
   const std::size_t end = line.find('>');
   if (end == std::string_view::npos)
     return Error{ErrorCode::parse, tntp_line_place(number), "metadata begins with `<` and needs a `>` behind its name"};
-  out.metadata.insert_or_assign(upper(trimmed(line.substr(1, end - 1))), std::string(trimmed(line.substr(end + 1))));
+  out.metadata.insert_or_assign(upper(without_blanks(line.substr(1, end - 1))),
+                                std::string(without_blanks(line.substr(end + 1))));
   return {};
 }
 
@@ -76,7 +77,7 @@ Result<TntpText> split_tntp(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = trimmed(text.substr(0, end));
+    std::string_view line = without_blanks(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (is_noise(line)) return Error{ErrorCode::parse, tntp_line_place(number), "this is no text; choose a TNTP file (`.tntp`)"};
     if (line.starts_with("<")) {
@@ -86,7 +87,7 @@ Result<TntpText> split_tntp(std::string_view text) {
     if (const std::size_t comment = line.find('~'); comment != std::string_view::npos) {
       // The comment right before the rows names the columns.
       if (comment == 0 && out.lines.empty()) out.columns = names_of(line.substr(1));
-      line = trimmed(line.substr(0, comment));
+      line = without_blanks(line.substr(0, comment));
     }
     if (auto fields = fields_of(line); !fields.empty()) out.lines.push_back({number, std::move(fields), line});
   }

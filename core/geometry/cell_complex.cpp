@@ -17,11 +17,11 @@ namespace {
 // lattices stay lattices after they have been moved about, and no person sees an edge of this length.
 constexpr double kMergeShare = 1e-9;
 // Positions far from the world's origin are rounded more coarsely.
-constexpr double kRounding = 1e-15;
+constexpr double kComplexRounding = 1e-15;
 
 double tolerance_of(const Domain& domain) {
   const auto largest = [](const Vector3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
-  return kMergeShare * domain.size() + kRounding * std::max(largest(domain.minimum), largest(domain.maximum));
+  return kMergeShare * domain.size() + kComplexRounding * std::max(largest(domain.minimum), largest(domain.maximum));
 }
 
 ElementKey cell_key(const ElementLabel& label) { return {ElementKind::cell, ElementName{label}}; }

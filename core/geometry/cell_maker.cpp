@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/none.h"
 #include "core/geometry/shape_measure.h"
 
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 // The box that stands in for everything beyond the ball is wider than the ball by this share.
 constexpr double kFrameMargin = 1e-3;

@@ -10,16 +10,16 @@
 #include "core/base/text.h"
 #include "core/geometry/cell_mesh.h"
 #include "core/geometry/coincidence.h"
+#include "core/geometry/none.h"
 
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 // Facets below this share of the shape's squared reach are slivers of rounding: they carry no name.
 constexpr double kSliverShare = 1e-14;
-constexpr std::size_t kChunk = 16;
+constexpr std::size_t kSitesAtATime = 16;
 // Runs a few times as many as threads even out the load. Whole cells, which tell the next ones of a run who borders them, lose
 // that at the ends of a run: theirs are at least so many blocks thick, about.
 constexpr std::size_t kRunsPerThread = 4;
@@ -64,7 +64,7 @@ void add_up(const CellGround& ground, const PowerSite& site, CellMeasure& out) {
 // Height, floor area and footprint of all parts together.
 void measure_storeys(std::span<const Polyhedron> parts, std::span<ShapeMeasure> shapes, const PowerSite& site, double storey,
                      CellMeasure& out) {
-  double lowest = kInfinity, highest = -kInfinity;
+  double lowest = kNoLimit, highest = -kNoLimit;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (shapes[k].is_empty) continue;
     measure_extent(parts[k], site.weight, shapes[k]);
@@ -91,7 +91,7 @@ void measure_parts(const CellGround& ground, std::uint32_t index, const CellOpti
   for (std::size_t k = 0; k < parts.size(); ++k) {
     ShapeMeasure& shape = bench.shapes[k];
     Point3 middle;
-    const double cell_volume = options.with_shape ? volume_and_centroid(parts[k], middle) : kInfinity;
+    const double cell_volume = options.with_shape ? volume_and_centroid(parts[k], middle) : kNoLimit;
     if (options.with_shape) out.cell_volume += cell_volume;
     shape.is_empty = true;
     if (!(site.weight > 0)) continue;
@@ -299,8 +299,8 @@ void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions&
   const auto body = [&](std::size_t begin, std::size_t end) {
     make_range(which, false, begin, end, options, cells, borders, faces);
   };
-  if (options.pool != nullptr && which.size() > kChunk) {
-    options.pool->for_each_chunk(which.size(), kChunk, body);
+  if (options.pool != nullptr && which.size() > kSitesAtATime) {
+    options.pool->for_each_chunk(which.size(), kSitesAtATime, body);
   } else if (!which.empty()) {
     body(0, which.size());
   }
@@ -308,7 +308,7 @@ void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions&
 
 std::size_t CellWorkshop::runs_per_thread(std::size_t threads, const CellOptions& options) const {
   const auto whole = std::count_if(sites_.begin(), sites_.end(),
-                                   [&](const PowerSite& site) { return limit_of(site.weight, options) == kInfinity; });
+                                   [&](const PowerSite& site) { return limit_of(site.weight, options) == kNoLimit; });
   if (2 * static_cast<std::size_t>(whole) < sites_.size()) return kRunsPerThread;
   const double layers = std::cbrt(static_cast<double>(sites_.size()) / SiteGrid::kSitesPerBlock);
   const double most = layers / (kThickness * static_cast<double>(threads));
@@ -322,7 +322,7 @@ void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> c
     make_range(order, true, begin, end, options, cells, borders, faces);
   };
   const std::size_t threads = options.pool != nullptr ? static_cast<std::size_t>(options.pool->threads()) : 1;
-  const std::size_t runs = threads > 1 && order.size() > 2 * kChunk ? threads * runs_per_thread(threads, options) : 1;
+  const std::size_t runs = threads > 1 && order.size() > 2 * kSitesAtATime ? threads * runs_per_thread(threads, options) : 1;
   if (runs > 1) {
     options.pool->for_each_chunk(order.size(), (order.size() + runs - 1) / runs, body);
   } else {

@@ -14,7 +14,7 @@ constexpr double kLeastDeterminant = 1e-9;
 // Fewer faces are ranked faster by comparing each with each.
 constexpr std::uint32_t kManyFaces = 64;
 
-constexpr std::array<std::uint32_t, 3> kNext{1, 2, 0}, kPrevious{2, 0, 1};
+constexpr std::array<std::uint32_t, 3> kNextCorner{1, 2, 0}, kPreviousCorner{2, 0, 1};
 
 }  // namespace
 
@@ -24,7 +24,7 @@ bool Clipper::meeting_point(const Corner& corner, Point3& at) const {
   const std::uint32_t r0 = rank_[p[0]], r1 = rank_[p[1]], r2 = rank_[p[2]];
   const std::uint32_t k = (static_cast<std::uint32_t>(r1 < r0) & static_cast<std::uint32_t>(r1 < r2)) +
                           2u * (static_cast<std::uint32_t>(r2 < r0) & static_cast<std::uint32_t>(r2 < r1));
-  const Side &a = sides_[p[k]], &b = sides_[p[kNext[k]]], &c = sides_[p[kPrevious[k]]];
+  const Side &a = sides_[p[k]], &b = sides_[p[kNextCorner[k]]], &c = sides_[p[kPreviousCorner[k]]];
   const Vector3 bc = cross(b.normal, c.normal);
   const double determinant = dot(a.normal, bc);
   if (!(determinant > kLeastDeterminant)) return false;
@@ -40,7 +40,7 @@ void Clipper::rank_sides() {
   std::uint32_t* const first_edge = first_edge_.data();
   for (std::uint32_t v = 0; v < size_; ++v) {
     const auto& plane = corners_[v].plane;
-    for (std::uint32_t k = 0; k < 3; ++k) first_edge[plane[k]] = 4 * v + kNext[k];
+    for (std::uint32_t k = 0; k < 3; ++k) first_edge[plane[k]] = 4 * v + kNextCorner[k];
   }
   keys_.resize(count);
   std::uint32_t faces = 0;
@@ -97,7 +97,7 @@ void Clipper::write_face(Polyhedron& out, std::uint32_t first_edge) {
     to[i] = number[w];
   }
   seen_count_ = seen_count;
-  const Side& side = sides_[corners[first_edge / 4].plane[kPrevious[first_edge % 4]]];
+  const Side& side = sides_[corners[first_edge / 4].plane[kPreviousCorner[first_edge % 4]]];
   out.faces.push_back({side.normal, side.offset, side.kind, side.index, begin, count});
 }
 
@@ -149,7 +149,7 @@ void Clipper::write_split_faces(Polyhedron& out) {
   };
   for (const std::uint32_t p : order_) mark(first_edge_[p]);
   for (std::uint32_t corner = 0; corner < 3 * size_; ++corner) {
-    const std::uint32_t edge = 4 * (corner / 3) + kNext[corner % 3];
+    const std::uint32_t edge = 4 * (corner / 3) + kNextCorner[corner % 3];
     if (seen[edge]) continue;
     mark(edge);
     write_face(out, edge);

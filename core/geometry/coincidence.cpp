@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/geometry/none.h"
+
 namespace bl {
 
 void find_coincident(std::span<const PowerSite> sites, double tolerance, std::vector<std::uint32_t>& twin) {
-  constexpr std::uint32_t kNone = 0xffffffffu;
   // No lattice is aligned with this direction, so few sites share a place along it.
   constexpr Vector3 kSweep{0.5298129428260175, 0.6620846521871357, 0.5300936459732351};
   twin.assign(sites.size(), kNone);

@@ -4,12 +4,12 @@
 
 #include "core/geometry/complex_body.h"
 #include "core/geometry/complex_update.h"
+#include "core/geometry/none.h"
 
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = ComplexStore::kNone;
 // More sentences than this help nobody.
 constexpr std::size_t kMostComplaints = 20;
 

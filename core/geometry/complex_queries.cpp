@@ -3,13 +3,13 @@
 #include <charconv>
 #include <iterator>
 
+#include "core/geometry/none.h"
+
 #include "core/geometry/complex_body.h"
 
 namespace bl {
 
 namespace {
-
-constexpr std::uint32_t kNone = ComplexStore::kNone;
 
 using Names = std::vector<ElementName>;
 

@@ -2,17 +2,17 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/geometry/none.h"
+
 #include "core/geometry/complex_update.h"
 
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = ComplexStore::kNone;
-
 using Fresh = std::vector<std::pair<std::uint32_t, CellView>>;
 /// A face, or one edge of it: its label and the nodes in order, those of a face from the least one on.
-using Outline = std::pair<std::uint64_t, std::vector<std::uint32_t>>;
+using NumberedOutline = std::pair<std::uint64_t, std::vector<std::uint32_t>>;
 
 bool is_at_short_edge(const CellView& view, std::uint32_t corner) {
   return std::any_of(view.short_edges.begin(), view.short_edges.end(),
@@ -33,8 +33,8 @@ std::vector<std::uint32_t> same_corners(const ComplexStore::Cell& old, const Cel
 }
 
 // The edges of a cell of which both nodes are there, and the faces of which all are.
-std::vector<Outline> outlines_between(const ComplexStore::Cell& cell, std::uint32_t node_count) {
-  std::vector<Outline> outlines;
+std::vector<NumberedOutline> outlines_between(const ComplexStore::Cell& cell, std::uint32_t node_count) {
+  std::vector<NumberedOutline> outlines;
   for (const CellView::Face& face : cell.view.faces) {
     std::vector<std::uint32_t> nodes;
     for (const std::uint32_t corner : cell.view.loop(face)) nodes.push_back(cell.node[corner]);
@@ -96,7 +96,7 @@ void ComplexUpdate::exchange_views(Fresh fresh, bool keeps_corners) {
   for (const auto& [cell, view] : fresh) store_.cells[cell].is_replaced = true;
   const auto same = let_go(fresh, keeps_corners);
   const std::uint32_t node_count = static_cast<std::uint32_t>(store_.nodes.size());
-  std::vector<std::vector<Outline>> before;
+  std::vector<std::vector<NumberedOutline>> before;
   for (const auto& [cell, view] : fresh) before.push_back(outlines_between(store_.cells[cell], node_count));
   for (std::size_t i = 0; i < fresh.size(); ++i) exchange_view(fresh[i].first, std::move(fresh[i].second), same[i]);
   std::vector<std::uint32_t> concerned;
@@ -104,10 +104,11 @@ void ComplexUpdate::exchange_views(Fresh fresh, bool keeps_corners) {
     ComplexStore::Cell& cell = store_.cells[fresh[i].first];
     cell.is_replaced = false;
     // Faces and edges that have come or gone between corners that stay: there is more to do than new places tell.
-    std::vector<Outline> changed;
-    const std::vector<Outline> now = outlines_between(cell, node_count);
+    std::vector<NumberedOutline> changed;
+    const std::vector<NumberedOutline> now = outlines_between(cell, node_count);
     std::set_symmetric_difference(before[i].begin(), before[i].end(), now.begin(), now.end(), std::back_inserter(changed));
-    for (const Outline& outline : changed) concerned.insert(concerned.end(), outline.second.begin(), outline.second.end());
+    for (const NumberedOutline& outline : changed)
+      concerned.insert(concerned.end(), outline.second.begin(), outline.second.end());
   }
   for (const auto& [index, view] : fresh) {
     for (std::uint32_t c = 0; c < store_.cells[index].node.size(); ++c) {

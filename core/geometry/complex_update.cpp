@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/geometry/none.h"
+
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = ComplexStore::kNone;
 // In a cell's list of nodes: the corner is loose, and the other bits say which loose corner it is.
 constexpr std::uint32_t kLoose = 0x80000000u;
 // Labels from here on are passages.

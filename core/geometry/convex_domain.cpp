@@ -11,13 +11,13 @@
 #include "core/geometry/coplanar_groups.h"
 #include "core/geometry/domain_parts.h"
 #include "core/geometry/hull_triangles.h"
+#include "core/geometry/none.h"
 #include "core/geometry/polyhedron.h"
 
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 // Thinner than this (volume against size³) is flat for every purpose here.
 constexpr double kFlatShare = 1e-13;
 

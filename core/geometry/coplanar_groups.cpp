@@ -5,14 +5,15 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/geometry/none.h"
+
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 // Corners within this share of the shape's size of a plane belong to the same face: the noise of rotated boxes.
 constexpr double kCoplanarShare = 1e-11;
-constexpr double kRounding = 0x1.0p-52;
+constexpr double kPlaneRounding = 0x1.0p-52;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -38,7 +39,7 @@ class Grouper {
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
       largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
-    tolerance_ = std::max(kCoplanarShare * distance(low, high), 8 * kRounding * largest);
+    tolerance_ = std::max(kCoplanarShare * distance(low, high), 8 * kPlaneRounding * largest);
   }
 
   CoplanarGroups run() {

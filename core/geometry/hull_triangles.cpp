@@ -27,7 +27,7 @@ bool is_flat(const std::vector<CgalPoint>& points) {
   return true;
 }
 
-bool is_less(const CgalPoint& a, const CgalPoint& b) {
+bool comes_first(const CgalPoint& a, const CgalPoint& b) {
   if (a.x() != b.x()) return a.x() < b.x();
   if (a.y() != b.y()) return a.y() < b.y();
   return a.z() < b.z();
@@ -51,7 +51,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(const std::vector<CgalPoi
     std::array<std::uint32_t, 3> t{};
     std::size_t i = 0;
     for (const auto corner : hull.vertices_around_face(hull.halfedge(face)))
-      t[i++] = static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), hull.point(corner), is_less) -
+      t[i++] = static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), hull.point(corner), comes_first) -
                                           points.begin());
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     triangles.push_back(t);

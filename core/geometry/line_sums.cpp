@@ -30,9 +30,9 @@ void for_each_task(ThreadPool* pool, std::size_t count, const std::function<void
 }
 
 // Facets by (site, kind, index), equal ones added up in the order in which they were found.
-void merge(std::vector<FacetSum>& facets) {
-  const auto key = [](const FacetSum& f) { return std::tuple(f.site, f.kind, f.index); };
-  std::stable_sort(facets.begin(), facets.end(), [&](const FacetSum& a, const FacetSum& b) { return key(a) < key(b); });
+void merge(std::vector<LineFacetSum>& facets) {
+  const auto key = [](const LineFacetSum& f) { return std::tuple(f.site, f.kind, f.index); };
+  std::stable_sort(facets.begin(), facets.end(), [&](const LineFacetSum& a, const LineFacetSum& b) { return key(a) < key(b); });
   std::size_t last = 0;
   for (std::size_t k = 1; k < facets.size(); ++k) {
     if (key(facets[k]) == key(facets[last])) {
@@ -121,7 +121,7 @@ class TaskSums {
   }
 
   std::vector<LineSums>& sums() { return sums_; }
-  std::vector<FacetSum>& facets() { return facets_; }
+  std::vector<LineFacetSum>& facets() { return facets_; }
 
  private:
   void walk(const LineView<M>& view, std::span<const std::uint32_t> candidates, const SampleLines::Stretch& stretch, double low,
@@ -174,7 +174,7 @@ class TaskSums {
   std::span<const FrameSite> sites_;
   std::span<const std::uint32_t> known_;
   std::vector<LineSums> sums_;
-  std::vector<FacetSum> facets_;
+  std::vector<LineFacetSum> facets_;
   std::vector<std::size_t> places_;
 };
 
@@ -184,7 +184,7 @@ DiagramSums sum_all(const SampleFrame& frame, const std::array<SampleLines, 3>& 
   const std::array<bool, 3> split{true, true, true};
   const std::vector<LineTask> tasks = tasks_of<M>(frame, sites, participants, split);
   std::vector<std::vector<LineSums>> sums(tasks.size());
-  std::vector<std::vector<FacetSum>> facets(tasks.size());
+  std::vector<std::vector<LineFacetSum>> facets(tasks.size());
   for_each_task(pool, tasks.size(), [&](std::size_t k) {
     TaskSums<M> task(frame, lines, sites, tasks[k].candidates);
     BlockDescent<M>(frame, sites, split, kLeaf)

@@ -26,7 +26,7 @@ struct LineSums {
 };
 
 /// A facet of a shape: sums over the lines that cross it.
-struct FacetSum {
+struct LineFacetSum {
   std::uint32_t site = 0;
   FaceKind kind = FaceKind::site;  ///< between sites, `site` is the lower of the two indices
   std::uint32_t index = 0;
@@ -36,7 +36,7 @@ struct FacetSum {
 
 struct DiagramSums {
   std::vector<LineSums> sites;
-  std::vector<FacetSum> facets;  ///< sorted by (site, kind, index), each once
+  std::vector<LineFacetSum> facets;  ///< sorted by (site, kind, index), each once
 };
 
 /// Sums over the lines of all three directions. `participants` are indices into `sites`; others own nothing.

@@ -9,9 +9,9 @@ namespace bl {
 
 namespace {
 
-constexpr int kMostIterations = 1000;
+constexpr int kMostLocalIterations = 1000;
 // With no free surface at all the system has the constant vector in its kernel; this share of the diagonal takes it out.
-constexpr double kPin = 1e-9;
+constexpr double kLocalPin = 1e-9;
 // Where more than this share of the sites would be active, all are: the rim costs more than it saves.
 constexpr double kManyActive = 0.3;
 
@@ -96,7 +96,7 @@ void LocalResponse::multiply(std::span<const std::uint32_t> active, const std::v
                              std::vector<double>& result) const {
   for (const std::uint32_t i : active) {
     const Row& row = rows_[i];
-    double sum = (row.free + row.bound) * (1 + kPin) * x[i];
+    double sum = (row.free + row.bound) * (1 + kLocalPin) * x[i];
     for (const Bond& bond : row.bonds) sum -= bond.value * x[bond.other];
     result[i] = sum;
   }
@@ -108,7 +108,7 @@ const std::vector<double>& LocalResponse::solve(std::span<const std::uint32_t> a
   std::fill(vectors_.direction.begin(), vectors_.direction.end(), 0);
   for (const std::uint32_t i : active) vectors_.residual[i] = demand[i] - volume[i];
   conjugate_gradients(
-      active, vectors_, kMostIterations,
+      active, vectors_, kMostLocalIterations,
       [&](const std::vector<double>& x, std::vector<double>& image) { multiply(active, x, image); },
       [&](std::uint32_t i, double residual) { return residual / diagonal(i); },
       [&](double, double) {

@@ -12,7 +12,7 @@ namespace bl {
 namespace {
 
 // Newton's step leaves at least this share of r³.
-constexpr double kLeastOfCube = 0.1;
+constexpr double kLeastOfStepCube = 0.1;
 // Up to this share of the demands may be repaired one by one after a step that all others gain by.
 constexpr double kFewOffenders = 0.02;
 // Such a step has to bring the residual below this share, and below that one after the repair.
@@ -23,7 +23,7 @@ constexpr double kIdleShare = 0.25;
 // Farther from the demands than this, a step of Newton's is careful with growth.
 constexpr double kFarError = 1.6;
 // Newton's step is halved no further than this.
-constexpr double kLeastStep = 1.0 / 256;
+constexpr double kLeastNewtonStep = 1.0 / 256;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void WeightFit::move_together(std::span<const CellMeasure> cells) {
     if (part < state.least_ratio) offenders.push_back(k);
   }
   const double residual = std::sqrt(squares), share = std::abs(state.share);
-  if (state.residual >= 0 && share > kLeastStep) {
+  if (state.residual >= 0 && share > kLeastNewtonStep) {
     const bool is_repaired = state.share < 0;
     const bool falls = residual <= (is_repaired ? kRepairedFall : 1 - 0.1 * share) * state.residual;
     const double most_repairs = std::max(1.0, kFewOffenders * static_cast<double>(targets_.size()));
@@ -177,7 +177,7 @@ void WeightFit::follow(std::size_t i, double from) {
     if (from != cube_of_radius(sites_[i].weight)) sites_[i].weight = weight_of_cube(from);
     return;
   }
-  const double cube = std::max(from + state.share * state.direction[i], kLeastOfCube * from);
+  const double cube = std::max(from + state.share * state.direction[i], kLeastOfStepCube * from);
   sites_[i].weight = std::max(weight_of_cube(cube), kLeastShare * weight_of_volume(targets_.part(i)));
   state.previous_move[i] = cube_of_radius(sites_[i].weight) - from;
 }

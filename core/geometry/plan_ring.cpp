@@ -11,9 +11,6 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Twice the signed area of the triangle a, b, c: positive where c lies left of a → b.
-double turn(const Point3& a, const Point3& b, const Point3& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-
 int sign(double number) { return number > 0 ? 1 : number < 0 ? -1 : 0; }
 
 double plane_distance(const Point3& a, const Point3& b) {
@@ -46,7 +43,7 @@ std::optional<Point3> meeting_point(const Point3& a, const Point3& b, const Poin
   return std::nullopt;
 }
 
-struct Edge {
+struct SweepEdge {
   Point3 from, to;
   std::size_t ring, index;
   double low = 0, high = 0, bottom = 0, top = 0;  // extents along the sweep and across it
@@ -66,7 +63,7 @@ Extent extent_of(std::span<const Point3> ring) {
 }
 
 // The edges of a ring that reach into `within`.
-void append_edges(std::vector<Edge>& edges, std::span<const Point3> ring, std::size_t which, const Extent& within) {
+void append_edges(std::vector<SweepEdge>& edges, std::span<const Point3> ring, std::size_t which, const Extent& within) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point3 &a = ring[i], &b = ring[(i + 1) % ring.size()];
     if (std::max(a.x, b.x) < within.west || std::min(a.x, b.x) > within.east || std::max(a.y, b.y) < within.south ||
@@ -78,12 +75,12 @@ void append_edges(std::vector<Edge>& edges, std::span<const Point3> ring, std::s
 
 // Fills in the extents. Few edges are swept along x; many along the direction that most of their length has, since edges that
 // lie side by side then lie far apart across it.
-void lay_out(std::vector<Edge>& edges) {
+void lay_out(std::vector<SweepEdge>& edges) {
   constexpr std::size_t kMany = 1024;
   double east = 1, north = 0, slack = 0;
   if (edges.size() > kMany) {
     double twice_cos = 0, twice_sin = 0, farthest = 0;  // of twice the angle, so that there and back are one direction
-    for (const Edge& edge : edges) {
+    for (const SweepEdge& edge : edges) {
       const double x = edge.to.x - edge.from.x, y = edge.to.y - edge.from.y;
       twice_cos += x * x - y * y;
       twice_sin += 2 * x * y;
@@ -96,7 +93,7 @@ void lay_out(std::vector<Edge>& edges) {
       slack = 1e-12 * farthest;  // edges that touch must not be rounded apart
     }
   }
-  for (Edge& edge : edges) {
+  for (SweepEdge& edge : edges) {
     const double u = edge.from.x * east + edge.from.y * north, v = edge.from.y * east - edge.from.x * north;
     const double to_u = edge.to.x * east + edge.to.y * north, to_v = edge.to.y * east - edge.to.x * north;
     edge.low = std::min(u, to_u) - slack, edge.high = std::max(u, to_u) + slack;
@@ -107,9 +104,9 @@ void lay_out(std::vector<Edge>& edges) {
 // Open edges of a sweep, by number, on shelves across it: an edge lies on each shelf that it reaches.
 class Shelves {
  public:
-  explicit Shelves(const std::vector<Edge>& edges) : edges_(edges), asked_(edges.size(), edges.size()) {
+  explicit Shelves(const std::vector<SweepEdge>& edges) : edges_(edges), asked_(edges.size(), edges.size()) {
     double top = -kFar;
-    for (const Edge& edge : edges) bottom_ = std::min(bottom_, edge.bottom), top = std::max(top, edge.top);
+    for (const SweepEdge& edge : edges) bottom_ = std::min(bottom_, edge.bottom), top = std::max(top, edge.top);
     const auto count = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(edges.size()))), 1, 1024);
     shelves_.resize(count);
     per_metre_ = top > bottom_ ? static_cast<double>(count) / (top - bottom_) : 0;
@@ -119,7 +116,7 @@ class Shelves {
   // first one of the sweep is the answer, else the edge itself.
   template <class Ask>
   std::size_t open(std::size_t number, const Ask& ask) {
-    const Edge& edge = edges_[number];
+    const SweepEdge& edge = edges_[number];
     std::size_t best = number;
     for (std::size_t s = at(edge.bottom); s <= at(edge.top); ++s) {
       std::erase_if(shelves_[s], [&](std::size_t other) { return edges_[other].high < edge.low; });
@@ -140,7 +137,7 @@ class Shelves {
     return place > 0 ? std::min(static_cast<std::size_t>(place), shelves_.size() - 1) : 0;
   }
 
-  const std::vector<Edge>& edges_;
+  const std::vector<SweepEdge>& edges_;
   std::vector<std::size_t> asked_;  // who asked an edge last
   std::vector<std::vector<std::size_t>> shelves_;
   double bottom_ = kFar, per_metre_ = 0;
@@ -148,9 +145,9 @@ class Shelves {
 
 // Sweeps over edges that overlap, and asks `meet` for the wanted pairs; the first answer wins.
 template <class Meet>
-std::optional<Crossing> sweep(std::vector<Edge> edges, const Meet& meet) {
+std::optional<Crossing> sweep(std::vector<SweepEdge> edges, const Meet& meet) {
   lay_out(edges);
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+  std::sort(edges.begin(), edges.end(), [](const SweepEdge& a, const SweepEdge& b) {
     if (a.low != b.low) return a.low < b.low;
     return a.ring != b.ring ? a.ring < b.ring : a.index < b.index;
   });
@@ -158,9 +155,9 @@ std::optional<Crossing> sweep(std::vector<Edge> edges, const Meet& meet) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     std::optional<Crossing> found;
     shelves.open(i, [&](std::size_t k) {
-      const Edge &edge = edges[i], &other = edges[k];
+      const SweepEdge &edge = edges[i], &other = edges[k];
       const bool other_first = other.ring != edge.ring ? other.ring < edge.ring : other.index < edge.index;
-      const Edge &first = other_first ? other : edge, &second = other_first ? edge : other;
+      const SweepEdge &first = other_first ? other : edge, &second = other_first ? edge : other;
       const auto where = meet(first, second);
       if (where) found = Crossing{first.index, second.index, *where};
       return where.has_value();
@@ -209,13 +206,13 @@ Point3 nearest_on_ring(std::span<const Point3> ring, const Point3& point) {
 
 std::optional<Crossing> find_self_crossing(std::span<const Point3> ring) {
   const std::size_t count = ring.size();
-  std::vector<Edge> edges;
+  std::vector<SweepEdge> edges;
   append_edges(edges, ring, 0, extent_of(ring));
-  return sweep(std::move(edges), [count](const Edge& a, const Edge& b) -> std::optional<Point3> {
+  return sweep(std::move(edges), [count](const SweepEdge& a, const SweepEdge& b) -> std::optional<Point3> {
     const bool follows = b.index == a.index + 1, closes = a.index == 0 && b.index == count - 1;
     if (!follows && !closes) return meeting_point(a.from, a.to, b.from, b.to);
     // Neighbours share one point; they must not run back over each other.
-    const Edge &before = follows ? a : b, &after = follows ? b : a;
+    const SweepEdge &before = follows ? a : b, &after = follows ? b : a;
     const Vector3 in = before.to - before.from, out = after.to - after.from;
     if (turn(before.from, before.to, after.to) == 0 && in.x * out.x + in.y * out.y < 0) return before.to;
     return std::nullopt;
@@ -223,10 +220,10 @@ std::optional<Crossing> find_self_crossing(std::span<const Point3> ring) {
 }
 
 std::optional<Crossing> find_crossing(std::span<const Point3> a, std::span<const Point3> b) {
-  std::vector<Edge> edges;
+  std::vector<SweepEdge> edges;
   append_edges(edges, a, 0, extent_of(b));
   append_edges(edges, b, 1, extent_of(a));
-  return sweep(std::move(edges), [](const Edge& first, const Edge& second) -> std::optional<Point3> {
+  return sweep(std::move(edges), [](const SweepEdge& first, const SweepEdge& second) -> std::optional<Point3> {
     if (first.ring == second.ring) return std::nullopt;
     return meeting_point(first.from, first.to, second.from, second.to);
   });

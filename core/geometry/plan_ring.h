@@ -13,6 +13,11 @@ namespace bl {
 /// A closed polygon line in metres; the first point is not repeated at the end. Only x and y count.
 using Ring = std::vector<Point3>;
 
+/// Twice the signed area of the triangle a, b, c [m²]: positive where c lies left of a → b.
+inline double turn(const Point3& a, const Point3& b, const Point3& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
 /// Shoelace area [m²], positive for counter-clockwise rings; summed about the first point, so that large coordinates
 /// do not eat the digits.
 double signed_area(std::span<const Point3> ring);

@@ -9,9 +9,7 @@ namespace bl {
 
 namespace {
 
-double turn(const Point3& a, const Point3& b, const Point3& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-
-double plane_distance(const Point3& a, const Point3& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
+double squared_plane_distance(const Point3& a, const Point3& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
 
 // Outer rings run counter-clockwise, holes clockwise; rings of no area stay as they are.
 bool is_turned(const Ring& ring, std::size_t number) { return number == 0 ? signed_area(ring) < 0 : signed_area(ring) > 0; }
@@ -83,7 +81,8 @@ class Clipping {
     std::vector<std::size_t> order(loop_.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return plane_distance(points_[loop_[a]], points_[start]) < plane_distance(points_[loop_[b]], points_[start]);
+      return squared_plane_distance(points_[loop_[a]], points_[start]) <
+             squared_plane_distance(points_[loop_[b]], points_[start]);
     });
     const auto seen = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
       const Point3 &from = points_[start], &to = points_[loop_[i]];

@@ -5,15 +5,15 @@
 #include <utility>
 
 #include "core/geometry/conjugate_gradients.h"
+#include "core/geometry/none.h"
 
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr int kMostIterations = 2000;
+constexpr int kMostPotentialIterations = 2000;
 // Takes the constant vector out of the kernel where there is no free surface, as a share of the diagonal.
-constexpr double kPin = 1e-9;
+constexpr double kPotentialPin = 1e-9;
 
 // Bonds between unknowns; what binds an unknown to a site that stays is on the diagonal only.
 struct System {
@@ -41,7 +41,7 @@ struct System {
       diagonal[b] += bond.response;
     }
     for (std::size_t u = 0; u < count; ++u) {
-      alone[u] += kPin * (alone[u] + diagonal[u]);
+      alone[u] += kPotentialPin * (alone[u] + diagonal[u]);
       diagonal[u] += alone[u];
     }
   }
@@ -66,7 +66,7 @@ std::vector<double> solve_potentials(const SampledCells& cells, std::span<const 
   vectors.assign(count);
   for (std::size_t u = 0; u < count; ++u) vectors.residual[u] = system.diagonal[u] > 0 ? wanted[u] : 0;
   conjugate_gradients(
-      std::views::iota(std::size_t{0}, count), vectors, kMostIterations,
+      std::views::iota(std::size_t{0}, count), vectors, kMostPotentialIterations,
       [&](const std::vector<double>& x, std::vector<double>& image) { system.multiply(x, image); },
       [&](std::size_t u, double residual) { return system.diagonal[u] > 0 ? residual / system.diagonal[u] : 0; },
       [&](double rest, double first) { return !(rest > tolerance * tolerance * first); });

@@ -17,14 +17,14 @@ namespace bl {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase =
+using PowerVertexBase =
     CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
 using CellBase = CGAL::Regular_triangulation_cell_base_3<Kernel>;
-using Structure = CGAL::Triangulation_data_structure_3<VertexBase, CellBase>;
-using Triangulation = CGAL::Regular_triangulation_3<Kernel, Structure>;
+using Structure = CGAL::Triangulation_data_structure_3<PowerVertexBase, CellBase>;
+using PowerTriangulation = CGAL::Regular_triangulation_3<Kernel, Structure>;
 
 // The site of least power at the position of `site`; of equals the lowest index among it and its neighbours.
-std::uint32_t find_swallower(const Triangulation& triangulation, std::span<const PowerSite> sites,
+std::uint32_t find_swallower(const PowerTriangulation& triangulation, std::span<const PowerSite> sites,
                              const PowerNeighbours& neighbours, std::uint32_t site) {
   const Point3 p = sites[site].position;
   const auto vertex = triangulation.nearest_power_vertex({p.x, p.y, p.z});
@@ -45,7 +45,7 @@ void fill(std::span<const PowerSite> sites, std::span<const std::uint32_t> parti
     const Point3& p = sites[i].position;
     points.emplace_back(Kernel::Weighted_point_3({p.x, p.y, p.z}, sites[i].weight), i);
   }
-  Triangulation triangulation;
+  PowerTriangulation triangulation;
   triangulation.insert(points.begin(), points.end());
   for (auto v = triangulation.finite_vertices_begin(); v != triangulation.finite_vertices_end(); ++v) out.has_cell[v->info()] = 1;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;

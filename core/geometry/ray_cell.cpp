@@ -5,11 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/none.h"
+
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 // A cell is looked at from a point that has this share of the demanded ball's radius around it, where it has one: at the site
 // itself, or not far from it.
 constexpr double kRoomToLook = 0.3;

@@ -21,13 +21,13 @@ constexpr int kSteps = 3;
 // Sweeps over the linear system of a step: it need not be solved better than the rays know it.
 constexpr int kSweeps = 12;
 // A step leaves at least this share of r³, and at most its inverse.
-constexpr double kLeastOfCube = 0.2;
+constexpr double kLeastOfRayCube = 0.2;
 // Of a cell less than this is reckoned as this, when it is asked how much it should grow.
-constexpr double kLeastShare = 1e-3;
+constexpr double kLeastRayShare = 1e-3;
 // Sites nearer to each other than this share of the domain's size are one place, and do not know each other.
 constexpr double kSamePlace = 1e-6;
 // Cells that are made one after the other by one thread, their rows side by side.
-constexpr std::size_t kChunk = 128;
+constexpr std::size_t kRaysAtATime = 128;
 // Fewer sites are quickly done from any start. Where less than a tenth of the domain is left free, cells have nothing but each
 // other to be cut by, and rays lead astray as often as not.
 constexpr std::size_t kFewSites = 8;
@@ -77,7 +77,7 @@ class RayFit {
     volume_.resize(all.size());
     response_.resize(all.size());
     row_.resize(all.size());
-    chunk_.resize((all.size() + kChunk - 1) / kChunk);
+    chunk_.resize((all.size() + kRaysAtATime - 1) / kRaysAtATime);
     is_even_ = find_all_near(wide);
   }
 
@@ -102,8 +102,8 @@ class RayFit {
  private:
   template <class Body>
   void for_each_chunk(std::size_t count, const Body& body) {
-    if (pool_ != nullptr) return pool_->for_each_chunk(count, kChunk, body);
-    for (std::size_t begin = 0; begin < count; begin += kChunk) body(begin, std::min(count, begin + kChunk));
+    if (pool_ != nullptr) return pool_->for_each_chunk(count, kRaysAtATime, body);
+    for (std::size_t begin = 0; begin < count; begin += kRaysAtATime) body(begin, std::min(count, begin + kRaysAtATime));
   }
 
   void show_weights() {
@@ -111,7 +111,7 @@ class RayFit {
   }
 
   RayCell::Near near(std::uint32_t p) const {
-    return std::span(chunk_[p / kChunk].near).subspan(row_[p].first_near, row_[p].end_near - row_[p].first_near);
+    return std::span(chunk_[p / kRaysAtATime].near).subspan(row_[p].first_near, row_[p].end_near - row_[p].first_near);
   }
 
   // Whose balls meet, as wide as they may become. False where many more do than would if the sites were spread evenly: on a line
@@ -124,7 +124,7 @@ class RayFit {
     }
     const double others = static_cast<double>(wide.size() - 1), per_volume = others / scene_.domain.volume;
     for_each_chunk(wide.size(), [&](std::size_t begin, std::size_t end) {
-      RowChunk& rows = chunk_[begin / kChunk];
+      RowChunk& rows = chunk_[begin / kRaysAtATime];
       for (std::size_t p = begin; p < end; ++p) {
         const double reach = std::sqrt(wide[grid_.order()[p]].weight) + mean;
         rows.expected += std::min(others, 4 * std::numbers::pi / 3 * reach * reach * reach * per_volume);
@@ -161,7 +161,7 @@ class RayFit {
   // Reads what was seen, writes weights, volumes and rows: cells do not see what others do at the same time.
   void look_at_all() {
     for_each_chunk(weight_.size(), [&](std::size_t begin, std::size_t end) {
-      RowChunk& rows = chunk_[begin / kChunk];
+      RowChunk& rows = chunk_[begin / kRaysAtATime];
       rows.response.column.clear();
       rows.response.value.clear();
       RayCell cell(scene_);
@@ -202,12 +202,12 @@ class RayFit {
   }
 
   void move() {
-    const std::vector<double> wanted = changes_towards(scene_.demand, volume_, true, kLeastShare);
+    const std::vector<double> wanted = changes_towards(scene_.demand, volume_, true, kLeastRayShare);
     std::vector<double> change(wanted.size(), 0);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (std::size_t p = 0; p < change.size(); ++p) {
         if (!(response_[p] > 0)) continue;
-        const RayResponse& others = chunk_[p / kChunk].response;
+        const RayResponse& others = chunk_[p / kRaysAtATime].response;
         double sum = wanted[p];
         for (std::uint32_t k = row_[p].first; k < row_[p].end; ++k) sum += others.value[k] * change[others.column[k]];
         change[p] = sum / response_[p];
@@ -216,7 +216,7 @@ class RayFit {
     for (std::size_t p = 0; p < change.size(); ++p) {
       if (!std::isfinite(change[p])) continue;
       const double cube = cube_of_radius(weight_[p]), moved = cube + 1.5 * std::sqrt(weight_[p]) * change[p];
-      weight_[p] = weight_of_cube(std::clamp(moved, kLeastOfCube * cube, cube / kLeastOfCube));
+      weight_[p] = weight_of_cube(std::clamp(moved, kLeastOfRayCube * cube, cube / kLeastOfRayCube));
     }
   }
 

@@ -11,17 +11,17 @@
 #include "core/geometry/cell_workshop.h"
 #include "core/geometry/coincidence.h"
 #include "core/geometry/line_sums.h"
+#include "core/geometry/none.h"
 #include "core/geometry/sample_lines.h"
 
 namespace bl {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 // Declared errors: see the header.
 constexpr double kErrorShare = 0.4, kErrorOfSpread = 0.75;
 
-std::string number(std::size_t site) { return "site " + std::to_string(site); }
+std::string site_number(std::size_t site) { return "site " + std::to_string(site); }
 
 Result<void> check_samples(int samples) {
   if (samples < 1) return Error{ErrorCode::out_of_range, "", "sampling takes at least one sample along the longest side"};
@@ -38,7 +38,7 @@ Result<void> check_input(const Domain& domain, std::span<const PowerSite> sites,
   for (std::size_t i = 0; i < sites.size() && options.metric != Metric::power; ++i) {
     if (sites[i].weight < 0) {
       return Error{ErrorCode::out_of_range, "",
-                   "the weight of " + number(i) + " is negative: under the " + std::string(name_of(options.metric)) +
+                   "the weight of " + site_number(i) + " is negative: under the " + std::string(name_of(options.metric)) +
                        " metric a weight is the square of a radius"};
     }
   }
@@ -123,7 +123,7 @@ struct SampledDiagram::Ground {
       out.cells[site].surface_area += area;
       out.cells[site].facets.push_back({kind, index, area});
     };
-    for (const FacetSum& facet : sums.facets) {
+    for (const LineFacetSum& facet : sums.facets) {
       if (!(facet.area > 0)) continue;
       give(facet.site, facet.kind, facet.index, column * facet.area);
       if (facet.kind != FaceKind::site) continue;
@@ -201,7 +201,7 @@ struct SampledDiagram::Ground {
     if (!has_weight && (cell.cell_volume > 0 || metric == Metric::multiplicative))
       return "its weight is not positive, so it has no ball";
     if (cell.cell_volume > 0) return "its ball does not reach its own cell: neighbours are heavier";
-    if (winner != i && winner != kNone) return "swallowed: " + number(winner) + " outweighs it at its position";
+    if (winner != i && winner != kNone) return "swallowed: " + site_number(winner) + " outweighs it at its position";
     return "its cell lies outside the domain";
   }
 
@@ -210,7 +210,7 @@ struct SampledDiagram::Ground {
       CellMeasure& cell = out.cells[i];
       if (work.twin[i] != kNone) {
         cell.state = SiteState::coincident;
-        cell.reason = "lies at the position of " + number(work.twin[i]) + ", which is heavier or comes first";
+        cell.reason = "lies at the position of " + site_number(work.twin[i]) + ", which is heavier or comes first";
         continue;
       }
       const bool is_inside = domain.contains(sites[i].position, 1e-12 * domain.size());

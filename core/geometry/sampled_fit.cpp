@@ -18,11 +18,11 @@ namespace bl {
 namespace {
 
 // Floor areas are met by correcting the volumes asked for; they jump where a storey comes or goes, so this ends.
-constexpr int kMostCorrections = 12;
+constexpr int kMostSampledCorrections = 12;
 // No smaller error for so many evaluations, and the fit is going nowhere.
-constexpr int kStalled = 25;
+constexpr int kSampledStalled = 25;
 
-Result<void> check(const SampledFitOptions& options) {
+Result<void> check_sampled(const SampledFitOptions& options) {
   if (options.most_steps < 1) return Error{ErrorCode::out_of_range, "", "a fit takes at least one step"};
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) {
     return Error{ErrorCode::out_of_range, "", "the tolerance has to be above zero"};
@@ -34,9 +34,9 @@ SampledNewton::Options newton_options(const SampledFitOptions& options) {
   return {.metric = options.metric, .samples = options.samples, .tolerance = options.tolerance, .pool = options.pool};
 }
 
-class Attempt {
+class SampledAttempt {
  public:
-  Attempt(const Domain& domain, const FitProblem& problem, const SampledFitOptions& options)
+  SampledAttempt(const Domain& domain, const FitProblem& problem, const SampledFitOptions& options)
       : domain_(domain),
         asked_(problem),
         problem_(problem),
@@ -47,7 +47,7 @@ class Attempt {
     if (auto set = diagram_.set_domain(domain_, options_.samples, options_.pool); !set) return set.error();
     has_floors_ = ask_for_volumes(problem_);
     if (auto done = fit(); !done) return done.error();
-    for (int k = 0; has_floors_ && k < kMostCorrections && !is_stopped_ && fit_.evaluations < options_.most_steps; ++k) {
+    for (int k = 0; has_floors_ && k < kMostSampledCorrections && !is_stopped_ && fit_.evaluations < options_.most_steps; ++k) {
       const auto cells = measure_storeys();
       if (!cells) return cells.error();
       if (correct_floors(asked_, cells->cells, options_.tolerance, problem_)) break;
@@ -67,7 +67,7 @@ class Attempt {
       since = newton_->error() < 0.9 * best ? 0 : since + 1;
       best = std::min(best, newton_->error());
       is_stopped_ = !goes_on;
-      if (newton_->is_settled() || !goes_on || fit_.evaluations >= options_.most_steps || since > kStalled) break;
+      if (newton_->is_settled() || !goes_on || fit_.evaluations >= options_.most_steps || since > kSampledStalled) break;
       newton_->move();
     }
     fit_.iterations += newton_->iterations();
@@ -158,7 +158,7 @@ FitReport report_of(const SampledNewton& newton, int steps) {
 Result<SampledSteps> adapt_sampled_weights(const Domain& domain, std::span<const PowerSite> sites,
                                            std::span<const double> demands, std::span<const std::uint8_t> locked,
                                            const FitState& state, const SampledFitOptions& options) try {
-  if (auto checked = check(options); !checked) return checked.error();
+  if (auto checked = check_sampled(options); !checked) return checked.error();
   if (auto checked = check_demands(sites.size(), demands, locked); !checked) return checked.error();
   SampledDiagram own;
   SampledDiagram& diagram = options.diagram != nullptr ? *options.diagram : own;
@@ -182,8 +182,8 @@ Result<VolumeFit> sampled_fit(const Domain& domain, const FitProblem& problem, c
   if (domain.pieces.empty()) return Error{ErrorCode::geometry, "", "the domain is empty"};
   if (auto checked = check_sites(problem.sites); !checked) return checked.error();
   if (auto checked = check_demands(problem); !checked) return checked.error();
-  if (auto checked = check(options); !checked) return checked.error();
-  return Attempt(domain, problem, options).run();
+  if (auto checked = check_sampled(options); !checked) return checked.error();
+  return SampledAttempt(domain, problem, options).run();
 } catch (const std::exception& trouble) {
   return Error{ErrorCode::internal, "", std::string("the sampled fit failed: ") + trouble.what()};
 }

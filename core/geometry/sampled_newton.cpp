@@ -15,7 +15,7 @@ namespace bl {
 namespace {
 
 // An emptied cell's site is put back into its own cell by this margin (1 would put it on the border).
-constexpr double kRepair = 0.8;
+constexpr double kSampledRepair = 0.8;
 // A step leaves at least this share of r³, and takes no more than so many times it.
 constexpr double kLeastOfCube = 0.1, kMostOfCube = 8;
 // A step is halved no further than this.
@@ -24,9 +24,9 @@ constexpr double kLeastStep = 1.0 / 256;
 constexpr double kLeastShare = 1e-4;
 // A radius never exceeds so many times what it takes to hold the whole domain. Where distances are divided by radii, small
 // demands beside large ones need room for ratios.
-constexpr double kMostReach = 100;
+constexpr double kMostSampledReach = 100;
 // Steps go on to this share of the declared errors.
-constexpr double kSettled = 0.1;
+constexpr double kSampledSettled = 0.1;
 
 double reach_of(const Domain& domain, const PowerSite& site) { return domain.size() + distance(site.position, domain.centroid); }
 
@@ -112,7 +112,7 @@ bool SampledNewton::start_full() {
 void SampledNewton::keep_in_bounds() {
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     if (targets_.owner(i) == FitTargets::kNone) continue;
-    const double reach = kMostReach * reach_of(domain_, sites_[i]);
+    const double reach = kMostSampledReach * reach_of(domain_, sites_[i]);
     sites_[i].weight = std::clamp(sites_[i].weight, 0.0, std::min(kLargestWeight, reach * reach));
   }
 }
@@ -149,7 +149,7 @@ void SampledNewton::judge() {
     // What has no volume at all is missed, however little was asked for.
     const bool is_gone = targets_.aim(k) > 0 && !targets_.sites(k).empty() && !(targets_.total(k) > 0);
     if (is_gone || error > std::max(options_.tolerance, resolution(k))) is_met_ = false;
-    if (is_gone || error > std::max(options_.tolerance, kSettled * resolution(k))) is_settled_ = false;
+    if (is_gone || error > std::max(options_.tolerance, kSampledSettled * resolution(k))) is_settled_ = false;
     if (!(error > error_)) continue;
     error_ = error;
     worst_ = k;
@@ -267,11 +267,11 @@ double SampledNewton::repaired_weight(std::size_t i) const {
     const double other = std::sqrt(std::max(0.0, sites_[j].weight)), d = distance(sites_[j].position, place);
     if (j == i || !(other > 0)) continue;
     if (options_.metric == Metric::power) {
-      radius = std::max(radius, std::sqrt(std::max(0.0, sites_[j].weight - kRepair * d * d + own * own)));
+      radius = std::max(radius, std::sqrt(std::max(0.0, sites_[j].weight - kSampledRepair * d * d + own * own)));
     } else if (options_.metric == Metric::additive) {
-      radius = std::max(radius, other - kRepair * d + own);
+      radius = std::max(radius, other - kSampledRepair * d + own);
     } else if (d > 0) {
-      radius = std::max(radius, other * own / (kRepair * d));
+      radius = std::max(radius, other * own / (kSampledRepair * d));
     }
   }
   return std::max(sites_[i].weight, radius * radius);

@@ -14,7 +14,7 @@ namespace {
 
 // Candidates for the highest and lowest point may miss the polyhedron by this share of the radius: a point that lies exactly
 // on an edge must not be lost, and the height it may be wrong by is of the same size.
-constexpr double kTouchShare = 1e-12;
+constexpr double kTouchOfExtent = 1e-12;
 
 // Is `point`, which lies in the face's plane, in the face or within `tolerance` of it?
 bool is_in_face(const Polyhedron& cell, const PolyhedronFace& face, const Point3& point, double tolerance) {
@@ -31,7 +31,7 @@ bool is_in_face(const Polyhedron& cell, const PolyhedronFace& face, const Point3
 // Highest point of the shape in direction `up` (+1 or -1), as up * z. The point is the pole of the ball, the top of a facet's
 // circle, a pierced edge, or a vertex; the largest of those that belong to the shape.
 double highest_point(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double up) {
-  const double radius = std::sqrt(squared_radius), tolerance = kTouchShare * radius;
+  const double radius = std::sqrt(squared_radius), tolerance = kTouchOfExtent * radius;
   bool pole_inside = true;
   for (const PolyhedronFace& face : cell.faces)
     pole_inside = pole_inside && up * face.normal.z * radius <= face.offset + tolerance;

@@ -127,7 +127,7 @@ Result<void> check_count(const std::vector<LoosePart>& parts) {
                "the boundary falls into more than " + std::to_string(kMostParts) + " pieces: simplify what is cut out of it"};
 }
 
-Result<std::vector<Plane>> unit_planes(std::span<const Plane> planes) {
+Result<std::vector<Plane>> cutting_planes(std::span<const Plane> planes) {
   std::vector<Plane> result;
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const double length = norm(planes[k].normal);
@@ -155,7 +155,7 @@ void name_faces_in(SolidPart& part, const Plane& plane, double tolerance, std::u
 
 Result<Domain> cut_domain(const Domain& domain, std::span<const Plane> planes) {
   if (domain.pieces.empty()) return Error{ErrorCode::geometry, "", "there is no boundary to cut"};
-  auto units = unit_planes(planes);
+  auto units = cutting_planes(planes);
   if (!units) return units.error();
   const double tolerance = place_tolerance(domain.minimum, domain.maximum);
   std::vector<Domain::Piece> pieces;

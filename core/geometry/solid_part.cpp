@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/geometry/domain_parts.h"
+#include "core/geometry/none.h"
 
 namespace bl {
 
@@ -41,8 +42,6 @@ class Half {
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-
   std::uint32_t place(SolidPart& half, std::uint32_t vertex, const Point3& at) {
     if (number_[vertex] == kNone) {
       number_[vertex] = static_cast<std::uint32_t>(half.vertices.size());

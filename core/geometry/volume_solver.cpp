@@ -19,9 +19,9 @@ namespace {
 // Shares of the tolerance: how far the predicted volumes are brought, and what a prediction may be wrong by.
 constexpr double kAimedShare = 0.3, kTrustedShare = 0.25;
 // In one round no cell is moved by more than this share of itself. Shares smaller than the least lead nowhere.
-constexpr double kMostSwept = 0.6, kLeastShare = 1e-3;
+constexpr double kMostSwept = 0.6, kLeastSolvedShare = 1e-3;
 // An emptied cell's site is put back into its own cell by this margin (1 would put it on the bisector).
-constexpr double kRepair = 0.8;
+constexpr double kSolverRepair = 0.8;
 
 CellOptions plain_cells(ThreadPool* pool) {
   CellOptions options;
@@ -138,7 +138,7 @@ struct VolumeSolver::Desk {
     double best = 0.1 * weight_of_volume(demand[i]);
     for (std::uint32_t j = 0; j < size(); ++j) {
       if (j != i && !absent[j])
-        best = std::max(best, sites[j].weight - kRepair * squared_norm(sites[j].position - sites[i].position));
+        best = std::max(best, sites[j].weight - kSolverRepair * squared_norm(sites[j].position - sites[i].position));
     }
     return std::max(sites[i].weight, best);
   }
@@ -176,7 +176,7 @@ struct VolumeSolver::Desk {
     for (const std::uint32_t i : active) {
       if (change[i] * share < -0.5 * sites[i].weight) share = -0.5 * sites[i].weight / change[i];
     }
-    if (!(share > kLeastShare)) return false;
+    if (!(share > kLeastSolvedShare)) return false;
     response.apply(active, share, volume, shift);
     for (const std::uint32_t i : active) sites[i].weight += share * change[i];
     if (active.size() > size() / 4) {

@@ -35,7 +35,7 @@ struct SetCase {
   }
 };
 
-std::vector<SetCase> gather(const State& state) {
+std::vector<SetCase> gather_sets(const State& state) {
   const auto& plans = state.plan->sets;
   std::vector<SetCase> cases;
   std::size_t analysis = 0;
@@ -189,7 +189,7 @@ void write_replies(State& next, std::vector<Reply>& replies) {
 }  // namespace
 
 void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner) {
-  std::vector<SetCase> cases = gather(next);
+  std::vector<SetCase> cases = gather_sets(next);
   std::vector<Reply> replies;
   for (SetCase& one : cases) {
     if (const Error* error = one.error()) {
@@ -206,7 +206,7 @@ void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunne
 }
 
 void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
-  for (SetCase& one : gather(state)) {
+  for (SetCase& one : gather_sets(state)) {
     const TypificationDefinition& definition = one.definition(state);
     const bool has_mesh = std::any_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) {
       return std::any_of(set.writes.begin(), set.writes.end(),

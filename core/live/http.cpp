@@ -12,14 +12,14 @@ namespace bl {
 
 namespace {
 
-constexpr int kSlice = 50;           // [ms] between two looks at whether the end is asked for
+constexpr int kHttpSlice = 50;       // [ms] between two looks at whether the end is asked for
 constexpr long kConnectTime = 5000;  // [ms]
 constexpr long kWholeTime = 15000;   // [ms]
 constexpr long kRedirections = 3;
 
-struct Library {
-  Library() { curl_global_init(CURL_GLOBAL_DEFAULT); }
-  ~Library() { curl_global_cleanup(); }
+struct HttpLibrary {
+  HttpLibrary() { curl_global_init(CURL_GLOBAL_DEFAULT); }
+  ~HttpLibrary() { curl_global_cleanup(); }
 };
 
 struct Page {
@@ -57,7 +57,7 @@ class Client {
     curl_multi_add_handle(multi_.get(), easy_.get());
     int running = 1;
     while (running > 0 && !endpoint.is_ending() && curl_multi_perform(multi_.get(), &running) == CURLM_OK)
-      if (running > 0) curl_multi_poll(multi_.get(), nullptr, 0, kSlice, nullptr);
+      if (running > 0) curl_multi_poll(multi_.get(), nullptr, 0, kHttpSlice, nullptr);
     CURLcode code = CURLE_ABORTED_BY_CALLBACK;
     int left = 0;
     while (const CURLMsg* message = curl_multi_info_read(multi_.get(), &left))
@@ -91,7 +91,7 @@ class Client {
 }  // namespace
 
 void run_http(Endpoint& endpoint) {
-  static const Library kLibrary;
+  static const HttpLibrary kLibrary;
   Client client(endpoint.subscribers().front().path);
   while (!endpoint.is_ending()) {
     const Subscriber subscriber = endpoint.subscribers().front();  // its period may change

@@ -15,13 +15,13 @@ namespace bl {
 namespace {
 
 constexpr int kKeepAlive = 20;   // [s] of silence after which the broker is asked whether it is there
-constexpr int kSlice = 20;       // [ms] that one look at the socket may wait
+constexpr int kMqttSlice = 20;   // [ms] that one look at the socket may wait
 constexpr int kDelivery = 1;     // quality of service: the broker confirms what it got
 constexpr int kGreetings = 500;  // looks at the socket until the broker has to have answered: ten seconds
 
-struct Library {
-  Library() { mosquitto_lib_init(); }
-  ~Library() { mosquitto_lib_cleanup(); }
+struct MqttLibrary {
+  MqttLibrary() { mosquitto_lib_init(); }
+  ~MqttLibrary() { mosquitto_lib_cleanup(); }
 };
 
 // What mosquitto's callbacks reach; all of them run on the thread of the endpoint.
@@ -43,7 +43,7 @@ class Broker {
         code != MOSQ_ERR_SUCCESS)
       return unconnected(code);
     for (int looks = 0; !endpoint_.is_ending(); ++looks) {
-      if (const int code = mosquitto_loop(client_.get(), kSlice, 1); code != MOSQ_ERR_SUCCESS)
+      if (const int code = mosquitto_loop(client_.get(), kMqttSlice, 1); code != MOSQ_ERR_SUCCESS)
         return !refusal_.empty() ? refusal_ : unconnected(code);
       if (!is_greeted_ && looks > kGreetings) return endpoint_.place() + " answers, but not as an MQTT broker does";
       if (!is_greeted_) continue;
@@ -166,7 +166,7 @@ class Broker {
 }  // namespace
 
 void run_mqtt(Endpoint& endpoint) {
-  static const Library kLibrary;
+  static const MqttLibrary kLibrary;
   while (!endpoint.is_ending())
     if (const std::string problem = Broker(endpoint).run(); !problem.empty()) endpoint.fail(problem);
 }

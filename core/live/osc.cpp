@@ -18,7 +18,7 @@ namespace bl {
 
 namespace {
 
-constexpr int kSlice = 50;               // [ms] between two looks at whether the end is asked for
+constexpr int kOscSlice = 50;            // [ms] between two looks at whether the end is asked for
 constexpr std::size_t kBuffer = 65536;   // no datagram is longer
 constexpr int kDeepest = 4;              // bundles inside bundles
 constexpr std::size_t kBundleHead = 16;  // "#bundle", a zero and the time
@@ -99,7 +99,7 @@ void hear(Endpoint& endpoint, const Socket& socket) {
   std::vector<char> buffer(kBuffer);
   while (!endpoint.is_ending()) {
     pollfd watched{socket.handle(), POLLIN, 0};
-    if (poll(&watched, 1, kSlice) <= 0) continue;
+    if (poll(&watched, 1, kOscSlice) <= 0) continue;
     const ssize_t size = recv(socket.handle(), buffer.data(), buffer.size(), MSG_DONTWAIT);
     if (size < 0) continue;
     // Noise names no sensor, so all on this port hear of it.

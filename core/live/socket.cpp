@@ -14,8 +14,8 @@ namespace bl {
 
 namespace {
 
-constexpr int kSlice = 50;    // [ms] between two looks at whether the end is asked for
-constexpr int kSlices = 100;  // five seconds in all
+constexpr int kSocketSlice = 50;  // [ms] between two looks at whether the end is asked for
+constexpr int kSlices = 100;      // five seconds in all
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
@@ -51,7 +51,7 @@ Error failure(const Endpoint& endpoint, int code) {
 int outcome_of(int handle, const Endpoint& endpoint) {
   for (int slice = 0; slice < kSlices && !endpoint.is_ending(); ++slice) {
     pollfd watched{handle, POLLOUT, 0};
-    if (poll(&watched, 1, kSlice) <= 0) continue;
+    if (poll(&watched, 1, kSocketSlice) <= 0) continue;
     int problem = 0;
     socklen_t size = sizeof problem;
     getsockopt(handle, SOL_SOCKET, SO_ERROR, &problem, &size);

@@ -212,7 +212,7 @@ constexpr std::array kNutation = std::to_array<Swing>({{0, 0, 0, 0, 1, -171996, 
                                                        {0, 0, 3, 2, 2, -3, 0, 0, 0},
                                                        {2, -1, 0, 2, 2, -3, 0, 0, 0}});
 
-constexpr double kRadian = 0.017453292519943295;
+constexpr double kRadianOfTerms = 0.017453292519943295;
 
 // c0 + c1 x + c2 x² + ...
 double polynomial(std::initializer_list<double> coefficients, double x) {
@@ -238,17 +238,17 @@ double series(std::initializer_list<std::span<const Wave>> orders, double millen
 }  // namespace
 
 EarthOrbit earth_orbit(double millennia) {
-  return {series({kLongitude0, kLongitude1, kLongitude2, kLongitude3, kLongitude4, kLongitude5}, millennia) / kRadian,
-          series({kLatitude0, kLatitude1}, millennia) / kRadian,
+  return {series({kLongitude0, kLongitude1, kLongitude2, kLongitude3, kLongitude4, kLongitude5}, millennia) / kRadianOfTerms,
+          series({kLatitude0, kLatitude1}, millennia) / kRadianOfTerms,
           series({kDistance0, kDistance1, kDistance2, kDistance3, kDistance4}, millennia)};
 }
 
 Nutation nutation(double centuries) {
-  const double elongation = polynomial({297.85036, 445267.11148, -0.0019142, 1.0 / 189474}, centuries) * kRadian,
-               sun = polynomial({357.52772, 35999.05034, -0.0001603, -1.0 / 300000}, centuries) * kRadian,
-               moon = polynomial({134.96298, 477198.867398, 0.0086972, 1.0 / 56250}, centuries) * kRadian,
-               latitude = polynomial({93.27191, 483202.017538, -0.0036825, 1.0 / 327270}, centuries) * kRadian,
-               node = polynomial({125.04452, -1934.136261, 0.0020708, 1.0 / 450000}, centuries) * kRadian;
+  const double elongation = polynomial({297.85036, 445267.11148, -0.0019142, 1.0 / 189474}, centuries) * kRadianOfTerms,
+               sun = polynomial({357.52772, 35999.05034, -0.0001603, -1.0 / 300000}, centuries) * kRadianOfTerms,
+               moon = polynomial({134.96298, 477198.867398, 0.0086972, 1.0 / 56250}, centuries) * kRadianOfTerms,
+               latitude = polynomial({93.27191, 483202.017538, -0.0036825, 1.0 / 327270}, centuries) * kRadianOfTerms,
+               node = polynomial({125.04452, -1934.136261, 0.0020708, 1.0 / 450000}, centuries) * kRadianOfTerms;
   Nutation sum;
   for (const Swing& s : kNutation) {
     const double angle = s.elongation * elongation + s.sun * sun + s.moon * moon + s.latitude * latitude + s.node * node;

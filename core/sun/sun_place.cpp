@@ -8,7 +8,7 @@ namespace bl {
 
 namespace {
 
-constexpr double kDay = 86400;
+constexpr double kSecondsOfDay = 86400;
 
 // Monday 0 ... Sunday 6.
 int weekday(DayNumber day) { return static_cast<int>(day % 7); }
@@ -29,7 +29,7 @@ struct Switches {
 };
 
 Switches switches_of(const SunPlace& place, int year) {
-  const auto universal = [](DayNumber day, double seconds) { return static_cast<double>(day) - 0.5 + seconds / kDay; };
+  const auto universal = [](DayNumber day, double seconds) { return static_cast<double>(day) - 0.5 + seconds / kSecondsOfDay; };
   const double zone = place.utc_offset, hour = 3600;
   switch (place.daylight_saving) {
     case DaylightSaving::europe: return {universal(last_sunday(year, 3), hour), universal(last_sunday(year, 10), hour)};
@@ -45,7 +45,7 @@ Switches switches_of(const SunPlace& place, int year) {
 // How far local clocks are ahead of UTC at a moment [s].
 double clock_offset(const SunPlace& place, double moment) {
   if (place.daylight_saving == DaylightSaving::none) return place.utc_offset;
-  const int year = date_of(static_cast<DayNumber>(std::floor(moment + 0.5 + place.utc_offset / kDay))).year;
+  const int year = date_of(static_cast<DayNumber>(std::floor(moment + 0.5 + place.utc_offset / kSecondsOfDay))).year;
   const auto [begin, end] = switches_of(place, year);
   const bool is_summer = begin < end ? moment >= begin && moment < end : moment >= begin || moment < end;
   return place.utc_offset + (is_summer ? 3600 : 0);
@@ -99,14 +99,14 @@ std::string date_text(DayNumber day) {
 }
 
 double moment_of(const SunPlace& place, DayNumber day, double seconds) {
-  const double standard = static_cast<double>(day) - 0.5 + (seconds - place.utc_offset) / kDay;
+  const double standard = static_cast<double>(day) - 0.5 + (seconds - place.utc_offset) / kSecondsOfDay;
   if (place.daylight_saving == DaylightSaving::none) return standard;
-  const double summer = standard - 3600 / kDay;
+  const double summer = standard - 3600 / kSecondsOfDay;
   return clock_offset(place, summer) > place.utc_offset ? summer : standard;
 }
 
 double clock_at(const SunPlace& place, DayNumber day, double moment) {
-  return (moment - (static_cast<double>(day) - 0.5)) * kDay + clock_offset(place, moment);
+  return (moment - (static_cast<double>(day) - 0.5)) * kSecondsOfDay + clock_offset(place, moment);
 }
 
 Vector3 scene_direction(const SunPlace& place, double azimuth, double altitude) {

@@ -11,7 +11,7 @@ namespace bl {
 
 namespace {
 
-constexpr double kRadian = 0.017453292519943295;
+constexpr double kRadianOfStudy = 0.017453292519943295;
 
 SunGrid grid_of(const SunReceiver& receiver) {
   return sun_grid(receiver.centre, receiver.half_across, receiver.half_up, receiver.spacing, kMostSunPoints);
@@ -37,13 +37,13 @@ void SunRecord::judge(double required) {
 }
 
 void level_axes(double width, double depth, double rotation, SunReceiver& receiver) {
-  const double turn = rotation * kRadian;
+  const double turn = rotation * kRadianOfStudy;
   receiver.half_across = Vector3{std::cos(turn), std::sin(turn), 0} * (0.5 * width);
   receiver.half_up = Vector3{-std::sin(turn), std::cos(turn), 0} * (0.5 * depth);
 }
 
 void upright_axes(double width, double height, double azimuth, SunReceiver& receiver) {
-  const double turn = azimuth * kRadian;
+  const double turn = azimuth * kRadianOfStudy;
   receiver.half_across = Vector3{-std::cos(turn), std::sin(turn), 0} * (0.5 * width);
   receiver.half_up = {0, 0, 0.5 * height};
 }

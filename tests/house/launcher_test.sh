@@ -1,6 +1,6 @@
 # Tries `bl` with stand-ins for apt, sudo and the rest, in a copy of its own. Usage: sh launcher_test.sh CHECKOUT
 set -u
-unset BL_QUICK BL_NO_SETUP BL_JOBS    # those of whoever runs the tests must not reach the launchers under test
+unset BL_NO_SETUP BL_JOBS    # those of whoever runs the tests must not reach the launchers under test
 checkout=$1
 place=$(mktemp -d "${TMPDIR:-/tmp}/bl launcher.XXXXXX") || exit 1    # a space in the path, on purpose
 trap 'rm -rf "$place"' EXIT
@@ -231,10 +231,11 @@ suite_gives() {
   line=$1 ending=$2
   shift 2
   printf '%s\n' "$@" >"$place/breaks"
-  bl test
+  bl test $deep
   expect "the suite with broken steps: $*" "$ending" "$line"
   [ "$(printf '%s\n' "$output" | tail -n 1)" = "$line" ] || { echo "the last line is not: $line"; failures=$((failures + 1)); }
 }
+deep=--deep
 suite_gives '18 passed, 0 failed' 0
 suite_gives '16 passed, 2 failed' 1 test-release
 suite_gives '16 passed, 2 failed' 1 test-fuzz
@@ -245,10 +246,8 @@ suite_gives '12 passed, 1 failed' 1 empty-tsan
 suite_gives '18 passed, 1 failed' 1 find
 suite_gives '4 passed, 5 failed' 1 test-fuzz empty-release build-tsan find
 : >"$place/breaks"
-BL_QUICK=1
-export BL_QUICK
+deep=''
 suite_gives '6 passed, 0 failed' 0
-unset BL_QUICK
 : >"$place/calls"
 bl test -R 'two words'
 expect 'a selection of tests' 0 '6 passed, 0 failed'

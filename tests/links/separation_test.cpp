@@ -6,7 +6,7 @@
 namespace bl {
 namespace {
 
-LinkCase rooms(double length, double shared) {
+LinkCase separated_rooms(double length, double shared) {
   LinkCase link("separation");
   Table neighbours{{"node", "area"}, {}};
   if (shared > 0) neighbours.rows.push_back({std::string("b"), shared});
@@ -18,26 +18,26 @@ LinkCase rooms(double length, double shared) {
 }
 
 TEST(Separation, PushesWhileAFacetIsShared) {
-  auto link = rooms(16, 16 * std::numbers::pi);  // 2 · area / (pi · distance) = 2 m, and 5 cm more
+  auto link = separated_rooms(16, 16 * std::numbers::pi);  // 2 · area / (pi · distance) = 2 m, and 5 cm more
   ASSERT_EQ(link.run(), "");
   expect_near(link.move(End::from), {-0.205, 0, 0});
   expect_near(link.move(End::to), {0.205, 0, 0});
-  auto cut_off = rooms(16, 0);  // the balls overlap, but something stands between
+  auto cut_off = separated_rooms(16, 0);  // the balls overlap, but something stands between
   ASSERT_EQ(cut_off.run(), "");
   EXPECT_FALSE(cut_off.moves(End::from));
 }
 
 TEST(Separation, AGapCountsBetweenTheBalls) {
-  auto link = rooms(22, 0);
+  auto link = separated_rooms(22, 0);
   ASSERT_EQ(link.set("gap", 5.0).run(), "");
   expect_near(link.move(End::to), {0.3, 0, 0});
-  auto wide = rooms(25, 0);
+  auto wide = separated_rooms(25, 0);
   ASSERT_EQ(wide.set("gap", 5.0).run(), "");
   EXPECT_FALSE(wide.moves(End::to));
 }
 
 TEST(Separation, VolumesOnOnePointPart) {
-  auto link = rooms(0, 0);
+  auto link = separated_rooms(0, 0);
   ASSERT_EQ(link.run(), "");
   EXPECT_NEAR(norm(link.move(End::to)), 0.1, 1e-12);
   EXPECT_EQ(link.move(End::to), -link.move(End::from));

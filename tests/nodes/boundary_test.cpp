@@ -8,7 +8,7 @@
 namespace bl {
 namespace {
 
-std::string error_of(const std::string& ports) {
+std::string boundary_error(const std::string& ports) {
   World world = World::from_text(one_node("boundary", ports));
   world.tick();
   return world.node_error("it", "boundary");
@@ -56,14 +56,14 @@ TEST(Boundary, AFreshOneIsUsable) {
 }
 
 TEST(Boundary, RefusesWhatHasNoVolume) {
-  EXPECT_EQ(error_of(R"("points": [[0,0,0],[1,0,0],[0,1,0]])"),
+  EXPECT_EQ(boundary_error(R"("points": [[0,0,0],[1,0,0],[0,1,0]])"),
             "nodes/it/boundary/points: a boundary needs at least 4 points that are not in one plane; 3 given, 3 of them at "
             "different places");
-  EXPECT_EQ(error_of(R"("points": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[2,2,0]])"),
+  EXPECT_EQ(boundary_error(R"("points": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[2,2,0]])"),
             "nodes/it/boundary/points: all boundary points lie in one plane: add a point above or below it");
-  EXPECT_EQ(error_of(R"("form": "plan", "plan": [[0,0,0],[1,0,0]])"),
+  EXPECT_EQ(boundary_error(R"("form": "plan", "plan": [[0,0,0],[1,0,0]])"),
             "nodes/it/boundary/plan: a plan polygon needs at least 3 corners at different places, 2 found");
-  EXPECT_EQ(error_of(R"("form": "plan", "plan": [[0,0,0],[1,0,0],[2,0,0]])"),
+  EXPECT_EQ(boundary_error(R"("form": "plan", "plan": [[0,0,0],[1,0,0],[2,0,0]])"),
             "nodes/it/boundary/plan: the plan polygon has no area: its corners lie on one line");
 }
 
@@ -98,19 +98,19 @@ TEST(Boundary, OldTablesAreOneConvexPiece) {
 }
 
 TEST(Boundary, RefusesWithThePlaceOfTheRow) {
-  EXPECT_EQ(error_of(R"("form": "plan", "plan": [[0,0,0],[10,10,0],[10,0,0],[0,10,0]])"),
+  EXPECT_EQ(boundary_error(R"("form": "plan", "plan": [[0,0,0],[10,10,0],[10,0,0],[0,10,0]])"),
             "nodes/it/boundary/plan: the plan polygon crosses itself: side 0 and side 2 meet at (5.000, 5.000)");
   const std::string hole = R"({"name": "a", "x": 1, "y": 1}, {"name": "a", "x": 3, "y": 1}, {"name": "a", "x": 3, "y": 3})";
-  EXPECT_EQ(error_of(R"("form": "plan", "holes": [)" + hole +
-                     R"(, {"name": "b", "x": 50}, {"name": "b", "x": 51}, {"name": "b", "x": 50, "y": 1}])"),
+  EXPECT_EQ(boundary_error(R"("form": "plan", "holes": [)" + hole +
+                           R"(, {"name": "b", "x": 50}, {"name": "b", "x": 51}, {"name": "b", "x": 50, "y": 1}])"),
             "nodes/it/boundary/holes/3: the hole lies outside the plan polygon: its first corner is at (50.000, 0.000)");
-  EXPECT_EQ(error_of(R"("exclusions": [)" + hole + "]"),
+  EXPECT_EQ(boundary_error(R"("exclusions": [)" + hole + "]"),
             "nodes/it/boundary/exclusions/0: the top of the boundary (0 m) has to lie above its bottom (0 m)");
-  EXPECT_EQ(error_of(R"("setbacks": [{"z": 1, "offset": -1}])"),
+  EXPECT_EQ(boundary_error(R"("setbacks": [{"z": 1, "offset": -1}])"),
             "nodes/it/boundary/setbacks: the planes cut the whole boundary away: nothing is left of it");
-  EXPECT_EQ(error_of(R"("setbacks": [{"offset": -1}])"),
+  EXPECT_EQ(boundary_error(R"("setbacks": [{"offset": -1}])"),
             "nodes/it/boundary/setbacks/0: the plane has no direction: its normal is zero");
-  EXPECT_EQ(error_of(R"("form": "mesh")"), "nodes/it/boundary/triangles: a boundary mesh needs at least 4 triangles");
+  EXPECT_EQ(boundary_error(R"("form": "mesh")"), "nodes/it/boundary/triangles: a boundary mesh needs at least 4 triangles");
 }
 
 TEST(Boundary, AnErrorKeepsTheLastGoodShape) {

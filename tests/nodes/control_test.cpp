@@ -14,7 +14,7 @@ double output_of(const std::string& ports) {
   return world.number("it", "control.output");
 }
 
-std::string error_of(const std::string& ports) {
+std::string control_error(const std::string& ports) {
   World world = World::from_text(one_node("control", ports));
   world.tick();
   return world.node_error("it", "control");
@@ -46,20 +46,21 @@ TEST(Control, ASwitchIsOnOrOff) {
 }
 
 TEST(Control, RefusesRangesThatCannotBe) {
-  EXPECT_EQ(error_of(R"("minimum": 5, "maximum": 2)"),
+  EXPECT_EQ(control_error(R"("minimum": 5, "maximum": 2)"),
             "nodes/it/control/maximum: the maximum (2) has to lie above the minimum (5)");
-  EXPECT_EQ(error_of(R"("minimum": 2, "maximum": 2)"),
+  EXPECT_EQ(control_error(R"("minimum": 2, "maximum": 2)"),
             "nodes/it/control/maximum: the maximum (2) has to lie above the minimum (2)");
-  EXPECT_EQ(error_of(R"("step": 101)"),
+  EXPECT_EQ(control_error(R"("step": 101)"),
             "nodes/it/control/step: the step (101) is larger than the range (100): make it smaller, or 0 for none");
 }
 
 TEST(Control, KnowsItsUnits) {
   EXPECT_EQ(output_of(R"("value": 3, "unit": "m3")"), 3);
   EXPECT_EQ(output_of(R"("value": 3, "unit": "m²")"), 3);
-  EXPECT_EQ(error_of(R"("unit": "metre")"), "nodes/it/control/unit: `metre` is no unit that is known");
-  EXPECT_EQ(error_of(R"("unit": "EURO")"), "nodes/it/control/unit: `EURO` is no unit that is known, did you mean `EUR`?");
-  EXPECT_EQ(error_of(R"("unit": "ha")"), "nodes/it/control/unit: values are not kept in `ha`: write `m2`, and the numbers in it");
+  EXPECT_EQ(control_error(R"("unit": "metre")"), "nodes/it/control/unit: `metre` is no unit that is known");
+  EXPECT_EQ(control_error(R"("unit": "EURO")"), "nodes/it/control/unit: `EURO` is no unit that is known, did you mean `EUR`?");
+  EXPECT_EQ(control_error(R"("unit": "ha")"),
+            "nodes/it/control/unit: values are not kept in `ha`: write `m2`, and the numbers in it");
 }
 
 TEST(Control, SceneIsWhatItSays) {

@@ -7,7 +7,7 @@
 namespace bl {
 namespace {
 
-std::string error_of(const std::string& rows) {
+std::string programme_error(const std::string& rows) {
   World world = World::from_text(one_node("programme", R"("rows": [)" + rows + "]"));
   world.tick();
   return world.node_error("it", "programme");
@@ -36,18 +36,18 @@ TEST(Programme, AnEmptyOneWantsNothing) {
 
 TEST(Programme, NamesTheRowAndColumnOfAFault) {
   EXPECT_EQ(
-      error_of(R"({"use": "a", "floor_area": 1}, {"use": "b", "floor_area": 1}, {"use": "a", "floor_area": 2})"),
+      programme_error(R"({"use": "a", "floor_area": 1}, {"use": "b", "floor_area": 1}, {"use": "a", "floor_area": 2})"),
       "nodes/it/programme/rows/2/use: the use `a` stands in an earlier row too: put both into one row, or name one otherwise");
-  EXPECT_EQ(error_of(R"({"use": "a", "floor_area": 10, "floor_area_min": 12})"),
+  EXPECT_EQ(programme_error(R"({"use": "a", "floor_area": 10, "floor_area_min": 12})"),
             "nodes/it/programme/rows/0/floor_area_min: the value is 12 m², more than the floor area aimed at (10 m²): lower it");
-  EXPECT_EQ(error_of(R"({"use": "a", "floor_area": 10, "floor_area_max": 8})"),
+  EXPECT_EQ(programme_error(R"({"use": "a", "floor_area": 10, "floor_area_max": 8})"),
             "nodes/it/programme/rows/0/floor_area_max: the value is 8 m², less than the floor area aimed at (10 m²): raise it, "
             "or write 0 for none");
-  EXPECT_EQ(error_of(R"({"use": "a", "floor_area": 10, "count": 1.5})"),
+  EXPECT_EQ(programme_error(R"({"use": "a", "floor_area": 10, "count": 1.5})"),
             "nodes/it/programme/rows/0/count: the value must be a whole number of items, at least 1, found 1.5");
-  EXPECT_EQ(error_of(R"({"use": "a", "floor_area": 0})"),
+  EXPECT_EQ(programme_error(R"({"use": "a", "floor_area": 0})"),
             "nodes/it/programme/rows/0/floor_area: the value must be more than 0 m², found 0");
-  EXPECT_EQ(error_of(R"({"use": "", "floor_area": 1})"), "nodes/it/programme/rows/0/use: the use is empty: name the use");
+  EXPECT_EQ(programme_error(R"({"use": "", "floor_area": 1})"), "nodes/it/programme/rows/0/use: the use is empty: name the use");
 }
 
 TEST(Programme, SceneAddsUp) {

@@ -7,9 +7,9 @@
 namespace bl {
 namespace {
 
-const std::string kPlot = node_text("plot", "[0, 0, 0]", "boundary",
-                                    R"("form": "plan", "plan": [[0,0,0],[60,0,0],[60,24,0],[0,24,0]], "height": 40)"),
-                  kSolver = node_text("solver", "[0, 0, 0]", "smart_volumes_solver"),
+const std::string kStudyPlot = node_text("plot", "[0, 0, 0]", "boundary",
+                                         R"("form": "plan", "plan": [[0,0,0],[60,0,0],[60,24,0],[0,24,0]], "height": 40)"),
+                  kStudySolver = node_text("solver", "[0, 0, 0]", "smart_volumes_solver"),
                   kSun = node_text("sun", "[0, 0, 0]", "sun_and_sky"), kStudy = node_text("study", "[0, 0, 0]", "sun_study");
 
 std::string caster(const std::string& id, const std::string& position, double demand) {
@@ -19,7 +19,7 @@ std::string caster(const std::string& id, const std::string& position, double de
 
 World quarter(const std::string& more, int threads = 1) {
   return World::from_text(
-      scene_text(kPlot + "," + kSolver + "," + kSun + "," + kStudy + "," + caster("low", "[12, 12, 4]", 1500) + "," +
+      scene_text(kStudyPlot + "," + kStudySolver + "," + kSun + "," + kStudy + "," + caster("low", "[12, 12, 4]", 1500) + "," +
                  caster("tower", "[36, 12, 15]", 9000) + "," + more),
       threads);
 }
@@ -183,9 +183,10 @@ TEST(SunStudy, ANodeWithTwoShapesIsOneCaster) {
   EXPECT_EQ(world.table("both", "shadow_caster.taken").rows.size(), 1u);
   const double alone = losses.number(0, "lost");
   // With a shape of its own the volume takes as well.
-  World larger = World::from_text(scene_text(
-      both + "," + kSun + "," + receiver + "," + kStudy + "," + kSolver + "," +
-      node_text("site", "[0, 0, 0]", "boundary", R"("form": "plan", "plan": [[-40,-30,0],[40,-30,0],[40,-4,0],[-40,-4,0]], "height": 60)")));
+  World larger = World::from_text(
+      scene_text(both + "," + kSun + "," + receiver + "," + kStudy + "," + kStudySolver + "," +
+                 node_text("site", "[0, 0, 0]", "boundary",
+                           R"("form": "plan", "plan": [[-40,-30,0],[40,-30,0],[40,-4,0],[-40,-4,0]], "height": 60)")));
   ASSERT_EQ(larger.submit(command<SetPort>({.node = "both", .port = {"smart_volume.demand"}, .value = {"30000"}})), "");
   ASSERT_TRUE(larger.settle(300));
   EXPECT_EQ(larger.node_error("study", "sun_study"), "");
@@ -215,7 +216,8 @@ TEST(SunStudy, RefusesMoreRaysThanItCanFollow) {
       "," + node_text("garden", "[0, 0, 0]", "shadow_receiver", R"("width": 500, "depth": 500, "spacing": 1)") + "," +
       node_text("park", "[0, 900, 0]", "shadow_receiver", R"("width": 500, "depth": 500, "spacing": 1)")));
   world.tick(6);
-  EXPECT_NE(world.node_error("study", "sun_study").find("nodes/study/sun_study/receivers: the study would follow"), std::string::npos)
+  EXPECT_NE(world.node_error("study", "sun_study").find("nodes/study/sun_study/receivers: the study would follow"),
+            std::string::npos)
       << world.node_error("study", "sun_study");
 }
 

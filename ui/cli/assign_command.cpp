@@ -24,13 +24,7 @@ namespace bl::cli {
 
 namespace {
 
-constexpr std::size_t kMostLines = 10;  // of one kind, on the terminal
-
-std::string rough(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
+constexpr std::size_t kMostStreetLines = 10;  // of one kind, on the terminal
 
 // What an input file holds, or nothing after its errors and notes are printed.
 template <class Content>
@@ -284,11 +278,11 @@ class AssignRun {
 
   void tell_lost(const Equilibrium& equilibrium) const {
     const auto& lost = equilibrium.lost();
-    for (std::size_t i = 0; i < lost.size() && i < kMostLines; ++i)
+    for (std::size_t i = 0; i < lost.size() && i < kMostStreetLines; ++i)
       print_line("  lost        " + fixed(lost[i].trips, 1) + " trips from " + network_->node(lost[i].origin).id + " to " +
                  network_->node(lost[i].destination).id + ": " + lost[i].reason);
-    if (lost.size() > kMostLines)
-      print_line("  and " + std::to_string(lost.size() - kMostLines) + " more pairs are lost; --json has all");
+    if (lost.size() > kMostStreetLines)
+      print_line("  and " + std::to_string(lost.size() - kMostStreetLines) + " more pairs are lost; --json has all");
   }
 
   Json compare(const Equilibrium& equilibrium) const {

@@ -9,7 +9,7 @@ namespace bl::cli {
 
 namespace {
 
-Json point_json(const Point3& p) { return {p.x, p.y, p.z}; }
+Json corner_json(const Point3& p) { return {p.x, p.y, p.z}; }
 
 Json names_json(const std::vector<ElementName>& names) {
   Json list = Json::array();
@@ -21,7 +21,7 @@ Json polygons_json(const std::vector<std::vector<Point3>>& polygons) {
   Json list = Json::array();
   for (const auto& polygon : polygons) {
     Json points = Json::array();
-    for (const Point3& p : polygon) points.push_back(point_json(p));
+    for (const Point3& p : polygon) points.push_back(corner_json(p));
     list.push_back(std::move(points));
   }
   return list;
@@ -34,7 +34,7 @@ Result<Json> complex_json(const PowerDiagram& diagram, std::span<const PowerSite
   if (auto built = complex.update(diagram, sites); !built) return built.error();
   Json vertices = Json::array(), edges = Json::array(), facets = Json::array();
   for (const ElementName& name : complex.names(ElementKind::vertex)) {
-    vertices.push_back({{"name", name.text()}, {"position", point_json(*complex.position(name))}});
+    vertices.push_back({{"name", name.text()}, {"position", corner_json(*complex.position(name))}});
   }
   for (const ElementName& name : complex.names(ElementKind::edge)) {
     edges.push_back({{"name", name.text()},

@@ -25,13 +25,6 @@ namespace {
 
 constexpr std::size_t kMostLines = 10;  // of one kind, on the terminal; the file has all
 
-// Three digits, whatever the size: for people.
-std::string rough(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
-
 // A volume or an area as people write it; very small ones by their first digits.
 std::string amount(double number) {
   const double size = std::abs(number);

@@ -53,7 +53,7 @@ std::string hash_of_listing(const CellComplex& complex) {
   return hash.hex();
 }
 
-Result<void> measure(const SolverBench& bench, int count, BenchTable& table) {
+Result<void> measure_complex(const SolverBench& bench, int count, BenchTable& table) {
   PowerDiagram diagram;
   CellComplex complex;
   std::vector<PowerSite> sites = random_sites(count);
@@ -103,7 +103,7 @@ BenchTables bench_complex(const SolverBench& bench) {
                     {"same", "same_as_built", true},
                     {"hash", "hash", true}});
   for (const int count : bench.sites({500, 5000, 50000}, {500})) {
-    if (auto done = measure(bench, count, table); !done) return done.error();
+    if (auto done = measure_complex(bench, count, table); !done) return done.error();
   }
   return std::vector<BenchTable>{table};
 }

@@ -17,12 +17,13 @@ constexpr double kGrowthFill = 0.7;
 // Below so many sites the pages that a system hands out are larger than what is to be measured.
 constexpr int kLeastMeasured = 1000;
 
-struct Curve {
+struct GrowthCurve {
   const char *label, *key, *colour, *dashes;
 };
-constexpr std::array kCurves = {
-    Curve{"diagram", "diagram", "#225599", ""}, Curve{"cold fit at 70 %, to 1e-6", "fit", "#aa3311", ""},
-    Curve{"CGAL, triangulation alone", "cgal", "#666a73", "6 2.5"}, Curve{"Voro++, diagram", "voropp", "#8a5a00", "2 2.5"}};
+constexpr std::array kCurves = {GrowthCurve{"diagram", "diagram", "#225599", ""},
+                                GrowthCurve{"cold fit at 70 %, to 1e-6", "fit", "#aa3311", ""},
+                                GrowthCurve{"CGAL, triangulation alone", "cgal", "#666a73", "6 2.5"},
+                                GrowthCurve{"Voro++, diagram", "voropp", "#8a5a00", "2 2.5"}};
 
 struct GrowthRow {
   int sites = 0;
@@ -88,11 +89,11 @@ Result<void> draw(const std::vector<GrowthRow>& rows, const std::string& folder)
 
 BenchTables bench_growth(const SolverBench& bench) {
   std::vector<BenchTable::Column> columns = {{"sites", "sites"}};
-  for (const Curve& curve : kCurves) {
+  for (const GrowthCurve& curve : kCurves) {
     const std::string key = curve.key;
     columns.push_back({key + " µs/site", key + "_microseconds_per_site"});
   }
-  for (const Curve& curve : kCurves) {
+  for (const GrowthCurve& curve : kCurves) {
     const std::string key = curve.key;
     columns.push_back({key + " B/site", key + "_bytes_per_site"});
   }

@@ -68,7 +68,7 @@ void plain_loop(const std::vector<MeshPointer>& boxes, const Ray& ray, std::vect
 
 using Answers = std::vector<std::vector<std::uint32_t>>;
 
-Result<void> measure(const SolverBench& bench, int count, BenchTable& table) {
+Result<void> measure_rays(const SolverBench& bench, int count, BenchTable& table) {
   const auto boxes = town(count);
   const auto scene = ShadowScene::build(boxes);
   if (!scene) return scene.error();
@@ -136,7 +136,7 @@ BenchTables bench_rays(const SolverBench& bench) {
        {"differ", "differing_rays"},
        {"hash", "hash", true}}};
   for (const int count : bench.sites({10, 100, 1000, 10000}, {100}))
-    if (auto done = measure(bench, count, table); !done) return done.error();
+    if (auto done = measure_rays(bench, count, table); !done) return done.error();
   return std::vector<BenchTable>{table};
 }
 

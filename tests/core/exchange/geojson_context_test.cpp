@@ -9,11 +9,11 @@ namespace {
 
 using test::area_of, test::reason_of, test::shared_bytes;
 
-std::string dutch(const std::string& features) {
+std::string in_dutch_metres(const std::string& features) {
   return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::28992"}}, "features": [)" +
          features + "]}";
 }
-std::string square(double x, double y, double side, const std::string& properties) {
+std::string square_feature(double x, double y, double side, const std::string& properties) {
   const auto point = [](double a, double b) { return "[" + std::to_string(a) + "," + std::to_string(b) + "]"; };
   return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": "Polygon", "coordinates": [[)" +
          point(x, y) + "," + point(x + side, y) + "," + point(x + side, y + side) + "," + point(x, y + side) + "," + point(x, y) +
@@ -25,8 +25,9 @@ TEST(GeoJsonContext, PropertiesUnderTheirManyNames) {
   options.storey_height = 3;
   options.properties = {{"use", "Nutzung"}};
   const auto context = read_geojson_context(
-      dutch(square(85000, 447000, 10, R"("measuredHeight": 12.5, "gid": 7, "Nutzung": "school")") + "," +
-            square(85020, 447000, 10, R"("bouwlagen": 4)") + "," + square(85040, 447000, 10, R"("landuse": "grass")")),
+      in_dutch_metres(square_feature(85000, 447000, 10, R"("measuredHeight": 12.5, "gid": 7, "Nutzung": "school")") + "," +
+                      square_feature(85020, 447000, 10, R"("bouwlagen": 4)") + "," +
+                      square_feature(85040, 447000, 10, R"("landuse": "grass")")),
       options);
   ASSERT_TRUE(context.ok()) << context.error().text();
   ASSERT_EQ(context->buildings.size(), 2u);
@@ -46,9 +47,9 @@ TEST(GeoJsonContext, StreetsAreCutWhereTheyMeet) {
     return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": "LineString", "coordinates": [)" +
            points + "]}}";
   };
-  const auto context = read_geojson_context(
-      dutch(line("[85000,447000],[85050,447000],[85100,447000]", R"("highway": "primary", "maxspeed": "50", "oneway": "yes")") +
-            "," + line("[85050,447000],[85050,447080]", R"("name": "Side")")));
+  const auto context = read_geojson_context(in_dutch_metres(
+      line("[85000,447000],[85050,447000],[85100,447000]", R"("highway": "primary", "maxspeed": "50", "oneway": "yes")") + "," +
+      line("[85050,447000],[85050,447080]", R"("name": "Side")")));
   ASSERT_TRUE(context.ok());
   ASSERT_EQ(context->streets.size(), 3u);
   EXPECT_EQ(context->junctions.size(), 4u);
@@ -65,8 +66,8 @@ TEST(GeoJsonContext, KindsAreToldByTheOptionAndFaultsAreRows) {
   const std::string point =
       R"({"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [85000,447000]}})";
   const std::string nothing = R"({"type": "Feature", "properties": {}, "geometry": null})";
-  const auto context =
-      read_geojson_context(dutch(square(85000, 447000, 10, "") + "," + crossed + "," + point + "," + nothing), options);
+  const auto context = read_geojson_context(
+      in_dutch_metres(square_feature(85000, 447000, 10, "") + "," + crossed + "," + point + "," + nothing), options);
   ASSERT_TRUE(context.ok());
   ASSERT_EQ(context->areas.size(), 1u);
   EXPECT_TRUE(context->areas[0].is_plot);
@@ -81,9 +82,9 @@ TEST(GeoJsonContext, HostileInputIsAnErrorWithAPlace) {
       {"", "line 1, column 1"},
       {"noise\x01", "byte 0"},
       {"{}", ""},
-      {dutch(""), "features"},
+      {in_dutch_metres(""), "features"},
       {R"({"type": "FeatureCollection"})", "features"},
-      {dutch(R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[["a", 1]]]}})"),
+      {in_dutch_metres(R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[["a", 1]]]}})"),
        "features/0/geometry/coordinates/0/0"},
       {R"({"type": "Polygon", "coordinates": [[[85000,447000],[85010,447000],[85010,447010],[85000,447000]]]})", "crs"}};
   for (const auto& [text, place] : rows) {
@@ -94,12 +95,12 @@ TEST(GeoJsonContext, HostileInputIsAnErrorWithAPlace) {
   }
 }
 
-struct File {
+struct FixtureFile {
   const char *name, *kind;
   std::size_t features;  // by `ogrinfo -al -so FILE`, line "Feature Count"
   std::size_t buildings, streets, areas;
 };
-constexpr File kFiles[] = {
+constexpr FixtureFile kFiles[] = {
     {"geojson/tudelft_campus_buildings.geojson", "building", 1529, 1529, 0, 0},
     {"geojson/tudelft_campus_domain.geojson", "plot", 1, 0, 0, 1},
     {"geojson/tartu_streets_utm35n.geojson", "", 2238, 0, 3416, 0},
@@ -111,7 +112,7 @@ constexpr File kFiles[] = {
 };
 
 TEST(GeoJsonContext, RealFilesAgreeWithAnIndependentReader) {
-  for (const File& file : kFiles) {
+  for (const FixtureFile& file : kFiles) {
     const std::string text = shared_bytes(file.name);
     if (text.empty()) continue;
     ContextOptions options;
@@ -143,11 +144,12 @@ TEST(GeoJsonContext, AreasAreThoseOfAnIndependentReader) {
 }
 
 TEST(GeoJsonContext, GroundHeightsAreAboveTheSeaAndMinHeightsAboveTheGround) {
-  const auto context = read_geojson_context(dutch(square(85000, 447000, 10, R"("height": 12, "ground_height": 35.2)") + "," +
-                                                  square(85020, 447000, 10, R"("height": 12, "min_height": 5)") + "," +
-                                                  square(85040, 447000, 10, R"("height": 12, "base": 5, "min_height": 3)") + "," +
-                                                  square(85060, 447000, 10, R"("height": 12, "base": "2e6")") + "," +
-                                                  square(85080, 447000, 10, R"("height": 12, "base": 2000000)")));
+  const auto context =
+      read_geojson_context(in_dutch_metres(square_feature(85000, 447000, 10, R"("height": 12, "ground_height": 35.2)") + "," +
+                                           square_feature(85020, 447000, 10, R"("height": 12, "min_height": 5)") + "," +
+                                           square_feature(85040, 447000, 10, R"("height": 12, "base": 5, "min_height": 3)") +
+                                           "," + square_feature(85060, 447000, 10, R"("height": 12, "base": "2e6")") + "," +
+                                           square_feature(85080, 447000, 10, R"("height": 12, "base": 2000000)")));
   ASSERT_TRUE(context.ok()) << context.error().text();
   ASSERT_EQ(context->buildings.size(), 4u);
   EXPECT_EQ(context->buildings[0].base, 35.2);
@@ -169,7 +171,7 @@ TEST(GeoJsonContext, DirectionsOfGeofabrik) {
     return R"({"type": "Feature", "properties": {"fclass": "residential", "oneway": ")" + oneway +
            R"("}, "geometry": {"type": "LineString", "coordinates": [[85000,)" + at + "],[85100," + at + "]]}}";
   };
-  const auto context = read_geojson_context(dutch(line(0, "F") + "," + line(10, "T") + "," + line(20, "B")));
+  const auto context = read_geojson_context(in_dutch_metres(line(0, "F") + "," + line(10, "T") + "," + line(20, "B")));
   ASSERT_TRUE(context.ok());
   ASSERT_EQ(context->streets.size(), 3u);
   EXPECT_TRUE(context->streets[0].is_one_way);

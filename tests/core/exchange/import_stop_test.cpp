@@ -43,7 +43,7 @@ std::string repeated(const std::string& text, int count) {
   return all;
 }
 
-std::string packed(const std::string& text) {
+std::string zipped(const std::string& text) {
   z_stream stream{};
   EXPECT_EQ(deflateInit2(&stream, 1, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
   std::string out(deflateBound(&stream, text.size()), '\0');
@@ -57,7 +57,8 @@ std::string packed(const std::string& text) {
   return out;
 }
 
-const std::string kPoint = R"({"type": "Feature", "properties": {"v": 1}, "geometry": {"type": "Point", "coordinates": [4.1, 52]}},)";
+const std::string kPoint =
+    R"({"type": "Feature", "properties": {"v": 1}, "geometry": {"type": "Point", "coordinates": [4.1, 52]}},)";
 
 std::string features(int count) {
   std::string list = repeated(kPoint, count);
@@ -66,15 +67,16 @@ std::string features(int count) {
 }
 
 TEST(ImportStop, ParsersAskWithinTheText) {
-  const std::string geojson = features(20000), gz = packed(repeated("0123456789", 200000));
+  const std::string geojson = features(20000), gz = zipped(repeated("0123456789", 200000));
   expect_to_stop("GeoJSON", [&] { return read_geojson_context(geojson, {}); });
   expect_to_stop("gzip", [&] { return unpacked(gz); });
   const std::string grid = "ncols 1000\nnrows 400\nxllcorner 85000\nyllcorner 446000\ncellsize 1\n" + repeated("1 ", 400000);
   expect_to_stop("grid", [&] { return read_terrain_grid(grid); });
   const std::string table = "lon,lat,noise\n" + repeated("4.1,52,60\n", 40000);
   expect_to_stop("table", [&] { return read_layer_csv(table, {}, ""); });
-  const std::string head = R"({"type": "CityJSON", "version": "2.0", "transform": {"scale": [1, 1, 1], "translate": [0, 0, 0]},)"
-                           R"( "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"}, "CityObjects": {}, "vertices": []})";
+  const std::string head =
+      R"({"type": "CityJSON", "version": "2.0", "transform": {"scale": [1, 1, 1], "translate": [0, 0, 0]},)"
+      R"( "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"}, "CityObjects": {}, "vertices": []})";
   const std::string line =
       R"({"type": "CityJSONFeature", "id": "a", "CityObjects": {"a": {"type": "Building", "geometry": [{"type": "MultiSurface", )"
       R"("lod": "1", "boundaries": [[[0, 1, 2]]]}]}}, "vertices": [[85000, 446000, 0], [85010, 446000, 0], [85010, 446010, 0]]})";

@@ -32,7 +32,7 @@ bool has_note(const PlanBoundary& plan, const std::string& part) {
   return false;
 }
 
-std::string error_of(const std::string& text, const PlanOptions& options = {}) {
+std::string boundary_error_of(const std::string& text, const PlanOptions& options = {}) {
   const auto plan = read_plan_boundary(text, options);
   return plan ? "no error" : plan.error().text();
 }
@@ -142,8 +142,9 @@ TEST(PlanBoundary, SpikesAreCutOff) {
 
 TEST(PlanBoundary, DeepNestingIsAnError) {
   const std::string deep = std::string(100000, '[') + std::string(100000, ']');
-  EXPECT_EQ(error_of(polygon(deep)),
-            "line 1, column 96: The text is nested deeper than 64 levels from here on: no file of this kind is, and it is not read.");
+  EXPECT_EQ(
+      boundary_error_of(polygon(deep)),
+      "line 1, column 96: The text is nested deeper than 64 levels from here on: no file of this kind is, and it is not read.");
 }
 
 TEST(PlanBoundary, SiteOutsideItsCrsIsNoted) {
@@ -176,7 +177,7 @@ TEST(PlanBoundary, ChoosesFeatures) {
 
 TEST(PlanBoundary, ChoiceErrors) {
   const auto choose = [](const std::string& feature) {
-    return error_of(kThree, {.feature = feature, .crs = "", .proj_database = ""});
+    return boundary_error_of(kThree, {.feature = feature, .crs = "", .proj_database = ""});
   };
   EXPECT_EQ(choose("3"), "feature: There is no feature 3: the file has 3, counted from 0.");
   EXPECT_EQ(
@@ -190,58 +191,60 @@ TEST(PlanBoundary, ChoiceErrors) {
 }
 
 TEST(PlanBoundary, RingErrors) {
-  EXPECT_EQ(error_of(polygon("[[[85000,446000],[85010,446010],[85010,446000],[85000,446010],[85000,446000]]]", "EPSG:28992")),
-            "coordinates/0: The ring meets itself at (0.000, 0.000) in local metres: edge 0 from (-5.000, -5.000) to (5.000, "
-            "5.000) and edge 2 "
-            "from (5.000, -5.000) to (-5.000, 5.000). Redraw it without crossing or touching itself.");
-  EXPECT_EQ(error_of(polygon("[[[85000,446000],[85010,446010],[85000,446000]]]", "EPSG:28992")),
+  EXPECT_EQ(
+      boundary_error_of(polygon("[[[85000,446000],[85010,446010],[85010,446000],[85000,446010],[85000,446000]]]", "EPSG:28992")),
+      "coordinates/0: The ring meets itself at (0.000, 0.000) in local metres: edge 0 from (-5.000, -5.000) to (5.000, "
+      "5.000) and edge 2 "
+      "from (5.000, -5.000) to (-5.000, 5.000). Redraw it without crossing or touching itself.");
+  EXPECT_EQ(boundary_error_of(polygon("[[[85000,446000],[85010,446010],[85000,446000]]]", "EPSG:28992")),
             "coordinates/0: A ring needs at least 3 different points; this one has 2.");
-  EXPECT_EQ(error_of(polygon("[[]]")), "coordinates/0: A ring needs at least 3 different points; this one has 0.");
-  EXPECT_EQ(error_of(polygon("[]")),
+  EXPECT_EQ(boundary_error_of(polygon("[[]]")), "coordinates/0: A ring needs at least 3 different points; this one has 0.");
+  EXPECT_EQ(boundary_error_of(polygon("[]")),
             "There is no polygon in the file (1 other features). A plan boundary must be a Polygon or a MultiPolygon.");
-  EXPECT_EQ(error_of(polygon(kDutchSquare)),
+  EXPECT_EQ(boundary_error_of(polygon(kDutchSquare)),
             "coordinates/0/0: (85000.000, 446000.000) is no longitude and latitude. The coordinates are probably projected, and "
             "the file does not say "
             "how: give the CRS, such as EPSG:28992.");
-  EXPECT_EQ(error_of(polygon("[[[4.3,52],[4.3001,52.0001],[4.3000000001,52.0002],[4.3,52]]]", "EPSG:28992")),
+  EXPECT_EQ(boundary_error_of(polygon("[[[4.3,52],[4.3001,52.0001],[4.3000000001,52.0002],[4.3,52]]]", "EPSG:28992")),
             "coordinates/0: A ring needs at least 3 different points; this one has 1.");
-  EXPECT_EQ(error_of(polygon("[[[0,0],[10,0.0001],[20,0],[0,0]]]", "EPSG:28992")),
+  EXPECT_EQ(boundary_error_of(polygon("[[[0,0],[10,0.0001],[20,0],[0,0]]]", "EPSG:28992")),
             "coordinates/0: The ring encloses no area (0.0010 m²). Are its points on a line, or is the CRS wrong?");
-  EXPECT_EQ(error_of(polygon("[[[0,50],[5,50],[5,51],[0,50]]]")),
+  EXPECT_EQ(boundary_error_of(polygon("[[[0,50],[5,50],[5,51],[0,50]]]")),
             "coordinates: The polygon is 358 km wide. A plan boundary is a site of at most 100 km: check the CRS, or choose "
             "another feature.");
-  EXPECT_EQ(error_of(polygon("[[[85000,446000],[85100,446000],[85100,446050],[85000,446050],[85000,446000]],[[86000,446000],["
-                             "86010,446000],[86010,446010],[86000,446000]]]",
-                             "EPSG:28992")),
-            "coordinates/1: The hole lies outside the outer ring. Remove it, or make it a polygon of its own.");
+  EXPECT_EQ(
+      boundary_error_of(polygon("[[[85000,446000],[85100,446000],[85100,446050],[85000,446050],[85000,446000]],[[86000,446000],["
+                                "86010,446000],[86010,446010],[86000,446000]]]",
+                                "EPSG:28992")),
+      "coordinates/1: The hole lies outside the outer ring. Remove it, or make it a polygon of its own.");
 }
 
 TEST(PlanBoundary, FormatErrors) {
-  EXPECT_EQ(error_of(""), "line 1, column 1: The file is empty: GeoJSON is needed.");
-  EXPECT_EQ(error_of("{\n\"type\": oops}"),
+  EXPECT_EQ(boundary_error_of(""), "line 1, column 1: The file is empty: GeoJSON is needed.");
+  EXPECT_EQ(boundary_error_of("{\n\"type\": oops}"),
             "line 2, column 9: The text is not valid JSON from here on; is the file complete, and is it GeoJSON?");
-  EXPECT_EQ(error_of("[1, 2]"),
+  EXPECT_EQ(boundary_error_of("[1, 2]"),
             "This is JSON but not GeoJSON: it has no member `type`. A FeatureCollection, a Feature or a geometry is needed.");
-  EXPECT_EQ(error_of(R"({"type":"Polygn","coordinates":[]})"),
+  EXPECT_EQ(boundary_error_of(R"({"type":"Polygn","coordinates":[]})"),
             "type: The geometry type `Polygn` is not one of GeoJSON, did you mean `Polygon`?");
-  EXPECT_EQ(error_of(R"({"type":"FeatureCollection"})"),
+  EXPECT_EQ(boundary_error_of(R"({"type":"FeatureCollection"})"),
             "features: A FeatureCollection needs an array `features`; it is missing or no array.");
-  EXPECT_EQ(error_of(polygon("[[[4,52],[4,\"x\"]]]")),
+  EXPECT_EQ(boundary_error_of(polygon("[[[4,52],[4,\"x\"]]]")),
             "coordinates/0/1: A position must be an array of two numbers [x, y] (longitude, latitude); this is [4,\"x\"].");
-  EXPECT_EQ(error_of(polygon("[[[4,52],[1e999,3]]]")),
+  EXPECT_EQ(boundary_error_of(polygon("[[[4,52],[1e999,3]]]")),
             "The text cannot be read as JSON: a number or a character in it is out of range.");
-  EXPECT_EQ(error_of(R"({"type":"Feature","properties":null,"geometry":{"type":"Point","coordinates":[1,2]}})"),
+  EXPECT_EQ(boundary_error_of(R"({"type":"Feature","properties":null,"geometry":{"type":"Point","coordinates":[1,2]}})"),
             "There is no polygon in the file (1 other features). A plan boundary must be a Polygon or a MultiPolygon.");
 }
 
 TEST(PlanBoundary, CrsErrors) {
   EXPECT_EQ(
-      error_of(polygon(kDutchSquare, "EPSG:99999")),
+      boundary_error_of(polygon(kDutchSquare, "EPSG:99999")),
       "crs: The CRS `EPSG:99999` is not known. Write an EPSG code such as EPSG:28992, or OGC:CRS84 for longitude and latitude.");
-  EXPECT_EQ(error_of(R"({"type":"Polygon","crs":5,"coordinates":[]})"),
+  EXPECT_EQ(boundary_error_of(R"({"type":"Polygon","crs":5,"coordinates":[]})"),
             "crs: The member `crs` is not understood. Write {\"type\": \"name\", \"properties\": {\"name\": \"EPSG:28992\"}}, or "
             "give the CRS as an option.");
-  EXPECT_EQ(error_of(polygon(kDutchSquare), {.feature = "", .crs = "EPSG:28992", .proj_database = "/nowhere/proj.db"}),
+  EXPECT_EQ(boundary_error_of(polygon(kDutchSquare), {.feature = "", .crs = "EPSG:28992", .proj_database = "/nowhere/proj.db"}),
             "crs: The CRS `EPSG:28992` needs PROJ's database proj.db, which was not found at `/nowhere/proj.db`. Install the "
             "package proj-data, or name "
             "the folder of proj.db in the environment variable PROJ_LIB.");

@@ -14,7 +14,7 @@ namespace bl {
 namespace {
 
 // Our own file, and a published one where the shared folder is.
-std::vector<std::string> texts_of(const std::string& own, const std::string& published) {
+std::vector<std::string> brief_texts_of(const std::string& own, const std::string& published) {
   return test::texts_of(own, "data/programme/" + published);
 }
 
@@ -32,7 +32,7 @@ void expect_sums(const ProgrammeImport& import, const TableSums& sums) {
   EXPECT_EQ(import.rows.at(sums.row).use, sums.use);
 }
 
-bool has_note(const ProgrammeImport& import, const std::string& part) {
+bool brief_has_note(const ProgrammeImport& import, const std::string& part) {
   for (const std::string& note : import.notes)
     if (note.find(part) != std::string::npos) return true;
   return false;
@@ -85,7 +85,7 @@ TEST(ProgrammeCsv, HeadersAreTolerant) {
   EXPECT_EQ(first_area("use,area_ha\nhall,200 m2\n"), 200);
   const auto named = read_programme_csv("Room,Area\nA,5\n");
   ASSERT_TRUE(named);
-  EXPECT_TRUE(has_note(*named, "There is no column `use`; the column `Room` was taken for it."));
+  EXPECT_TRUE(brief_has_note(*named, "There is no column `use`; the column `Room` was taken for it."));
   const auto both = read_programme_csv("use,name,area\nflat,Flat A,50\nflat,Flat B,50\n");
   ASSERT_TRUE(both);
   EXPECT_EQ(both->rows[1].use, "flat 2");
@@ -102,11 +102,12 @@ TEST(ProgrammeCsv, SeparatorsLineEndsAndEncodings) {
   ASSERT_TRUE(quoted) << quoted.error().text();
   EXPECT_EQ(quoted->rows[0].use, "hall \"A\",\nlarge");
   EXPECT_EQ(quoted->rows[1].line, 5u);
-  EXPECT_TRUE(has_note(*quoted, "1 rows without any text were skipped."));
+  EXPECT_TRUE(brief_has_note(*quoted, "1 rows without any text were skipped."));
   const auto latin = read_programme_csv("use,area\ncaf\xE9,5\n");
   ASSERT_TRUE(latin);
   EXPECT_EQ(latin->rows[0].use, "café");
-  EXPECT_TRUE(has_note(*latin, "The text is not UTF-8; it was read as Windows-1252 (Latin-1). Check letters with accents."));
+  EXPECT_TRUE(
+      brief_has_note(*latin, "The text is not UTF-8; it was read as Windows-1252 (Latin-1). Check letters with accents."));
 }
 
 TEST(ProgrammeCsv, NumbersAsPeopleWriteThem) {
@@ -199,7 +200,8 @@ TEST(ProgrammeCsv, RowErrors) {
             "\"\"b\"\" c\".");
   EXPECT_EQ(error_of("use,area\nshop\x81,5\n"),
             "line 2: The text is neither UTF-8 nor Windows-1252 (Latin-1). Save the file as CSV in UTF-8.");
-  EXPECT_EQ(error_of(std::string("\xFF\xFEu\0s\0", 6)), "byte 0: This is no CSV table but text in UTF-16: save it as CSV in UTF-8.");
+  EXPECT_EQ(error_of(std::string("\xFF\xFEu\0s\0", 6)),
+            "byte 0: This is no CSV table but text in UTF-16: save it as CSV in UTF-8.");
 }
 
 TEST(ProgrammeCsv, DuplicatesUnknownColumnsAndBounds) {
@@ -210,11 +212,11 @@ TEST(ProgrammeCsv, DuplicatesUnknownColumnsAndBounds) {
   EXPECT_EQ(import->rows[1].use, "Shop 3");
   EXPECT_EQ(import->rows[3].floor_area, 15);
   EXPECT_EQ(import->rows[3].adjacent_to, (std::vector<std::string>{"shop", "Shop 3"}));
-  EXPECT_TRUE(has_note(*import, "Line 3: the use `Shop` exists already; this one became `Shop 3`."));
-  EXPECT_TRUE(has_note(*import, "Column 5 `colour` was left out."));
-  EXPECT_TRUE(has_note(*import, "Column 6 `cuont` was left out, did you mean `count`?"));
-  EXPECT_TRUE(has_note(*import, "Line 5 has no floor area; the middle of its bounds was taken, 15 m²."));
-  EXPECT_TRUE(has_note(*import, "Line 6: `bar` cannot be adjacent to itself alone; this was left out."));
+  EXPECT_TRUE(brief_has_note(*import, "Line 3: the use `Shop` exists already; this one became `Shop 3`."));
+  EXPECT_TRUE(brief_has_note(*import, "Column 5 `colour` was left out."));
+  EXPECT_TRUE(brief_has_note(*import, "Column 6 `cuont` was left out, did you mean `count`?"));
+  EXPECT_TRUE(brief_has_note(*import, "Line 5 has no floor area; the middle of its bounds was taken, 15 m²."));
+  EXPECT_TRUE(brief_has_note(*import, "Line 6: `bar` cannot be adjacent to itself alone; this was left out."));
 }
 
 TEST(ProgrammeCsvData, RoomLists) {
@@ -223,12 +225,12 @@ TEST(ProgrammeCsvData, RoomLists) {
   options.columns = {
       {"use", "Room Name"}, {"floor_area_m2", "Area"}, {"count", "Room Quantity"}, {"storey_height_m", "Room Height"}};
   std::size_t k = 0;
-  for (const std::string& text : texts_of("rooms.csv", "college_school_rooms.csv")) {
+  for (const std::string& text : brief_texts_of("rooms.csv", "college_school_rooms.csv")) {
     const auto import = read_programme_csv(text, options);
     ASSERT_TRUE(import) << import.error().text();
     expect_sums(*import, sums[k]);
     EXPECT_EQ(import->rows[0].storey_height, k == 0 ? 5 : 4);
-    EXPECT_TRUE(has_note(*import, "Column 1 `Suite Name` was left out"));
+    EXPECT_TRUE(brief_has_note(*import, "Column 1 `Suite Name` was left out"));
     ++k;
   }
 }
@@ -236,7 +238,7 @@ TEST(ProgrammeCsvData, RoomLists) {
 TEST(ProgrammeCsvData, ListsOfFunctions) {
   const std::array<TableSums, 2> sums{{{3, 3, 203.5, 2, "Entrance"}, {19, 19, 18776, 5, "Entrance hall"}}};
   std::size_t k = 0;
-  for (const std::string& text : texts_of("functions.csv", "zoho_apidae_programme.csv")) {
+  for (const std::string& text : brief_texts_of("functions.csv", "zoho_apidae_programme.csv")) {
     const auto import = read_programme_csv(text);
     ASSERT_TRUE(import) << import.error().text();
     expect_sums(*import, sums[k++]);

@@ -6,7 +6,7 @@
 namespace bl {
 namespace {
 
-std::string error_of(const std::string& text) {
+std::string site_error_of(const std::string& text) {
   const auto table = read_site_table(text);
   return table ? "no error" : table.error().text();
 }
@@ -41,8 +41,8 @@ TEST(SiteTable, UnitsOfHeadersAndFields) {
   EXPECT_EQ(sound->rows[0].position, (Point3{2.5, 1, 0.3}));
   EXPECT_EQ(sound->rows[0].weight, 2.25);
   EXPECT_EQ(sound->rows[0].demand, 12);
-  EXPECT_NE(error_of("x,y,z,demand [ha]\n1,2,3,4\n").find("The unit `ha` is not read for demand"), std::string::npos);
-  EXPECT_NE(error_of("x [feet],y,z\n1,2,3\n").find("The unit `feet` is not read for x"), std::string::npos);
+  EXPECT_NE(site_error_of("x,y,z,demand [ha]\n1,2,3,4\n").find("The unit `ha` is not read for demand"), std::string::npos);
+  EXPECT_NE(site_error_of("x [feet],y,z\n1,2,3\n").find("The unit `feet` is not read for x"), std::string::npos);
 }
 
 TEST(SiteTable, DecimalMarks) {
@@ -55,7 +55,7 @@ TEST(SiteTable, DecimalMarks) {
   EXPECT_EQ(of("x;y;z\n1.234;2,5;3\n"), 1234) << "where commas are decimal, points are not";
   EXPECT_EQ(of("x\ty\tz\n1.5\t2\t3\n"), 1.5);
   EXPECT_EQ(of("x,y,z\n0.1000000000000000055511151231257827,2,3\n"), 0.1);
-  EXPECT_NE(error_of("x;y;z\n1.234;2;3\n").find("may be a fraction or thousands"), std::string::npos);
+  EXPECT_NE(site_error_of("x;y;z\n1.234;2;3\n").find("may be a fraction or thousands"), std::string::npos);
 }
 
 }  // namespace

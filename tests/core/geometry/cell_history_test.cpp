@@ -6,7 +6,7 @@
 namespace bl::test {
 namespace {
 
-bool same_bits(const CellMeasure& a, const CellMeasure& b) {
+bool same_measure_bits(const CellMeasure& a, const CellMeasure& b) {
   return a.state == b.state && a.volume == b.volume && a.cell_volume == b.cell_volume && a.surface_area == b.surface_area &&
          a.spherical_area == b.spherical_area && a.centroid == b.centroid && a.facets == b.facets &&
          a.volume_by_own_weight == b.volume_by_own_weight;
@@ -46,7 +46,7 @@ void expect_history_leaves_no_trace(const SiteSet& set, bool with_shape, std::ui
     const auto fresh = power_cells(set.domain, sites, options);
     ASSERT_TRUE(fresh.ok());
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      ASSERT_TRUE(same_bits((*cells)[i], (*fresh)[i]))
+      ASSERT_TRUE(same_measure_bits((*cells)[i], (*fresh)[i]))
           << "site " << i << " after " << step + 1 << " changes, shape " << with_shape << ": volume " << (*cells)[i].volume
           << " instead of " << (*fresh)[i].volume << ", " << (*cells)[i].facets.size() << " facets instead of "
           << (*fresh)[i].facets.size();
@@ -77,7 +77,8 @@ TEST(CellHistory, CellsSwallowedBeyondTheNeighboursAreGone) {
     const auto fresh = power_cells(unit_cube(), sites, options);
     ASSERT_TRUE(cells.ok() && fresh.ok());
     EXPECT_NEAR(totals_of(*cells).volume, totals_of(*fresh).volume, 1e-12) << with_shape;
-    for (std::size_t i = 0; i < sites.size(); ++i) EXPECT_TRUE(same_bits((*cells)[i], (*fresh)[i])) << i << " " << with_shape;
+    for (std::size_t i = 0; i < sites.size(); ++i)
+      EXPECT_TRUE(same_measure_bits((*cells)[i], (*fresh)[i])) << i << " " << with_shape;
   }
 }
 
@@ -103,7 +104,8 @@ TEST(CellHistory, SitesThatLeaveTheirOldBoxFindEachOther) {
       const auto cells = diagram.update(sites, options);
       const auto fresh = power_cells(unit_cube(), sites, options);
       ASSERT_TRUE(cells.ok() && fresh.ok());
-      for (std::size_t i = 0; i < sites.size(); ++i) ASSERT_TRUE(same_bits((*cells)[i], (*fresh)[i])) << i << " step " << step;
+      for (std::size_t i = 0; i < sites.size(); ++i)
+        ASSERT_TRUE(same_measure_bits((*cells)[i], (*fresh)[i])) << i << " step " << step;
     }
   }
 }

@@ -7,7 +7,7 @@ namespace {
 
 using Rings = std::vector<std::vector<Point3>>;
 
-const std::vector<Point3> kEll = ring_of({{0, 0}, {20, 0}, {20, 10}, {10, 10}, {10, 20}, {0, 20}});
+const std::vector<Point3> kEllPlan = ring_of({{0, 0}, {20, 0}, {20, 10}, {10, 10}, {10, 20}, {0, 20}});
 
 void expect_plan(const std::vector<Point3>& plan, const Rings& holes, double bottom, double top) {
   const auto domain = extrude_plan(plan, holes, bottom, top);
@@ -30,7 +30,7 @@ void expect_plan(const std::vector<Point3>& plan, const Rings& holes, double bot
 }
 
 TEST(DomainPlan, AnEllIsTwoPieces) {
-  const auto domain = extrude_plan(kEll, {}, 0, 5);
+  const auto domain = extrude_plan(kEllPlan, {}, 0, 5);
   ASSERT_TRUE(domain.ok());
   EXPECT_EQ(domain->pieces.size(), 2u);
   EXPECT_EQ(domain->side_count, 8u);
@@ -38,7 +38,7 @@ TEST(DomainPlan, AnEllIsTwoPieces) {
   EXPECT_NEAR(outer_area(*domain, 0), 300, 1e-9);
   EXPECT_NEAR(outer_area(*domain, 1), 300, 1e-9);
   for (std::uint32_t wall = 0; wall < 6; ++wall) EXPECT_NEAR(outer_area(*domain, 2 + wall), 5 * lengths[wall], 1e-9);
-  expect_plan(kEll, {}, 0, 5);
+  expect_plan(kEllPlan, {}, 0, 5);
 }
 
 TEST(DomainPlan, AConvexPlanIsWhatItWas) {
@@ -132,7 +132,7 @@ TEST(DomainPlan, RefusesWithPlaces) {
 
 // A ball around a corner reaches into pieces that its site does not see: its shape is drawn inside the domain all the same.
 TEST(DomainPlan, MeshesStayInTheDomainAndInTheirBalls) {
-  const auto domain = extrude_plan(kEll, Rings{ring_of({{2, 2}, {8, 2}, {8, 8}, {2, 8}})}, 0, 10).value();
+  const auto domain = extrude_plan(kEllPlan, Rings{ring_of({{2, 2}, {8, 2}, {8, 8}, {2, 8}})}, 0, 10).value();
   Random random(71);
   for (int round = 0; round < 30; ++round) {
     std::vector<PowerSite> sites;

@@ -13,13 +13,13 @@ ConvexDomain skew_domain() {
   return convex_hull(points).value();
 }
 
-double relative(double got, double wanted) { return std::abs(got - wanted) / std::max(1e-300, std::abs(wanted)); }
+double relative_error(double got, double wanted) { return std::abs(got - wanted) / std::max(1e-300, std::abs(wanted)); }
 
 TEST(PowerCellLaws, CellsTileTheDomain) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const ConvexDomain domain = seed % 2 ? unit_cube() : skew_domain();
     const auto cells = cells_of(domain, random_sites(1 + 7 * seed, seed, -0.01, 0.02 * static_cast<double>(seed % 5)));
-    EXPECT_LT(relative(totals_of(cells).cell_volume, domain.volume), 1e-12) << seed;
+    EXPECT_LT(relative_error(totals_of(cells).cell_volume, domain.volume), 1e-12) << seed;
     EXPECT_LE(totals_of(cells).volume, domain.volume * (1 + 1e-12));
   }
 }
@@ -178,7 +178,7 @@ TEST(PowerCellLaws, StayTheSameUnderRelabelling) {
   expect_alike(cells, back, 1, 1e-13);
 }
 
-bool same_bits(const CellMeasure& a, const CellMeasure& b) {
+bool same_bits_of_cells(const CellMeasure& a, const CellMeasure& b) {
   return a.state == b.state && a.reason == b.reason && a.volume == b.volume && a.cell_volume == b.cell_volume &&
          a.surface_area == b.surface_area && a.spherical_area == b.spherical_area && a.floor_area == b.floor_area &&
          a.footprint == b.footprint && a.height == b.height && a.bottom == b.bottom && a.centroid == b.centroid &&
@@ -201,7 +201,7 @@ TEST(PowerCellLaws, ThreadsAndHistoryChangeNoBit) {
     ASSERT_TRUE(diagram.update(others, options).ok());
     const auto cells = diagram.update(sites, options);
     ASSERT_TRUE(cells.ok());
-    for (std::size_t i = 0; i < sites.size(); ++i) EXPECT_TRUE(same_bits((*cells)[i], (*once)[i])) << i;
+    for (std::size_t i = 0; i < sites.size(); ++i) EXPECT_TRUE(same_bits_of_cells((*cells)[i], (*once)[i])) << i;
   }
 }
 
@@ -223,7 +223,7 @@ TEST(PowerCellLaws, LocalChangesEndWhereMakingAnewEnds) {
       made += diagram.made().size();
       const auto anew = power_cells(unit_cube(), sites, options).value();
       for (std::size_t i = 0; i < sites.size(); ++i) {
-        ASSERT_TRUE(same_bits(diagram.cells()[i], anew[i])) << is_whole << " " << step << " " << i;
+        ASSERT_TRUE(same_bits_of_cells(diagram.cells()[i], anew[i])) << is_whole << " " << step << " " << i;
       }
     }
     EXPECT_LT(made, 400u * 45u);

@@ -10,7 +10,7 @@
 namespace bl::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kPiOfCells = std::numbers::pi;
 
 TEST(PowerCells, TwoSitesShareTheFacetWhereTheirPowersMeet) {
   // d = 4, so the facet lies at (d² + w1 - w2) / (2 d) = (16 + 9 - 5) / 8 = 2.5 from the first site.
@@ -23,27 +23,27 @@ TEST(PowerCells, TwoSitesShareTheFacetWhereTheirPowersMeet) {
   const FacetArea shared = cells[0].facets.back();
   EXPECT_EQ(shared.kind, FacetArea::Kind::site);
   EXPECT_EQ(shared.index, 1u);
-  EXPECT_NEAR(shared.area, kPi * 2.75, 1e-12);
+  EXPECT_NEAR(shared.area, kPiOfCells * 2.75, 1e-12);
 }
 
 TEST(PowerCells, BallCutByAPlane) {
   // Radius 2, plane at 1 below the centre: the cap of height 1 is missing, pi h² (3 r - h) / 3.
   const auto cells = cells_of(box({-5, -5, 0}, {5, 5, 10}), std::vector<PowerSite>{{{0, 0, 1}, 4}});
   const CellMeasure& cell = cells[0];
-  EXPECT_NEAR(cell.volume, 4 * kPi * 8 / 3 - kPi * 5 / 3, 1e-12);
-  EXPECT_NEAR(cell.spherical_area, 2 * kPi * 2 * 3, 1e-12);
-  EXPECT_NEAR(cell.surface_area, 12 * kPi + 3 * kPi, 1e-12);
+  EXPECT_NEAR(cell.volume, 4 * kPiOfCells * 8 / 3 - kPiOfCells * 5 / 3, 1e-12);
+  EXPECT_NEAR(cell.spherical_area, 2 * kPiOfCells * 2 * 3, 1e-12);
+  EXPECT_NEAR(cell.surface_area, 12 * kPiOfCells + 3 * kPiOfCells, 1e-12);
   EXPECT_NEAR(cell.height, 3, 1e-12);
   EXPECT_NEAR(cell.bottom, 0, 1e-12);
-  EXPECT_NEAR(cell.footprint, 4 * kPi, 1e-12);
+  EXPECT_NEAR(cell.footprint, 4 * kPiOfCells, 1e-12);
   // One storey of 3 m: its section at 1.5 m has squared radius 4 - 0.25.
-  EXPECT_NEAR(cell.floor_area, 3.75 * kPi, 1e-12);
+  EXPECT_NEAR(cell.floor_area, 3.75 * kPiOfCells, 1e-12);
   EXPECT_NEAR(
       cell.centroid.z,
-      1 + (kPi * 81.0 / 4 / 9) / (9 * kPi) * 0 +
+      1 + (kPiOfCells * 81.0 / 4 / 9) / (9 * kPiOfCells) * 0 +
           [] {
             // First moment of the cut-off cap about the centre: pi/4 (r² - h²)², towards -z; so the rest has it towards +z.
-            return (kPi / 4 * 9) / (32 * kPi / 3 - 5 * kPi / 3);
+            return (kPiOfCells / 4 * 9) / (32 * kPiOfCells / 3 - 5 * kPiOfCells / 3);
           }(),
       1e-12);
 }

@@ -9,7 +9,7 @@
 namespace bl::test {
 namespace {
 
-constexpr std::array kMetrics{Metric::power, Metric::additive, Metric::multiplicative};
+constexpr std::array kFitMetrics{Metric::power, Metric::additive, Metric::multiplicative};
 
 Domain plot() { return box({0, 0, 0}, {40, 30, 20}); }
 
@@ -33,7 +33,7 @@ bool mentions(const VolumeFit& fit, std::string_view text) {
 }
 
 TEST(SampledFit, MeetsDemandsUnderEveryMetric) {
-  for (const Metric metric : kMetrics) {
+  for (const Metric metric : kFitMetrics) {
     for (const double fill : {0.3, 0.7, 0.95, 1.0}) {
       const FitProblem problem = crowd(15, fill, 7);
       const auto fit = sampled_fit(plot(), problem, {.metric = metric, .samples = 80, .tolerance = 0.005});
@@ -75,7 +75,7 @@ TEST(SampledFit, GroupsIntervalsAndFixedSites) {
   FitProblem problem;
   problem.sites = {{{8, 8, 10}, 0}, {{14, 10, 10}, 0}, {{30, 8, 10}, 0}, {{30, 24, 10}, 9}, {{10, 24, 10}, 0}};
   problem.demands = {{{0, 1}, 5000, 5000}, {{2}, 2000, 4000}, {{4}, 1500, 1500}};
-  for (const Metric metric : kMetrics) {
+  for (const Metric metric : kFitMetrics) {
     const auto fit = sampled_fit(plot(), problem, {.metric = metric, .samples = 80, .tolerance = 0.01}).value();
     EXPECT_EQ(fit.status, FitStatus::met) << name_of(metric);
     EXPECT_NEAR(fit.volumes[0] + fit.volumes[1], 5000, 60) << name_of(metric);
@@ -99,7 +99,7 @@ TEST(SampledFit, WhatCannotBeHadIsScaledAndNamed) {
   FitProblem problem;
   problem.sites = {{{10, 15, 10}, 0}, {{30, 15, 10}, 0}};
   problem.demands = {{{0}, 20000, 20000}, {{1}, 10000, 10000}};
-  for (const Metric metric : kMetrics) {
+  for (const Metric metric : kFitMetrics) {
     const auto fit = sampled_fit(plot(), problem, {.metric = metric, .samples = 48, .tolerance = 0.01}).value();
     EXPECT_EQ(fit.status, FitStatus::infeasible) << name_of(metric);
     EXPECT_TRUE(mentions(fit, "the demands exceed the domain: 30000.0 m³ are asked for, 24000.0 m³ are there"));
@@ -113,7 +113,7 @@ TEST(SampledFit, SitesOutsideAndAtOnePlace) {
   FitProblem problem;
   problem.sites = {{{10, 15, 10}, 0}, {{30, 15, 10}, 0}, {{-4, 4, 10}, 0}, {{30, 15, 10}, 0}};
   problem.demands = {{{0}, 3000, 3000}, {{1}, 3000, 3000}, {{2}, 1000, 1000}, {{3}, 500, 500}};
-  for (const Metric metric : kMetrics) {
+  for (const Metric metric : kFitMetrics) {
     const auto fit = sampled_fit(plot(), problem, {.metric = metric, .samples = 64, .tolerance = 0.01}).value();
     EXPECT_EQ(fit.status, FitStatus::infeasible) << name_of(metric);
     ASSERT_EQ(fit.losses.size(), 1u) << name_of(metric);
@@ -139,7 +139,7 @@ TEST(SampledFit, StepsOfTicksComeToTheSame) {
   const FitProblem problem = crowd(12, 0.8, 4);
   std::vector<double> demands;
   for (const VolumeDemand& demand : problem.demands) demands.push_back(demand.least);
-  for (const Metric metric : kMetrics) {
+  for (const Metric metric : kFitMetrics) {
     for (const int steps : {1, 4}) {
       std::vector<PowerSite> sites = problem.sites;
       FitState state;
@@ -159,7 +159,7 @@ TEST(SampledFit, StepsOfTicksComeToTheSame) {
 
 TEST(SampledFit, ThreadsLeaveNoTrace) {
   const FitProblem problem = crowd(25, 0.8, 11);
-  for (const Metric metric : kMetrics) {
+  for (const Metric metric : kFitMetrics) {
     SampledFitOptions options{.metric = metric, .samples = 32, .tolerance = 0.02};
     const auto one = sampled_fit(plot(), problem, options).value();
     ThreadPool pool(3);

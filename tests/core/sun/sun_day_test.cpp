@@ -13,7 +13,7 @@
 namespace bl {
 namespace {
 
-SunPlace at(double latitude, double longitude, double zone_hours) {
+SunPlace place_at(double latitude, double longitude, double zone_hours) {
   SunPlace place;
   place.latitude = latitude;
   place.longitude = longitude;
@@ -46,7 +46,7 @@ double ahead(const SunPlace& place, const char* date, double seconds) {
 }
 
 TEST(Clock, DaylightSavingFollowsItsRule) {
-  SunPlace delft = at(52, 4.36, 1);
+  SunPlace delft = place_at(52, 4.36, 1);
   EXPECT_EQ(ahead(delft, "2026-07-01", hours(12, 0)), 1);
   delft.daylight_saving = DaylightSaving::europe;
   EXPECT_EQ(ahead(delft, "2026-03-28", hours(12, 0)), 1);
@@ -55,13 +55,13 @@ TEST(Clock, DaylightSavingFollowsItsRule) {
   EXPECT_EQ(ahead(delft, "2026-03-29", hours(3, 0)), 2);
   EXPECT_EQ(ahead(delft, "2026-10-25", hours(2, 30)), 2);  // comes twice: the first one
   EXPECT_EQ(ahead(delft, "2026-10-25", hours(3, 0)), 1);
-  SunPlace golden = at(39.7, -105.2, -7);
+  SunPlace golden = place_at(39.7, -105.2, -7);
   golden.daylight_saving = DaylightSaving::north_america;
   EXPECT_EQ(ahead(golden, "2026-03-08", hours(1, 59)), -7);
   EXPECT_EQ(ahead(golden, "2026-03-08", hours(3, 0)), -6);
   EXPECT_EQ(ahead(golden, "2026-11-01", hours(1, 59)), -6);
   EXPECT_EQ(ahead(golden, "2026-11-01", hours(2, 0)), -7);
-  SunPlace sydney = at(-33.87, 151.21, 10);
+  SunPlace sydney = place_at(-33.87, 151.21, 10);
   sydney.daylight_saving = DaylightSaving::australia;
   EXPECT_EQ(ahead(sydney, "2026-01-15", hours(12, 0)), 11);
   EXPECT_EQ(ahead(sydney, "2026-04-05", hours(3, 0)), 10);
@@ -87,7 +87,7 @@ TEST(Clock, TrueNorthTurnsTheScene) {
 
 TEST(SunDays, GoldenToTheSecond) {
   for (const SunRow& row : sun_table("golden_rise_transit_set.csv")) {
-    SunPlace place = at(number_in(row, "lat_deg"), number_in(row, "lon_deg_east"), -7);
+    SunPlace place = place_at(number_in(row, "lat_deg"), number_in(row, "lon_deg_east"), -7);
     place.delta_t = 67;
     const bool is_exact = row.at("source") == "NREL SPA website";
     const SunDay day = sun_day(place, parse_date(row.at("date")).value());
@@ -104,10 +104,10 @@ TEST(SunDays, GoldenToTheSecond) {
 }
 
 TEST(SunDays, PublishedRisesAndSets) {
-  const SunDay sea = sun_day(at(-35, 0, 0), day_number({1996, 7, 5}));
+  const SunDay sea = sun_day(place_at(-35, 0, 0), day_number({1996, 7, 5}));
   EXPECT_NEAR(sea.sunrise.value(), hours(7, 8, 15), 1);
   EXPECT_NEAR(sea.sunset.value(), hours(17, 1, 4), 1);
-  const SunDay sydney = sun_day(at(-33.87, 151.22, 10), day_number({2017, 6, 21}));
+  const SunDay sydney = sun_day(place_at(-33.87, 151.22, 10), day_number({2017, 6, 21}));
   EXPECT_NEAR(sydney.sunrise.value(), hours(7, 0), 60);
   EXPECT_NEAR(sydney.transit.value(), hours(11, 57), 60);
   EXPECT_NEAR(sydney.sunset.value(), hours(16, 54), 60);
@@ -120,7 +120,7 @@ TEST(SunDays, EventsOfTheNavalObservatory) {
   double worst = 0, worst_twilight = 0;
   int compared = 0;
   for (const auto& [name, rows] : days) {
-    const SunPlace place = at(number_in(rows[0], "lat_deg"), number_in(rows[0], "lon_deg_east"), 0);
+    const SunPlace place = place_at(number_in(rows[0], "lat_deg"), number_in(rows[0], "lon_deg_east"), 0);
     const DayNumber day = parse_date(rows[0].at("date_utc")).value();
     const SunTrack track = track_of(place, day);
     SunPlace bare = place;
@@ -162,7 +162,7 @@ TEST(SunDays, TheTrackFollowsTheExactPositions) {
   Random random(3);
   double worst = 0;
   for (int i = 0; i < 200; ++i) {
-    SunPlace place = at(random.uniform(-89, 89), random.uniform(-180, 180), 0);
+    SunPlace place = place_at(random.uniform(-89, 89), random.uniform(-180, 180), 0);
     place.has_refraction = false;
     const SunTrack track = track_of(place, day_number({1950, 1, 1}) + static_cast<DayNumber>(random.below(50000)));
     for (int k = 0; k < 20; ++k) {
@@ -178,7 +178,7 @@ TEST(SunDays, TheTrackFollowsTheExactPositions) {
 }
 
 TEST(SunMoments, AddUpToTheTimeAboveTheLimit) {
-  SunPlace place = at(52, 4.36, 1);
+  SunPlace place = place_at(52, 4.36, 1);
   place.daylight_saving = DaylightSaving::europe;
   const DayNumber day = day_number({2026, 3, 21});
   for (const double limit : {0.0, 5.0, 10.0})
@@ -204,7 +204,7 @@ TEST(SunMoments, AddUpToTheTimeAboveTheLimit) {
 }
 
 TEST(SunMoments, PolarDaysAndNights) {
-  const SunPlace north = at(78.2, 15.6, 1);
+  const SunPlace north = place_at(78.2, 15.6, 1);
   const SunDay summer = sun_day(north, day_number({2026, 6, 21})), winter = sun_day(north, day_number({2026, 12, 21}));
   EXPECT_NEAR(summer.day_length, 86400, 1e-3);
   EXPECT_FALSE(summer.sunrise || summer.sunset);

@@ -12,7 +12,7 @@
 namespace bl {
 namespace {
 
-struct Town : DistrictParts {
+struct SmallTown : DistrictParts {
   DistrictState state;
 
   DistrictResult step(DistrictMemo* memo = nullptr) {
@@ -23,9 +23,9 @@ struct Town : DistrictParts {
 };
 
 // A grid of streets with zones at random junctions.
-Town grid_town(std::uint64_t seed, int side, std::size_t zones) {
+SmallTown grid_town(std::uint64_t seed, int side, std::size_t zones) {
   Random random(seed);
-  Town town;
+  SmallTown town;
   const auto name = [](int x, int y) { return "j" + std::to_string(x) + "_" + std::to_string(y); };
   const auto street = [&](const std::string& id, const std::string& from, const std::string& to) {
     town.streets.push_back(
@@ -44,7 +44,7 @@ Town grid_town(std::uint64_t seed, int side, std::size_t zones) {
 }
 
 // Trips move, streets get other capacities, close and open, gain tolls, and a zone comes and goes.
-void change(Town& town, Random& random, int tick) {
+void change(SmallTown& town, Random& random, int tick) {
   for (DistrictZone& zone : town.zones) zone.leaving *= random.uniform(0.9, 1.1);
   if (tick % 3 == 1) town.streets[random.below(town.streets.size())].capacity *= random.uniform(0.5, 1.5);
   if (tick % 4 == 2) {
@@ -78,7 +78,7 @@ void expect_same(const DistrictResult& a, const DistrictResult& b, int tick) {
 TEST(DistrictMemo, WhatIsKeptFromStepToStepChangesNoBit) {
   int iterations = 0, rests = 0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    Town town = grid_town(seed, 6, 12);
+    SmallTown town = grid_town(seed, 6, 12);
     town.zones[3].wants_reach = true;
     Random random(seed, 7);
     DistrictMemo memo;
@@ -90,7 +90,7 @@ TEST(DistrictMemo, WhatIsKeptFromStepToStepChangesNoBit) {
       iterations += without.iterations;
       rests += without.is_at_rest ? 1 : 0;
       if (tick % 7 == 3) {  // another district in between leaves nothing behind
-        Town other = grid_town(seed + 10, 5, 9);
+        SmallTown other = grid_town(seed + 10, 5, 9);
         (void)other.step(&memo);
       }
     }
@@ -100,7 +100,7 @@ TEST(DistrictMemo, WhatIsKeptFromStepToStepChangesNoBit) {
 }
 
 TEST(DistrictMemo, ATownThatMovesStaysNearItsEquilibrium) {
-  Town town = grid_town(4, 6, 12);
+  SmallTown town = grid_town(4, 6, 12);
   Random random(4);
   DistrictMemo memo;
   for (int tick = 0; tick < 30; ++tick) {

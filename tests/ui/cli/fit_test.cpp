@@ -11,12 +11,12 @@ namespace bl::test {
 
 namespace {
 
-const std::string kBox = R"("boundary": {"plan": [[0,0],[10,0],[10,10],[0,10]], "bottom": 0, "top": 10})";
-const std::string kTwo = R"("sites": [[2.5,5,5],[7.5,5,5]])";
+const std::string kFitBox = R"("boundary": {"plan": [[0,0],[10,0],[10,10],[0,10]], "bottom": 0, "top": 10})";
+const std::string kTwoSites = R"("sites": [[2.5,5,5],[7.5,5,5]])";
 
 TEST(Fit, AFreeBallAndTwoHalves) {
   const Workplace place;
-  place.write("i.json", "{\"cases\": [{" + kBox + R"(, "sites": [[5,5,5]], "demands": [8]}, {)" + kBox + ", " + kTwo +
+  place.write("i.json", "{\"cases\": [{" + kFitBox + R"(, "sites": [[5,5,5]], "demands": [8]}, {)" + kFitBox + ", " + kTwoSites +
                             R"(, "weights": [0, 0], "demands": [500, 500]}]})");
   const Outcome outcome = place.run({"fit", "i.json", "--json", "o.json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -34,7 +34,7 @@ TEST(Fit, AFreeBallAndTwoHalves) {
 
 TEST(Fit, FeedbackThreadsAndToleranceAreTaken) {
   const Workplace place;
-  place.write("i.json", "{" + kBox + ", " + kTwo + R"(, "demands": [100, 300]})");
+  place.write("i.json", "{" + kFitBox + ", " + kTwoSites + R"(, "demands": [100, 300]})");
   ASSERT_EQ(place.run({"fit", "i.json", "--json", "1.json", "--method", "feedback", "--tolerance", "1e-3"}).code, 0);
   ASSERT_EQ(
       place.run({"fit", "i.json", "--json", "2.json", "--method", "feedback", "--tolerance", "1e-3", "--threads", "2"}).code, 0);
@@ -45,10 +45,10 @@ TEST(Fit, FeedbackThreadsAndToleranceAreTaken) {
 TEST(Fit, WeightsThatWereWrittenMeetAtOnceAndMeasureTheSame) {
   const Workplace place;
   const std::string demands = R"(, "demands": [120, 340])";
-  place.write("i.json", "{" + kBox + ", " + kTwo + demands + "}");
+  place.write("i.json", "{" + kFitBox + ", " + kTwoSites + demands + "}");
   ASSERT_EQ(place.run({"fit", "i.json", "--json", "o.json"}).code, 0);
   const nlohmann::json fit = place.json("o.json");
-  place.write("again.json", "{" + kBox + ", " + kTwo + demands + ", \"weights\": " + fit["weights"].dump() + "}");
+  place.write("again.json", "{" + kFitBox + ", " + kTwoSites + demands + ", \"weights\": " + fit["weights"].dump() + "}");
   ASSERT_EQ(place.run({"fit", "again.json", "--json", "again.out"}).code, 0);
   EXPECT_EQ(place.json("again.out")["evaluations"], 1);
   EXPECT_EQ(place.json("again.out")["weights"], fit["weights"]);
@@ -59,14 +59,14 @@ TEST(Fit, WeightsThatWereWrittenMeetAtOnceAndMeasureTheSame) {
 
 TEST(Fit, GroupsAndLocks) {
   const Workplace place;
-  place.write("i.json", "{" + kBox + R"(, "sites": [[2,5,5],[5,5,5],[8,5,5],[5,9,9]], "weights": [0,0,1,0.5],
+  place.write("i.json", "{" + kFitBox + R"(, "sites": [[2,5,5],[5,5,5],[8,5,5],[5,9,9]], "weights": [0,0,1,0.5],
     "demands": [200], "groups": [[0, 1]], "locked": [2]})");
   ASSERT_EQ(place.run({"fit", "i.json", "--json", "o.json"}).code, 0);
   const nlohmann::json fit = place.json("o.json");
   EXPECT_NEAR(fit["volumes"][0].get<double>() + fit["volumes"][1].get<double>(), 200, 2e-4);
   EXPECT_EQ(fit["weights"][2], 1.0) << "locked";
   EXPECT_EQ(fit["weights"][3], 0.5) << "in no group";
-  place.write("i.json", "{" + kBox + ", " + kTwo + R"(, "weights": [0, 4], "demands": [200, null], "locked": [1]})");
+  place.write("i.json", "{" + kFitBox + ", " + kTwoSites + R"(, "weights": [0, 4], "demands": [200, null], "locked": [1]})");
   ASSERT_EQ(place.run({"fit", "i.json", "--json", "o.json"}).code, 0);
   EXPECT_EQ(place.json("o.json")["weights"][1], 4.0);
   EXPECT_NEAR(place.json("o.json")["volumes"][0].get<double>(), 200, 2e-4);
@@ -74,7 +74,7 @@ TEST(Fit, GroupsAndLocks) {
 
 TEST(Fit, IntervalsAndFloorAreas) {
   const Workplace place;
-  place.write("i.json", "{" + kBox + R"(, "sites": [[2,5,5],[8,5,5],[5,9,9]],
+  place.write("i.json", "{" + kFitBox + R"(, "sites": [[2,5,5],[8,5,5],[5,9,9]],
     "demands": [{"min": 100, "max": 120}, {"max": 90}, {"min": 20}]})");
   ASSERT_EQ(place.run({"fit", "i.json", "--json", "o.json"}).code, 0);
   const nlohmann::json volumes = place.json("o.json")["volumes"];
@@ -82,15 +82,15 @@ TEST(Fit, IntervalsAndFloorAreas) {
   EXPECT_LE(volumes[0].get<double>(), 120 * (1 + 1e-6));
   EXPECT_LE(volumes[1].get<double>(), 90 * (1 + 1e-6));
   EXPECT_GE(volumes[2].get<double>(), 20 * (1 - 1e-6));
-  place.write("i.json",
-              "{" + kBox + ", " + kTwo + R"(, "demands": [{"floor_area": {"min": 60, "max": 80}, "storey_height": 2.5}, 100]})");
+  place.write("i.json", "{" + kFitBox + ", " + kTwoSites +
+                            R"(, "demands": [{"floor_area": {"min": 60, "max": 80}, "storey_height": 2.5}, 100]})");
   const Outcome outcome = place.run({"fit", "i.json", "--json", "o.json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
 TEST(Fit, TooMuchIsWrittenWithItsLosses) {
   const Workplace place;
-  place.write("i.json", "{" + kBox + ", " + kTwo + R"(, "demands": [900, 600]})");
+  place.write("i.json", "{" + kFitBox + ", " + kTwoSites + R"(, "demands": [900, 600]})");
   const Outcome outcome = place.run({"fit", "i.json", "--json", "o.json"});
   EXPECT_EQ(outcome.code, 3);
   EXPECT_TRUE(outcome.err.starts_with("i.json: ")) << outcome.err;
@@ -107,8 +107,8 @@ TEST(Fit, TooMuchIsWrittenWithItsLosses) {
 
 TEST(Fit, TablesAsPeopleWriteThem) {
   const Workplace place;
-  place.write("box.json", "{" + kBox + "}");
-  const std::string json = "{" + kBox + ", " + kTwo + R"(, "demands": [120.5, 340]})";
+  place.write("box.json", "{" + kFitBox + "}");
+  const std::string json = "{" + kFitBox + ", " + kTwoSites + R"(, "demands": [120.5, 340]})";
   place.write("i.json", json);
   ASSERT_EQ(place.run({"fit", "i.json", "--json", "wanted.json"}).code, 0);
   for (const std::string table :
@@ -135,7 +135,7 @@ TEST(Fit, TablesAsPeopleWriteThem) {
 
 TEST(Fit, BoundariesOfAllFormsAreOne) {
   const Workplace place;
-  const std::string rest = ", " + kTwo + R"(, "weights": [4, 9], "demands": [100, 300]})";
+  const std::string rest = ", " + kTwoSites + R"(, "weights": [4, 9], "demands": [100, 300]})";
   for (const std::string boundary :
        {R"({"planes": [[-1,0,0,0],[1,0,0,10],[0,-2,0,0],[0,1,0,10],[0,0,-1,0],[0,0,1,10]]})",
         R"({"vertices": [[0,0,0],[10,0,0],[10,10,0],[0,10,0],[0,0,10],[10,0,10],[10,10,10],[0,10,10]], "volume": "any"})",
@@ -187,7 +187,7 @@ TEST(Fit, StrangeButSoundInputIsAnswered) {
         R"("sites": [[2,5,5],[8,5,5]], "weights": [1e18, -1e18], "demands": [10, 10])",
         R"("sites": [[2,5,5],[8,5,5]], "weights": [1e18, 1], "demands": [null, 10], "locked": [0])"})
     for (const char* method : {"newton", "feedback"}) {
-      place.write("i.json", "{" + kBox + ", " + rest + "}");
+      place.write("i.json", "{" + kFitBox + ", " + rest + "}");
       const Outcome outcome = place.run({"fit", "i.json", "--json", "o.json", "--method", method});
       EXPECT_TRUE(outcome.code == 0 || outcome.code == 3) << rest << "\n" << outcome.err;
       EXPECT_EQ(outcome.code == 3, outcome.err.starts_with("i.json: ")) << rest << "\n" << outcome.err;
@@ -206,7 +206,7 @@ TEST(Fit, InterruptWritesEveryCase) {
     sites += (i > 0 ? ", [" : "[") + part(17) + "," + part(71) + "," + part(173) + "]";
     demands += i > 0 ? ", 2.4" : "2.4";
   }
-  const std::string one = "{" + kBox + ", \"sites\": [" + sites + "], \"demands\": [" + demands + "]}";
+  const std::string one = "{" + kFitBox + ", \"sites\": [" + sites + "], \"demands\": [" + demands + "]}";
   // Read in no time, fitted in a minute: the signal comes in between, on slow machines too.
   for (int i = 0; i < 20; ++i) cases += (i > 0 ? ",\n" : "") + one;
   place.write("i.json", "{\"cases\": [" + cases + "]}");

@@ -14,21 +14,21 @@ namespace bl::test {
 
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
-std::map<std::string, Json> nodes_of(const Json& scene) {
-  std::map<std::string, Json> nodes;
-  for (const Json& node : scene["nodes"]) nodes[node["id"]] = node;
+std::map<std::string, SortedJson> nodes_of(const SortedJson& scene) {
+  std::map<std::string, SortedJson> nodes;
+  for (const SortedJson& node : scene["nodes"]) nodes[node["id"]] = node;
   return nodes;
 }
 
 // Junction, course, junction.
-std::vector<std::array<double, 2>> line_of(const std::map<std::string, Json>& nodes, const Json& street) {
+std::vector<std::array<double, 2>> line_of(const std::map<std::string, SortedJson>& nodes, const SortedJson& street) {
   std::vector<std::array<double, 2>> line;
-  const auto add = [&line](const Json& point) { line.push_back({point[0], point[1]}); };
-  const auto place = [&](const Json& id) { return nodes.at(id).value("position", Json{0, 0, 0}); };
+  const auto add = [&line](const SortedJson& point) { line.push_back({point[0], point[1]}); };
+  const auto place = [&](const SortedJson& id) { return nodes.at(id).value("position", SortedJson{0, 0, 0}); };
   add(place(street["start"]));
-  for (const Json& point : street.value("course", Json::array())) {
+  for (const SortedJson& point : street.value("course", SortedJson::array())) {
     add(point);
     EXPECT_EQ(point[2], 0) << "a course is a plan";
   }
@@ -86,7 +86,7 @@ double geodesic(const std::array<double, 2>& a, const std::array<double, 2>& b) 
 
 class ImportStreets : public testing::Test {
  protected:
-  Json imported(const std::string& file, std::vector<std::string> more = {}) {
+  SortedJson imported(const std::string& file, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"import", file, "--out", "scene.json", "--report", "rows.csv", "--force"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome done = place.run(arguments);
@@ -116,13 +116,13 @@ TEST_F(ImportStreets, PointsBetweenJunctionsAreTheCourse) {
   // 1 - 2 - 5 - 4 meets 5 - 8; nodes 2 bends, 5 is a junction; the second is one way against its nodes.
   place.write("map.osm", map_of(way("10", {1, 2, 5, 4, 7}) + way("11", {9, 6, 5}, R"(<tag k="oneway" v="-1"/>)")));
   const auto nodes = nodes_of(imported("map.osm"));
-  const Json &first = nodes.at("street_w10_0")["types"]["street"], &second = nodes.at("street_w10_1")["types"]["street"],
-             &third = nodes.at("street_w11_0")["types"]["street"];
+  const SortedJson &first = nodes.at("street_w10_0")["types"]["street"], &second = nodes.at("street_w10_1")["types"]["street"],
+                   &third = nodes.at("street_w11_0")["types"]["street"];
   EXPECT_EQ(first["course"].size(), 1u);
   EXPECT_EQ(second["course"].size(), 1u);
   EXPECT_EQ(first.count("length"), 0u) << "it is that of its line";
   EXPECT_NEAR(length_of(line_of(nodes, first)), 55.8 + 111.4, 0.1);
-  EXPECT_EQ(third["start"], Json("junction_n5"));
+  EXPECT_EQ(third["start"], SortedJson("junction_n5"));
   EXPECT_TRUE(third["one_way"]);
   const auto line = line_of(nodes, third);
   ASSERT_EQ(line.size(), 3u);
@@ -136,7 +136,7 @@ TEST_F(ImportStreets, PointsBetweenJunctionsAreTheCourse) {
 TEST_F(ImportStreets, ARoundThatMeetsOneJunctionIsAStreet) {
   place.write("map.osm", map_of(way("10", {1, 2}) + way("11", {2, 3, 6, 5, 2}) + way("12", {7, 7})));
   const auto nodes = nodes_of(imported("map.osm"));
-  const Json& round = nodes.at("street_w11_0")["types"]["street"];
+  const SortedJson& round = nodes.at("street_w11_0")["types"]["street"];
   EXPECT_EQ(round["start"], round["end"]);
   EXPECT_EQ(round["course"].size(), 3u);
   EXPECT_NEAR(length_of(line_of(nodes, round)), 2 * (55.8 + 111.4), 0.2);
@@ -169,7 +169,7 @@ TEST_F(ImportStreets, TooManyPointsAreThinnedAndTheReportSaysSo) {
     {"type": "Feature", "properties": {"id": "a"}, "geometry": {"type": "LineString", "coordinates": [)" +
                   points + "]}}]}");
   const auto nodes = nodes_of(imported("river_road.geojson", {"--as", "street"}));
-  const Json& street = nodes.at("street_a_0")["types"]["street"];
+  const SortedJson& street = nodes.at("street_a_0")["types"]["street"];
   EXPECT_LE(street["course"].size(), 500u);
   EXPECT_GE(street["course"].size(), 50u);
   EXPECT_NEAR(length_of(line_of(nodes, street)), street["length"].get<double>(), 0.001 * street["length"].get<double>());

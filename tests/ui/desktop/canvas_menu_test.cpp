@@ -9,7 +9,7 @@
 namespace bl::desktop {
 namespace {
 
-using canvas::Hit, canvas::Thing;
+using canvas::Thing;
 
 class MenuTest : public CanvasFixture {
  protected:
@@ -182,10 +182,11 @@ TEST_F(MenuTest, SwitchesHaveNone) {
 
 // Whatever it stands over: it offers something, all of it can be done, and each of it says its key as the list of keys does.
 TEST_F(MenuTest, EveryMenuOffersOnlyWhatCanBeDone) {
-  const Hit things[] = {{Thing::nothing, "", 0}, {Thing::node, "library", 0}, {Thing::link, "hotel_market", 0},
-                        {Thing::frame, "f", 0},  {Thing::comment, "c", 0},    {Thing::pill, board().model.pills.front().key, 0}};
+  const canvas::Hit things[] = {{Thing::nothing, "", 0},          {Thing::node, "library", 0},
+                                {Thing::link, "hotel_market", 0}, {Thing::frame, "f", 0},
+                                {Thing::comment, "c", 0},         {Thing::pill, board().model.pills.front().key, 0}};
   std::set<const Action*> seen;
-  for (const Hit& thing : things) {
+  for (const canvas::Hit& thing : things) {
     canvas::open_menu(board(), thing, {300, 300});
     desktop.frames(2);
     ASSERT_TRUE(board().menu.is_open);

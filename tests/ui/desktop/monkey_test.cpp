@@ -21,9 +21,9 @@ int frame_count() {
   return wanted != nullptr ? std::atoi(wanted) : 4000;
 }
 
-class Monkey {
+class PanelMonkey {
  public:
-  Monkey(NullDesktop& desktop, std::uint64_t seed) : desktop_(desktop), random_(seed, 77) {}
+  PanelMonkey(NullDesktop& desktop, std::uint64_t seed) : desktop_(desktop), random_(seed, 77) {}
 
   void act() {
     ImGuiIO& io = ImGui::GetIO();
@@ -34,7 +34,9 @@ class Monkey {
       case 3: desktop_.hold(random_.below(4) == 0, random_.below(4) == 0, random_.below(8) == 0); break;
       case 4: io.AddInputCharacter(static_cast<unsigned>(32 + random_.below(95))); break;
       case 5: io.MousePos = {coordinate(io.DisplaySize.x), coordinate(io.DisplaySize.y)}; break;
-      case 6: desktop_.click({coordinate(io.DisplaySize.x), coordinate(io.DisplaySize.y)}, static_cast<int>(random_.below(2))); break;
+      case 6:
+        desktop_.click({coordinate(io.DisplaySize.x), coordinate(io.DisplaySize.y)}, static_cast<int>(random_.below(2)));
+        break;
       case 7:
         if (random_.below(40) == 0) io.DisplaySize = {coordinate(1900) + 20, coordinate(1200) + 20};
         break;
@@ -80,11 +82,12 @@ TEST_P(MonkeyRun, SurvivesAndCanBeUndone) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "monkey";
   std::filesystem::create_directories(folder);
   const std::filesystem::path scene = folder / std::filesystem::path(GetParam()).filename();
-  std::filesystem::copy_file(std::string(BL_SOURCE_DIR "/") + GetParam(), scene, std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(std::string(BL_SOURCE_DIR "/") + GetParam(), scene,
+                             std::filesystem::copy_options::overwrite_existing);
   NullDesktop desktop;
   ASSERT_TRUE(desktop.editor().open(scene.string()));
   desktop.frames(2);
-  Monkey monkey(desktop, 5);
+  PanelMonkey monkey(desktop, 5);
   monkey.scene_ = scene.string();
   for (int k = 0; k < frame_count(); ++k) {
     monkey.act();
@@ -92,8 +95,7 @@ TEST_P(MonkeyRun, SurvivesAndCanBeUndone) {
   }
   ImGui::GetIO().MouseDown[0] = ImGui::GetIO().MouseDown[1] = ImGui::GetIO().MouseDown[2] = false;
   desktop.frames(2);
-  while (desktop.editor().document->session().undo().ok()) {
-  }
+  while (desktop.editor().document->session().undo().ok()) {}
   desktop.frames(2);
   const SceneReading saved = read_scene(read_file(scene.string()).value(), full_registry());
   EXPECT_TRUE(saved.is_usable());

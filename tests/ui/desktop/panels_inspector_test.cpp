@@ -7,14 +7,21 @@
 namespace bl::desktop {
 namespace {
 
-constexpr const char* kQuarter = "scenes/start/quarter.json";
+constexpr const char* kInspectedQuarter = "scenes/start/quarter.json";
 
 TEST(Quantities, LongTimesAreSaidInMinutesAndHours) {
   const std::string blank = "\xC2\xA0";
   EXPECT_EQ(report::quantity(90, Unit::second), "90.0" + blank + "s");
   EXPECT_EQ(report::quantity(150, Unit::second), "2.50" + blank + "min");
-  EXPECT_EQ(report::quantity(-33138, Unit::second), "\xE2\x88\x92" "9.21" + blank + "h");
-  EXPECT_EQ(report::quantity(33138, Unit::metre), "33" "\xE2\x80\xAF" "138" + blank + "m");
+  EXPECT_EQ(report::quantity(-33138, Unit::second),
+            "\xE2\x88\x92"
+            "9.21" +
+                blank + "h");
+  EXPECT_EQ(report::quantity(33138, Unit::metre),
+            "33"
+            "\xE2\x80\xAF"
+            "138" +
+                blank + "m");
   EXPECT_EQ(shown_number(30600, Unit::second), "8.5" + blank + "h");
   EXPECT_EQ(shown_number(35621, Unit::second), "9.895" + blank + "h");
   EXPECT_EQ(shown_number(60, Unit::second), "60" + blank + "s");
@@ -22,7 +29,7 @@ TEST(Quantities, LongTimesAreSaidInMinutesAndHours) {
 }
 
 TEST(Inspector, ANumberWithTheWrongUnitIsRefusedWithAReason) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   desktop.type_into("smart_volume.demand", "0.4 ha");
@@ -35,7 +42,7 @@ TEST(Inspector, ANumberWithTheWrongUnitIsRefusedWithAReason) {
 }
 
 TEST(Inspector, NumbersTakeArithmeticAndUnits) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   const auto now = [&] { return desktop.number("library", "smart_volume", "demand"); };
   desktop.type_into("smart_volume.demand", "1200*1.5");
@@ -52,7 +59,7 @@ TEST(Inspector, NumbersTakeArithmeticAndUnits) {
 }
 
 TEST(Inspector, EscapeKeepsTheOldValueAndTabGoesToTheNext) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   desktop.type_into("smart_volume.demand", "5", GLFW_KEY_ESCAPE);
@@ -69,7 +76,7 @@ TEST(Inspector, EscapeKeepsTheOldValueAndTabGoesToTheNext) {
 }
 
 TEST(Inspector, WhatIsTypedGoesWhereItWasMeantToWhenAnotherNodeIsChosen) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   desktop.press_on("smart_volume.demand");
   desktop.frames(3);
@@ -83,7 +90,7 @@ TEST(Inspector, WhatIsTypedGoesWhereItWasMeantToWhenAnotherNodeIsChosen) {
 }
 
 TEST(Inspector, AScrubIsOneStep) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   const ImVec2 at = desktop.middle("smart_volume.demand");
@@ -95,7 +102,7 @@ TEST(Inspector, AScrubIsOneStep) {
 }
 
 TEST(Inspector, EscapeEndsAScrubWithoutATrace) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   for (const char* field : {"smart_volume.demand", "node.position/x"}) {
@@ -137,7 +144,7 @@ TEST(Inspector, EscapeEndsAScrubWithoutATrace) {
 }
 
 TEST(Inspector, SeveralNodesAreEditedInOneStep) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.editor().picks.nodes = {"library", "cafe", "hotel"};
   desktop.frames(2);
   const std::string before = desktop.scene_text();
@@ -155,7 +162,7 @@ TEST(Inspector, SeveralNodesAreEditedInOneStep) {
 }
 
 TEST(Inspector, AFactorThatOneOfSeveralNodesCannotTakeLeavesItAlone) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"cafe", {"node.position"}, {"[0, 1, 2]"}})));
   ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"hotel", {"node.position"}, {"[10, 1, 2]"}})));
   desktop.editor().picks.nodes = {"cafe", "hotel"};
@@ -203,7 +210,7 @@ TEST(Inspector, ASlowHandMovesSeveralWholeNumbers) {
 }
 
 TEST(Inspector, FieldsThatGoUnderTheHandDoNotHoldItStill) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   Editor& editor = desktop.editor();
   for (const bool is_typing : {false, true}) {
     ASSERT_TRUE(editor.submit(command<AddNode>({"passing", {R"({"types": {"smart_volume": {}}})"}})));
@@ -249,7 +256,7 @@ TEST(Quantities, RatesAreByTheHourHoweverTheyComeAbout) {
 }
 
 TEST(Inspector, ResetAndLock) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   desktop.type_into("smart_volume.demand", "2500");
@@ -262,7 +269,7 @@ TEST(Inspector, ResetAndLock) {
 }
 
 TEST(Inspector, TheTableOfTheBriefIsEditedByCell) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("programme");
   desktop.press_on("programme.rows");
   desktop.frames(2);
@@ -281,7 +288,7 @@ TEST(Inspector, TheTableOfTheBriefIsEditedByCell) {
 }
 
 TEST(Inspector, RenamesAndGivesAndTakesRoles) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   desktop.type_into("name", "Reading room");
@@ -301,7 +308,7 @@ TEST(Inspector, RenamesAndGivesAndTakesRoles) {
 }
 
 TEST(Inspector, LinksStrengthEndsAndParameters) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose_link("library_cafe");
   const auto link = [&] { return desktop.editor().scene().links.at("library_cafe"); };
   desktop.type_into("strength", "40%");
@@ -326,7 +333,7 @@ TEST(Inspector, LinksStrengthEndsAndParameters) {
 }
 
 TEST(Inspector, SettingsOfTheScene) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.type_into("settings.title", "Another quarter");
   EXPECT_EQ(settings_of(desktop.editor().scene()).title, "Another quarter");
   desktop.type_into("settings.tolerance", "5%");
@@ -334,7 +341,7 @@ TEST(Inspector, SettingsOfTheScene) {
 }
 
 TEST(Inspector, AnExpressionDrivesANumberInOneStep) {
-  PanelDesktop desktop(kQuarter);
+  PanelDesktop desktop(kInspectedQuarter);
   desktop.choose("library");
   const std::string before = desktop.scene_text();
   desktop.move_to(desktop.middle("smart_volume.storey_height"));

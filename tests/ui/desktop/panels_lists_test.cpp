@@ -8,7 +8,7 @@
 namespace bl::desktop {
 namespace {
 
-constexpr const char* kQuarter = "scenes/start/quarter.json";
+constexpr const char* kListedQuarter = "scenes/start/quarter.json";
 
 class ListDesktop : public PanelDesktop {
  public:
@@ -32,7 +32,7 @@ class ListDesktop : public PanelDesktop {
 };
 
 TEST(Problems, AConflictNamesWhoPullsAndHowMuch) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"library", {"smart_volume.demand"}, {"4000"}})));
   desktop.ticks(10);
   bool is_found = false;
@@ -48,7 +48,7 @@ TEST(Problems, AConflictNamesWhoPullsAndHowMuch) {
 }
 
 TEST(Problems, APressGoesThere) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   desktop.ticks(10);
   ASSERT_FALSE(desktop.problems().items().empty());
   const std::string node = desktop.problems().items().front().nodes.front();
@@ -57,7 +57,7 @@ TEST(Problems, APressGoesThere) {
 }
 
 TEST(Problems, ABoundaryThatIsTooSmallNamesTheLosers) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"site", {"boundary.height"}, {"12"}})));
   desktop.ticks(25);
   const auto short_of = desktop.of(ProblemKind::shortage);
@@ -75,7 +75,7 @@ TEST(Problems, ABoundaryThatIsTooSmallNamesTheLosers) {
 }
 
 TEST(Problems, FailuresAndSwitchedOffLinksAreListedAndFiltered) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"floor_area", {"statistics.port"}, {"\"\""}})));
   ASSERT_TRUE(desktop.editor().submit(command<MuteLink>({"library_cafe", true})));
   desktop.ticks(2);
@@ -102,7 +102,7 @@ TEST(Problems, OfAnOldFileAreListedWithTheirPlace) {
 }
 
 TEST(Problems, OfAFileThatCannotBeOpenedAreListedBesideTheOldScene) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   const std::string path = ::testing::TempDir() + "panels_garbage.json";
   std::FILE* file = std::fopen(path.c_str(), "w");
   ASSERT_NE(file, nullptr);
@@ -117,7 +117,7 @@ TEST(Problems, OfAFileThatCannotBeOpenedAreListedBesideTheOldScene) {
 }
 
 TEST(Problems, OfAFileThatIsTriedAgainAreThoseOfNow) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   const std::string path = ::testing::TempDir() + "panels_twice.json";
   ASSERT_TRUE(write_file(path, R"({"format": "behaviourlinks", "version": 999})"));
   EXPECT_FALSE(desktop.editor().open(path));
@@ -134,7 +134,7 @@ TEST(Problems, OfAFileThatIsTriedAgainAreThoseOfNow) {
 
 // Its solver has named a node that is no volume: the solver fails for it, and the list says so once.
 TEST(Problems, ASolverWhoseMemberLacksAPortIsListedOnce) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   ASSERT_TRUE(
       desktop.editor().submit(command<SetPort>({"solver", {"smart_volumes_solver.members"}, {R"(["library", "programme"])"}})));
   desktop.ticks(2);
@@ -145,7 +145,7 @@ TEST(Problems, ASolverWhoseMemberLacksAPortIsListedOnce) {
 }
 
 TEST(Problems, RowsKeepTheirPlacesWhileASettledSceneTicks) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   desktop.ticks(300);
   const auto order = [&] {
     std::string text;
@@ -162,7 +162,7 @@ TEST(Problems, RowsKeepTheirPlacesWhileASettledSceneTicks) {
 }
 
 TEST(History, APressTakesBackAndBringsBack) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   const std::string before = desktop.scene_text();
   for (const char* name : {"One", "Two", "Three"}) ASSERT_TRUE(desktop.editor().submit(command<RenameNode>({"library", name})));
   const std::string after = desktop.scene_text();
@@ -177,7 +177,7 @@ TEST(History, APressTakesBackAndBringsBack) {
 }
 
 TEST(Statistics, SamplesEveryTickAndForgetsWhatWasRewound) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   for (int k = 0; k < 12; ++k) desktop.ticks(1);
   EXPECT_EQ(desktop.record().tick.size(), 13u);
   EXPECT_EQ(desktop.record().tick.back(), 12);
@@ -189,7 +189,7 @@ TEST(Statistics, SamplesEveryTickAndForgetsWhatWasRewound) {
 }
 
 TEST(Statistics, AreGatheredWhileNobodyLooks) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   desktop.editor().person.shows_bottom = false;
   desktop.frames(2);
   for (int k = 0; k < 6; ++k) desktop.ticks(1);
@@ -203,7 +203,7 @@ TEST(Statistics, AreGatheredWhileNobodyLooks) {
 }
 
 TEST(Statistics, APressOnABarChoosesItsVolume) {
-  ListDesktop desktop(kQuarter);
+  ListDesktop desktop(kListedQuarter);
   desktop.ticks(5);
   desktop.open_tab("Statistics");
   desktop.press_on("order/name");

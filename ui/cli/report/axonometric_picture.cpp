@@ -15,7 +15,7 @@ namespace bl::report {
 
 namespace {
 
-constexpr double kWidth = 1000, kMostHeight = 760;
+constexpr double kAxonometryWidth = 1000, kMostAxonometryHeight = 760;
 constexpr double kAzimuth = 150, kElevation = 33;
 
 // Light from the left, behind the eye's shoulder: the convention of architectural drawings, not the sun of a day.
@@ -244,7 +244,7 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   const Scenery scenery = scenery_of(model, view);
   if (scenery.content.empty())
     return {empty_picture("axonometry", "Axonometry", "Nothing to draw: there is no boundary, and no volume has a shape."), ""};
-  const Sheet sheet(view, scenery.content, kWidth, kMostHeight, {40, 34, 40, 52});
+  const Sheet sheet(view, scenery.content, kAxonometryWidth, kMostAxonometryHeight, {40, 34, 40, 52});
   const std::vector<const VolumeRow*> order = back_to_front(model, view);
   Markup svg;
   open_picture(svg, sheet.width(), sheet.height(), "axonometry", "Axonometry",

@@ -12,7 +12,7 @@ namespace bl::report {
 namespace {
 
 constexpr std::size_t kMostBars = 40;
-constexpr double kWidth = 1000, kLine = 22, kLabels = 400, kFigures = 190;
+constexpr double kPageWidth = 1000, kLine = 22, kLabels = 400, kFigures = 190;
 
 std::string who(const IndicatorRow& row) { return row.node.empty() ? "All" : row.name; }
 
@@ -20,9 +20,9 @@ std::string who(const IndicatorRow& row) { return row.node.empty() ? "All" : row
 std::string bars(const std::vector<IndicatorRow>& rows, const std::string& id, const std::string& title) {
   const std::size_t count = std::min(rows.size(), kMostBars);
   const double height = 30 + kLine * static_cast<double>(count);
-  const double left = kLabels, right = kWidth - kFigures, middle = 0.5 * (left + right), half = 0.5 * (right - left) - 4;
+  const double left = kLabels, right = kPageWidth - kFigures, middle = 0.5 * (left + right), half = 0.5 * (right - left) - 4;
   Markup svg;
-  open_picture(svg, kWidth, height, id, title, "Bars to the right: more in the second proposal; to the left: less.");
+  open_picture(svg, kPageWidth, height, id, title, "Bars to the right: more in the second proposal; to the left: less.");
   svg.leaf("line", {{"class", "axis"}, {"x1", pixels(middle)}, {"x2", pixels(middle)}, {"y1", "18"}, {"y2", pixels(height - 6)}});
   svg.element("text", "less", {{"x", pixels(left)}, {"y", "12"}, {"class", "small"}});
   svg.element("text", "more", {{"x", pixels(right)}, {"y", "12"}, {"class", "small"}, {"text-anchor", "end"}});

@@ -10,7 +10,7 @@ namespace bl::report {
 
 namespace {
 
-constexpr double kWidth = 1000, kLeft = 74, kRight = 150;
+constexpr double kErrorChartWidth = 1000, kLeft = 74, kRight = 150;
 constexpr std::size_t kMostPoints = 450;
 
 struct Series {
@@ -23,7 +23,7 @@ struct Chart {
   double lowest = 0, highest = 0;  ///< powers of ten
   double first_tick = 0, last_tick = 1;
   double x(double tick) const {
-    return kLeft + (kWidth - kLeft - kRight) * (tick - first_tick) / std::max(1.0, last_tick - first_tick);
+    return kLeft + (kErrorChartWidth - kLeft - kRight) * (tick - first_tick) / std::max(1.0, last_tick - first_tick);
   }
   double y(double value) const {
     const double power = std::log10(std::max(value, 1e-300));
@@ -66,7 +66,7 @@ void draw_axes(Markup& svg, const Chart& chart, const std::string& title, bool i
   PathText rules;
   for (double power = chart.lowest; power <= chart.highest; power += 1) {
     const double y = chart.y(std::pow(10.0, power)), value = std::pow(10.0, power + (is_share ? 2 : 0));
-    rules.polyline({{kLeft, y}, {kWidth - kRight, y}}, false);
+    rules.polyline({{kLeft, y}, {kErrorChartWidth - kRight, y}}, false);
     const std::string figure =
         grouped(value, power + (is_share ? 2 : 0) >= 0 ? 0 : static_cast<int>(-power - (is_share ? 2 : 0))) +
         (is_share ? "\xC2\xA0%" : "\xC2\xA0m");
@@ -83,9 +83,10 @@ void draw_axes(Markup& svg, const Chart& chart, const std::string& title, bool i
 void draw_limit(Markup& svg, const Chart& chart, double limit, const std::string& label) {
   if (!(limit > 0)) return;
   PathText line;
-  line.polyline({{kLeft, chart.y(limit)}, {kWidth - kRight, chart.y(limit)}}, false);
+  line.polyline({{kLeft, chart.y(limit)}, {kErrorChartWidth - kRight, chart.y(limit)}}, false);
   svg.path(line, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1"}, {"stroke-dasharray", "2 3"}});
-  svg.element("text", label, {{"x", pixels(kWidth - kRight - 4)}, {"y", pixels(chart.y(limit) - 4)}, {"class", "figure end"}});
+  svg.element("text", label,
+              {{"x", pixels(kErrorChartWidth - kRight - 4)}, {"y", pixels(chart.y(limit) - 4)}, {"class", "figure end"}});
 }
 
 void draw_series(Markup& svg, const Chart& chart, const std::vector<ErrorSample>& samples, const std::vector<Series>& series,
@@ -125,7 +126,7 @@ Picture draw_error_chart(const ReportModel& model, const std::vector<ErrorSample
   const double limit = model.move_limit > 0 ? model.move_limit : 0.01;
   const Chart upper = chart_of(samples, errors, tolerance, 38, 190), lower = chart_of(samples, moves, limit, 292, 110);
   Markup svg;
-  open_picture(svg, kWidth, 442, "errors", "Error over the ticks",
+  open_picture(svg, kErrorChartWidth, 442, "errors", "Error over the ticks",
                "Worst error " + percent(history.back().worst_error) + " and mean error " + percent(history.back().mean_error) +
                    " at tick " + std::to_string(history.back().tick) + "; the tolerance is " + percent(model.tolerance) + ".");
   draw_axes(svg, upper, "Error of the volumes, share of the demand", true);
@@ -134,8 +135,9 @@ Picture draw_error_chart(const ReportModel& model, const std::vector<ErrorSample
   draw_axes(svg, lower, "Largest move of a node in a tick", false);
   draw_limit(svg, lower, model.move_limit, "limit of calm " + quantity(model.move_limit, Unit::metre));
   draw_series(svg, lower, samples, moves, false);
-  svg.element("text", "tick",
-              {{"x", pixels(kWidth - kRight + 16)}, {"y", pixels(lower.top + lower.height + 15)}, {"class", "figure start"}});
+  svg.element(
+      "text", "tick",
+      {{"x", pixels(kErrorChartWidth - kRight + 16)}, {"y", pixels(lower.top + lower.height + 15)}, {"class", "figure start"}});
   svg.close();
   std::string caption =
       "The negotiation, tick by tick, on logarithmic scales: settled is when all errors are below the tolerance and all moves "

@@ -10,7 +10,7 @@ namespace bl::report {
 namespace {
 
 // "north_east" as "north-east".
-std::string spoken(std::string name) {
+std::string spoken_style(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
 }
@@ -31,7 +31,9 @@ void row_of(Markup& page, const std::string& name, const std::string& style, con
 }
 
 void open_table(Markup& page, const std::string& id, const std::string& caption, std::initializer_list<const char*> heads) {
-  const std::string heading = id == "facades" ? "Fa\xC3\xA7" "ades" : "Pictures";
+  const std::string heading = id == "facades" ? "Fa\xC3\xA7"
+                                                "ades"
+                                              : "Pictures";
   page.element("h2", heading, {{"id", id}});
   page.open("div", {{"class", "wide"}, {"role", "region"}, {"aria-label", heading}, {"tabindex", "0"}}).open("table");
   page.element("caption", caption);
@@ -55,7 +57,10 @@ void write_facades(Markup& page, const ReportModel& model, const State& state) {
     if (!is_open)
       open_table(page, "facades",
                  "Steep surface above the ground that no neighbour covers, dressed by a style; cost by the prices of the style.",
-                 {"Name", "Style", "Fa\xC3\xA7" "ade m\xC2\xB2", "Glazed m\xC2\xB2", "Opaque m\xC2\xB2", "Glazed", "Cost \xE2\x82\xAC"});
+                 {"Name", "Style",
+                  "Fa\xC3\xA7"
+                  "ade m\xC2\xB2",
+                  "Glazed m\xC2\xB2", "Opaque m\xC2\xB2", "Glazed", "Cost \xE2\x82\xAC"});
     is_open = true;
     const auto number = [&](const char* port) { return number_at(state, volume.node, "facade", port); };
     const Glazing own{number("facade_area"), number("glazed_area"), number("cost")};
@@ -73,7 +78,7 @@ void write_facades(Markup& page, const ReportModel& model, const State& state) {
   }
   if (!is_open) return;
   for (const auto& [row, side] : sides)
-    if (side.area > 0) row_of(page, "towards " + spoken(names[row]), "", side);
+    if (side.area > 0) row_of(page, "towards " + spoken_style(names[row]), "", side);
   page.close().open("tfoot");
   row_of(page, "All", "", all);
   page.close().close().close();
@@ -96,7 +101,8 @@ void write_pictures(Markup& page, const State& state) {
   }
   if (is_open) page.close().close().close();
   if (veiled > 0)
-    page.element("p", (veiled == 1 ? "One picture of the scene is left out here" : std::to_string(veiled) + " pictures of the scene are left out here") +
+    page.element("p", (veiled == 1 ? "One picture of the scene is left out here"
+                                   : std::to_string(veiled) + " pictures of the scene are left out here") +
                           std::string(", because nobody has said that it may be shown."));
 }
 

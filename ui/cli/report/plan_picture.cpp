@@ -14,7 +14,7 @@ namespace bl::report {
 
 namespace {
 
-constexpr double kWidth = 1000, kMostHeight = 900, kFrame = 44;
+constexpr double kPlanWidth = 1000, kMostHeight = 900, kFrame = 44;
 constexpr double kEyeHeight = 1.2;  // [m] above the ground
 constexpr double kLegendRow = 17;
 
@@ -218,7 +218,7 @@ Picture draw_plan(const State& state, const ReportModel& model, const Palette& p
   const std::vector<Point3> content = content_of(model);
   if (content.empty()) return {empty_picture("plan", "Plan", "Nothing to draw: there is no boundary and no volume."), ""};
   const DrawnLinks links = links_to_draw(state);
-  const Sheet sheet(plan_view(), content, kWidth, kMostHeight, {kFrame + 20, 46, kFrame + 20, 30});
+  const Sheet sheet(plan_view(), content, kPlanWidth, kMostHeight, {kFrame + 20, 46, kFrame + 20, 30});
   const double bottom = sheet.height() - 8, cut = ground_of(model) + kEyeHeight;
   const double height = sheet.height() + 34 + kLegendRow * (links.families.empty() ? 0 : links.families.size() > 4 ? 2 : 1);
   Markup svg;

@@ -20,16 +20,16 @@ namespace {
 
 constexpr float kGroups = 330;  // [points]: width of the counts at the left
 
-const char* label_of(ImportOutcome outcome) {
+const char* outcome_label(ImportOutcome outcome) {
   constexpr const char* kLabels[] = {"Taken", "Repaired", "Skipped"};
   return kLabels[static_cast<int>(outcome)];
 }
 
-struct Sign {
+struct RowSign {
   const char* text;
   ImU32 colour;
 };
-Sign sign_of(const Theme& theme, ImportOutcome outcome) {
+RowSign sign_of(const Theme& theme, ImportOutcome outcome) {
   const Colours& c = theme.colours();
   switch (outcome) {
     case ImportOutcome::taken: return {icon::kCheck, c.good};
@@ -73,8 +73,8 @@ void go_to(Editor& editor, const ImportRow& row) {
   if (row.place && editor.view != nullptr) {
     editor.picks.clear();
     const double ground = editor.view->facts() == nullptr ? 0 : editor.view->facts()->ground;
-    const std::string what =
-        title_of(row) + "\n" + label_of(row.outcome) + ": " + why_of(row) + (special_of(row).empty() ? "" : "\n" + special_of(row));
+    const std::string what = title_of(row) + "\n" + outcome_label(row.outcome) + ": " + why_of(row) +
+                             (special_of(row).empty() ? "" : "\n" + special_of(row));
     return editor.view->put_pin({{(*row.place)[0], (*row.place)[1], ground}, what});
   }
   editor.tell(NoticeKind::told,
@@ -98,7 +98,7 @@ void draw_outcomes(Editor& editor, ImportList& list) {
   };
   chip(-1, "All", list.total());
   for (const ImportOutcome outcome : {ImportOutcome::skipped, ImportOutcome::repaired, ImportOutcome::taken})
-    chip(static_cast<int>(outcome), label_of(outcome), list.count(outcome));
+    chip(static_cast<int>(outcome), outcome_label(outcome), list.count(outcome));
   ImGui::PopFont();
 }
 
@@ -120,7 +120,7 @@ void draw_groups(Editor& editor, ImportList& list, float width) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (is_hovered || list.group() == k)
       draw.AddRectFilled(at, {at.x + room, at.y + height}, faded(c.accent, list.group() == k ? 0.25f : 0.12f), theme.px(3));
-    const Sign sign = sign_of(theme, group.outcome);
+    const RowSign sign = sign_of(theme, group.outcome);
     const float y = at.y + (height - ImGui::GetFontSize()) / 2;
     const std::string count = number(group.count);
     const float count_width = ImGui::CalcTextSize(count.c_str()).x;
@@ -129,7 +129,7 @@ void draw_groups(Editor& editor, ImportList& list, float width) {
                  fitted(group.kind + ": " + group.reason, room - count_width - theme.px(44)).c_str());
     draw.AddText({at.x + room - count_width - theme.px(8), y}, c.text_soft, count.c_str());
     if (is_hovered)
-      card(editor, std::string(label_of(group.outcome)) + ": " + report::counted(group.count, group.kind), group.reason);
+      card(editor, std::string(outcome_label(group.outcome)) + ": " + report::counted(group.count, group.kind), group.reason);
     ImGui::PopID();
     ImGui::SetCursorScreenPos({at.x, at.y + height});
   }
@@ -153,13 +153,13 @@ void draw_row(Editor& editor, const ImportEntry& entry, int index, bool has_file
          nodes_of(editor, row).empty() ? goes ? "press for its place" : "it has no place" : "press to go to what was made of it");
   }
   ImGui::PopID();
-  const Sign sign = sign_of(theme, row.outcome);
+  const RowSign sign = sign_of(theme, row.outcome);
   // In a column of their own, however wide the sign is.
   const ImVec2 at = ImGui::GetItemRectMin();
   ImGui::SameLine(0, 0);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddText({at.x + theme.px(4), ImGui::GetCursorScreenPos().y}, sign.colour, sign.text);
-  list.AddText({at.x + theme.px(24), ImGui::GetCursorScreenPos().y}, c.text, label_of(row.outcome));
+  list.AddText({at.x + theme.px(24), ImGui::GetCursorScreenPos().y}, c.text, outcome_label(row.outcome));
   ImGui::Dummy({0, 0});
   const auto column = [&](const std::string& text, ImU32 colour) {
     if (!ImGui::TableNextColumn()) return;
@@ -213,7 +213,7 @@ void draw_table(Editor& editor, ImportList& list) {
   ImGui::EndTable();
 }
 
-void draw_nothing(Editor& editor) {
+void draw_no_imports(Editor& editor) {
   ImGui::Dummy({0, editor.theme.px(6)});
   ImGui::TextUnformatted(
       "Nothing was imported into this scene. After an import, every element of the files stands here, with what became of it.");
@@ -228,7 +228,7 @@ void draw_imports(Editor& editor) {
   PanelMemory& memory = memory_of(editor);
   ImportList& list = *memory.imports;
   list.follow(editor.document->imports(), editor.document->id(), editor.document->imports_revision());
-  if (list.total() == 0) return draw_nothing(editor);
+  if (list.total() == 0) return draw_no_imports(editor);
   const Theme& theme = editor.theme;
   draw_outcomes(editor, list);
   ImGui::SameLine(0, theme.px(12));

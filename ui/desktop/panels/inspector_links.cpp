@@ -13,7 +13,7 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr std::size_t kMostVoices = 40;
+constexpr std::size_t kMostListedVoices = 40;
 
 // Would the link find its ports at an end that names these nodes?
 bool has_ports(const Editor& editor, const LinkDefinition& kind, End end, const Selection& selection) {
@@ -182,7 +182,7 @@ void draw_voices(Editor& editor, const std::string& id) {
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, editor.theme.px(2)});
   float width = 0;
-  for (std::size_t k = 0; k < std::min(voices.size(), kMostVoices); ++k) {
+  for (std::size_t k = 0; k < std::min(voices.size(), kMostListedVoices); ++k) {
     const Voice& voice = voices[k];
     const std::uint32_t to = voice.target.node;
     // A node is named once, however much is said to it.
@@ -207,8 +207,8 @@ void draw_voices(Editor& editor, const std::string& id) {
     end_row();
   }
   ImGui::PopStyleVar();
-  if (voices.size() > kMostVoices)
-    small_text(editor, "and " + std::to_string(voices.size() - kMostVoices) + " more", c.text_faint);
+  if (voices.size() > kMostListedVoices)
+    small_text(editor, "and " + std::to_string(voices.size() - kMostListedVoices) + " more", c.text_faint);
 }
 
 }  // namespace
@@ -219,7 +219,7 @@ void list_links(Editor& editor, InspectorView& view) {
   const State& state = editor.state();
   const std::vector<std::size_t>& links = view.touching(state);
   if (links.empty() || !section(editor, "links", "Links", "The links that start or end here.", nullptr)) return;
-  for (std::size_t k = 0; k < std::min(links.size(), kMostVoices); ++k) {
+  for (std::size_t k = 0; k < std::min(links.size(), kMostListedVoices); ++k) {
     const LinkPlan& link = state.plan->links[links[k]];
     if (!editor.scene().links.contains(link.id)) continue;  // taken away since the last tick
     const std::string kind = link.definition != nullptr ? link.definition->label : "unknown kind";
@@ -245,7 +245,8 @@ void list_links(Editor& editor, InspectorView& view) {
     list.AddText({at.x + theme.px(30) + width, y}, c.text_faint, fitted(link.id, to.x - at.x - width - theme.px(34)).c_str());
     if (is_pressed) editor.picks.only_link(link.id);
   }
-  if (links.size() > kMostVoices) small_text(editor, "and " + std::to_string(links.size() - kMostVoices) + " more", c.text_faint);
+  if (links.size() > kMostListedVoices)
+    small_text(editor, "and " + std::to_string(links.size() - kMostListedVoices) + " more", c.text_faint);
 }
 
 void inspect_links(Editor& editor, InspectorView& view) {

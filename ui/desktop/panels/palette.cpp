@@ -12,19 +12,19 @@ namespace bl::desktop {
 
 namespace {
 
-struct Hit {
+struct PaletteHit {
   const Action* action;
   int score;
 };
 
 // Actions that fit what was typed, the best first; those that cannot be done now stand at the end.
-std::vector<Hit> hits_of(const std::string& query, const Editor& editor) {
-  std::vector<Hit> hits;
+std::vector<PaletteHit> hits_of(const std::string& query, const Editor& editor) {
+  std::vector<PaletteHit> hits;
   for (const Action& action : actions()) {
     const int score = fuzzy_score(query, std::string(action.label) + " " + action.menu);
     if (score >= 0) hits.push_back({&action, score - (action.can != nullptr && !action.can(editor) ? 100000 : 0)});
   }
-  std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.score > b.score; });
+  std::stable_sort(hits.begin(), hits.end(), [](const PaletteHit& a, const PaletteHit& b) { return a.score > b.score; });
   return hits;
 }
 
@@ -48,7 +48,7 @@ void Dialogs::draw_palette() {
   const bool is_entered =
       ImGui::InputTextWithHint("##query", "what do you want to do?", &query_, ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) marked_ = 0;
-  const std::vector<Hit> hits = hits_of(query_, *editor_);
+  const std::vector<PaletteHit> hits = hits_of(query_, *editor_);
   const int count = static_cast<int>(hits.size());
   if (was_pressed(ImGuiKey_DownArrow)) ++marked_;
   if (was_pressed(ImGuiKey_UpArrow)) --marked_;

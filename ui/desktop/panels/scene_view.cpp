@@ -13,7 +13,7 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 constexpr double kChangeSeconds = 0.28;
 // Nothing has moved for so long: there is time for a finer picture.
 constexpr double kStillSeconds = 0.3;
@@ -190,9 +190,7 @@ void SceneView::fit(bool all) {
   go_to(camera);
 }
 
-void SceneView::fit_to(const Point3& low, const Point3& high) {
-  wanted_box_ = {low, high};
-}
+void SceneView::fit_to(const Point3& low, const Point3& high) { wanted_box_ = {low, high}; }
 
 void SceneView::put_pin(const Pin& pin) {
   pin_ = pin;
@@ -208,8 +206,8 @@ void SceneView::put_pin(const Pin& pin) {
 void SceneView::look_from(Side side) {
   Camera camera = is_walking_ ? before_walk_ : change_began_ >= 0 ? to_ : choices_.camera;
   is_walking_ = false;
-  camera.azimuth = side == Side::east ? 0 : side == Side::axonometric ? -kPi / 4 : -kPi / 2;
-  camera.elevation = side == Side::plan ? kPi / 2 : side == Side::axonometric ? 0.6155 : 0;
+  camera.azimuth = side == Side::east ? 0 : side == Side::axonometric ? -kHalfTurn / 4 : -kHalfTurn / 2;
+  camera.elevation = side == Side::plan ? kHalfTurn / 2 : side == Side::axonometric ? 0.6155 : 0;
   camera.is_parallel = true;
   go_to(camera);
 }

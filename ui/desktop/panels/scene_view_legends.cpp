@@ -1,4 +1,5 @@
-// What the colours of the 3D view mean: along its bottom, over a third of a narrow one at the most; the rest waits behind a button.
+// What the colours of the 3D view mean: along its bottom, over a third of a narrow one at the most; the rest waits behind a
+// button.
 #include <algorithm>
 #include <string>
 
@@ -14,7 +15,7 @@ namespace {
 // Of what is free above the sun's strip, so much may be covered in a narrow view; in a wide one there is room beside.
 constexpr float kMostCovered = 1.0f / 3, kMostOfWide = 0.5f;
 // All in points: around and between legends; below this width isochrones have no corner of their own; what scale and north take.
-constexpr float kMargin = 14, kLargeMargin = 28, kNarrow = 700, kScaleWidth = 190, kScaleHeight = 50, kButtonHeight = 24;
+constexpr float kLegendMargin = 14, kLargeMargin = 28, kNarrow = 700, kScaleWidth = 190, kScaleHeight = 50, kButtonHeight = 24;
 
 // As many rows as have room below the title, with one that says how many there are more.
 std::size_t rows_in(const Legend& legend, float room, float line) {
@@ -30,11 +31,9 @@ std::size_t rows_in(const Legend& legend, float room, float line) {
 // The one that somebody has asked for first, then what the volumes' colours say; last what comes and goes with the mouse, so that
 // it moves no other.
 std::vector<Legend> SceneView::legends() const {
-  std::vector<Legend> all =
-      urban_legends(*facts_, choices_, editor_->theme, [this](const char* layer) { return shows(layer); });
+  std::vector<Legend> all = urban_legends(*facts_, choices_, editor_->theme, [this](const char* layer) { return shows(layer); });
   all.insert(all.begin(), colouring_.legend);
-  if (width() < editor_->theme.px(kNarrow))
-    all.push_back(isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme));
+  if (width() < editor_->theme.px(kNarrow)) all.push_back(isochrone_legend(*facts_, choices_.isochrones.get(), editor_->theme));
   std::erase_if(all, [](const Legend& legend) { return legend.rows.empty() && legend.ramp.empty(); });
   const auto wanted = std::find_if(all.begin(), all.end(), [this](const Legend& l) { return l.title == wanted_legend_; });
   if (wanted != all.end()) std::rotate(all.begin(), wanted, wanted + 1);
@@ -44,7 +43,7 @@ std::vector<Legend> SceneView::legends() const {
 // From the left and the bottom on; a list that is too long is cut, and what finds no room beside or above is folded.
 LegendPlaces SceneView::place_legends(std::vector<Legend> all, bool is_large, float lift) {
   const Theme& theme = editor_->theme;
-  const float margin = theme.px(is_large ? kLargeMargin : kMargin), free = height() - strip_height();
+  const float margin = theme.px(is_large ? kLargeMargin : kLegendMargin), free = height() - strip_height();
   const float line = (is_large ? theme.fonts().body : theme.fonts().small)->FontSize * 1.35f;
   const float share = width() < theme.px(kNarrow) ? kMostCovered : kMostOfWide;
   const float highest = at_.y + (1 - share) * free, left = at_.x + margin;
@@ -82,7 +81,7 @@ void SceneView::draw_legends(bool is_large) {
   std::vector<Legend> all = legends();
   legend_places_ = {};
   if (!all.empty()) {
-    const float margin = theme.px(is_large ? kLargeMargin : kMargin);
+    const float margin = theme.px(is_large ? kLargeMargin : kLegendMargin);
     const float wide = draw_legend(all.front(), at_, is_large, height(), nullptr).x;
     float lift = wide + margin > width() - theme.px(kScaleWidth) ? theme.px(kScaleHeight) : 0;
     legend_places_ = place_legends(all, is_large, lift);
@@ -98,7 +97,7 @@ void SceneView::draw_legends(bool is_large) {
   if (width() < theme.px(kNarrow)) return;
   const Legend reach = isochrone_legend(*facts_, choices_.isochrones.get(), theme);
   if (reach.rows.empty()) return;
-  const float margin = theme.px(is_large ? kLargeMargin : kMargin);
+  const float margin = theme.px(is_large ? kLargeMargin : kLegendMargin);
   const ImVec2 size = draw_legend(reach, at_, is_large, height(), nullptr);
   const ImVec2 place{at_.x + width() - size.x - margin, at_.y + theme.px(is_large ? 64 : 52) + size.y};
   draw_legend(reach, place, is_large, height(), ImGui::GetWindowDrawList());
@@ -109,9 +108,10 @@ void SceneView::draw_folded(const ImVec2& corner) {
   const Theme& theme = editor_->theme;
   const std::size_t count = legend_places_.folded.size();
   const bool is_cut_only = count == 1 && legend_places_.shown.size() == legend_places_.legends.size();
-  const std::string label = is_cut_only                     ? "All of the legend"
-                            : legend_places_.shown.empty() ? std::to_string(count) + (count == 1 ? " legend" : " legends")
-                                                           : std::to_string(count) + (count == 1 ? " more legend" : " more legends");
+  const std::string label = is_cut_only ? "All of the legend"
+                            : legend_places_.shown.empty()
+                                ? std::to_string(count) + (count == 1 ? " legend" : " legends")
+                                : std::to_string(count) + (count == 1 ? " more legend" : " more legends");
   ImGui::SetCursorScreenPos(corner);
   ImGui::PushFont(theme.fonts().small);
   ImGui::PushStyleColor(ImGuiCol_Button, faded(theme.colours().raised, 0.9f));
@@ -146,7 +146,7 @@ ImVec2 SceneView::draw_legend(const Legend& legend, const ImVec2& corner, bool i
   ImFont* font = is_large ? theme.fonts().body : theme.fonts().small;
   const float line = font->FontSize * 1.35f, swatch = font->FontSize * 0.8f;
   const std::size_t rows = rows_in(legend, room, line);
-  const float most = width() - 2 * theme.px(is_large ? kLargeMargin : kMargin) - swatch;
+  const float most = width() - 2 * theme.px(is_large ? kLargeMargin : kLegendMargin) - swatch;
   const float x = corner.x;
   float y = corner.y - line * (legend.ramp.empty() ? static_cast<float>(rows + (rows < legend.rows.size() ? 1 : 0)) : 2.4f);
   float widest = legend.ramp.empty() ? 0 : theme.px(is_large ? 300 : 190);

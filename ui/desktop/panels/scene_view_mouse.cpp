@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kClickSlack = 4;
 constexpr float kMarkReach = 11, kLinkReach = 5;
-constexpr double kWheelStep = 0.87, kWalkSpeed = 7, kRunFactor = 4;
+constexpr double kViewWheelStep = 0.87, kWalkSpeed = 7, kRunFactor = 4;
 
 bool is_down(int key) { return ImGui::IsKeyDown(key); }
 
@@ -75,7 +75,7 @@ void SceneView::take_wheel() {
     return;
   }
   if (is_walking_) return choices_.camera.walk(2.0 * io.MouseWheel, 0, 0);
-  const double factor = std::pow(kWheelStep, std::clamp(static_cast<double>(io.MouseWheel), -5.0, 5.0));
+  const double factor = std::pow(kViewWheelStep, std::clamp(static_cast<double>(io.MouseWheel), -5.0, 5.0));
   change_began_ = -1;
   choices_.camera.zoom(factor, place_under(io.MousePos));
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr double kDay = 86400, kStep = 300, kFineStep = 60, kCoarseStep = 1800;
 // While it runs, an hour of the sun passes in a second.
 constexpr double kRunSpeed = 3600;
-constexpr float kStrip = 54, kMargin = 14, kRow = 24;
+constexpr float kStrip = 54, kSunMargin = 14, kRow = 24;
 
 constexpr std::array<const char*, 12> kMonths = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                  "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
@@ -170,7 +170,7 @@ void SceneView::draw_sun_strip() {
   sun_track_ = sun_button_ = {};
   const SunFacts* shown = sun();
   const Theme& theme = editor_->theme;
-  const float tall = strip_height(), margin = theme.px(kMargin), length = width() - 2 * margin;
+  const float tall = strip_height(), margin = theme.px(kSunMargin), length = width() - 2 * margin;
   if (shown == nullptr || tall <= 0 || length < theme.px(150)) return;
   const ImVec2 low{at_.x, at_.y + height() - tall};
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -211,7 +211,7 @@ void SceneView::draw_sun_words(const SunFacts& sun, const ImVec2& corner) {
     const char* label = "Set in the scene";
     const float wide = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::SetCursorScreenPos(
-        {std::max(ImGui::GetItemRectMax().x + theme.px(8), at_.x + width() - theme.px(kMargin) - wide), corner.y});
+        {std::max(ImGui::GetItemRectMax().x + theme.px(8), at_.x + width() - theme.px(kSunMargin) - wide), corner.y});
     if (ImGui::SmallButton(label)) set_sun_in_scene();
     else hint("Makes this moment the scene's; Ctrl+Z takes it back");
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();

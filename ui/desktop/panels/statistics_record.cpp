@@ -10,11 +10,11 @@ namespace bl::desktop {
 namespace {
 
 constexpr std::size_t kMostSamples = 600;
-constexpr double kSmoothing = 0.1;
+constexpr double kRecordSmoothing = 0.1;
 // Rows that change places more often than this cannot be read [s].
 constexpr double kSortPause = 1;
 
-double smooth(double old, double fresh) { return old == 0 ? fresh : old + kSmoothing * (fresh - old); }
+double smooth(double old, double fresh) { return old == 0 ? fresh : old + kRecordSmoothing * (fresh - old); }
 
 }  // namespace
 

@@ -19,7 +19,7 @@ constexpr double kHighestLoad = 1.5;
 constexpr float kThinnest = 2, kThickest = 11;  // [points]
 // Lines on the ground lie a little above it [m].
 constexpr double kAboveGround = 0.12;
-constexpr int kRampSteps = 24;
+constexpr int kUrbanRampSteps = 24;
 // A band is seen on both sides of its street, also where routes run beside it [points].
 constexpr float kBandWidth = 17;
 
@@ -165,7 +165,7 @@ std::string hours(double seconds) { return report::readable(seconds / 3600) + " 
 Legend ramp_of(std::string title, const std::function<Colour(double)>& colour, std::string low, std::string middle,
                std::string high) {
   Legend legend{std::move(title), {}, {}, std::move(low), std::move(middle), std::move(high)};
-  for (int k = 0; k <= kRampSteps; ++k) legend.ramp.push_back(colour(static_cast<double>(k) / kRampSteps));
+  for (int k = 0; k <= kUrbanRampSteps; ++k) legend.ramp.push_back(colour(static_cast<double>(k) / kUrbanRampSteps));
   return legend;
 }
 

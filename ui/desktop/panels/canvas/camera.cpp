@@ -8,7 +8,7 @@ namespace {
 constexpr double kGlideSeconds = 0.22;
 constexpr float kFitMargin = 26;
 // Of the zoom without anything over the corner: what makes room for that is not worth more.
-constexpr double kLeastShare = 0.75;
+constexpr double kLeastViewShare = 0.75;
 
 }  // namespace
 
@@ -112,7 +112,7 @@ void Camera::fit(const Box& box, bool is_soft, const std::vector<Box>& bodies) {
     const Pose beside = pose_beside(box, static_cast<double>(corner_.x), 0);
     const Pose above = pose_beside(box, 0, static_cast<double>(corner_.y));
     const Pose& larger = beside.zoom >= above.zoom ? beside : above;
-    if (larger.zoom >= kLeastShare * whole.zoom) best = larger;
+    if (larger.zoom >= kLeastViewShare * whole.zoom) best = larger;
   }
   go_to(best, is_soft);
 }

@@ -7,7 +7,7 @@ namespace bl::desktop::canvas {
 namespace {
 
 constexpr float kCrumbText = 13, kCrumbHeight = 24, kMostCrumb = 220, kDoorText = 11.5f, kLeastDoorText = 8.5f;
-constexpr const char* kBetween = "\xe2\x80\xba";
+constexpr const char* kSeparator = "\xe2\x80\xba";
 
 std::string name_of_scene(const Editor& editor) {
   const std::string& title = editor.state().plan->settings.title;
@@ -52,7 +52,7 @@ void draw_crumbs(Board& board) {
     draw_text(board, crumb.box.low() + ImVec2(8, 5) * scale, pixels, is_here || is_hovered ? c.text : c.text_soft, crumb.label,
               crumb.box.size.x - 16 * scale);
     if (!is_here)
-      draw_text(board, {crumb.box.high().x + 4 * scale, crumb.box.low().y + 4 * scale}, pixels, c.text_faint, kBetween);
+      draw_text(board, {crumb.box.high().x + 4 * scale, crumb.box.low().y + 4 * scale}, pixels, c.text_faint, kSeparator);
   }
 }
 

@@ -8,7 +8,7 @@ namespace bl::desktop::canvas {
 
 namespace {
 
-std::string label_of(const Registry& registry, const std::string& type) {
+std::string type_label(const Registry& registry, const std::string& type) {
   const TypificationDefinition* known = registry.typification(type);
   return known != nullptr ? known->label : type;
 }
@@ -49,7 +49,7 @@ std::optional<std::string> lack(const Registry& registry, const LinkDefinition& 
                                 const std::vector<std::string>& types, const std::string& who) {
   for (const PortPath& path : fixed_paths(kind, end))
     if (!has_port(registry, types, path)) {
-      const std::string role = label_of(registry, path.typification);
+      const std::string role = type_label(registry, path.typification);
       return (end == End::from ? "it starts at a " : "it leads to a ") + role + ", and " + who + " is none";
     }
   return std::nullopt;

@@ -18,7 +18,7 @@ namespace bl::desktop::canvas {
 
 namespace {
 
-constexpr const char* kName = "canvas picker";
+constexpr const char* kPickerName = "canvas picker";
 constexpr float kWidth = 380, kRow = 38, kLine = 15, kMostHeight = 400, kLeft = 24, kRight = 8;
 
 void filter(Picker& picker) {
@@ -206,11 +206,11 @@ void open_picker(Board& board, Picker picker) {
 
 void draw_picker(Board& board) {
   Picker& picker = board.picker;
-  if (picker.is_opening) ImGui::OpenPopup(kName);
+  if (picker.is_opening) ImGui::OpenPopup(kPickerName);
   picker.is_opening = false;
   place_window(board);
-  picker.is_open =
-      ImGui::BeginPopup(kName, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  picker.is_open = ImGui::BeginPopup(
+      kPickerName, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   if (!picker.is_open) return;
   if (!picker.title.empty()) {
     ImGui::PushFont(board.theme().fonts().small);

@@ -1,0 +1,10 @@
+// The number that stands for no index.
+#pragma once
+
+#include <cstdint>
+
+namespace bl {
+
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+}  // namespace bl
