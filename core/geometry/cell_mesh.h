@@ -12,8 +12,8 @@ namespace bl {
 /// Is the point in the ball, and behind all faces by at least `margin` [m]? Relative to the site, as the part is.
 bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin);
 
-/// The parts in the pieces of the domain become one mesh without the faces between the pieces. `centroid` of the shape,
-/// relative to the site.
+/// The parts in the pieces of the domain become one closed mesh that is open from part to part where the ball is. `centroid` of
+/// the shape, relative to the site.
 Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
                const Point3& centroid);
 /// The same parts as fans of triangles, a face's centre first, not wrapped; `wrap` says how make_mesh would go on. The
