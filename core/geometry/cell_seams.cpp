@@ -22,11 +22,21 @@ constexpr double kLeastReach = 1e-7;
 constexpr double kPlaceShare = 1e-9;
 constexpr std::uint32_t kClosed = 0xffffffffu;
 
-// A polygon that two parts have in common and that the ball reaches.
+// A stretch of an opening's rim outside the ball, and the line around the disc that faces it.
+struct OuterStretch {
+  Point3 from, to;
+  std::vector<Point3> inner;  // from the place of `from` on the circle to that of `to`
+};
+
+// A polygon that two parts have in common and that the ball reaches. What both have to agree on is worked out here, once.
 struct Opening {
-  Polygon outline;     // counter-clockwise seen from the first part's outside
-  Point3 centre;       // the point of it that is nearest to the ball's middle
-  double area = 0;
+  Polygon outline;  // counter-clockwise seen from the first part's outside
+  Vector3 normal;   // out of the first part
+  Point3 middle;    // of the disc
+  double disc = 0;  // its radius
+  Point3 centre;    // the point of the outline that is nearest to the ball's middle
+  std::vector<Point3> crossings;
+  std::vector<OuterStretch> outer;
 };
 
 struct SeamFace {
@@ -34,12 +44,12 @@ struct SeamFace {
   double offset = 0;
   Loop loop;
   bool is_inner = false;
-  std::vector<std::pair<std::uint32_t, bool>> openings;  // while they are sought: which, and whether seen from behind
-  std::uint32_t opening = kClosed, seam = 0;             // afterwards: what the whole face is
+  std::vector<std::pair<std::uint32_t, bool>> openings = {};  // while they are sought: which, and whether seen from behind
+  std::uint32_t opening = kClosed, seam = 0;                  // afterwards: what the whole face is
+  bool is_behind = false;
 };
 
 struct SeamPart {
-  std::size_t own = 0;  // corners that the part came with
   std::vector<Point3> corners;
   std::vector<SeamFace> faces;
   std::size_t openings = 0;
@@ -54,6 +64,18 @@ struct SeamPart {
       if (distance(corners[c], place) <= tolerance) return c;
     corners.push_back(place);
     return static_cast<std::uint32_t>(corners.size() - 1);
+  }
+  // Edges of no extent go: their corners become one.
+  void merge_places(double tolerance) {
+    for (SeamFace& face : faces) {
+      Loop loop;
+      for (const std::uint32_t corner : face.loop) {
+        const std::uint32_t place = find_or_add(corners[corner], tolerance);
+        if (loop.empty() || loop.back() != place) loop.push_back(place);
+      }
+      while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+      face.loop = std::move(loop);
+    }
   }
 };
 
@@ -108,6 +130,27 @@ Point3 nearest_in(const Polygon& polygon, const Vector3& normal, double offset) 
   return is_inside ? foot : best;
 }
 
+// What lies between a stretch of the rim and the line that faces it: a triangle at both ends, and what is between them.
+void add_sector(const Loop& path, const Loop& inner, std::vector<Loop>& loops) {
+  const auto add = [&](Loop loop) {
+    loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
+    while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+    if (loop.size() > 2) loops.push_back(std::move(loop));
+  };
+  const std::size_t count = inner.size();
+  Loop between = path;
+  if (count > 2) {
+    add({inner[0], path.front(), inner[1]});
+    add({inner[count - 2], path.back(), inner[count - 1]});
+    between.insert(between.begin(), inner[1]);
+    if (count > 3) between.push_back(inner[2]);
+  } else {
+    between.insert(between.begin(), inner.front());
+    between.push_back(inner.back());
+  }
+  add(std::move(between));
+}
+
 class SeamMaker {
  public:
   SeamMaker(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, double squared_radius)
@@ -116,30 +159,25 @@ class SeamMaker {
       SeamPart& part = parts_.emplace_back();
       if (shapes[k].is_empty) continue;
       part.corners = parts[k].vertices;
-      part.own = part.corners.size();
       for (const PolyhedronFace& face : parts[k].faces) {
         const auto loop = parts[k].loop(face);
-        part.faces.push_back({face.normal, face.offset, Loop(loop.begin(), loop.end()), face.kind == FaceKind::inner, {}, kClosed, 0});
+        part.faces.push_back({face.normal, face.offset, Loop(loop.begin(), loop.end()), face.kind == FaceKind::inner});
       }
     }
   }
 
   std::vector<OpenPart> run() {
     find_openings();
+    for (Opening& opening : openings_) work_out(opening);
     for (SeamPart& part : parts_) split_faces(part);
     share_corners();
     std::vector<OpenPart> out;
-    for (SeamPart& part : parts_) {
-      if (part.openings > 0) cross_rims(part);
-      out.push_back(finish(part));
-    }
+    for (SeamPart& part : parts_) out.push_back(finish(part));
     return out;
   }
 
  private:
   bool is_reached(const SeamFace& face) const { return face.is_inner && std::abs(face.offset) < radius_; }
-  bool is_in_ball(const Point3& p) const { return squared_norm(p) <= radius_ * radius_; }
-  bool is_on_ball(const Point3& p) const { return std::abs(norm(p) - radius_) <= 2 * tolerance_; }
 
   void find_openings() {
     // A ball that is hardly larger than rounding has no disc that could be told from a point.
@@ -155,19 +193,26 @@ class SeamMaker {
 
   void join(SeamPart& a, SeamFace& own, SeamPart& b, SeamFace& other) {
     if (a.openings >= MeshWrap::kMostSeams || b.openings >= MeshWrap::kMostSeams) return;
-    Opening opening{a.polygon(own.loop), {}, 0};
     const Polygon bounds = b.polygon(other.loop);
     for (const Point3& corner : bounds)
       if (std::abs(dot(own.normal, corner) - own.offset) > 4 * tolerance_) return;
+    Polygon common = a.polygon(own.loop);
     Vector3 outward;
     double offset = 0;
-    for (std::size_t i = 0; i < bounds.size() && !opening.outline.empty(); ++i)
+    for (std::size_t i = 0; i < bounds.size() && !common.empty(); ++i)
       if (edge_line(bounds, i, other.normal, tolerance_, outward, offset))
-        opening.outline = cut_outline(opening.outline, outward, offset, tolerance_).first;
-    opening.area = outline_area(opening.outline);
-    if (!(opening.area > tolerance_ * radius_)) return;
+        common = cut_outline(common, outward, offset, tolerance_).first;
+    if (!(outline_area(common) > tolerance_ * radius_)) return;
+    Opening opening;
+    for (const Point3& corner : common)
+      if (opening.outline.empty() ||
+          (distance(opening.outline.back(), corner) > tolerance_ && distance(opening.outline.front(), corner) > tolerance_))
+        opening.outline.push_back(corner);
+    opening.normal = own.normal;
+    opening.middle = own.offset * own.normal;
+    opening.disc = std::sqrt(std::max(0.0, radius_ * radius_ - own.offset * own.offset));
     opening.centre = nearest_in(opening.outline, own.normal, own.offset);
-    if (!(norm(opening.centre) < (1 - kLeastReach) * radius_)) return;
+    if (!(norm(opening.centre) < (1 - kLeastReach) * radius_) || opening.outline.size() < 3) return;
     const auto number = static_cast<std::uint32_t>(openings_.size());
     own.openings.emplace_back(number, false);
     other.openings.emplace_back(number, true);
@@ -176,28 +221,73 @@ class SeamMaker {
     openings_.push_back(std::move(opening));
   }
 
-  // A face that is all of one opening is that; any other becomes one face for each of its openings, and the rest.
+  // Cuts the rim where it goes through the ball's surface, and draws a line around the disc along what lies outside.
+  void work_out(Opening& opening) const {
+    for (std::size_t i = 0; i < opening.outline.size(); ++i) {
+      const Point3 start = opening.outline[i], end = opening.outline[(i + 1) % opening.outline.size()];
+      std::vector<Point3> places{start};
+      const Vector3 way = end - start;
+      const double a = squared_norm(way), b = dot(start, way), c = squared_norm(start) - radius_ * radius_;
+      const double root = std::sqrt(std::max(0.0, b * b - a * c)), length = std::sqrt(a);
+      // A chord this short is a tangent.
+      for (const double sign : {-1.0, 1.0}) {
+        const double t = (-b + sign * root) / a;
+        if (2 * root <= 1e-6 * radius_ * length || t * length <= tolerance_ || t * length >= length - tolerance_) continue;
+        places.push_back(start + t * way);
+        opening.crossings.push_back(places.back());
+      }
+      places.push_back(end);
+      for (std::size_t k = 0; k + 1 < places.size(); ++k)
+        if (norm(0.5 * (places[k] + places[k + 1])) > radius_)
+          opening.outer.push_back({places[k], places[k + 1], inner_line(opening, places[k], places[k + 1])});
+    }
+  }
+
+  // A point of the rim as it is seen from the opening's centre: its place on the circle, itself where it lies there.
+  Point3 on_circle(const Point3& centre, const Point3& place) const {
+    return std::abs(norm(place) - radius_) <= 2 * tolerance_ ? place : place_on_ball(radius_ * radius_, centre, place);
+  }
+
+  // Between the places of two points on the circle, outside of it and on its side of the rim: along tangents in both places and in
+  // the one that is nearest to the rim. That one's line has the whole stretch behind it; where it touches beyond the two places,
+  // the others' lines have.
+  std::vector<Point3> inner_line(const Opening& opening, const Point3& from, const Point3& to) const {
+    const Point3 first = on_circle(opening.centre, from), last = on_circle(opening.centre, to);
+    if (distance(first, last) <= tolerance_) return {first};
+    const Vector3 along = to - from;
+    const double at = dot(opening.middle - from, along) / std::max(1e-300, squared_norm(along));
+    const Vector3 towards = from + std::clamp(at, 0.0, 1.0) * along - opening.middle;
+    const Vector3 nearest = towards / std::max(1e-300, norm(towards));
+    std::vector<Vector3> touching{(first - opening.middle) / opening.disc, (last - opening.middle) / opening.disc};
+    const auto turn = [&](const Vector3& a, const Vector3& b) { return dot(opening.normal, cross(a, b)); };
+    if (turn(touching[0], touching[1]) < 1e-6) return {first, last};
+    if (turn(touching[0], nearest) > 1e-6 && turn(nearest, touching[1]) > 1e-6) touching.insert(touching.begin() + 1, nearest);
+    std::vector<Point3> line{first};
+    for (std::size_t k = 0; k + 1 < touching.size(); ++k) {
+      const double scale = opening.disc / (1 + dot(touching[k], touching[k + 1]));
+      line.push_back(opening.middle + scale * (touching[k] + touching[k + 1]));
+    }
+    line.push_back(last);
+    return line;
+  }
+
+  // A face with openings becomes one face for each of them, and the rest.
   void split_faces(SeamPart& part) {
+    if (part.openings == 0) return;
+    part.merge_places(tolerance_);
     const std::size_t count = part.faces.size();
     std::uint32_t seam = 0;
     for (std::size_t f = 0; f < count; ++f) {
-      const auto openings = part.faces[f].openings;
-      if (openings.empty()) continue;
-      const Polygon whole = part.polygon(part.faces[f].loop);
       SeamFace piece = part.faces[f];
-      part.faces[f].seam = seam;
-      part.faces[f].opening = openings.front().first;
-      if (openings.size() == 1 && openings_[openings.front().first].area >= (1 - 1e-9) * outline_area(whole)) {
-        ++seam;
-        continue;
-      }
-      std::vector<Polygon> rest{whole};
+      if (piece.openings.empty()) continue;
+      std::vector<Polygon> rest{part.polygon(piece.loop)};
       part.faces[f].loop.clear();
-      for (const auto& [number, is_behind] : openings) {
+      for (const auto& [number, is_behind] : piece.openings) {
         piece.opening = number;
+        piece.is_behind = is_behind;
         piece.seam = seam++;
         add_piece(part, piece, openings_[number].outline, is_behind);
-        rest = without(rest, openings_[number].outline, is_behind ? -piece.normal : piece.normal);
+        rest = without(rest, openings_[number]);
       }
       piece.opening = kClosed;
       for (const Polygon& polygon : rest) add_piece(part, piece, polygon, false);
@@ -215,13 +305,13 @@ class SeamMaker {
     part.faces.push_back(std::move(piece));
   }
 
-  std::vector<Polygon> without(const std::vector<Polygon>& polygons, const Polygon& taken, const Vector3& normal) const {
+  std::vector<Polygon> without(const std::vector<Polygon>& polygons, const Opening& opening) const {
     std::vector<Polygon> left;
     for (Polygon inside : polygons) {
       Vector3 outward;
       double offset = 0;
-      for (std::size_t i = 0; i < taken.size() && !inside.empty(); ++i) {
-        if (!edge_line(taken, i, normal, tolerance_, outward, offset)) continue;
+      for (std::size_t i = 0; i < opening.outline.size() && !inside.empty(); ++i) {
+        if (!edge_line(opening.outline, i, opening.normal, tolerance_, outward, offset)) continue;
         auto [in, out] = cut_outline(inside, outward, offset, tolerance_);
         if (outline_area(out) > tolerance_ * radius_) left.push_back(std::move(out));
         inside = std::move(in);
@@ -230,35 +320,36 @@ class SeamMaker {
     return left;
   }
 
-  // In the ball every part gets the corners that others have on its edges; everywhere those that it has got itself.
+  // Every edge gets the corners that lie on it: the part's own wherever they are, those of others in the ball, and where openings
+  // have their rim on the ball.
   void share_corners() {
     std::vector<Point3> shared;
+    for (const Opening& opening : openings_) shared.insert(shared.end(), opening.crossings.begin(), opening.crossings.end());
     for (const SeamPart& part : parts_)
       for (const Point3& corner : part.corners)
         if (part.openings > 0 && norm(corner) <= radius_ + tolerance_) shared.push_back(corner);
     for (SeamPart& part : parts_) {
       if (part.openings == 0) continue;
-      std::vector<Point3> places(part.corners.begin() + static_cast<std::ptrdiff_t>(part.own), part.corners.end());
+      std::vector<Point3> places = part.corners;
       places.insert(places.end(), shared.begin(), shared.end());
-      insert(part, [&](std::uint32_t from, std::uint32_t to) {
-        const Point3 start = part.corners[from];
-        const Vector3 way = part.corners[to] - start;
-        const double length = norm(way);
-        std::vector<std::pair<double, Point3>> found;
-        for (const Point3& place : places) {
-          const double at = dot(place - start, way) / std::max(1e-300, length);
-          if (at > 2 * tolerance_ && at < length - 2 * tolerance_ &&
-              distance(place, start + (at / length) * way) <= 2 * tolerance_)
-            found.emplace_back(at, place);
-        }
-        return found;
-      });
+      insert(part, places);
     }
   }
 
-  // `on_edge(from, to)` says what is to be inserted there: how far from `from`, and where.
-  template <class OnEdge>
-  void insert(SeamPart& part, const OnEdge& on_edge) {
+  std::vector<std::pair<double, Point3>> places_on(const Point3& start, const Point3& end, std::span<const Point3> places) const {
+    std::vector<std::pair<double, Point3>> found;
+    const double length = distance(start, end);
+    const Vector3 along = (end - start) / std::max(1e-300, length);
+    for (const Point3& place : places) {
+      const double at = dot(place - start, along);
+      if (at > tolerance_ && at < length - tolerance_ && distance(place, start + at * along) <= 2 * tolerance_)
+        found.emplace_back(at, place);
+    }
+    std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    return found;
+  }
+
+  void insert(SeamPart& part, std::span<const Point3> places) const {
     std::map<EdgeKey, Loop> inserted;
     for (SeamFace& face : part.faces) {
       Loop loop;
@@ -266,13 +357,10 @@ class SeamMaker {
         const std::uint32_t a = face.loop[i], b = face.loop[(i + 1) % face.loop.size()];
         const EdgeKey key = std::minmax(a, b);
         const auto [it, is_new] = inserted.emplace(key, Loop());
-        if (is_new) {
-          auto found = on_edge(key.first, key.second);
-          std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-          for (const auto& [at, place] : found) {
-            const std::uint32_t corner = part.find_or_add(place, tolerance_);
-            if (corner != a && corner != b && (it->second.empty() || it->second.back() != corner)) it->second.push_back(corner);
-          }
+        for (const auto& [at, place] : is_new ? places_on(part.corners[key.first], part.corners[key.second], places)
+                                              : std::vector<std::pair<double, Point3>>()) {
+          const std::uint32_t corner = part.find_or_add(place, tolerance_);
+          if (corner != a && corner != b && (it->second.empty() || it->second.back() != corner)) it->second.push_back(corner);
         }
         loop.push_back(a);
         if (a < b) loop.insert(loop.end(), it->second.begin(), it->second.end());
@@ -282,36 +370,10 @@ class SeamMaker {
     }
   }
 
-  // Where the rim of an opening goes through the ball's surface both faces of the edge get a corner.
-  void cross_rims(SeamPart& part) {
-    std::vector<EdgeKey> rims;
-    for (const SeamFace& face : part.faces)
-      for (std::size_t i = 0; face.opening != kClosed && i < face.loop.size(); ++i)
-        rims.push_back(std::minmax(face.loop[i], face.loop[(i + 1) % face.loop.size()]));
-    std::sort(rims.begin(), rims.end());
-    insert(part, [&](std::uint32_t from, std::uint32_t to) {
-      std::vector<std::pair<double, Point3>> found;
-      if (!std::binary_search(rims.begin(), rims.end(), EdgeKey{from, to})) return found;
-      const Point3 start = part.corners[from];
-      const Vector3 way = part.corners[to] - start;
-      const double a = squared_norm(way), b = dot(start, way), c = squared_norm(start) - radius_ * radius_;
-      const double discriminant = b * b - a * c, length = std::sqrt(a);
-      // A chord this short is a tangent.
-      if (!(discriminant > 0) || 2 * std::sqrt(discriminant) <= 1e-6 * radius_ * length) return found;
-      for (const double sign : {-1.0, 1.0}) {
-        const double t = (-b + sign * std::sqrt(discriminant)) / a;
-        if (t * length > tolerance_ && t * length < length - tolerance_) found.emplace_back(t * length, start + t * way);
-      }
-      return found;
-    });
-  }
-
-  OpenPart finish(SeamPart& part) {
+  OpenPart finish(SeamPart& part) const {
     OpenPart out;
-    std::vector<SeamFace> faces;
-    faces.swap(part.faces);
     out.seams.resize(part.openings);
-    for (const SeamFace& face : faces) {
+    for (const SeamFace& face : part.faces) {
       if (face.opening == kClosed) out.loops.push_back(face.loop);
       else open(part, face, out);
     }
@@ -320,66 +382,29 @@ class SeamMaker {
     return out;
   }
 
-  // A corner of the face as it is seen from the opening's centre: its place on the circle, itself where it lies there.
-  std::uint32_t on_circle(SeamPart& part, std::uint32_t corner, const Point3& centre) const {
-    const Point3 place = part.corners[corner];
-    if (is_on_ball(place)) return corner;
-    return part.find_or_add(place_on_ball(radius_ * radius_, centre, place), tolerance_);
-  }
-
   void open(SeamPart& part, const SeamFace& face, OpenPart& out) const {
-    const Point3 centre = openings_[face.opening].centre;
-    out.seams[face.seam] = centre;
-    const std::uint32_t bit = 1u << face.seam;
-    for (std::size_t i = 0; i < face.loop.size(); ++i) {
-      const std::uint32_t a = face.loop[i], b = face.loop[(i + 1) % face.loop.size()];
-      if (is_in_ball(0.5 * (part.corners[a] + part.corners[b]))) continue;
-      const Loop inner = inner_line(part, face, a, b, centre);
+    const Opening& opening = openings_[face.opening];
+    out.seams[face.seam] = opening.centre;
+    for (const OuterStretch& stretch : opening.outer) {
+      Loop inner;
+      for (const Point3& place : stretch.inner) inner.push_back(part.find_or_add(place, tolerance_));
       out.marks.resize(part.corners.size(), 0);
-      for (const std::uint32_t corner : inner) out.marks[corner] |= bit;
-      add_sector(a, b, inner, out);
+      for (const std::uint32_t corner : inner) out.marks[corner] |= 1u << face.seam;
+      std::uint32_t from = part.find_or_add(stretch.from, tolerance_), to = part.find_or_add(stretch.to, tolerance_);
+      if (face.is_behind) {
+        std::swap(from, to);
+        std::reverse(inner.begin(), inner.end());
+      }
+      add_sector(path_along(face.loop, from, to), inner, out.loops);
     }
   }
 
-  // Between the places of a and b on the circle, outside of it and on its side of the edge: along tangents in both places and in
-  // the one that is nearest to the edge. That one's line has the whole edge behind it; where it touches beyond the two places,
-  // the others' lines have.
-  Loop inner_line(SeamPart& part, const SeamFace& face, std::uint32_t a, std::uint32_t b, const Point3& centre) const {
-    const std::uint32_t first = on_circle(part, a, centre), last = on_circle(part, b, centre);
-    if (first == last) return {first};
-    const Point3 middle = face.offset * face.normal, start = part.corners[a];
-    const double disc = std::sqrt(std::max(0.0, radius_ * radius_ - face.offset * face.offset));
-    const Vector3 along = part.corners[b] - start;
-    const Point3 nearest =
-        start + std::clamp(dot(middle - start, along) / std::max(1e-300, squared_norm(along)), 0.0, 1.0) * along;
-    std::vector<Vector3> touching{(part.corners[first] - middle) / disc, (part.corners[last] - middle) / disc};
-    const Vector3 towards = (nearest - middle) / std::max(1e-300, distance(nearest, middle));
-    const auto turn = [&](const Vector3& from, const Vector3& to) { return dot(face.normal, cross(from, to)); };
-    if (turn(touching[0], touching[1]) < 1e-9) return {first, last};
-    if (turn(touching[0], towards) > 1e-9 && turn(towards, touching[1]) > 1e-9) touching.insert(touching.begin() + 1, towards);
-    Loop line{first};
-    for (std::size_t k = 0; k + 1 < touching.size(); ++k) {
-      const double scale = disc / (1 + dot(touching[k], touching[k + 1]));
-      part.corners.push_back(middle + scale * (touching[k] + touching[k + 1]));
-      line.push_back(static_cast<std::uint32_t>(part.corners.size() - 1));
-    }
-    line.push_back(last);
-    return line;
-  }
-
-  // What lies between an edge of the face and the inner line: a triangle at both ends, and what is between them.
-  static void add_sector(std::uint32_t a, std::uint32_t b, const Loop& inner, OpenPart& out) {
-    const auto add = [&](Loop loop) {
-      loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
-      if (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-      if (loop.size() > 2) out.loops.push_back(std::move(loop));
-    };
-    const std::size_t count = inner.size();
-    if (count <= 2) return add({inner.front(), a, b, inner.back()});
-    add({inner[0], a, inner[1]});
-    if (count == 3) add({inner[1], a, b});
-    else add({inner[1], a, b, inner[2]});
-    add({inner[count - 2], b, inner[count - 1]});
+  static Loop path_along(const Loop& loop, std::uint32_t from, std::uint32_t to) {
+    const auto begin = std::find(loop.begin(), loop.end(), from);
+    Loop path{from};
+    if (begin == loop.end() || std::find(loop.begin(), loop.end(), to) == loop.end()) return {from, to};
+    for (auto at = begin; *at != to; path.push_back(*at)) at = at + 1 == loop.end() ? loop.begin() : at + 1;
+    return path;
   }
 
   double radius_, tolerance_;
