@@ -13,14 +13,14 @@ namespace bl {
 
 namespace {
 
-using Loop = std::vector<std::uint32_t>;
-using EdgeKey = std::pair<std::uint32_t, std::uint32_t>;
+using CornerLoop = std::vector<std::uint32_t>;
+using CornerPair = std::pair<std::uint32_t, std::uint32_t>;
 
 // A disc that is smaller than the ball by more than three orders of magnitude is no opening: the radius left of the ball there.
 constexpr double kLeastReach = 1e-7;
 // Of the parts' extent: what rounding may move a corner by, with room.
-constexpr double kPlaceShare = 1e-9;
-constexpr std::uint32_t kClosed = 0xffffffffu;
+constexpr double kSeamShare = 1e-9;
+constexpr std::uint32_t kNoOpening = 0xffffffffu;
 
 // A stretch of an opening's rim outside the ball, and the line around the disc that faces it.
 struct OuterStretch {
@@ -42,10 +42,10 @@ struct Opening {
 struct SeamFace {
   Vector3 normal;
   double offset = 0;
-  Loop loop;
+  CornerLoop loop;
   bool is_inner = false;
   std::vector<std::pair<std::uint32_t, bool>> openings = {};  // while they are sought: which, and whether seen from behind
-  std::uint32_t opening = kClosed, seam = 0;                  // afterwards: what the whole face is
+  std::uint32_t opening = kNoOpening, seam = 0;                  // afterwards: what the whole face is
   bool is_behind = false;
 };
 
@@ -54,7 +54,7 @@ struct SeamPart {
   std::vector<SeamFace> faces;
   std::size_t openings = 0;
 
-  Polygon polygon(const Loop& loop) const {
+  Polygon polygon(const CornerLoop& loop) const {
     Polygon points;
     for (const std::uint32_t c : loop) points.push_back(corners[c]);
     return points;
@@ -68,7 +68,7 @@ struct SeamPart {
   // Edges of no extent go: their corners become one.
   void merge_places(double tolerance) {
     for (SeamFace& face : faces) {
-      Loop loop;
+      CornerLoop loop;
       for (const std::uint32_t corner : face.loop) {
         const std::uint32_t place = find_or_add(corners[corner], tolerance);
         if (loop.empty() || loop.back() != place) loop.push_back(place);
@@ -131,14 +131,14 @@ Point3 nearest_in(const Polygon& polygon, const Vector3& normal, double offset) 
 }
 
 // What lies between a stretch of the rim and the line that faces it: a triangle at both ends, and what is between them.
-void add_sector(const Loop& path, const Loop& inner, std::vector<Loop>& loops) {
-  const auto add = [&](Loop loop) {
+void add_sector(const CornerLoop& path, const CornerLoop& inner, std::vector<CornerLoop>& loops) {
+  const auto add = [&](CornerLoop loop) {
     loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
     while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
     if (loop.size() > 2) loops.push_back(std::move(loop));
   };
   const std::size_t count = inner.size();
-  Loop between = path;
+  CornerLoop between = path;
   if (count > 2) {
     add({inner[0], path.front(), inner[1]});
     add({inner[count - 2], path.back(), inner[count - 1]});
@@ -161,7 +161,7 @@ class SeamMaker {
       part.corners = parts[k].vertices;
       for (const PolyhedronFace& face : parts[k].faces) {
         const auto loop = parts[k].loop(face);
-        part.faces.push_back({face.normal, face.offset, Loop(loop.begin(), loop.end()), face.kind == FaceKind::inner});
+        part.faces.push_back({face.normal, face.offset, CornerLoop(loop.begin(), loop.end()), face.kind == FaceKind::inner});
       }
     }
   }
@@ -289,7 +289,7 @@ class SeamMaker {
         add_piece(part, piece, openings_[number].outline, is_behind);
         rest = without(rest, openings_[number]);
       }
-      piece.opening = kClosed;
+      piece.opening = kNoOpening;
       for (const Polygon& polygon : rest) add_piece(part, piece, polygon, false);
     }
     std::erase_if(part.faces, [](const SeamFace& face) { return face.loop.size() < 3; });
@@ -350,13 +350,13 @@ class SeamMaker {
   }
 
   void insert(SeamPart& part, std::span<const Point3> places) const {
-    std::map<EdgeKey, Loop> inserted;
+    std::map<CornerPair, CornerLoop> inserted;
     for (SeamFace& face : part.faces) {
-      Loop loop;
+      CornerLoop loop;
       for (std::size_t i = 0; i < face.loop.size(); ++i) {
         const std::uint32_t a = face.loop[i], b = face.loop[(i + 1) % face.loop.size()];
-        const EdgeKey key = std::minmax(a, b);
-        const auto [it, is_new] = inserted.emplace(key, Loop());
+        const CornerPair key = std::minmax(a, b);
+        const auto [it, is_new] = inserted.emplace(key, CornerLoop());
         for (const auto& [at, place] : is_new ? places_on(part.corners[key.first], part.corners[key.second], places)
                                               : std::vector<std::pair<double, Point3>>()) {
           const std::uint32_t corner = part.find_or_add(place, tolerance_);
@@ -374,7 +374,7 @@ class SeamMaker {
     OpenPart out;
     out.seams.resize(part.openings);
     for (const SeamFace& face : part.faces) {
-      if (face.opening == kClosed) out.loops.push_back(face.loop);
+      if (face.opening == kNoOpening) out.loops.push_back(face.loop);
       else open(part, face, out);
     }
     out.corners = std::move(part.corners);
@@ -386,7 +386,7 @@ class SeamMaker {
     const Opening& opening = openings_[face.opening];
     out.seams[face.seam] = opening.centre;
     for (const OuterStretch& stretch : opening.outer) {
-      Loop inner;
+      CornerLoop inner;
       for (const Point3& place : stretch.inner) inner.push_back(part.find_or_add(place, tolerance_));
       out.marks.resize(part.corners.size(), 0);
       for (const std::uint32_t corner : inner) out.marks[corner] |= 1u << face.seam;
@@ -399,9 +399,9 @@ class SeamMaker {
     }
   }
 
-  static Loop path_along(const Loop& loop, std::uint32_t from, std::uint32_t to) {
+  static CornerLoop path_along(const CornerLoop& loop, std::uint32_t from, std::uint32_t to) {
     const auto begin = std::find(loop.begin(), loop.end(), from);
-    Loop path{from};
+    CornerLoop path{from};
     if (begin == loop.end() || std::find(loop.begin(), loop.end(), to) == loop.end()) return {from, to};
     for (auto at = begin; *at != to; path.push_back(*at)) at = at + 1 == loop.end() ? loop.begin() : at + 1;
     return path;
@@ -417,7 +417,7 @@ class SeamMaker {
 double seam_tolerance(std::span<const Polyhedron> parts) {
   double squared = 0;
   for (const Polyhedron& part : parts) squared = std::max(squared, part.reach_squared);
-  return kPlaceShare * std::sqrt(squared);
+  return kSeamShare * std::sqrt(squared);
 }
 
 std::vector<OpenPart> open_parts(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, double squared_radius) {

@@ -9,7 +9,6 @@
 
 #include "core/geometry/none.h"
 
-
 namespace bl {
 
 namespace {

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/geometry/cell_workshop.h"
 #include "core/geometry/fit_outcome.h"
@@ -41,7 +42,7 @@ class Attempt {
     const double tolerance = has_floors_ ? 0.3 * options_.tolerance : options_.tolerance;
     if (auto done = fit(tolerance); !done) return done.error();
     for (int k = 0; has_floors_ && k < kMostCorrections && result_.last.is_met && result_.last.infeasible.empty(); ++k) {
-      if (result_.is_stopped || result_.evaluations >= options_.most_steps) break;
+      if (result_.is_stopped || result_.evaluations >= options_.most_steps || is_stop_wished()) break;
       const auto cells = measure();
       if (!cells) return cells.error();
       if (correct_floors(asked_, *cells, options_.tolerance, problem_)) break;
@@ -62,7 +63,7 @@ class Attempt {
     Start start = Start::given;
     double best = kNoNumber, error = kNoNumber, residual = kNoNumber;  // of all starts; of this one
     int evaluations = 0, since = 0;                                    // since the start, and since it last came much nearer
-    std::vector<double> best_weights;
+    std::vector<double> best_weights, best_volumes;
 
     void begin(Start with) {
       start = with;
@@ -85,6 +86,7 @@ class Attempt {
       if (best_weights.empty() || last.error < best) {
         best = last.error;
         best_weights = last.evaluated;
+        best_volumes = last.volumes;
       }
     }
   };
@@ -104,6 +106,7 @@ class Attempt {
     while (true) {
       step.with_rays = search.start != Start::even;
       auto report = adapt_weights(domain_, problem_, state, step);
+      if (is_stop_wished()) return end_at_once(search);
       if (!report) return report.error();
       ++result_.evaluations;
       result_.iterations += report->iterations;
@@ -116,7 +119,10 @@ class Attempt {
       if (last.is_met || !goes_on || result_.evaluations >= options_.most_steps || search.since > kStalled) {
         result_.is_stopped = !goes_on;
         // A step that went too far is no result: the best one is.
-        if (!last.is_met) result_.last.evaluated = search.best_weights;
+        if (!last.is_met) {
+          result_.last.evaluated = search.best_weights;
+          result_.last.volumes = search.best_volumes;
+        }
         return {};
       }
       if (is_time_for_another(search)) {
@@ -128,6 +134,15 @@ class Attempt {
         use(last.weights);
       }
     }
+  }
+
+  // What an evaluation has left that was stopped on the way is nothing to go by: the best one before it counts.
+  Result<void> end_at_once(const Search& search) {
+    result_.is_stopped = is_cut_short_ = true;
+    result_.last.is_met = false;
+    result_.last.evaluated = search.best_weights;
+    result_.last.volumes = search.best_volumes;
+    return {};
   }
 
   // Weights to start from may be a place that no step leads out of, and so may those that rays have found.
@@ -172,7 +187,32 @@ class Attempt {
     return with_floors_.update(evaluated(), cells);
   }
 
+  // Without measuring once more.
+  VolumeFit finish_at_once() const {
+    VolumeFit fit;
+    fit.status = FitStatus::cancelled;
+    fit.iterations = result_.iterations;
+    fit.evaluations = result_.evaluations;
+    fit.weights = result_.last.evaluated;
+    fit.volumes = result_.last.volumes;
+    for (std::size_t i = fit.weights.size(); i < asked_.sites.size(); ++i) fit.weights.push_back(asked_.sites[i].weight);
+    fit.max_relative_error = std::numeric_limits<double>::quiet_NaN();  // floors and stopped evaluations have none
+    for (std::uint32_t k = 0; k < asked_.demands.size() && !fit.volumes.empty() && !has_floors_; ++k) {
+      const VolumeDemand& demand = asked_.demands[k];
+      double has = 0;
+      for (const std::uint32_t i : demand.sites) has += fit.volumes[i];
+      const double bound = std::clamp(has, demand.least, demand.most);
+      const double error = bound > 0 ? std::abs(has - bound) / bound : has > 0 ? 1.0 : 0.0;
+      if (error > options_.tolerance) fit.losses.push_back({k, bound, has});
+      if (error <= fit.max_relative_error) continue;
+      fit.max_relative_error = error;
+      fit.worst_demand = k;
+    }
+    return fit;
+  }
+
   Result<VolumeFit> finish() {
+    if (is_cut_short_ || is_stop_wished()) return finish_at_once();
     VolumeFit fit;
     const auto cells = measure();
     if (!cells) return cells.error();
@@ -216,7 +256,7 @@ class Attempt {
   const VolumeFitOptions& options_;
   PowerDiagram diagram_, with_floors_;
   Outcome result_;
-  bool has_floors_ = false;
+  bool has_floors_ = false, is_cut_short_ = false;
 };
 
 }  // namespace

@@ -96,13 +96,12 @@ SavedState save(const State& state) {
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const AnalysisState& now = state.analyses[a];
     if (now.as_of < 0 && now.due < 0) continue;
-    saved.analyses[analysis_name(*state.plan, a)] = {now.as_of,
-                                                     now.taken,
-                                                     now.begun,
-                                                     now.due,
-                                                     now.inputs,
-                                                     now.running_inputs,
-                                                     now.running ? now.running->result() : AnalysisResult{}};
+    const AnalysisResult* result = now.running ? now.running->result() : nullptr;
+    // Of a run that is to end at once, one that is under way is left out: the next tick begins it again.
+    const bool is_kept = !now.running || result != nullptr;
+    SavedAnalysis& kept = saved.analyses[analysis_name(*state.plan, a)];
+    kept = {now.as_of, now.taken, -1, -1, now.inputs, 0, {}};
+    if (is_kept) kept = {now.as_of, now.taken, now.begun, now.due, now.inputs, now.running_inputs, result ? *result : AnalysisResult{}};
   }
   // What a failing solver leaves standing cannot be made again from inputs that it refuses.
   for (const SetPlan& set : state.plan->sets)

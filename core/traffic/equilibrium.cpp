@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop_check.h"
+
 namespace bl {
 
 namespace {
