@@ -18,8 +18,7 @@ class ThreadPool {
 
   int threads() const { return threads_; }
   /// Calls body(begin, end) for consecutive chunks of `grain` indices that cover [0, count).
-  /// Chunk borders depend on count and grain only. The first exception of a body is thrown again here. Where the caller's work may
-  /// be stopped (core/base/stop) all threads know it, and chunks that are not begun when it is are left out.
+  /// Chunk borders depend on count and grain only. The first exception of a body is thrown again here.
   void for_each_chunk(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
  private:

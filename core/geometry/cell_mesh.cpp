@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/geometry/cell_seams.h"
+#include "core/geometry/none.h"
 #include "core/geometry/tessellate.h"
 
 namespace bl {
@@ -16,6 +17,8 @@ namespace {
 
 // A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
 constexpr double kInsideShare = 1e-6;
+// Of the ball's radius: places of two parts that are no farther apart are one.
+constexpr double kStudyWeld = 1e-7;
 constexpr double kUnwrapped = std::numeric_limits<double>::infinity();
 
 Mesh mesh_of_one(const Polyhedron& part, double radius, int depth, const Point3& centre, const Point3& at) {
@@ -59,6 +62,20 @@ void weld_borders(Mesh& mesh, const std::vector<std::uint32_t>& border, double t
   mesh.vertices.resize(count);
   for (auto& triangle : mesh.triangles)
     for (std::uint32_t& corner : triangle) corner = number[twin[corner]];
+}
+
+void drop_unused(Mesh& mesh) {
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kNone);
+  std::vector<Point3> used;
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle) {
+      if (number[corner] == kNone) {
+        number[corner] = static_cast<std::uint32_t>(used.size());
+        used.push_back(mesh.vertices[corner]);
+      }
+      corner = number[corner];
+    }
+  mesh.vertices = std::move(used);
 }
 
 }  // namespace
@@ -112,6 +129,45 @@ MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const 
     wrap.parts.push_back(std::move(part));
   }
   whole.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
+  return std::make_shared<const Mesh>(std::move(whole));
+}
+
+MeshPointer study_mesh(const MeshPointer& mesh) {
+  if (!mesh || !mesh->coarse || !mesh->coarse->wrap) return mesh;
+  const Mesh& coarse = *mesh->coarse;
+  const MeshWrap& wrap = *coarse.wrap;
+  if (mesh->triangles.size() == coarse.triangles.size() << (2 * kStudyDepth)) return mesh;
+  Mesh whole;
+  std::vector<std::uint32_t> border, own;
+  std::size_t at = 0;
+  for (const MeshWrap::Part& part : wrap.parts) {
+    const auto triangles = std::span(coarse.triangles).subspan(at, part.triangles);
+    at += part.triangles;
+    std::uint32_t lowest = kNone, end = 0;
+    for (const auto& [a, b, c] : triangles) {
+      lowest = std::min({lowest, a, b, c});
+      end = std::max({end, a + 1, b + 1, c + 1});
+    }
+    if (triangles.empty()) continue;
+    // The triangles of a face share their first corner, and the second ones go round it.
+    std::vector<std::vector<std::uint32_t>> loops;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (t == 0 || triangles[t][0] != triangles[t - 1][0]) loops.emplace_back();
+      loops.back().push_back(triangles[t][1] - lowest);
+    }
+    std::vector<Point3> corners;
+    for (std::uint32_t v = lowest; v < end; ++v) corners.push_back(coarse.vertices[v] - wrap.ball_centre);
+    std::vector<Point3> seams;
+    for (const Point3& seam : part.seams) seams.push_back(seam - wrap.ball_centre);
+    const std::vector<FaceLoop> faces(loops.begin(), loops.end());
+    const WrapTargets targets{part.centre - wrap.ball_centre, std::span(wrap.seams).subspan(lowest, end - lowest), seams};
+    const auto first = static_cast<std::uint32_t>(whole.vertices.size());
+    append_mesh(tessellate(corners, faces, kStudyDepth, wrap.radius, targets, wrap.ball_centre, &own), whole);
+    for (const std::uint32_t vertex : own) border.push_back(first + vertex);
+  }
+  weld_borders(whole, border, kStudyWeld * wrap.radius);
+  // The centres of the coarse faces among them.
+  drop_unused(whole);
   return std::make_shared<const Mesh>(std::move(whole));
 }
 

@@ -1,6 +1,7 @@
 // The meshes of one cell in all pieces of its domain: finely divided and wrapped, or coarse for a graphics processor to wrap.
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "core/base/mesh.h"
@@ -20,5 +21,12 @@ Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> 
 /// triangles come in the order in which make_mesh divides them.
 MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site,
                              const Point3& centroid);
+
+/// Faces of shapes that studies measure with are split in four so many times.
+inline constexpr int kStudyDepth = 1;
+
+/// The mesh of a cell as studies see it, however finely it is shown: of kStudyDepth, made from its coarse one. A mesh without a
+/// coarse one is what it is; nullptr stays nullptr.
+MeshPointer study_mesh(const MeshPointer& mesh);
 
 }  // namespace bl

@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "core/geometry/cell_mesh.h"
 #include "core/geometry/domain_makers.h"
 #include "core/geometry/site_domain.h"
 #include "tests/core/geometry/geometry_support.h"
@@ -44,7 +45,9 @@ struct MeshLosses {
 };
 
 void expect_closed(const Domain& domain, const std::vector<PowerSite>& sites, const std::string& name, MeshLosses& losses) {
+  std::vector<double> seen;
   for (int depth = 0; depth <= 4; ++depth) {
+    std::size_t alive = 0;
     CellOptions options;
     options.with_coarse_mesh = true;
     options.tessellation_depth = depth;
@@ -55,6 +58,12 @@ void expect_closed(const Domain& domain, const std::vector<PowerSite>& sites, co
       if (!cell.mesh) continue;
       const double radius = std::sqrt(sites[i].weight);
       EXPECT_EQ(open_edges(*cell.mesh, 1e-6 * radius), 0u) << name << ", site " << i << ", depth " << depth;
+      const MeshPointer study = study_mesh(cell.mesh);
+      EXPECT_EQ(open_edges(*study, 1e-6 * radius), 0u) << name << ", site " << i << ", depth " << depth << ", for studies";
+      if (depth == 0) seen.push_back(enclosed_volume(*study));
+      else EXPECT_NEAR(enclosed_volume(*study), seen[alive], 1e-9 * cell.volume) << "studies do not see how finely it is shown";
+      if (depth == kStudyDepth) EXPECT_EQ(study, cell.mesh);
+      ++alive;
       const double loss = 1 - enclosed_volume(*cell.mesh) / cell.volume;
       EXPECT_GT(loss, -1e-7) << name << ", site " << i << ", depth " << depth;
       losses.worst[depth] = std::max(losses.worst[depth], loss);
