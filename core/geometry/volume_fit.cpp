@@ -28,8 +28,15 @@ constexpr double kNoNumber = std::numeric_limits<double>::infinity();
 // Beyond so many, a start with rays has brought nothing that one without would not.
 constexpr int kMostWithRays = 40;
 
-// What a fit starts from: one after the other, until it gets somewhere.
-enum class Start : std::uint8_t { given, rays, even };
+// Demands that differ by less than this are not brought apart by and by; each stage does so by the square root of it.
+constexpr double kWideDemands = 1e4;
+constexpr double kStageFactor = 1e2;
+// A stage need only come near, and has so many evaluations for it.
+constexpr double kStageTolerance = 0.2;
+constexpr int kStageSteps = 25, kMostHalvings = 4;
+
+// What a fit starts from: one after the other, until it gets somewhere. `eased`: from the weights of demands that lie nearer together.
+enum class Start : std::uint8_t { given, rays, even, eased };
 
 class Attempt {
  public:
@@ -126,9 +133,12 @@ class Attempt {
         return {};
       }
       if (is_time_for_another(search)) {
-        search.begin(search.start == Start::given ? Start::rays : Start::even);
+        search.begin(search.start == Start::given  ? Start::rays
+                     : search.start == Start::rays ? Start::even
+                                                   : Start::eased);
         state = {};
         forget_weights();
+        if (search.start == Start::eased && !ease(step)) return end_at_once(search);
       } else {
         state = last.state;
         use(last.weights);
@@ -147,9 +157,75 @@ class Attempt {
 
   // Weights to start from may be a place that no step leads out of, and so may those that rays have found.
   bool is_time_for_another(const Search& search) const {
-    if (search.start == Start::even) return false;
+    if (search.start == Start::eased) return false;
+    if (search.start == Start::even) return search.since > kStalledEarly && spread_of_demands() > kWideDemands;
     const bool is_late = search.start == Start::rays && search.evaluations >= kMostWithRays;
     return search.since > kStalledEarly || is_late;
+  }
+
+  // The largest demand as a multiple of the smallest one.
+  double spread_of_demands() const {
+    double least = kNoNumber, most = 0;
+    for (const VolumeDemand& demand : problem_.demands) {
+      if (!(demand.least > 0)) continue;
+      least = std::min(least, demand.least);
+      most = std::max(most, demand.least);
+    }
+    return most > 0 ? most / least : 1;
+  }
+
+  // The same sum, with demands nearer together: each raised to a power below one, which the stages bring up to it. A small cell then
+  // never has to be found beside one that is millions of times larger, but only kept. False where the work was stopped.
+  bool ease(FitOptions step) {
+    const std::vector<VolumeDemand> wanted = problem_.demands;
+    int halvings = 0;
+    for (double reach = kStageFactor; reach < spread_of_demands() && halvings < kMostHalvings; reach *= reach) ++halvings;
+    const unsigned stages = 1u << static_cast<unsigned>(halvings);
+    step.with_rays = false;
+    step.tolerance = kStageTolerance;
+    for (unsigned stage = 1; stage < stages && result_.evaluations < options_.most_steps; ++stage) {
+      ease_demands(wanted, stage, halvings);
+      FitState state;
+      for (int k = 0; k < kStageSteps && result_.evaluations < options_.most_steps; ++k) {
+        auto report = adapt_weights(domain_, problem_, state, step);
+        if (is_stop_wished() || !report) break;
+        ++result_.evaluations;
+        result_.iterations += report->iterations;
+        use(report->weights);
+        state = std::move(report->state);
+        if (options_.progress && !options_.progress(result_.evaluations, report->error)) {
+          problem_.demands = wanted;
+          return false;
+        }
+        if (report->is_met) break;
+      }
+    }
+    problem_.demands = wanted;
+    return !is_stop_wished();
+  }
+
+  // x to the power numerator / 2^halvings, by square roots, which are the same everywhere.
+  static double dyadic_power(double x, unsigned numerator, int halvings) {
+    double power = 1;
+    for (int bit = halvings - 1; bit >= 0; --bit) {
+      x = std::sqrt(x);
+      if ((numerator >> static_cast<unsigned>(bit) & 1u) != 0) power *= x;
+    }
+    return power;
+  }
+
+  void ease_demands(const std::vector<VolumeDemand>& wanted, unsigned numerator, int halvings) {
+    double sum = 0, eased = 0;
+    for (const VolumeDemand& demand : wanted) {
+      sum += demand.least;
+      eased += dyadic_power(demand.least, numerator, halvings);
+    }
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      if (!(wanted[k].least > 0)) continue;
+      const double factor = sum / eased * dyadic_power(wanted[k].least, numerator, halvings) / wanted[k].least;
+      problem_.demands[k].least = factor * wanted[k].least;
+      problem_.demands[k].most = factor * wanted[k].most;
+    }
   }
 
   bool has_weights() const {
@@ -229,7 +305,8 @@ class Attempt {
       fit.max_relative_error = error;
       fit.worst_demand = k;
     }
-    const bool cannot = !result_.last.infeasible.empty() || !result_.last.losses.empty() || is_held_up(asked_, *cells);
+    // Whoever has nothing may only not have been found yet: that is no proof.
+    const bool cannot = !result_.last.infeasible.empty() || !result_.last.losses.empty();
     // Of a fit that was stopped with its volumes met, the floors may not have been.
     const bool is_cancelled = result_.is_stopped && (!result_.last.is_met || (has_floors_ && !fit.losses.empty() && !cannot));
     fit.status = is_cancelled         ? FitStatus::cancelled
