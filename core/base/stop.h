@@ -22,8 +22,8 @@ class StopScope {
   const StopWish* outer_;
 };
 
-/// The wish of the innermost scope of this thread, or nullptr. Threads of a ThreadPool have that of the thread whose loop they help
-/// with; other threads fetch it before they begin.
+/// The wish of the innermost scope of this thread, or nullptr. Threads of a ThreadPool have that of the thread whose loop they
+/// help with; other threads fetch it before they begin.
 const StopWish* stop_wish();
 
 /// While it lives, this thread stops by the wish of the thread that it works for (nullptr: by none).

@@ -1,4 +1,5 @@
-// Wraps whole cells with one centre, and the parts of cells in several pieces each with its own, put together where they are open.
+// Wraps whole cells with one centre, and the parts of cells in several pieces each with its own, put together where they are
+// open.
 #include "core/geometry/cell_mesh.h"
 
 #include <algorithm>
@@ -104,7 +105,8 @@ Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> 
     append_mesh(tessellate(open[k].corners, open[k].faces(), depth, radius, targets, site.position, &own), whole);
     for (const std::uint32_t vertex : own) border.push_back(first + vertex);
   }
-  // Both sides of an opening have found its corners within the tolerance; wrapping and adding up may have moved them a little more.
+  // Both sides of an opening have found its corners within the tolerance; wrapping and adding up may have moved them a little
+  // more.
   weld_borders(whole, border, 8 * seam_tolerance(parts));
   return whole;
 }

@@ -45,7 +45,7 @@ struct SeamFace {
   CornerLoop loop;
   bool is_inner = false;
   std::vector<std::pair<std::uint32_t, bool>> openings = {};  // while they are sought: which, and whether seen from behind
-  std::uint32_t opening = kNoOpening, seam = 0;                  // afterwards: what the whole face is
+  std::uint32_t opening = kNoOpening, seam = 0;               // afterwards: what the whole face is
   bool is_behind = false;
 };
 
@@ -248,9 +248,9 @@ class SeamMaker {
     return std::abs(norm(place) - radius_) <= 2 * tolerance_ ? place : place_on_ball(radius_ * radius_, centre, place);
   }
 
-  // Between the places of two points on the circle, outside of it and on its side of the rim: along tangents in both places and in
-  // the one that is nearest to the rim. That one's line has the whole stretch behind it; where it touches beyond the two places,
-  // the others' lines have.
+  // Between the places of two points on the circle, outside of it and on its side of the rim: along tangents in both places and
+  // in the one that is nearest to the rim. That one's line has the whole stretch behind it; where it touches beyond the two
+  // places, the others' lines have.
   std::vector<Point3> inner_line(const Opening& opening, const Point3& from, const Point3& to) const {
     const Point3 first = on_circle(opening.centre, from), last = on_circle(opening.centre, to);
     if (distance(first, last) <= tolerance_) return {first};

@@ -25,9 +25,9 @@ struct OpenPart {
 /// Corners of parts that are no farther apart than this [m] are one place.
 double seam_tolerance(std::span<const Polyhedron> parts);
 
-/// One for each part; nothing for those that the ball does not reach. A face between two parts stays as it is where the ball does not
-/// reach it (the way to what lies behind it leads through the ball's surface). Where it does, the ball's disc in it opens: what is
-/// left of the face around the disc is cut into triangles whose inner edges lie outside the disc and are marked, so that
+/// One for each part; nothing for those that the ball does not reach. A face between two parts stays as it is where the ball does
+/// not reach it (the way to what lies behind it leads through the ball's surface). Where it does, the ball's disc in it opens:
+/// what is left of the face around the disc is cut into triangles whose inner edges lie outside the disc and are marked, so that
 /// wrapping moves them onto the circle.
 std::vector<OpenPart> open_parts(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, double squared_radius);
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "core/base/text.h"
 #include "core/base/stop_check.h"
+#include "core/base/text.h"
 #include "core/geometry/cell_mesh.h"
 #include "core/geometry/coincidence.h"
 #include "core/geometry/none.h"

@@ -1,4 +1,5 @@
-// Near pairs by a sweep along one direction; where there may be some, the heaviest come first into cells as wide as the tolerance.
+// Near pairs by a sweep along one direction; where there may be some, the heaviest come first into cells as wide as the
+// tolerance.
 #include "core/geometry/coincidence.h"
 
 #include <algorithm>
@@ -51,7 +52,8 @@ void find_coincident(std::span<const PowerSite> sites, double tolerance, std::ve
       const auto cell = living.find({own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1});
       if (cell == living.end()) continue;
       for (const std::uint32_t j : cell->second)
-        if (distance(sites[i].position, sites[j].position) <= tolerance && (twin[i] == kNone || is_before(j, twin[i]))) twin[i] = j;
+        if (distance(sites[i].position, sites[j].position) <= tolerance && (twin[i] == kNone || is_before(j, twin[i])))
+          twin[i] = j;
     }
     if (twin[i] == kNone) living[own].push_back(i);
   }

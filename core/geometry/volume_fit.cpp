@@ -35,7 +35,8 @@ constexpr double kStageFactor = 1e2;
 constexpr double kStageTolerance = 0.2;
 constexpr int kStageSteps = 25, kMostHalvings = 4;
 
-// What a fit starts from: one after the other, until it gets somewhere. `eased`: from the weights of demands that lie nearer together.
+// What a fit starts from: one after the other, until it gets somewhere. `eased`: from the weights of demands that lie nearer
+// together.
 enum class Start : std::uint8_t { given, rays, even, eased };
 
 class Attempt {
@@ -133,9 +134,7 @@ class Attempt {
         return {};
       }
       if (is_time_for_another(search)) {
-        search.begin(search.start == Start::given  ? Start::rays
-                     : search.start == Start::rays ? Start::even
-                                                   : Start::eased);
+        search.begin(search.start == Start::given ? Start::rays : search.start == Start::rays ? Start::even : Start::eased);
         state = {};
         forget_weights();
         if (search.start == Start::eased && !ease(step)) return end_at_once(search);
@@ -174,8 +173,8 @@ class Attempt {
     return most > 0 ? most / least : 1;
   }
 
-  // The same sum, with demands nearer together: each raised to a power below one, which the stages bring up to it. A small cell then
-  // never has to be found beside one that is millions of times larger, but only kept. False where the work was stopped.
+  // The same sum, with demands nearer together: each raised to a power below one, which the stages bring up to it. A small cell
+  // then never has to be found beside one that is millions of times larger, but only kept. False where the work was stopped.
   bool ease(FitOptions step) {
     const std::vector<VolumeDemand> wanted = problem_.demands;
     int halvings = 0;

@@ -101,7 +101,8 @@ SavedState save(const State& state) {
     const bool is_kept = !now.running || result != nullptr;
     SavedAnalysis& kept = saved.analyses[analysis_name(*state.plan, a)];
     kept = {now.as_of, now.taken, -1, -1, now.inputs, 0, {}};
-    if (is_kept) kept = {now.as_of, now.taken, now.begun, now.due, now.inputs, now.running_inputs, result ? *result : AnalysisResult{}};
+    if (is_kept)
+      kept = {now.as_of, now.taken, now.begun, now.due, now.inputs, now.running_inputs, result ? *result : AnalysisResult{}};
   }
   // What a failing solver leaves standing cannot be made again from inputs that it refuses.
   for (const SetPlan& set : state.plan->sets)

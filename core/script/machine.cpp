@@ -122,8 +122,8 @@ struct Machine::Box {
     if (moved != nullptr) self.held += new_size - old_size;
     return moved;
   }
-  // The stack gets its size here: grown by and by, its last size, and so the depth at which a script is stopped, would follow from
-  // the runs before. It doubles when it grows, which is beyond kPiece.
+  // The stack gets its size here: grown by and by, its last size, and so the depth at which a script is stopped, would follow
+  // from the runs before. It doubles when it grows, which is beyond kPiece.
   void fix_stack() { lua_checkstack(lua, ScriptLimits::kStack); }
   // Numbers can be chosen such that all names of a table lie in one chain, which an instruction then walks from end to end. So
   // large tables of names make instructions dearer. Their pieces are powers of two of places; lists are moved when they grow.

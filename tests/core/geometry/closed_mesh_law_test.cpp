@@ -128,7 +128,7 @@ TEST(ClosedMeshes, OnTheEllWhereTheCapWasMissing) {
 
 TEST(ClosedMeshes, OnRandomPlans) {
   MeshLosses losses;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 40; ++round) {
     Random random(static_cast<std::uint64_t>(1000 + round));
     const int kind = round % 5;
     const auto domain = site_domain(random_plan(random, kind));
@@ -137,9 +137,12 @@ TEST(ClosedMeshes, OnRandomPlans) {
     expect_closed(*domain, sites_in(*domain, random, count), "round " + std::to_string(round), losses);
   }
   EXPECT_GT(losses.in_pieces, 50u) << "of " << losses.cells;
-  for (int depth = 0; depth <= 4; ++depth)
-    std::printf("depth %d: loses %.4f of the volume on average, %.4f at most\n", depth,
-                losses.sum[depth] / static_cast<double>(losses.cells), losses.worst[depth]);
+  // What the folder's README promises, on average over cells.
+  const double promised[5] = {0.28, 0.12, 0.045, 0.016, 0.006};
+  for (int depth = 0; depth <= 4; ++depth) {
+    EXPECT_LT(losses.sum[depth] / static_cast<double>(losses.cells), promised[depth]) << "depth " << depth;
+    if (depth > 0) { EXPECT_LT(losses.worst[depth], losses.worst[depth - 1]) << "depth " << depth; }
+  }
 }
 
 }  // namespace
