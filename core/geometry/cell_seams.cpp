@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
-#include "core/geometry/solid_part.h"
+#include "core/geometry/seam_outline.h"
 
 namespace bl {
 
@@ -78,57 +77,6 @@ struct SeamPart {
     }
   }
 };
-
-// The two sides of a line through a convex polygon; corners within the tolerance of the line belong to both.
-std::pair<Polygon, Polygon> cut_outline(const Polygon& polygon, const Vector3& outward, double offset, double tolerance) {
-  std::pair<Polygon, Polygon> sides;
-  const auto depth_of = [&](const Point3& p) { return dot(outward, p) - offset; };
-  double farthest[2] = {0, 0};
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double at_a = depth_of(a), at_b = depth_of(b);
-    if (at_a <= tolerance) sides.first.push_back(a);
-    if (at_a >= -tolerance) sides.second.push_back(a);
-    farthest[0] = std::max(farthest[0], -at_a);
-    farthest[1] = std::max(farthest[1], at_a);
-    if ((at_a < -tolerance && at_b > tolerance) || (at_a > tolerance && at_b < -tolerance)) {
-      const Point3 crossing = a + (at_a / (at_a - at_b)) * (b - a);
-      sides.first.push_back(crossing);
-      sides.second.push_back(crossing);
-    }
-  }
-  if (farthest[0] <= tolerance) sides.first.clear();
-  if (farthest[1] <= tolerance) sides.second.clear();
-  return sides;
-}
-
-// Where two corners are one place its edge has no direction and bounds nothing.
-bool edge_line(const Polygon& polygon, std::size_t i, const Vector3& normal, double tolerance, Vector3& outward, double& offset) {
-  const Point3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-  const double length = distance(a, b);
-  if (length <= tolerance) return false;
-  outward = cross(b - a, normal) / length;
-  offset = dot(outward, a);
-  return true;
-}
-
-double outline_area(const Polygon& polygon) { return polygon.size() < 3 ? 0 : norm(area_vector(polygon)); }
-
-Point3 nearest_in(const Polygon& polygon, const Vector3& normal, double offset) {
-  const Point3 foot = offset * normal;
-  Point3 best = foot;
-  double least = std::numeric_limits<double>::infinity();
-  bool is_inside = true;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point3 a = polygon[i], along = polygon[(i + 1) % polygon.size()] - a;
-    is_inside = is_inside && dot(normal, cross(along, foot - a)) >= 0;
-    const Point3 on_edge = a + std::clamp(dot(foot - a, along) / std::max(1e-300, squared_norm(along)), 0.0, 1.0) * along;
-    if (squared_norm(foot - on_edge) >= least) continue;
-    least = squared_norm(foot - on_edge);
-    best = on_edge;
-  }
-  return is_inside ? foot : best;
-}
 
 // What lies between a stretch of the rim and the line that faces it: a triangle at both ends, and what is between them.
 void add_sector(const CornerLoop& path, const CornerLoop& inner, std::vector<CornerLoop>& loops) {
@@ -211,7 +159,7 @@ class SeamMaker {
     opening.normal = own.normal;
     opening.middle = own.offset * own.normal;
     opening.disc = std::sqrt(std::max(0.0, radius_ * radius_ - own.offset * own.offset));
-    opening.centre = nearest_in(opening.outline, own.normal, own.offset);
+    opening.centre = nearest_in_outline(opening.outline, own.normal, own.offset);
     if (!(norm(opening.centre) < (1 - kLeastReach) * radius_) || opening.outline.size() < 3) return;
     const auto number = static_cast<std::uint32_t>(openings_.size());
     own.openings.emplace_back(number, false);
