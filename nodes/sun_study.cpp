@@ -68,9 +68,8 @@ struct SunStudyNode {
     t.doc(
         "Follows rays from the points of all receivers to the sun, at the moments of the sun's period, and tells each receiver "
         "what sun it has and who takes it, and each caster what it takes. Receivers for which nothing has changed keep their "
-        "figures; studies of more than 200 million rays are refused. SmartVolumes cast the shadow of a mesh whose faces are "
-        "split in "
-        "four once, however finely a solver shows them.");
+        "figures; studies of more than 200 million rays are refused. SmartVolumes cast "
+        "the shadow of a mesh whose faces are split in four once, however finely a solver shows them.");
     t.in(&In::sun, "sun").doc("The sun whose period is studied. Exactly one node has to result.");
     t.in(&In::volumes, "volumes")
         .doc("The SmartVolumes that cast shadow; nodes without the role of a shadow caster do not count.");
@@ -156,9 +155,7 @@ struct SunStudyNode {
       const auto [it, is_new] = index.emplace(caster.id, list.size());
       if (is_new) list.push_back({caster.id, nullptr});
       MeshPointer& mesh = list[it->second].mesh;
-      if (!has_shape) return it->second;
-      const MeshPointer shape = study_mesh(caster.mesh);
-      mesh = mesh ? both(*mesh, *shape) : shape;
+      if (has_shape) mesh = mesh ? both(*mesh, *study_mesh(caster.mesh)) : study_mesh(caster.mesh);
       return it->second;
     }
     static MeshPointer both(const Mesh& one, const Mesh& other) {
