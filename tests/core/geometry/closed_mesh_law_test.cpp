@@ -62,7 +62,7 @@ void expect_closed(const Domain& domain, const std::vector<PowerSite>& sites, co
       EXPECT_EQ(open_edges(*study, 1e-6 * radius), 0u) << name << ", site " << i << ", depth " << depth << ", for studies";
       if (depth == 0) seen.push_back(enclosed_volume(*study));
       else EXPECT_NEAR(enclosed_volume(*study), seen[alive], 1e-9 * cell.volume) << "studies do not see how finely it is shown";
-      if (depth == kStudyDepth) EXPECT_EQ(study, cell.mesh);
+      if (depth == kStudyDepth) { EXPECT_EQ(study, cell.mesh); }
       ++alive;
       const double loss = 1 - enclosed_volume(*cell.mesh) / cell.volume;
       EXPECT_GT(loss, -1e-7) << name << ", site " << i << ", depth " << depth;
