@@ -25,7 +25,7 @@ constexpr std::array kBaseNames = {"m", "s", "deg", "EUR"};
 constexpr int kScaleBits = 6, kSamples = 24, kLargestPower = 9, kLongestFormula = 500;
 
 // Stands for `^` while the parser reads: its own could not be replaced, and calls the C library. No formula can hold it.
-constexpr char kPowerSign = '\x01';
+constexpr char kPowerSign = '\x7f';
 
 // The functions of formulas, by those whose bits no processor changes; the parser's own are cleared away.
 void define_functions(mu::Parser& parser) {
@@ -155,6 +155,7 @@ struct Expression {
       for (const auto& [name, function] : parser_.GetFunDef()) names.push_back(name);
       switch (problem.GetCode()) {
         case mu::ecUNASSIGNABLE_TOKEN:
+          if (token.starts_with('^')) return "the sign `^`" + where + " needs a value before it";
           if (parser_.GetFunDef().contains(token))
             return "the function `" + token + "`" + where + " needs its arguments in brackets";
           return "`" + token + "`" + where + " is no name or sign that is known" + did_you_mean(token, names);

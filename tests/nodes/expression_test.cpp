@@ -77,7 +77,7 @@ TEST(Expression, PowersAndFunctionsAreThoseOfTheDoor) {
   }
   EXPECT_EQ(error_of("a ^* b"), std::string(kPlace) + "the sign `*` at character 4 needs a value before it");
   EXPECT_EQ(error_of("^ b"), std::string(kPlace) + "the sign `^` at character 1 needs a value before it");
-  EXPECT_EQ(error_of("a\\u0001b"), std::string(kPlace) + "the sign at character 2 cannot be seen: take it out");
+  EXPECT_EQ(error_of("a\\u007fb"), std::string(kPlace) + "the sign at character 2 cannot be seen: take it out");
   EXPECT_NE(error_of("min()"), "");
   EXPECT_NE(error_of("sum()"), "");
 }
