@@ -13,18 +13,16 @@
 namespace bl {
 namespace {
 
-using namespace mathematics;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
 
 // How far apart in units of the last place of the true result.
 double ulps(double found, long double wanted) {
   const double size = std::abs(static_cast<double>(wanted));
-  const long double unit = std::nextafter(size, kInfinity) - size;
+  const long double unit = std::nextafter(size, kBeyondAll) - size;
   return static_cast<double>(std::abs(found - wanted) / unit);
 }
 
-struct Pair {
+struct FunctionPair {
   const char* name;
   double (*ours)(double);
   long double (*theirs)(long double);
@@ -32,7 +30,8 @@ struct Pair {
 };
 
 TEST(Mathematics, StaysWithinOneUnitOfTheLastPlace) {
-  const Pair pairs[] = {{"sine", sine, std::sin, -200, 200},
+  using namespace mathematics;
+  const FunctionPair pairs[] = {{"sine", sine, std::sin, -200, 200},
                         {"cosine", cosine, std::cos, -200, 200},
                         {"tangent", tangent, std::tan, -200, 200},
                         {"arc_sine", arc_sine, std::asin, -1, 1},
@@ -53,7 +52,7 @@ TEST(Mathematics, StaysWithinOneUnitOfTheLastPlace) {
                         {"logarithm_of_one_more", logarithm_of_one_more, std::log1p, -0.9, 2},
                         {"cube_root", cube_root, std::cbrt, -1e6, 1e6}};
   Random random(1);
-  for (const Pair& pair : pairs)
+  for (const FunctionPair& pair : pairs)
     for (int i = 0; i < 20000; ++i) {
       const double x = random.uniform(pair.low, pair.high);
       ASSERT_LE(ulps(pair.ours(x), pair.theirs(x)), 1.0) << pair.name << " of " << x;
@@ -71,6 +70,7 @@ TEST(Mathematics, StaysWithinOneUnitOfTheLastPlace) {
 }
 
 TEST(Mathematics, IsExactWhereTheResultIsADouble) {
+  using namespace mathematics;
   for (int base = 1; base <= 1000; ++base) {
     double product = base;
     for (int exponent = 2; product * base <= 0x1p53 && exponent < 60; ++exponent) {
@@ -94,24 +94,25 @@ TEST(Mathematics, IsExactWhereTheResultIsADouble) {
 }
 
 TEST(Mathematics, EdgesAreThoseOfTheStandard) {
+  using namespace mathematics;
   EXPECT_EQ(sine(0), 0);
   EXPECT_TRUE(std::signbit(sine(-0.0)));
   EXPECT_EQ(cosine(0), 1);
-  EXPECT_TRUE(std::isnan(sine(kInfinity)));
+  EXPECT_TRUE(std::isnan(sine(kBeyondAll)));
   EXPECT_TRUE(std::isnan(arc_sine(1.5)));
   EXPECT_EQ(arc_tangent(0, -1), std::numbers::pi);
   EXPECT_EQ(arc_tangent(-0.0, -1), -std::numbers::pi);
   EXPECT_EQ(arc_tangent(0, 0), 0);
-  EXPECT_EQ(exponential(-kInfinity), 0);
-  EXPECT_EQ(exponential(1000), kInfinity);
-  EXPECT_EQ(logarithm(0), -kInfinity);
+  EXPECT_EQ(exponential(-kBeyondAll), 0);
+  EXPECT_EQ(exponential(1000), kBeyondAll);
+  EXPECT_EQ(logarithm(0), -kBeyondAll);
   EXPECT_TRUE(std::isnan(logarithm(-1)));
   EXPECT_EQ(power(0, 0), 1);
   EXPECT_EQ(power(1, std::nan("")), 1);
-  EXPECT_EQ(power(0, -1), kInfinity);
-  EXPECT_EQ(power(2, 2000), kInfinity);
+  EXPECT_EQ(power(0, -1), kBeyondAll);
+  EXPECT_EQ(power(2, 2000), kBeyondAll);
   EXPECT_TRUE(std::isnan(power(-8, 1.0 / 3)));
-  EXPECT_EQ(hypotenuse(kInfinity, std::nan("")), kInfinity);
+  EXPECT_EQ(hypotenuse(kBeyondAll, std::nan("")), kBeyondAll);
   EXPECT_GT(hypotenuse(1e308, 1e308), 1e308);
 }
 

@@ -50,9 +50,10 @@ TEST(Error, QuotationsAreCut) {
   EXPECT_LT(bounded({ErrorCode::parse, "", name}).message.size(), kLongestMessage);
   EXPECT_EQ((Error{ErrorCode::parse, "a", "`b` is no c"}).text(), "a: `b` is no c");
   const std::string cut = bounded({ErrorCode::parse, "", "`" + accents + "` is long"}).message;
-  for (std::size_t i = 0; i + 1 < cut.size(); ++i)
-    if (static_cast<unsigned char>(cut[i]) == 0xc3)
-      EXPECT_EQ(static_cast<unsigned char>(cut[i + 1]), 0xa9u) << "whole characters";
+  for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
+    const bool begins = static_cast<unsigned char>(cut[i]) == 0xc3, ends = static_cast<unsigned char>(cut[i + 1]) == 0xa9;
+    EXPECT_EQ(begins, ends) << "whole characters";
+  }
   EXPECT_EQ(bounded(bounded(bad.error())), bounded(bad.error())) << "once is enough";
 }
 

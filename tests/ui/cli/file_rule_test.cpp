@@ -13,11 +13,11 @@ namespace bl::test {
 
 namespace {
 
-const std::string kScript =
+const std::string kHoldingScript =
     "return {id = 'held', doc = 'Holds.', reads = {here = {at = 'from', port = 'node.position', unit = 'm'}},\n"
     "proposes = {move = {at = 'from', port = 'node.position', unit = 'm'}},\n"
     "evaluate = function(params, ends, tick) return {move = point(0, 0, 0)} end}\n";
-const std::string kPlan =
+const std::string kSquarePlan =
     R"({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[[0,0],[40,0],[40,40],[0,40],[0,0]]]}})";
 
 class FileRule : public testing::Test {
@@ -25,8 +25,8 @@ class FileRule : public testing::Test {
   FileRule() {
     place.write("s.json", moving_scene());
     place.write("b.json", moving_scene());
-    place.write("f.lua", kScript);
-    place.write("site.geojson", kPlan);
+    place.write("f.lua", kHoldingScript);
+    place.write("site.geojson", kSquarePlan);
     place.write("rows.csv", "x,y,value\n1,2,3\n");
     place.write("case.json", R"({"boundary": {"plan": [[0,0],[10,0],[10,10],[0,10]], "bottom": 0, "top": 10},
                                 "sites": [[2,5,5]], "weights": [4], "demands": [10]})");
@@ -43,7 +43,7 @@ class FileRule : public testing::Test {
     EXPECT_EQ(outcome.code, 2) << line;
     EXPECT_NE(outcome.err.find(said), std::string::npos) << line << "\n" << outcome.err;
     for (const auto& [file, text] : before)
-      if (!file.ends_with(".out") && !file.ends_with(".err")) EXPECT_EQ(read_text(file), text) << line;
+      if (!file.ends_with(".out") && !file.ends_with(".err")) { EXPECT_EQ(read_text(file), text) << line; }
   }
 
   Workplace place;
@@ -124,10 +124,10 @@ TEST_F(FileRule, ExtractedScriptsThatWereChangedStay) {
   EXPECT_EQ(place.run({"script", "s.json", "f.lua", "--out", "s.json"}).code, 0);
   EXPECT_EQ(place.run({"script", "s.json", "--extract", "lua"}).code, 0);
   EXPECT_EQ(place.run({"script", "s.json", "--extract", "lua"}).code, 0) << "the same text may be written again";
-  place.write("lua/f.lua", kScript + "-- an afternoon's work\n");
+  place.write("lua/f.lua", kHoldingScript + "-- an afternoon's work\n");
   expect_refused({"script", "s.json", "--extract", "lua"}, "lua/f.lua: is there and is not what the scene holds");
   EXPECT_EQ(place.run({"script", "s.json", "--extract", "lua", "--force"}).code, 0);
-  EXPECT_EQ(place.text("lua/f.lua"), kScript);
+  EXPECT_EQ(place.text("lua/f.lua"), kHoldingScript);
 }
 
 // Law over all tasks and options, as the help lists them: a file that is named twice is refused where one of the two is written,
@@ -179,11 +179,11 @@ TEST_F(FileRule, HoldsForEveryPairOfOptionsOfEveryTask) {
         EXPECT_EQ(outcome.err.find("defect"), std::string::npos) << what << "\n" << outcome.err;
         const bool is_changing =
             in_place.contains(task + " " + options[b].name) || in_place.contains(task + " " + options[a].name);
-        if (!is_changing || outcome.code == 2) EXPECT_EQ(place.text("twice"), moving_scene()) << what << "\n" << outcome.err;
+        if (!is_changing || outcome.code == 2) { EXPECT_EQ(place.text("twice"), moving_scene()) << what << "\n" << outcome.err; }
         const bool is_told =
             outcome.err.find("which is read") != std::string::npos || outcome.err.find("same file") != std::string::npos;
         pairs += is_told ? 1 : 0;
-        if (is_told) EXPECT_EQ(outcome.code, 2) << what;
+        if (is_told) { EXPECT_EQ(outcome.code, 2) << what; }
       }
   }
   EXPECT_GT(pairs, 25) << "pairs that were refused";
