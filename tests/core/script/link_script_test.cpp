@@ -100,10 +100,10 @@ TEST(LinkScript, MathematicsAreThoseOfTheDoor) {
 
 TEST(LinkScript, PowersOfWhatIsNoNumberSayTheirLine) {
   EXPECT_EQ(run_mover("local x = 1\nreturn {move = point(x ^ missing, 0, 0)}"),
-            "case.lua:5: `^` needs numbers on both sides; one is nil, a name that holds nothing");
+            "case.lua:6: `^` needs numbers on both sides; one is nil, a name that holds nothing");
   EXPECT_EQ(run_mover("return {move = point(ends.here ^ 2, 0, 0)}"),
-            "case.lua:4: `^` needs numbers on both sides; one is a table");
-  EXPECT_EQ(run_mover("return {move = point('2' ^ 2, 0, 0)}"), "case.lua:4: `^` needs numbers on both sides; one is a string");
+            "case.lua:5: `^` needs numbers on both sides; one is a table");
+  EXPECT_EQ(run_mover("return {move = point('2' ^ 2, 0, 0)}"), "case.lua:5: `^` needs numbers on both sides; one is a string");
 }
 
 // Only the sign itself is touched: not in texts and comments of any kind, whatever stands in them.
@@ -115,7 +115,7 @@ TEST(LinkScript, PowersAreFoundOutsideOfTextsAndComments) {
   EXPECT_EQ(number_of("#[[a^]] + #[==[^]]^]==] --[[ 2^'\n]] + 2^2"), 10);
   EXPECT_EQ(number_of("1 --^ 'a\n + 2 ^ 3 --[==[ ^]] ^\n]==] + 1"), 10);
   const std::string taken = run_mover("local power__of__numbers = 1 return {}");
-  EXPECT_EQ(taken, "case.lua:4: the name `power__of__numbers` is taken by the library; take another");
+  EXPECT_EQ(taken, "case.lua:5: the name `power__of__numbers` is taken by the library; take another");
 }
 
 TEST(LinkScript, AByteOrderMarkIsPassedOver) {
