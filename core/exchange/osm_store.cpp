@@ -176,6 +176,9 @@ Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch) {
   try {
     return read(*text, format, watch);
   } catch (const osmium::xml_error& error) {
+    // Where the reader knows no place (what is no XML error but one of OpenStreetMap's form), it says 0.
+    if (error.line == 0)
+      return Error{ErrorCode::parse, "XML", std::string("This is not what OpenStreetMap files hold: ") + error.what() + "."};
     return Error{ErrorCode::parse, "line " + std::to_string(error.line) + ", column " + std::to_string(error.column),
                  std::string("The XML cannot be read from here on: ") + error.what() + ". Is the file complete?"};
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/exchange/spread_points.h"
@@ -100,10 +101,10 @@ class Builder {
 
   void contact(const WantedContact& contact, const std::vector<NewVolume>& volumes) {
     const NewVolume& hub = volumes[contact.hub];
-    double area = kSurfaceShare * std::pow(hub.demand, 2.0 / 3) / static_cast<double>(contact.partners.size());
+    double area = kSurfaceShare * mathematics::power(hub.demand, 2.0 / 3) / static_cast<double>(contact.partners.size());
     Json partners = Json::array();
     for (const std::size_t partner : contact.partners) {
-      area = std::min(area, kFacetShare * std::pow(std::min(hub.demand, volumes[partner].demand), 2.0 / 3));
+      area = std::min(area, kFacetShare * mathematics::power(std::min(hub.demand, volumes[partner].demand), 2.0 / 3));
       partners.push_back(volumes[partner].id);
     }
     // The one item of a use and all of another are named by their use, so that later items of that use take part too.

@@ -101,7 +101,8 @@ void write_footer(Markup& page, const ReportModel& model, const ReportData& data
   const auto row = [&](const std::string& label, const std::string& text) { page.element("dt", label).element("dd", text); };
   row("Scene", data.scene_path.empty() ? "not from a file" : data.scene_path);
   row("Ticks", std::to_string(model.tick));
-  row("State", "hash " + model.hash + ": the same scene and log give the same hash on every machine");
+  row("State", "hash " + model.hash +
+                   ": with the same version of the program, the same scene and log give this hash on every x86-64 machine");
   row("Made by", "BehaviourLinks, behaviourlinks run --report; tables in volumes.csv, shapes in volumes.obj beside this page");
   page.close().close();
 }
