@@ -2,15 +2,15 @@
 #include "core/base/text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <vector>
 
 namespace bl {
 
 std::string shortest(double number) {
   char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number == 0 ? 0.0 : number).ptr;
   return {buffer, end};
 }
 
@@ -40,41 +40,51 @@ std::optional<double> parse_number(std::string_view text) {
 
 namespace {
 
-// Levenshtein distance by one row of dynamic programming.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
+constexpr std::size_t kLongestName = 64;
+
+// Levenshtein distance by one row of dynamic programming, or `limit` where it is no less: then the rest is not worked out.
+std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t limit) {
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
+  std::array<std::size_t, kLongestName + 1> row;
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
+    std::size_t diagonal = row[0], least = row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t above = row[j];
       row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
       diagonal = above;
+      least = std::min(least, row[j]);
     }
+    if (least >= limit) return limit;
   }
-  return row[b.size()];
+  return std::min(row[b.size()], limit);
 }
 
-}  // namespace
-
-std::string nearest_name(std::string_view name, std::span<const std::string> names) {
-  std::string best;
+template <class Names>
+std::string nearest_of(std::string_view name, const Names& names) {
+  std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
-  if (name.size() > 64) return best;
-  for (const std::string& candidate : names) {
-    const std::size_t edits = edit_distance(name, candidate);
+  if (name.size() > kLongestName) return "";
+  for (const auto& candidate : names) {
+    if (candidate.size() > kLongestName) continue;
+    const std::size_t edits = edit_distance(name, candidate, best_distance);
     if (edits < best_distance) {
       best_distance = edits;
       best = candidate;
     }
   }
-  return best;
+  return std::string(best);
 }
 
-std::string did_you_mean(std::string_view name, std::span<const std::string> names) {
-  const std::string near = nearest_name(name, names);
-  return near.empty() ? "" : ", did you mean `" + near + "`?";
+std::string question(const std::string& near) { return near.empty() ? "" : ", did you mean `" + near + "`?"; }
+
+}  // namespace
+
+std::string nearest_name(std::string_view name, std::span<const std::string> names) { return nearest_of(name, names); }
+std::string nearest_name(std::string_view name, std::span<const std::string_view> names) { return nearest_of(name, names); }
+std::string did_you_mean(std::string_view name, std::span<const std::string> names) { return question(nearest_of(name, names)); }
+std::string did_you_mean(std::string_view name, std::span<const std::string_view> names) {
+  return question(nearest_of(name, names));
 }
 
 namespace {

@@ -177,7 +177,7 @@ std::vector<Problem> unfit_links(const Scene& scene, const Registry& registry) {
         if (!scene.nodes.contains(node))
           problems.push_back({true,
                               {ErrorCode::not_found, place + "/" + std::string(name_of(end)),
-                               "there is no node `" + node + "`" + did_you_mean(node, keys_of(scene.nodes))}});
+                               "there is no node `" + node + "`" + did_you_mean_among(node, scene.nodes)}});
   }
   return problems;
 }

@@ -14,7 +14,7 @@ void check_selection(const Scene& scene, const Selection& selection, const std::
   for (const std::string& id : selection.ids)
     if (!scene.nodes.contains(id))
       problems.push_back(
-          {true, {ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene.nodes))}});
+          {true, {ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean_among(id, scene.nodes)}});
   if (!selection.typification.empty() && registry.typification(selection.typification) == nullptr)
     problems.push_back({false,
                         {ErrorCode::unknown_type, place,
