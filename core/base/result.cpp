@@ -26,12 +26,6 @@ std::string_view name_of(ErrorCode code) {
   return "internal";
 }
 
-std::optional<ErrorCode> error_code_of(std::string_view name) {
-  for (int code = 0; code <= static_cast<int>(ErrorCode::internal); ++code)
-    if (name_of(static_cast<ErrorCode>(code)) == name) return static_cast<ErrorCode>(code);
-  return std::nullopt;
-}
-
 Error Error::within(std::string_view prefix) const {
   Error outer = *this;
   if (prefix.empty()) return outer;

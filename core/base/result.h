@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cassert>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,8 +32,6 @@ enum class ErrorCode {
 
 /// Stable lower-case name of a code, as it appears in JSON output.
 std::string_view name_of(ErrorCode code);
-/// The code of that name; nothing where there is none.
-std::optional<ErrorCode> error_code_of(std::string_view name);
 
 /// An error that data can cause. `place` is a path such as `nodes/tower/smart_volume/demand`, or empty.
 struct Error {

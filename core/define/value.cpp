@@ -51,13 +51,12 @@ std::string_view name_of(ValueKind kind) {
   return "a value";
 }
 
-bool is_proposable(ValueKind kind) {
-  return kind == ValueKind::number || kind == ValueKind::point || kind == ValueKind::texts;
-}
+bool is_proposable(ValueKind kind) { return kind == ValueKind::number || kind == ValueKind::point || kind == ValueKind::texts; }
 
 namespace {
 
-// Shows `see` every number in a value that a run may keep, until it says no. Meshes are not among them: they follow from the rest.
+// Shows `see` every number in a value that a run may keep, until it says no. Meshes are not among them: they follow from the
+// rest.
 template <class See>
 bool all_numbers(const Value& value, const See& see) {
   const auto see_point = [&](const Vector3& v) { return see(v.x) && see(v.y) && see(v.z); };

@@ -1,6 +1,7 @@
 // Nodes and links to JSON and back, ghosts kept to the letter.
 #include <nlohmann/json.hpp>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/file/scene_file.h"

@@ -36,7 +36,8 @@ struct SavePlace {
   std::string mark() const { return name.substr(0, kLongestStem) + std::string(kSavingMark); }
 };
 
-// In a folder where everybody may write, a link of somebody else's may lead to any file of ours; the kernel follows none there, either.
+// In a folder where everybody may write, a link of somebody else's may lead to any file of ours; the kernel follows none there,
+// either.
 bool is_laid_by_others(int folder, const struct stat& link) {
   struct stat status {};
   if (::fstat(folder, &status) != 0) return true;
@@ -145,7 +146,8 @@ bool is_running(std::string_view digits) {
 // Of this file, by a save that came to no end: our own, and nobody writes it any more. Older programs put their process number
 // at the end, and took no lock.
 void clear_leftover(int folder, const std::string& name, std::string_view digits) {
-  const bool is_older = !digits.empty() && digits.size() <= 10 && digits.find_first_not_of("0123456789") == std::string_view::npos;
+  const bool is_older =
+      !digits.empty() && digits.size() <= 10 && digits.find_first_not_of("0123456789") == std::string_view::npos;
   const bool is_ours = digits.size() == kMarkLength && digits.find_first_not_of(kMarkDigits) == std::string_view::npos;
   if (!is_older && !is_ours) return;
   struct stat status {};
@@ -174,7 +176,8 @@ void clear_leftovers(const SavePlace& place) {
 // A new name is on the disk only once its folder is.
 Result<void> sync_folder(const SavePlace& place, const std::string& path) {
   const Descriptor folder(::openat(place.folder.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  const bool is_failing = folder.is_open() && ::fsync(folder.number()) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
+  const bool is_failing =
+      folder.is_open() && ::fsync(folder.number()) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
   if (is_failing) return io_error(path, "is written, but the disk may not keep it");
   return {};
 }
@@ -198,8 +201,8 @@ Result<void> write_file(const std::string& path, std::string_view content) {
   if (!made) return made.error();
   const int folder = place->folder.number(), file = made->file.number();
   if (place->is_there) keep_rights(file, place->status);
-  const bool is_written = write_all(file, content) && ::fsync(file) == 0 &&
-                          ::renameat(folder, made->name.c_str(), folder, place->name.c_str()) == 0;
+  const bool is_written =
+      write_all(file, content) && ::fsync(file) == 0 && ::renameat(folder, made->name.c_str(), folder, place->name.c_str()) == 0;
   if (is_written) return sync_folder(*place, path);
   const Error error = io_error(path, place->is_there ? "could not be saved, the old file is unchanged" : "could not be saved");
   ::unlinkat(folder, made->name.c_str(), 0);

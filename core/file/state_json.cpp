@@ -20,6 +20,13 @@ Json error_to_json(const Error& error) {
   return json;
 }
 
+// Nothing where a newer program has another one.
+std::optional<ErrorCode> error_code_of(std::string_view name) {
+  for (int code = 0; code <= static_cast<int>(ErrorCode::internal); ++code)
+    if (name_of(static_cast<ErrorCode>(code)) == name) return static_cast<ErrorCode>(code);
+  return std::nullopt;
+}
+
 // "node/typification" in its two halves; ids hold no slash.
 std::optional<std::pair<std::string, std::string>> type_name_of(const std::string& name) {
   const std::size_t slash = name.find('/');
@@ -34,7 +41,8 @@ class StateReader {
 
   bool read(const Json& json) {
     if (!json.is_object()) return fail({ErrorCode::wrong_kind, "state", "expects an object"});
-    if (!note(check_keys(json, {"tick", "calm", "nodes", "voices", "held", "errors", "link_errors", "analyses", "meshes"}, "state")))
+    if (!note(check_keys(json, {"tick", "calm", "nodes", "voices", "held", "errors", "link_errors", "analyses", "meshes"},
+                         "state")))
       return false;
     if (!read_tick(json, "tick", "state", state.tick) || !read_tick(json, "calm", "state", state.calm)) return false;
     const auto read_nodes = [&](const Json& nodes) {
@@ -134,8 +142,7 @@ class StateReader {
         if (!note(value)) return false;
         state.voices[link].push_back({node, path, std::move(*value)});
       }
-      if (are_failing)
-        state.link_errors[link] = {ErrorCode::internal, "links/" + link, "held since before the scene was saved"};
+      if (are_failing) state.link_errors[link] = {ErrorCode::internal, "links/" + link, "held since before the scene was saved"};
     }
     return true;
   }
@@ -181,8 +188,7 @@ class StateReader {
     for (const auto& [name, json] : analyses.items()) {
       const std::string place = "state/analyses/" + name;
       const auto type = type_name_of(name);
-      if (!type || !json.is_object())
-        return fail({ErrorCode::wrong_kind, place, "expects the results of `node/typification`"});
+      if (!type || !json.is_object()) return fail({ErrorCode::wrong_kind, place, "expects the results of `node/typification`"});
       if (!note(check_keys(json, {"as_of", "taken", "inputs", "begun", "due", "running", "error", "outputs"}, place)))
         return false;
       SavedAnalysis& saved = state.analyses[*type];

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/graph/plan.h"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/define/port_builder.h"
 

@@ -195,6 +195,24 @@ void write_replies(State& next, std::vector<Reply>& replies) {
   }
 }
 
+bool is_negative_zero(double number) { return number == 0 && std::signbit(number); }
+
+// Shapes that a failing solver leaves standing are state like any value, and saved: their zeros have no sign, either.
+void keep_shapes(State& next, const SetCase& one) {
+  for (const SetPlan& plan : one.plans)
+    for (const PortRef& ref : plan.writes) {
+      auto* mesh = std::get_if<MeshPointer>(&next.nodes[ref.node].types[ref.type].values[ref.port]);
+      if (mesh == nullptr || !*mesh) continue;
+      const bool is_plain = std::none_of((*mesh)->vertices.begin(), (*mesh)->vertices.end(), [](const Point3& p) {
+        return is_negative_zero(p.x) || is_negative_zero(p.y) || is_negative_zero(p.z);
+      });
+      if (is_plain) continue;
+      auto plain = std::make_shared<Mesh>(**mesh);
+      for (Point3& vertex : plain->vertices) vertex += Point3{0, 0, 0};  // -0 + 0 is 0
+      *mesh = std::move(plain);
+    }
+}
+
 }  // namespace
 
 void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner) {
@@ -212,6 +230,8 @@ void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunne
     }
   }
   write_replies(next, replies);
+  for (const SetCase& one : cases)
+    if (next.nodes[one.node()].types[one.type()].error) keep_shapes(next, one);
 }
 
 void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {

@@ -137,8 +137,10 @@ State fresh_state(std::shared_ptr<const Plan> plan) {
   for (const NodePlan& node : plan->nodes) {
     NodeState& fresh = state.nodes.emplace_back();
     for (const TypePlan& type : node.types)
-      fresh.types.push_back(
-          {.values = type.set_values, .tension = std::vector<double>(type.set_values.size(), 0), .error = {}, .is_evaluated = false});
+      fresh.types.push_back({.values = type.set_values,
+                             .tension = std::vector<double>(type.set_values.size(), 0),
+                             .error = {},
+                             .is_evaluated = false});
   }
   state.links.resize(plan->links.size());
   state.analyses.resize(plan->analyses.size());
@@ -227,14 +229,14 @@ Result<void> restore_errors(const SavedState& saved, State& state) {
       state.nodes[node].types[t].error = error;
       is_known = true;
     }
-    if (!is_known)
-      return Error{ErrorCode::not_found, "state/errors/" + name.first, "the node is not a `" + name.second + "`"};
+    if (!is_known) return Error{ErrorCode::not_found, "state/errors/" + name.first, "the node is not a `" + name.second + "`"};
   }
   for (std::size_t l = 0; l < plan.links.size(); ++l) {
     const LinkPlan& link = plan.links[l];
     if (!link.is_enabled) continue;
     if (link.error) state.links[l].error = link.error;
-    else if (const auto said = saved.link_errors.find(link.id); said != saved.link_errors.end()) state.links[l].error = said->second;
+    else if (const auto said = saved.link_errors.find(link.id); said != saved.link_errors.end())
+      state.links[l].error = said->second;
   }
   return {};
 }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 

@@ -87,8 +87,8 @@ void expect_that_saving_changes_nothing(const std::string& text, std::uint64_t s
     World loaded = World::from_text(saved[static_cast<std::size_t>(k)]);
     for (int t = k; t <= ticks; ++t) {
       const State& straight = *states[static_cast<std::size_t>(t)];
-      ASSERT_EQ(loaded.state().hash, straight.hash) << "scene " << seed << " saved at tick " << k << " differs at tick " << t << ": "
-                                                    << first_difference(straight, loaded.state());
+      ASSERT_EQ(loaded.state().hash, straight.hash) << "scene " << seed << " saved at tick " << k << " differs at tick " << t
+                                                    << ": " << first_difference(straight, loaded.state());
       ASSERT_EQ(loaded.state().is_settled(), straight.is_settled()) << "scene " << seed;
       if (has_people) act(loaded, seed, t);
       if (t < ticks) loaded.tick();
@@ -111,13 +111,12 @@ TEST(SavingLaws, SavedAndLoadedAtAnyTickARunWithErrorsIsTheSameRun) {
 // The smallest ones that were found: set of a plot that is no volume, a control whose range is empty.
 TEST(SavingLaws, ALinkThatReadsAFailingNodeGoesOnAsItWas) {
   Told told;
-  for (const char* text :
-       {R"({"format": "behaviourlinks", "version": 1, "nodes": [
+  for (const char* text : {R"({"format": "behaviourlinks", "version": 1, "nodes": [
          {"id": "a", "types": {"smart_volume": {}}}, {"id": "b", "types": {"smart_volume": {}}}, {"id": "other"},
          {"id": "plot", "types": {"plot": {"volumes": "other"}}}], "links": [
          {"id": "double", "kind": "ratio", "from": "a", "to": "b"},
          {"id": "rules", "kind": "plot_rules", "from": "plot", "to": {"typification": "smart_volume"}}]})",
-        R"({"format": "behaviourlinks", "version": 1, "nodes": [
+                           R"({"format": "behaviourlinks", "version": 1, "nodes": [
          {"id": "lever", "types": {"control": {"maximum": 0}}}, {"id": "street", "types": {"street": {}}}], "links": [
          {"id": "close", "kind": "capacity_change", "from": "lever", "to": "street"}]})"})
     expect_that_saving_changes_nothing(text, 0, 12, false, told);
@@ -172,7 +171,7 @@ TEST(SavingLaws, ZeroHasNoSignInSentencesAndAfterAReplay) {
   EXPECT_EQ(world.state().hash, positive.state().hash);
   EXPECT_EQ(world.text("s", "sensor.message"), positive.text("s", "sensor.message"));
   EXPECT_EQ(world.text("s", "sensor.message").find("-0"), std::string::npos) << world.text("s", "sensor.message");
-  ASSERT_EQ(world.submit(command<Receive>({.node = "s", .value = -0.0, .tick = 1})), "");
+  ASSERT_EQ(world.submit(command<Receive>({"s", -0.0, "", "", 1})), "");
   EXPECT_EQ(log_line(world.session().log().back(), full_registry()).find("-0"), std::string::npos);
   world.tick();
   EXPECT_FALSE(std::signbit(world.number("s", "sensor.reading")));
