@@ -157,25 +157,23 @@ struct SmartVolumesSolver {
   }
 
   static Reply reply_of(const CellMeasure& cell, double wanted, double weight, std::span<const std::string> names) {
-    Reply reply{wanted,
-                weight,
-                std::sqrt(std::max(0.0, weight)),
-                cell.volume,
-                cell.cell_volume,
-                cell.floor_area,
-                cell.surface_area,
-                cell.footprint,
-                cell.spherical_area,
-                cell.height,
-                cell.bottom,
-                wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0,
-                0,
-                0,
-                std::string(name_of(cell.state)),
-                wanted > 0 ? with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
-                {{"node", "area"}, {}},
-                cell.centroid,
-                cell.mesh};
+    Reply reply{.wanted = wanted,
+                .weight = weight,
+                .radius = std::sqrt(std::max(0.0, weight)),
+                .volume = cell.volume,
+                .cell_volume = cell.cell_volume,
+                .floor_area = cell.floor_area,
+                .surface_area = cell.surface_area,
+                .footprint = cell.footprint,
+                .spherical_area = cell.spherical_area,
+                .height = cell.height,
+                .bottom = cell.bottom,
+                .error = wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0,
+                .state = std::string(name_of(cell.state)),
+                .reason = wanted > 0 ? with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
+                .neighbours = {{"node", "area"}, {}},
+                .centroid = cell.centroid,
+                .mesh = cell.mesh};
     for (const FacetArea& facet : cell.facets)
       if (facet.kind == FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
     return reply;

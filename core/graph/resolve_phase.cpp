@@ -139,6 +139,11 @@ double relative_change(const Value& before, const Value& after) {
   return std::abs(b - a) / std::max(std::abs(a), std::abs(b));
 }
 
+// What huge voices add up to may lie beyond all numbers: then the port stays as it is.
+void keep_sound(const Value& before, Value& value) {
+  if (!take_in(value)) value = before;
+}
+
 void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<const Heard> heard, Unrest& unrest) {
   std::size_t at = 0;
   for (std::uint16_t t = 0; t < next.nodes[n].types.size(); ++t) {
@@ -151,14 +156,16 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<c
       while (at < heard.size() && heard[at].target == PortRef{n, t, p}) ++at;
       const auto voices = heard.subspan(first, at - first);
       double tension = 0, move = 0;
+      const Value& before = frozen.nodes[n].types[t].values[p];
       if (port.rule == CombineRule::sum) {
         if (!voices.empty()) resolve_sum(port, type.is_locked[p], voices, state.values[p], tension, move);
+        keep_sound(before, state.values[p]);
         if (port.unit == Unit::metre) unrest.move = std::max(unrest.move, move);
       } else if (port.rule != CombineRule::none) {
-        const Value& before = frozen.nodes[n].types[t].values[p];
         if (port.rule == CombineRule::collect)
           resolve_texts(type.set_values[p], type.is_locked[p], voices, state.values[p], tension);
         else resolve_value(port, type, p, before, voices, state.values[p], tension);
+        keep_sound(before, state.values[p]);
         if (const double change = relative_change(before, state.values[p]); change > unrest.change) {
           unrest.change = change;
           unrest.restless = {n, t, p};

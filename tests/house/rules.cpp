@@ -76,6 +76,9 @@ constexpr std::array<std::string_view, 5> kOrdered = {"core/graph/", "core/defin
 // Connections need pauses and rates; what they bring reaches the result through the log only.
 constexpr std::array<std::string_view, 4> kClocks = {"ui/", "tests/", "core/base/", "core/live/"};
 constexpr std::string_view kUnordered = "the order of a hash table must not reach the state: take std::map, std::set or a vector";
+// The bench writes to a switch of the kernel, which is no file.
+constexpr std::array<std::string_view, 3> kWriters = {"core/file/", "tests/", "ui/cli/bench_tools.cpp"};
+constexpr std::string_view kOneWriter = "files are written in one place: take write_file or LogWriter of core/file";
 constexpr std::string_view kOwnRandom = "its output is not fixed by the standard: take core/base/random.h";
 
 // Functions of the C library's mathematics whose last bits follow the processor; those that round exactly are free.
@@ -95,6 +98,10 @@ constexpr std::array kWords = {
     Word{"unordered_set", kOrdered, {}, kUnordered},
     Word{"unordered_multimap", kOrdered, {}, kUnordered},
     Word{"unordered_multiset", kOrdered, {}, kUnordered},
+    Word{"fopen", {}, kWriters, kOneWriter},
+    Word{"ofstream", {}, kWriters, kOneWriter},
+    Word{"O_CREAT", {}, kWriters, kOneWriter},
+    Word{"mkstemp", {}, kWriters, kOneWriter},
     Word{"chrono", {}, kClocks, "the wall clock must not reach the result: only ui, tests, core/base and core/live may read it"},
 };
 

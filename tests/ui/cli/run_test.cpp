@@ -77,6 +77,20 @@ TEST(Run, LogIsReplayed) {
   const Outcome cut = place.run({"replay", "cut.log"});
   EXPECT_EQ(cut.code, 0) << cut.err;
   EXPECT_NE(cut.err.find("the last line is incomplete"), std::string::npos) << cut.err;
+  // Cut between two lines, so that every line that is left is whole: what is missing is told, and the rest can be used.
+  const std::string whole = place.text("run.log");
+  place.write("short.log", whole.substr(0, whole.find("{\"end\"")));
+  const Outcome shortened = place.run({"replay", "short.log"});
+  EXPECT_EQ(shortened.code, 0) << shortened.err;
+  EXPECT_NE(shortened.err.find("the log has no end. It was cut off, or what wrote it was stopped: what was done after tick 120"),
+            std::string::npos)
+      << shortened.err;
+  EXPECT_EQ(shortened.last_line(), "agrees with all 2 checks");
+  EXPECT_EQ(replay.err, "");
+  place.write("two.log", whole + whole.substr(whole.find("{\"end\"")));
+  const Outcome two = place.run({"replay", "two.log"});
+  EXPECT_EQ(two.code, 2);
+  EXPECT_NE(two.err.find("line 7: is a second end of the log"), std::string::npos) << two.err;
 }
 
 TEST(Run, WhatCannotBeSetLeavesTheLogOfAnEarlierRun) {

@@ -205,7 +205,12 @@ bool Document::is_unsaved() {
 Result<void> Document::save_log(const std::string& path) const {
   std::string text = log_header(log_start_);
   const auto& log = session_->log();
-  for (std::size_t i = log_begin_; i < log.size(); ++i) text += log_line(log[i], *registry_);
+  Gestures gestures;
+  for (std::size_t i = log_begin_; i < log.size(); ++i) {
+    const LogEntry entry = gestures.fitted(log[i]);
+    gestures.take(entry);
+    text += log_line(entry, *registry_);
+  }
   // A replay compares before it applies what was said in that tick: as the tick itself has left it.
   const State& state = *session_->moment()->ticked;
   text += log_line(LogCheck{state.tick, hex_digits(state.hash), true});
