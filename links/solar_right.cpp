@@ -15,7 +15,7 @@ struct SolarRight {
   enum class Mode { lower, move, shave };
   struct In {
     Mode mode = Mode::shave;
-    double gain = 0.2, tolerance = 0.02;
+    double gain = 0.2, tolerance = 0.02, least = 0.2;
   };
   struct Ends {
     std::string receiver, caster;
@@ -51,6 +51,10 @@ struct SolarRight {
         .range(0.001, 1)
         .soft(0.005, 0.1)
         .doc("What may be missing on the mean of all points, as a share of the sun that is required.");
+    l.param(&In::least, "least")
+        .unit(Unit::ratio)
+        .range(0.001, 1)
+        .doc("Share of the demand that is not shaved off, whatever stands in the sun.");
     l.reads(&Ends::receiver, End::from, "node.id").reads(&Ends::place, End::from, "node.position", Unit::metre);
     l.reads(&Ends::deficit, End::from, "shadow_receiver.deficit", Unit::second);
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
@@ -107,7 +111,8 @@ struct SolarRight {
     // it grows with the sun that is left over. Who takes little may grow nevertheless: what others limit, or limited once, is not
     // ours to hold.
     const double room = std::max({0.0, -missing - 0.5 * in.tolerance, surplus(ends), 1 - share / kLittle});
-    return Out{{}, limit_that_grants(ends.demand, granted_share(ends.demand, ends.limit) * (1 - answer) * (1 + in.gain * room))};
+    const double kept = granted_share(ends.demand, ends.limit) * (1 - answer) * (1 + in.gain * room);
+    return Out{{}, limit_that_grants(ends.demand, std::max(in.least, kept))};
   }
 };
 

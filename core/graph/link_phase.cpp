@@ -188,7 +188,19 @@ void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
   Memo memo;
   run.run(Tick{.index = frozen.tick, .memo = &memo});
   next.voices = run.voices(last);
-  if (const auto error = run.error()) next.error = error->within("links/" + plan.id);
+  if (const auto error = run.error()) {
+    next.error = error->within("links/" + plan.id);
+    return;
+  }
+  const LinkRemarks& remarks = memo.of<LinkRemarks>();
+  if (!remarks.said) return;
+  const Error said = remarks.said->within("links/" + plan.id);
+  if (remarks.kind == LinkRemark::at_work) {
+    next.work = said;
+  } else {
+    next.error = said;
+    next.remark = remarks.kind;
+  }
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool) {
 void commit(State& next) {
   const Settings& settings = next.plan->settings;
   next.largest_residual = largest_residual_of(next);
-  const bool is_calm = !has_failure(next) && next.largest_residual <= settings.tolerance &&
+  const bool is_calm = !has_failure(next) && !first_work(next) && next.largest_residual <= settings.tolerance &&
                        next.largest_move <= settings.move_limit && next.largest_change <= settings.change_limit;
   next.calm = is_calm ? next.calm + 1 : 0;
   next.hash = hash_of(next);

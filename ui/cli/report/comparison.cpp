@@ -227,7 +227,10 @@ double IndicatorRow::share() const {
 std::string IndicatorRow::figure(double value) const { return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit); }
 
 std::string IndicatorRow::difference() const {
-  return before != 0 ? signed_percent((after - before) / std::abs(before)) : figure(after - before);
+  // Beside next to nothing no percentage says anything.
+  constexpr double kNothing = 1e-3;
+  const bool had_nothing = std::abs(before) <= kNothing * std::abs(after) || figure(before) == figure(0);
+  return had_nothing ? figure(after - before) : signed_percent((after - before) / std::abs(before));
 }
 
 bool IndicatorRow::is_seen(double least_share) const { return share() > least_share && figure(before) != figure(after); }
