@@ -37,7 +37,8 @@ struct Demand {
         .doc("The use whose rows all volumes of this link share. When empty, each volume takes the rows of its own use.");
     l.param(&In::every_row, "every_row")
         .doc(
-            "When on, and no use is given, a row for which this link has no volume is named as a problem, so that no floor area is "
+            "When on, and no use is given, a row for which this link has no volume is named as a problem, so that no floor area "
+            "is "
             "forgotten. All other rows are dealt out nevertheless.");
     l.reads(&Ends::rows, End::from, "programme.rows");
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::uses, End::to, "smart_volume.use");

@@ -92,8 +92,8 @@ struct PlotRules {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
       if (in.hold_height)
-        limit = std::min(limit,
-                         granted(ends, i) * (1 + in.gain * (answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
+        limit =
+            std::min(limit, granted(ends, i) * (1 + in.gain * (answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
       out.limits.values[i] = limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
     }
     tell(in, ends, on_plot, tick);
@@ -120,7 +120,8 @@ struct PlotRules {
     if (in.hold_gsi && ends.gsi > ends.gsi_max) judge("GSI " + fixed(ends.gsi, 2) + " of " + fixed(ends.gsi_max, 2), on_plot);
     for (const std::size_t i : on_plot)
       if (in.hold_height && ends.volumes.values[i] > 0 && top(ends, i) > ends.height_max)
-        judge("height " + fixed(top(ends, i), 1) + " m of " + fixed(ends.height_max, 1) + " m at `" + ends.ids.values[i] + "`", {i});
+        judge("height " + fixed(top(ends, i), 1) + " m of " + fixed(ends.height_max, 1) + " m at `" + ends.ids.values[i] + "`",
+              {i});
     if (!unmet.empty())
       return remark(tick, LinkRemark::unmet,
                     {ErrorCode::infeasible, "from",

@@ -72,7 +72,8 @@ struct SetCap {
     if (!(ends.total > 0)) return out;
     const double answer = 1 + in.gain * (answer_within(in.cap, ends.total, in.tolerance) - 1);
     const double share = std::max(in.least, share_granted(ends) * answer);
-    for (std::size_t i = 0; i < out.limits.values.size(); ++i) out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
+    for (std::size_t i = 0; i < out.limits.values.size(); ++i)
+      out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
     if (ends.total > in.cap) tell(in, ends, tick);
     return out;
   }

@@ -17,18 +17,18 @@ inline double granted_share(double demand, double limit) {
   return demand > 0 ? std::clamp(limit / demand, kLeastGranted, 1.0) : kLeastGranted;
 }
 
-/// The limit that grants a share of a demand. Nothing where all of it is granted: a limit above the demand would hold back nobody,
-/// and would still be there when the demand grows.
+/// The limit that grants a share of a demand. Nothing where all of it is granted: a limit above the demand would hold back
+/// nobody, and would still be there when the demand grows.
 inline std::optional<double> limit_that_grants(double demand, double share) {
   if (share >= 1) return std::nullopt;
   return demand * std::max(kLeastGranted, share);
 }
 
-/// What a rule answers that keeps an amount at or below `most`: how many times what there is now it wants, at most twice. In a band
-/// below `most`, `tolerance` times it wide, it rests; from outside it aims at the middle of the band. Volumes miss their demands by
-/// errors of their own, which come and go as weights adapt: without the band the answer to them would swing for ever, and if it
-/// aimed at the edge it would rest on the edge. Amounts below `little` come and go faster than volumes can follow: for these the
-/// answer is to what is missing of `little`, and the band is a share of that.
+/// What a rule answers that keeps an amount at or below `most`: how many times what there is now it wants, at most twice. In a
+/// band below `most`, `tolerance` times it wide, it rests; from outside it aims at the middle of the band. Volumes miss their
+/// demands by errors of their own, which come and go as weights adapt: without the band the answer to them would swing for ever,
+/// and if it aimed at the edge it would rest on the edge. Amounts below `little` come and go faster than volumes can follow: for
+/// these the answer is to what is missing of `little`, and the band is a share of that.
 inline double answer_within(double most, double now, double tolerance, double little = 0) {
   const double band = tolerance * std::max(most, little), middle = most - 0.5 * band;
   if (now <= most && now >= most - band) return 1;

@@ -26,7 +26,8 @@ std::optional<Error> first_failure(const State& state) {
     for (const TypeState& type : state.nodes[n].types)
       if (type.error) return type.error;
   for (std::size_t l = 0; l < state.links.size(); ++l)
-    if (state.links[l].error && state.links[l].remark != LinkRemark::short_of && link_counts(state.plan->links[l])) return state.links[l].error;
+    if (state.links[l].error && state.links[l].remark != LinkRemark::short_of && link_counts(state.plan->links[l]))
+      return state.links[l].error;
   return std::nullopt;
 }
 

@@ -46,8 +46,9 @@ TEST(Demand, AGivenUseIsSharedWhateverTheVolumesSay) {
 TEST(Demand, AVolumeWithoutARowTakesPartInNothingAndIsNamed) {
   auto link = dealt({kA, kB, kC}, {kHousing, kSchool, std::string("housin")});
   ASSERT_EQ(link.run(), "");
-  EXPECT_EQ(link.remarked(LinkRemark::short_of),
-            "`c` has the use `housin`, for which the programme has no row: change the use or add the row, did you mean `housing`?");
+  EXPECT_EQ(
+      link.remarked(LinkRemark::short_of),
+      "`c` has the use `housin`, for which the programme has no row: change the use or add the row, did you mean `housing`?");
   EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 0), 7200, 1e-9) << "all of the housing, as `c` is none";
   EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 1), 3240, 1e-9);
   for (const char* port : {"demand", "demand_min", "demand_limit", "storey_height"})
@@ -62,9 +63,10 @@ TEST(Demand, AVolumeWithoutARowTakesPartInNothingAndIsNamed) {
 TEST(Demand, AUseWithoutAVolumeIsShortAndAllOthersGoOn) {
   auto link = dealt({kA}, {kHousing});
   ASSERT_EQ(link.run(), "");
-  EXPECT_EQ(link.remarked(LinkRemark::short_of),
-            "no volume has the use `school`, so all of the 900 m² that are asked for are missing: give a volume that use, add one, "
-            "or remove the row");
+  EXPECT_EQ(
+      link.remarked(LinkRemark::short_of),
+      "no volume has the use `school`, so all of the 900 m² that are asked for are missing: give a volume that use, add one, "
+      "or remove the row");
   EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 0), 7200, 1e-9);
   ASSERT_EQ(link.set("every_row", false).run(), "");
   EXPECT_EQ(link.remarked(LinkRemark::short_of), "");
@@ -102,7 +104,8 @@ TEST(Demand, AQuarterWithoutItsHotelAndWithANewVolumeStillFollowsItsBrief) {
   world.tick(3);
   EXPECT_EQ(world.number("office-1", "smart_volume.demand"), 9000 * 3.6) << "what is edited in the brief arrives";
   const std::string said = world.link_error("brief");
-  EXPECT_NE(said.find("no volume has the use `hotel`, so all of the 4400 m² that are asked for are missing"), std::string::npos) << said;
+  EXPECT_NE(said.find("no volume has the use `hotel`, so all of the 4400 m² that are asked for are missing"), std::string::npos)
+      << said;
   EXPECT_NE(said.find("`new` has no use"), std::string::npos) << said;
   EXPECT_NE(said.find("`cafe` has the use `cafe`, for which the programme has no row"), std::string::npos) << said;
   EXPECT_FALSE(has_failure(world.state())) << "who goes without keeps nobody from settling";

@@ -116,8 +116,9 @@ TEST(PlotRules, SaysWhichVolumeNoSmallerDemandBringsBelowTheHeight) {
   EXPECT_EQ(world.text("plot", "plot.message"), "");
   ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.height_max"}, .value = {"3"}})), "");
   world.tick(20);
-  EXPECT_NE(world.text("plot", "plot.message").find("m above the ground, so that however small it becomes it stands above the "
-                                                    "largest height of 3.0 m"),
+  EXPECT_NE(world.text("plot", "plot.message")
+                .find("m above the ground, so that however small it becomes it stands above the "
+                      "largest height of 3.0 m"),
             std::string::npos)
       << world.text("plot", "plot.message");
 }

@@ -71,9 +71,10 @@ TEST(SetCap, LeavesTheLeastShareAndSaysWhoHoldsTheCap) {
   link.read(End::to, "smart_volume.wanted", {3900.0, 1500.0}).read(End::to, "smart_volume.volume", {3900.0, 1500.0});
   ASSERT_EQ(link.set("least", 0.25).run(), "");
   EXPECT_NEAR(link.number(End::to, "smart_volume.demand_limit", 1), 1500, 1e-9);
-  EXPECT_EQ(link.remarked(LinkRemark::unmet),
-            "cap: the cap cannot be met: a sum of 9000 of 8000, held by `hotel` (3900 m³ are insisted on); raise the cap, or lower "
-            "what is insisted on or `least`");
+  EXPECT_EQ(
+      link.remarked(LinkRemark::unmet),
+      "cap: the cap cannot be met: a sum of 9000 of 8000, held by `hotel` (3900 m³ are insisted on); raise the cap, or lower "
+      "what is insisted on or `least`");
   link.read(End::to, "smart_volume.volume", {3900.0, 2500.0});  // has not followed yet
   ASSERT_EQ(link.run(), "");
   EXPECT_EQ(link.remarked(LinkRemark::unmet), "");

@@ -138,7 +138,8 @@ TEST_F(RestTest, RestIsPartOfTheState) {
   EXPECT_TRUE(again.state()->is_settled());
 }
 
-// Whatever a link remarks, its proposals are those of this tick; only what it calls unmet or unfinished keeps a scene from settling.
+// Whatever a link remarks, its proposals are those of this tick; only what it calls unmet or unfinished keeps a scene from
+// settling.
 TEST_F(RestTest, RemarksLeaveProposalsInForce) {
   const std::map<std::string, bool> settles{{"short", true}, {"work", false}, {"unmet", false}};
   for (const auto& [word, is_fine] : settles) {
