@@ -16,12 +16,25 @@ struct Heard {
 
 double clamped(const PortDefinition& port, double value) { return std::clamp(value, port.hard_minimum, port.hard_maximum); }
 
-// The hysteresis of a scene at rest: changes up to what counts as calm are not made. Whoever wants more wakes it, and so does
-// whoever edits it.
+// The hysteresis of a scene at rest: what is left of moves dies away, and values do not follow the last little. Whoever wants
+// much more than what counts as calm wakes it, and so does whoever edits it.
 struct Stillness {
   bool is_on = false;
-  double move_limit = 0, change_limit = 0;  // [m]; share of a value
+  double wakes_at = 0;   // a push [m] beyond which rest is over
+  double move = 0;       // how far a push moves at most while it is not [m]
+  double held_back = 0;  // a change, as a share of a value, that is not made
 };
+
+Stillness stillness_of(const State& frozen) {
+  // A city that comes to its place by shares of what is missing has to arrive, and one that swings has to stop: after some
+  // hundred ticks the moves are too short for anybody, and end.
+  constexpr double kDyingAway = 0.99, kShortestMove = 1e-6, kHeldShare = 0.5;
+  const Settings& settings = frozen.plan->settings;
+  if (!is_at_rest(frozen)) return {};
+  double move = settings.move_limit;
+  for (std::int64_t k = settings.calm_ticks; k < frozen.calm && move > kShortestMove; ++k) move *= kDyingAway;
+  return {true, kWakingPush * settings.move_limit, move > kShortestMove ? move : 0, kHeldShare * settings.change_limit};
+}
 
 // Changes add up: next = now + sum of strength · change, no longer than the step limit.
 void resolve_sum(const PortDefinition& port, bool is_locked, const Stillness& rest, std::span<const Heard> heard, Value& value,
@@ -34,8 +47,9 @@ void resolve_sum(const PortDefinition& port, bool is_locked, const Stillness& re
     else number += as_number(h.voice->value) * h.voice->strength;
   }
   const double length = port.kind == ValueKind::point ? norm(sum) : std::abs(number);
-  const bool is_resting = rest.is_on && port.unit == Unit::metre && length <= rest.move_limit;
-  const double share = is_locked || is_resting ? 0 : (length > port.step_limit ? port.step_limit / length : 1);
+  const bool is_resting = rest.is_on && port.unit == Unit::metre && length <= rest.wakes_at;
+  const double most = is_resting ? std::min(port.step_limit, rest.move) : port.step_limit;
+  const double share = is_locked ? 0 : (length > most ? most / length : 1);
   if (auto* position = std::get_if<Vector3>(&value)) *position += sum * share;
   else value = clamped(port, as_number(value) + number * share);
   move = length * share;
@@ -98,7 +112,7 @@ void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t
   double wanted = combined(port, type.set_values[p], is_set, heard);
   wanted = std::clamp(wanted, old - port.step_limit, old + port.step_limit);
   value = type.is_locked[p] ? type.set_values[p] : Value(clamped(port, wanted));
-  if (rest.is_on && !type.is_locked[p] && !heard.empty() && relative_change(before, value) <= rest.change_limit) value = before;
+  if (rest.is_on && !type.is_locked[p] && !heard.empty() && relative_change(before, value) <= rest.held_back) value = before;
   for (const Heard& h : heard) tension += h.voice->strength * std::abs(as_number(h.voice->value) - as_number(value));
   if (is_set && port.rule == CombineRule::blend) tension += std::abs(as_number(type.set_values[p]) - as_number(value));
 }
@@ -189,8 +203,7 @@ void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
   for (std::size_t i = heard.size(); i-- > 0;) start[heard[i].target.node] = i;
   for (std::size_t n = next.nodes.size(); n-- > 0;) start[n] = std::min(start[n], start[n + 1]);
   std::vector<Unrest> unrest(next.nodes.size());
-  const Settings& settings = next.plan->settings;
-  const Stillness rest{is_at_rest(frozen), settings.move_limit, settings.change_limit};
+  const Stillness rest = stillness_of(frozen);
   pool.for_each_chunk(next.nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       resolve_node(frozen, next, static_cast<std::uint32_t>(n), rest, std::span(heard).subspan(start[n], start[n + 1] - start[n]),

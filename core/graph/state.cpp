@@ -43,10 +43,15 @@ bool is_at_rest(const State& state) { return state.calm >= state.plan->settings.
 
 bool State::is_settled() const {
   if (!is_at_rest(*this)) return false;
-  return std::all_of(analyses.begin(), analyses.end(), [&](const AnalysisState& a) {
-    // It reads shapes of the tick before. Links answer its result in the next tick, and nodes the links in the one after.
-    return a.as_of - 1 > tick - calm && tick >= a.taken + 2;
-  });
+  for (std::size_t a = 0; a < analyses.size(); ++a) {
+    const AnalysisPlan& one = plan->analyses[a];
+    const double latency = as_number(nodes[one.node].types[one.type].values[one.latency]);
+    // It reads shapes of the tick before. Links answer its result in the next tick, and nodes the links in the one after. Of
+    // later results, of shapes that still move a little, it is enough that they wake nobody.
+    const bool is_answered = tick >= analyses[a].taken + 2 || static_cast<double>(calm) > 2 * latency + 4;
+    if (analyses[a].as_of - 1 <= tick - calm || !is_answered) return false;
+  }
+  return true;
 }
 
 double largest_residual_of(const State& state) {

@@ -81,7 +81,8 @@ std::optional<Error> first_failure(const State& state);
 bool has_failure(const State& state);
 /// A rule that a link is still bringing about.
 std::optional<Error> first_work(const State& state);
-/// Do links leave everything where it is, until they want more than what counts as calm? So a city that has settled stands still.
+/// Calm for long enough, so that what is left of moves dies away and links have to want more than what counts as calm to wake it:
+/// a city that has settled comes to a standstill.
 bool is_at_rest(const State& state);
 
 /// The hash of everything that the next tick depends on: values, held proposals, the calm count, the tick.

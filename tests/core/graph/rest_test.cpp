@@ -1,4 +1,4 @@
-// A scene at rest stands still: pushes and values within what counts as calm are not followed, until somebody wants more.
+// A scene at rest comes to a standstill: moves die away and the last little of values is not followed, until somebody wants more.
 #include <gtest/gtest.h>
 
 #include "core/define/link_builder.h"
@@ -84,20 +84,24 @@ class RestTest : public testing::Test {
 };
 
 TEST_F(RestTest, WhatIsCalmComesToAStandstill) {
+  scene_.nodes["a"].types["scale"]["push"] = 0.004;
+  simulation_.set_scene(scene_);
   steps(5);
   ASSERT_TRUE(is_settled());
-  EXPECT_NEAR(x(), 0.05, 1e-12);
-  const double there = x(), reads = reading();
-  for (int i = 0; i < 200; ++i) {
+  EXPECT_NEAR(x(), 0.02, 1e-12);
+  const double reads = reading();
+  double last = 0.02;
+  for (int i = 0; i < 1100; ++i) {
     steps(1);
     ASSERT_TRUE(is_settled());
-    ASSERT_EQ(x(), there);
-    ASSERT_EQ(reading(), reads);
-    ASSERT_EQ(simulation_.state()->largest_move, 0);
-    ASSERT_EQ(simulation_.state()->largest_change, 0);
+    ASSERT_EQ(reading(), reads) << "0.004 % a tick is less than half of what counts as calm";
+    ASSERT_LE(simulation_.state()->largest_move, last);
+    last = simulation_.state()->largest_move;
   }
+  EXPECT_EQ(last, 0) << "a push that never ends moves nobody any more";
+  EXPECT_LT(x(), 2) << "all that is left of it is the sum of 0.02 m times 0.99, times 0.99, ...";
   // The push is still there to be seen.
-  EXPECT_NEAR(std::get<Vector3>(link().voices.front().value).x, 0.01, 1e-12);
+  EXPECT_NEAR(std::get<Vector3>(link().voices.front().value).x, 0.004, 1e-12);
 }
 
 TEST_F(RestTest, MoreThanCalmWakesIt) {
@@ -105,7 +109,6 @@ TEST_F(RestTest, MoreThanCalmWakesIt) {
   simulation_.set_scene(scene_);
   steps(20);
   const double there = x();
-  EXPECT_NEAR(there, 0.05, 1e-12);
   steps(3);
   EXPECT_FALSE(is_settled());
   EXPECT_NEAR(x(), there + 0.3, 1e-12);
@@ -113,15 +116,19 @@ TEST_F(RestTest, MoreThanCalmWakesIt) {
 
 TEST_F(RestTest, AnEditWakesItAndANameDoesNot) {
   steps(10);
-  const double there = x();
+  double there = x();
   scene_.nodes["b"].name = "Another name";
   scene_.settings["title"] = std::string("Another title");
   simulation_.set_scene(scene_);
   EXPECT_TRUE(is_settled());
+  const std::int64_t calm = simulation_.state()->calm;
   steps(3);
-  EXPECT_EQ(x(), there);
+  EXPECT_EQ(simulation_.state()->calm, calm + 3);
+  EXPECT_LE(x(), there + 3 * 0.01);
+  there = x();
   scene_.nodes["a"].types["scale"]["push"] = 0.005;  // less than calm, but somebody wants it
   simulation_.set_scene(scene_);
+  EXPECT_FALSE(is_settled());
   steps(3);
   EXPECT_NEAR(x(), there + 0.015, 1e-12);
 }
@@ -154,7 +161,7 @@ TEST_F(RestTest, RemarksLeaveProposalsInForce) {
     EXPECT_EQ(state.error.has_value(), word != "work") << word;
     EXPECT_EQ(has_failure(*fresh.state()), word == "unmet") << word;
     EXPECT_EQ(first_work(*fresh.state()).has_value(), word == "work") << word;
-    if (word == "unmet") EXPECT_EQ(state.error->text(), "links/l/says: cannot be met");
+    EXPECT_EQ(word == "unmet" ? state.error->text() : "", word == "unmet" ? "links/l/says: cannot be met" : "") << word;
     EXPECT_TRUE(save(*fresh.state()).held.empty()) << word << ": nothing is held that is said anew in every tick";
     scene_.links["l"].is_muted = true;
     fresh.set_scene(scene_);
