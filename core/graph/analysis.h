@@ -72,8 +72,8 @@ class Analysis {
   AnalysisResult result_;
 };
 
-/// One thread that works analyses off in the order in which they were begun. Those that nobody waits for any more are left out,
-/// or stopped on the way.
+/// One thread that works analyses off in the order in which they were begun. Those that nobody waits for any more are left out, or
+/// stopped on the way.
 class AnalysisRunner {
  public:
   AnalysisRunner() = default;
