@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/base/hash.h"
+#include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/geometry/domain_table.h"
@@ -179,6 +180,18 @@ struct SmartVolumesSolver {
     return reply;
   }
 
+  // Below this share of what is asked for a volume has nothing, whatever the limits say that it should aim at.
+  static constexpr double kNothing = 1e-3;
+
+  // Limits that leave a volume nothing must not look as if it had what it wants.
+  static void judge_limit(const Member& member, Reply& reply) {
+    if (!(member.demand > 0) || reply.wanted > kNothing * member.demand) return;
+    reply.error = 1;
+    reply.state = std::string(name_of(SiteState::starved));
+    reply.reason = "its limit of " + fixed(member.limit, 1) + " m³ leaves it next to nothing of the " + fixed(member.demand, 0) +
+                   " m³ that it asks for: raise what limits it, or lower its demand";
+  }
+
   static FitState last_state(const In& in, const std::vector<Member>& members) {
     FitState state;
     state.momentum = std::max(1.0, in.last.momentum);
@@ -220,6 +233,7 @@ struct SmartVolumesSolver {
     if (!done) return Error{done.error().code, "members", with_names(done.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) {
       Reply& reply = out.replies.emplace_back(reply_of(done->cells[i], wanted[i], sites[i].weight, names));
+      judge_limit(sets.members[i], reply);
       if (!done->state.previous_move.empty()) reply.last_step = done->state.previous_move[i];
       if (!done->state.direction.empty()) reply.last_direction = done->state.direction[i];
       out.count += reply.volume > 0 ? 1 : 0;

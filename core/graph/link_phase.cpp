@@ -145,7 +145,8 @@ class LinkRun {
       if (!read.is_whole && is_of_the_past(plan_.reads[r][first]))
         return Error{ErrorCode::missing, "",
                      "`" + frozen_.plan->nodes[plan_.reads[r][first].node].id + "` has an error, so that its `" +
-                         frozen_.plan->path_text(plan_.reads[r][first]) + "` is of the past. What was proposed last stays in force"};
+                         frozen_.plan->path_text(plan_.reads[r][first]) +
+                         "` is of the past. What was proposed last stays in force"};
     }
     for (auto& values : writes_.values) std::fill(values.begin(), values.end(), std::nullopt);
     if (auto done = definition_.evaluate(plan_.parameters.get(), reads_, writes_, tick); !done) return done;
@@ -175,8 +176,8 @@ class LinkRun {
   const LinkDefinition& definition_;
   LinkReads reads_;
   LinkWrites writes_;
-  std::vector<Collected> collected_;   // by target
-  std::vector<bool> has_failed_;       // by target: a pair that would have spoken to it
+  std::vector<Collected> collected_;  // by target
+  std::vector<bool> has_failed_;      // by target: a pair that would have spoken to it
   std::optional<Error> first_error_;
   std::size_t failures_ = 0;
   bool is_stopped_ = false;
@@ -197,7 +198,19 @@ void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
   Memo memo;
   run.run(Tick{.index = frozen.tick, .memo = &memo});
   next.voices = run.voices(last);
-  if (const auto error = run.error()) next.error = error->within("links/" + plan.id);
+  if (const auto error = run.error()) {
+    next.error = error->within("links/" + plan.id);
+    return;
+  }
+  const LinkRemarks& remarks = memo.of<LinkRemarks>();
+  if (!remarks.said) return;
+  const Error said = remarks.said->within("links/" + plan.id);
+  if (remarks.kind == LinkRemark::at_work) {
+    next.work = said;
+  } else {
+    next.error = said;
+    next.remark = remarks.kind;
+  }
 }
 
 }  // namespace

@@ -61,8 +61,13 @@ void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool) {
 void commit(State& next) {
   const Settings& settings = next.plan->settings;
   next.largest_residual = largest_residual_of(next);
-  const bool is_calm = !has_failure(next) && next.largest_residual <= settings.tolerance &&
-                       next.largest_move <= settings.move_limit && next.largest_change <= settings.change_limit;
+  // Whoever rests needs more to be woken than to come to rest: volumes that follow by steps of their tolerance are no news, nor
+  // is what links answer to these.
+  const bool rests = is_at_rest(next);
+  const double change_limit = rests ? std::max(settings.change_limit, settings.tolerance) : settings.change_limit;
+  const double move_limit = rests ? kWakingPush * settings.move_limit : settings.move_limit;
+  const bool is_calm = !has_failure(next) && (rests || !first_work(next)) && next.largest_residual <= settings.tolerance &&
+                       next.largest_move <= move_limit && next.largest_change <= change_limit;
   next.calm = is_calm ? next.calm + 1 : 0;
   next.hash = hash_of(next);
 }

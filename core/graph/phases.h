@@ -28,6 +28,9 @@ void commit(State& next);
 
 // What the phases share.
 
+/// How many times the move limit a push has to be to wake a scene that rests.
+inline constexpr double kWakingPush = 2;
+
 /// Where errors of a typification of a node stand: "nodes/tower/smart_volume".
 std::string place_of(const State& state, std::size_t n, std::size_t t);
 /// Takes over what an evaluation wrote, or keeps the last good values and the error.

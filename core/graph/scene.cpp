@@ -28,12 +28,17 @@ TypeDefinition declare_settings() {
       .unit(Unit::metre)
       .min(0)
       .soft(0, 1)
-      .doc("Settled means that no link moves a node by more than this in a tick.");
+      .doc(
+          "Settled means that no link moves a node by more than this in a tick. From then on it stands still until one wants "
+          "more.");
   port(&Settings::change_limit, "change_limit")
       .unit(Unit::ratio)
       .min(0)
       .soft(0.0001, 0.1)
-      .doc("Settled means that no link changes a value by more than this share of it in a tick.");
+      .doc(
+          "Settled means that no link changes a value by more than this share of it in a tick. From then on it stays as it is "
+          "until "
+          "one wants more.");
   port(&Settings::calm_ticks, "calm_ticks").range(1, 1000).soft(1, 50).doc("Settled means calm for this many ticks in a row.");
   port(&Settings::coordinate_system, "coordinate_system")
       .doc("Where the plan came from: a CRS such as EPSG:28992; empty for a free place.");

@@ -16,27 +16,43 @@ TypeName type_name(const Plan& plan, std::size_t node, std::size_t type) {
 
 TypeName analysis_name(const Plan& plan, std::size_t a) { return type_name(plan, plan.analyses[a].node, plan.analyses[a].type); }
 
+bool link_counts(const LinkPlan& link) { return link.definition != nullptr && link.is_enabled && !link.is_muted; }
+
 }  // namespace
 
 bool is_lasting(const State& state, const Voice& voice) { return state.plan->port(voice.target).rule != CombineRule::sum; }
 
-bool has_failure(const State& state) {
-  for (const NodeState& node : state.nodes)
-    for (const TypeState& type : node.types)
-      if (type.error) return true;
-  for (std::size_t l = 0; l < state.links.size(); ++l) {
-    const LinkPlan& plan = state.plan->links[l];
-    if (state.links[l].error && plan.definition != nullptr && plan.is_enabled && !plan.is_muted) return true;
-  }
-  return false;
+std::optional<Error> first_failure(const State& state) {
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
+    for (const TypeState& type : state.nodes[n].types)
+      if (type.error) return type.error;
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    if (state.links[l].error && state.links[l].remark != LinkRemark::short_of && link_counts(state.plan->links[l]))
+      return state.links[l].error;
+  return std::nullopt;
 }
 
+bool has_failure(const State& state) { return first_failure(state).has_value(); }
+
+std::optional<Error> first_work(const State& state) {
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    if (state.links[l].work && link_counts(state.plan->links[l]) && state.plan->links[l].strength > 0) return state.links[l].work;
+  return std::nullopt;
+}
+
+bool is_at_rest(const State& state) { return state.calm >= state.plan->settings.calm_ticks; }
+
 bool State::is_settled() const {
-  if (calm < plan->settings.calm_ticks) return false;
-  return std::all_of(analyses.begin(), analyses.end(), [&](const AnalysisState& a) {
-    // It reads shapes of the tick before. Links answer its result in the next tick, and nodes the links in the one after.
-    return a.as_of - 1 > tick - calm && tick >= a.taken + 2;
-  });
+  if (!is_at_rest(*this)) return false;
+  for (std::size_t a = 0; a < analyses.size(); ++a) {
+    const AnalysisPlan& one = plan->analyses[a];
+    const double latency = as_number(nodes[one.node].types[one.type].values[one.latency]);
+    // It reads shapes of the tick before. Links answer its result in the next tick, and nodes the links in the one after. Of
+    // later results, of shapes that still move a little, it is enough that they wake nobody.
+    const bool is_answered = tick >= analyses[a].taken + 2 || static_cast<double>(calm) > 2 * latency + 4;
+    if (analyses[a].as_of - 1 <= tick - calm || !is_answered) return false;
+  }
+  return true;
 }
 
 double largest_residual_of(const State& state) {
@@ -166,12 +182,26 @@ void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& af
 
 void carry_link(const State& old, std::size_t from, const Plan& plan, LinkState& fresh) {
   fresh.error = old.links[from].error;
+  fresh.remark = old.links[from].remark;
+  fresh.work = old.links[from].work;
   for (const Voice& voice : old.links[from].voices) {
     const std::uint32_t node = plan.node_index(old.plan->nodes[voice.target.node].id);
     if (node == plan.nodes.size()) continue;
     const auto path = parse_port_path(old.plan->path_text(voice.target));
     if (const auto ref = plan.find(node, *path)) fresh.voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
   }
+}
+
+// Do two scenes ask for the same? Names, titles and what stands on the canvas move nobody.
+bool asks_the_same(const Scene& a, const Scene& b) {
+  const auto asked = [](PortValues settings) {
+    for (const char* told : {"title", "about"}) settings.erase(told);
+    return settings;
+  };
+  if (a.nodes.size() != b.nodes.size() || a.links != b.links || !(a.scripts == b.scripts)) return false;
+  for (auto x = a.nodes.begin(), y = b.nodes.begin(); x != a.nodes.end(); ++x, ++y)
+    if (x->first != y->first || x->second.types != y->second.types || x->second.locked != y->second.locked) return false;
+  return asked(a.settings) == asked(b.settings);
 }
 
 }  // namespace
@@ -185,6 +215,8 @@ State initial_state(std::shared_ptr<const Plan> plan) {
 State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed) {
   State state = fresh_state(std::move(plan));
   state.tick = old.tick;
+  // What rests goes on resting, unless somebody asks for something else.
+  if (old.calm > 0 && placed.empty() && asks_the_same(old.plan->scene, state.plan->scene)) state.calm = old.calm;
   for (std::size_t n = 0; n < state.nodes.size(); ++n) {
     const NodePlan& node = state.plan->nodes[n];
     const std::uint32_t before = old.plan->node_index(node.id);

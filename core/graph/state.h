@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/define/link_remark.h"
 #include "core/graph/analysis.h"
 #include "core/graph/plan.h"
 
@@ -34,7 +35,12 @@ struct Voice {
 
 struct LinkState {
   std::vector<Voice> voices;   ///< ascending target
-  std::optional<Error> error;  ///< why it did not run; value proposals of the last good tick are kept
+  std::optional<Error> error;  ///< why it did not run: value proposals of the last good tick are kept; or what it says of a rule
+                               ///< or of somebody who goes without, although it ran
+  std::optional<LinkRemark> remark;  ///< set where `error` is a remark: the voices are of this tick
+  std::optional<Error> work;         ///< a rule that it is still bringing about
+
+  bool has_failed() const { return error.has_value() && !remark; }
 };
 
 /// How far an analysis beside the loop has come.
@@ -53,7 +59,7 @@ struct State {
   std::vector<NodeState> nodes;         ///< as plan->nodes
   std::vector<LinkState> links;         ///< as plan->links
   std::vector<AnalysisState> analyses;  ///< as plan->analyses
-  std::int64_t calm = 0;                ///< ticks in a row in which nothing much moved and all demands were met
+  std::int64_t calm = 0;                ///< ticks in a row in which nothing much moved, and all demands and rules were met
   double largest_move = 0;              ///< [m] of this tick
   double largest_change = 0;            ///< of this tick, of any number that links choose, as a share of itself
   PortRef restless;                     ///< who has that change
@@ -69,8 +75,15 @@ struct State {
 
 /// The largest value of all ports that are residuals.
 double largest_residual_of(const State& state);
-/// Does a node fail, or a link that should run? Links of unknown kinds are kept and hinder nobody.
+/// What hinders settling: a node that fails, a link that should run and does not, or a rule that cannot be kept. Links of unknown
+/// kinds are kept and hinder nobody; nor does a remark that somebody goes without.
+std::optional<Error> first_failure(const State& state);
 bool has_failure(const State& state);
+/// A rule that a link is still bringing about.
+std::optional<Error> first_work(const State& state);
+/// Calm for long enough, so that what is left of moves dies away and links have to want more than what counts as calm to wake it:
+/// a city that has settled comes to a standstill.
+bool is_at_rest(const State& state);
 
 /// Would it stay in force if its link failed in the next tick? A push must not go on for ever.
 bool is_lasting(const State& state, const Voice& voice);

@@ -29,7 +29,8 @@ constexpr long long kTicksPerCheck = 60;
 
 class Run {
  public:
-  explicit Run(const RunOptions& options) : options_(options), live_(options.scene, options.is_live, options.rate, options.reads_anywhere) {}
+  explicit Run(const RunOptions& options)
+      : options_(options), live_(options.scene, options.is_live, options.rate, options.reads_anywhere) {}
 
   int execute() {
     if (!start()) return kBadInput;
@@ -145,11 +146,13 @@ class Run {
   std::string outcome(const Survey& survey) const {
     const State& state = *session_->state();
     const auto idle = static_cast<std::size_t>(
-        std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.error.has_value(); }));
-    const std::string without = idle == 0 ? "" : idle == 1 ? " (1 link does not run)" : " (" + std::to_string(idle) + " links do not run)";
+        std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.has_failed(); }));
+    const std::string without = idle == 0   ? ""
+                                : idle == 1 ? " (1 link does not run)"
+                                            : " (" + std::to_string(idle) + " links do not run)";
     if (state.is_settled())
-      return "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " + fixed(100 * survey.worst_error, 3) +
-             " %, hash " + hex_digits(state.hash);
+      return "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " +
+             fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash);
     const std::string stopped = is_interrupted() ? "stopped at tick " + std::to_string(state.tick) + "; " : "";
     return "not settled: " + stopped + why_not_settled(state, before_.get());
   }
@@ -176,7 +179,8 @@ class Run {
       is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, *state);
     live_.sum_up(*state);
-    const bool is_whole = std::none_of(state->links.begin(), state->links.end(), [](const LinkState& l) { return l.error.has_value(); });
+    const bool is_whole =
+        std::none_of(state->links.begin(), state->links.end(), [](const LinkState& l) { return l.error.has_value(); });
     print_line(last_line, !state->is_settled() ? Colour::red : is_whole ? Colour::green : Colour::yellow);
     return is_saved;
   }

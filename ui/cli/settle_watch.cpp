@@ -76,11 +76,11 @@ std::string why_not_settled(const State& state, const State* before) {
   const auto worst =
       std::max_element(volumes.begin(), volumes.end(), [](const VolumeRow& a, const VolumeRow& b) { return a.error < b.error; });
   const Settings& settings = state.plan->settings;
-  if (has_failure(state)) {
-    const Error problem = problems_of(state).front();
-    return problem.text() + (worst != volumes.end() && worst->error > settings.tolerance ? "; " + of_worst(*worst) : "");
+  if (const auto problem = first_failure(state)) {
+    return problem->text() + (worst != volumes.end() && worst->error > settings.tolerance ? "; " + of_worst(*worst) : "");
   }
   if (worst != volumes.end() && worst->error > settings.tolerance) return of_worst(*worst) + of_greedy(state);
+  if (const auto work = first_work(state)) return work->text();
   if (state.largest_residual > settings.tolerance) return "an error of " + fixed(100 * state.largest_residual, 2) + " % is left";
   if (state.largest_move > settings.move_limit) {
     const Mover mover = fastest(state, before);

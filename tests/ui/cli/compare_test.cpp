@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/ui/cli/program.h"
+#include "ui/cli/report/comparison.h"
 
 namespace bl::test {
 
@@ -43,7 +44,8 @@ TEST(Compare, ASceneWithItselfDiffersInNothing) {
 // An FSI of 1.2 is no 120 per cent; the share of the ground that is built is one. What solvers still miss is no outcome.
 TEST(Compare, RatiosThatAreNoSharesArePlainNumbers) {
   const Workplace place;
-  const std::string plot = R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]}}})";
+  const std::string plot =
+      R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]}}})";
   place.write("a.json", scene_text(volume_text("east", "[8, 0, 8]", "2000") + "," + plot));
   place.write("b.json", scene_text(volume_text("east", "[8, 0, 8]", "6000") + "," + plot));
   const Outcome outcome = place.run({"compare", "a.json", "b.json"});
@@ -71,6 +73,19 @@ TEST(Compare, BadScenesAreToldWithTheirPlace) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("b.json: nodes/0"), std::string::npos) << outcome.err;
   EXPECT_EQ(place.run({"compare", "a.json", "nowhere.json"}).code, 2);
+}
+
+// A volume that had next to nothing: 5 000 m² more are no percentage of it.
+TEST(Compare, NoPercentageOfNothingIsTold) {
+  const auto difference = [](double before, double after) {
+    return report::IndicatorRow{"", "", "", "", Unit::square_metre, before, after}.difference();
+  };
+  for (const double nothing : {0.0, 8.3e-13, 1e-300, -1e-9, 0.004}) {
+    EXPECT_EQ(difference(nothing, 5000).find('%'), std::string::npos) << difference(nothing, 5000);
+    EXPECT_NE(difference(nothing, 5000).find("5"), std::string::npos) << difference(nothing, 5000);
+  }
+  EXPECT_NE(difference(2500, 5000).find("100"), std::string::npos) << difference(2500, 5000);
+  EXPECT_NE(difference(5000, 0).find('%'), std::string::npos) << "all of it has gone";
 }
 
 }  // namespace

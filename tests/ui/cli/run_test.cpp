@@ -135,6 +135,48 @@ TEST(Run, DemandsThatDoNotFitAreNamedEarly) {
   EXPECT_LT(place.json("r.json")["ticks"].get<int>(), 1000) << "nobody waits for what cannot come";
 }
 
+// One volume is insisted on and breaks the rule by itself. The other is not wound to nothing for it, and nobody calls it settled.
+TEST(Run, ARuleThatCannotBeMetIsSaidAndEndsWithCodeThree) {
+  const Workplace place;
+  const std::string plot =
+      R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]], "fsi_max": 0.3}}})";
+  const std::string insisted =
+      R"({"id": "fixed", "position": [-8, 0, 8], "types": {"smart_volume": {"use": "hotel", "demand": 4000,
+      "demand_min": 4000}}})";
+  place.write("s.json",
+              scene_text(volume_text("free", "[8, 0, 8]", "2000") + "," + insisted + "," + plot,
+                         R"({"id": "rules", "kind": "plot_rules", "from": "plot", "to": {"typification": "smart_volume"}})"));
+  const Outcome outcome = place.run({"run", "s.json", "--settle", "--json", "r.json"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_TRUE(outcome.last_line().starts_with("not settled: links/rules/from: cannot be met: FSI ")) << outcome.last_line();
+  EXPECT_NE(outcome.last_line().find("of 0.30, held by `fixed` (4000 m³ are insisted on)"), std::string::npos)
+      << outcome.last_line();
+  const nlohmann::json result = place.json("r.json");
+  EXPECT_FALSE(result["settled"]);
+  EXPECT_LT(result["ticks"].get<int>(), 400) << "nobody waits for what cannot come";
+  EXPECT_NE(result["problems"].dump().find("cannot be met: FSI"), std::string::npos);
+  ASSERT_EQ(result["volumes"].size(), 2u);
+  EXPECT_EQ(result["volumes"][1]["id"], "free");
+  EXPECT_NEAR(result["volumes"][1]["volume"].get<double>(), 400, 8) << "a fifth of its demand";
+}
+
+// A brief of which one use has no volume: the rest is negotiated to its end, and who is missing is named.
+TEST(Run, AUseWithoutAVolumeIsNamedAndTheRestSettles) {
+  const Workplace place;
+  const std::string brief = R"({"id": "brief", "types": {"programme": {"rows": [{"use": "housing", "floor_area": 600,
+      "storey_height": 3}, {"use": "hotel", "floor_area": 900}]}}})";
+  place.write("s.json",
+              scene_text(volume_text("house", "[8, 0, 8]", "1000") + "," + brief,
+                         R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}})"));
+  const Outcome outcome = place.run({"run", "s.json", "--settle", "--json", "r.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.last_line();
+  EXPECT_TRUE(outcome.last_line().starts_with("settled after ")) << outcome.last_line();
+  EXPECT_EQ(outcome.last_line().find("does not run"), std::string::npos) << outcome.last_line();
+  const nlohmann::json result = place.json("r.json");
+  EXPECT_NE(result["problems"].dump().find("no volume has the use `hotel`, so all of the 900 m"), std::string::npos)
+      << result["problems"].dump();
+}
+
 TEST(Run, ReportIsWritten) {
   const Workplace place;
   place.write("s.json", moving_scene());

@@ -110,7 +110,8 @@ class Walk {
     const std::string label = type.label + ": " + spoken(port.id) + subject_of(state, ref);
     const double value = as_number(state.value(ref));
     IndicatorRow& row =
-        rows_.emplace(Key{node.id, path}, IndicatorRow{node.id, node.name, path, label, unit, 0, 0, is_share(port)}).first->second;
+        rows_.emplace(Key{node.id, path}, IndicatorRow{node.id, node.name, path, label, unit, 0, 0, is_share(port)})
+            .first->second;
     (is_after ? row.after : row.before) = value;
     (is_after ? in_after_ : in_before_).insert({node.id, path});
     double& largest = largest_[path];
@@ -224,10 +225,15 @@ double IndicatorRow::share() const {
   return most > 0 ? std::abs(after - before) / most : 0;
 }
 
-std::string IndicatorRow::figure(double value) const { return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit); }
+std::string IndicatorRow::figure(double value) const {
+  return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit);
+}
 
 std::string IndicatorRow::difference() const {
-  return before != 0 ? signed_percent((after - before) / std::abs(before)) : figure(after - before);
+  // Beside next to nothing no percentage says anything.
+  constexpr double kNothing = 1e-3;
+  const bool had_nothing = std::abs(before) <= kNothing * std::abs(after) || figure(before) == figure(0);
+  return had_nothing ? figure(after - before) : signed_percent((after - before) / std::abs(before));
 }
 
 bool IndicatorRow::is_seen(double least_share) const { return share() > least_share && figure(before) != figure(after); }

@@ -35,6 +35,15 @@ std::string lower_first(std::string text) {
   return text;
 }
 
+// A link that fails, or one that runs and says what it cannot reach.
+std::string what_of(const State& state, const std::string& link) {
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    if (state.plan->links[l].id == link && state.links[l].remark)
+      return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met"
+                                                        : "Not everything that is asked for has a volume";
+  return "Link " + link + " fails";
+}
+
 }  // namespace
 
 const char* label_of(ProblemKind kind) {
@@ -136,7 +145,7 @@ void ProblemList::add_failures(const State& state, const report::ReportModel& pr
       ProblemItem item{
           is_shortage ? ProblemKind::shortage : ProblemKind::failing, row.place, 0, true, "", row.message, {}, {}, {}};
       item.subject = is_shortage        ? "The boundary is too small"
-                     : row.node.empty() ? "Link " + row.link + " fails"
+                     : row.node.empty() ? what_of(state, row.link)
                                         : row.place.substr(5) + " fails";
       if (!row.node.empty()) item.nodes = {row.node};
       if (!row.link.empty()) item.links = {row.link};
