@@ -8,6 +8,7 @@
 #include "core/define/typification_builder.h"
 #include "core/geometry/domain_table.h"
 #include "core/geometry/fit_text.h"
+#include "core/geometry/standing.h"
 #include "core/geometry/volume_tick.h"
 
 namespace bl {
@@ -32,6 +33,7 @@ struct SmartVolumesSolver {
     std::string id;
     Point3 position;
     double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0, last_step = 0, last_direction = 0;
+    std::string standing;
   };
   struct Plot {
     std::string id;
@@ -48,6 +50,8 @@ struct SmartVolumesSolver {
     Table neighbours;
     Point3 centroid;
     MeshPointer mesh;
+    double hang = 0, drop = 0;
+    std::string stands_on;
   };
   struct Out {
     std::int64_t count = 0;
@@ -134,6 +138,8 @@ struct SmartVolumesSolver {
         .writes(&Reply::mesh, "smart_volume.mesh");
     set.writes(&Reply::state, "smart_volume.state").writes(&Reply::reason, "smart_volume.reason");
     set.writes(&Reply::centroid, "smart_volume.centroid").writes(&Reply::neighbours, "smart_volume.neighbours");
+    set.reads(&Member::standing, "smart_volume.standing").writes(&Reply::stands_on, "smart_volume.stands_on");
+    set.writes(&Reply::hang, "smart_volume.hang").writes(&Reply::drop, "smart_volume.drop");
   }
 
   template <class M>
@@ -179,6 +185,24 @@ struct SmartVolumesSolver {
     for (const FacetArea& facet : cell.facets)
       if (facet.kind == FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
     return reply;
+  }
+
+  static Standing rule_of(const std::string& standing) {
+    return standing == "ground" ? Standing::ground : standing == "bridge" ? Standing::bridge : Standing::stack;
+  }
+
+  static void write_stances(const Domain& domain, std::span<const PowerSite> sites, std::span<const CellMeasure> cells,
+                            const std::vector<Member>& members, std::vector<Reply>& replies) {
+    std::vector<Standing> rules;
+    for (const Member& member : members) rules.push_back(rule_of(member.standing));
+    const std::vector<Stance> stances = stances_of(domain, sites, cells, rules);
+    for (std::size_t i = 0; i < stances.size(); ++i) {
+      const std::int32_t on = stances[i].stands_on;
+      replies[i].hang = stances[i].hang;
+      replies[i].drop = stances[i].drop;
+      if (on != Stance::kNothing)
+        replies[i].stands_on = on == Stance::kGround ? "the ground" : members[static_cast<std::size_t>(on)].id;
+    }
   }
 
   static FitState last_state(const In& in, const std::vector<Member>& members) {
@@ -232,6 +256,7 @@ struct SmartVolumesSolver {
       out.largest_error = reply.error;
       out.worst = sets.members[i].id;
     }
+    write_stances(*domain, sites, done->cells, sets.members, out.replies);
     out.fill = out.total_volume / out.boundary_volume;
     out.memory = memory_of(done->state);
     out.message = losses_text(done->losses, out.total_demand, names);
