@@ -51,7 +51,7 @@ struct SmartVolumesSolver {
     Point3 centroid;
     MeshPointer mesh;
     double hang = 0, drop = 0;
-    std::string stands_on;
+    std::string stands_on = {};
   };
   struct Out {
     std::int64_t count = 0;
