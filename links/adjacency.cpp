@@ -80,7 +80,7 @@ struct Adjacency {
  private:
   // A body that others keep from following stays behind its position. The pull fades as its middle falls behind, and ends before
   // the position comes near the side of the body. A ball that is cut in half has its middle 3/8 of the radius off.
-  static constexpr double kFree = 0.15, kPressed = 0.35;
+  static constexpr double kFree = 0.05, kPressed = 0.15;
   static double share_pulled(double ahead, double radius) {
     if (!(radius > 0)) return 1;
     return std::clamp((kPressed - ahead / radius) / (kPressed - kFree), 0.0, 1.0);

@@ -1,4 +1,5 @@
 // Lets volumes down until they stand: on the ground, or on what is below them.
+#include <algorithm>
 #include <optional>
 
 #include "core/define/link_builder.h"
@@ -10,7 +11,7 @@ namespace {
 
 struct Stand {
   struct In {
-    double stiffness = 0.2, footing = 0.2, play = 0.05;
+    double stiffness = 0.8, footing = 0.2, play = 0.05;
   };
   struct Ends {
     double count = 0, drop = 0, radius = 0, volume = 0;
@@ -26,8 +27,8 @@ struct Stand {
     l.param(&In::stiffness, "stiffness")
         .unit(Unit::ratio)
         .range(0, 1)
-        .soft(0, 0.5)
-        .doc("The share of the way down that is made in one tick.");
+        .soft(0, 1)
+        .doc("The share of the way down that is made in one tick, but no more than half a radius: pulls do not hold a volume up.");
     l.param(&In::footing, "footing")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -51,7 +52,8 @@ struct Stand {
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     const double way = ends.drop + (in.footing - in.play) * ends.radius;
     if (!(ends.count > 0) || !(ends.volume > 0) || !(way > 0)) return Out{};
-    return Out{Vector3{0, 0, -in.stiffness * way}};
+    // What falls by more than its own size in one tick would pass others on the way.
+    return Out{Vector3{0, 0, -std::min(in.stiffness * way, 0.5 * ends.radius)}};
   }
 };
 

@@ -9,6 +9,8 @@ namespace bl {
 
 namespace {
 
+constexpr double kCreep = 0.1;  // of the radius: the way down of a body that hangs though its ball has sunk into something
+
 struct HeightSpan {
   double bottom, top;
 };
@@ -96,16 +98,18 @@ class StanceFinder {
     const bool is_content = rules_[i] == Standing::ground ? stance.stands_on == Stance::kGround : is_carried_[i];
     if (!is_content) stance.hang = std::max(0.0, cells_[i].bottom - ground);
     stance.drop = sites_[i].position.z - radius - ground;
-    if (rules_[i] == Standing::ground) return;
-    const bool is_held = is_content && stance.stands_on == Stance::kNothing;
-    if (is_held) stance.drop = std::min(stance.drop, -radius);
-    if (is_content) {
+    if (rules_[i] == Standing::ground) {
+      // The ball may reach the ground where others cut the body off from it.
+      stance.drop = std::max(stance.drop, stance.hang);
+    } else if (is_content) {
+      if (stance.stands_on == Stance::kNothing) stance.drop = std::min(stance.drop, -radius);
       for (const FacetArea& facet : cells_[i].facets)
         if (facet.kind == FaceKind::site) stance.drop = std::min(stance.drop, gap_above(facet.index, i, stance.drop));
-      return;
+    } else {
+      for (std::size_t j = 0; j < sites_.size(); ++j)
+        if (j != i && cells_[j].volume > 0) stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
+      stance.drop = std::max(stance.drop, std::min(stance.hang, kCreep * radius));
     }
-    for (std::size_t j = 0; j < sites_.size(); ++j)
-      if (j != i && cells_[j].volume > 0) stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
   }
 
   // How far `upper` can go down until the two balls touch; `otherwise` where they do not meet, or not from above.
@@ -116,8 +120,8 @@ class StanceFinder {
     const double steep_reach = radii * radii * (1 - kLeastSteepness * kLeastSteepness), aside = up.x * up.x + up.y * up.y;
     if (!(aside <= steep_reach)) return otherwise;
     const double gap = up.z - std::sqrt(radii * radii - aside);
-    // Balls that overlap without a common facet have a third one between them, which carries in their place.
-    return gap > 0 || share_facet(lower, upper) ? gap : otherwise;
+    // Balls that overlap carry each other where they share a facet that is level enough; without one a third ball is between them.
+    return gap > 0 || (share_facet(lower, upper) && is_below(lower, upper)) ? gap : otherwise;
   }
 
   bool share_facet(std::size_t a, std::size_t b) const {
