@@ -1,6 +1,7 @@
 // Draws two volumes together until they share a facet of a wanted size.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -68,22 +69,24 @@ struct Adjacency {
     const double nearest = touching_distance(ends.from_wanted, ends.to_wanted, 2 * in.area);
     const double way = std::min(length - nearest, clear + reach * (missing / in.area));
     if (!(way > 0)) return Out{};
-    const Vector3 direction = between / length, move = direction * (0.5 * in.stiffness * way);
-    const double from_share = share_pulled(dot(ends.from - ends.from_centroid, direction), ball_radius(ends.from_wanted));
-    const double to_share = share_pulled(dot(ends.to_centroid - ends.to, direction), ball_radius(ends.to_wanted));
+    const Vector3 direction = between / length;
+    const double pull = 0.5 * in.stiffness * way;
+    const double from_pull = std::min(pull, room_for(dot(ends.from - ends.from_centroid, direction), ends.from_wanted));
+    const double to_pull = std::min(pull, room_for(dot(ends.to_centroid - ends.to, direction), ends.to_wanted));
     Out out;
-    if (from_share > 0) out.from = move * from_share;
-    if (to_share > 0) out.to = move * -to_share;
+    if (from_pull > 0) out.from = direction * from_pull;
+    if (to_pull > 0) out.to = direction * -to_pull;
     return out;
   }
 
  private:
-  // A body that others keep from following stays behind its position. The pull fades as its middle falls behind, and ends before
-  // the position comes near the side of the body. A ball that is cut in half has its middle 3/8 of the radius off.
-  static constexpr double kFree = 0.05, kPressed = 0.15;
-  static double share_pulled(double ahead, double radius) {
-    if (!(radius > 0)) return 1;
-    return std::clamp((kPressed - ahead / radius) / (kPressed - kFree), 0.0, 1.0);
+  // A body that others keep from following stays behind its position. The pull takes a share of the way that is left until the
+  // middle is so far behind, in radii of the body; a ball that is cut in half has its middle 3/8 of the radius off.
+  static constexpr double kPressed = 0.15, kShareOfRoom = 0.4;
+  static double room_for(double ahead, double volume) {
+    // What has no body yet is free.
+    if (!(volume > 0)) return std::numeric_limits<double>::infinity();
+    return kShareOfRoom * (kPressed * ball_radius(volume) - ahead);
   }
 };
 
