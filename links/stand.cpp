@@ -4,6 +4,7 @@
 
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
+#include "core/geometry/touching_balls.h"
 
 namespace bl {
 
@@ -14,7 +15,7 @@ struct Stand {
     double stiffness = 0.8, footing = 0.2, play = 0.05;
   };
   struct Ends {
-    double count = 0, drop = 0, radius = 0, volume = 0;
+    double count = 0, drop = 0, volume = 0;
   };
   struct Out {
     std::optional<Vector3> move;
@@ -34,7 +35,7 @@ struct Stand {
         .range(0, 1)
         .soft(0, 0.5)
         .doc(
-            "How deep a ball sinks into what carries it, as a share of its radius: a ball that only touches the ground would "
+            "How deep a ball sinks into what carries it, as a share of the radius that its volume has as a ball: one that only touches the ground would "
             "have no "
             "floor there.");
     l.param(&In::play, "play")
@@ -44,16 +45,15 @@ struct Stand {
         .doc("How much of that depth may be missing, as a share of the radius, before the volume is let down again.");
     l.reads(&Ends::count, End::from, "smart_volumes_solver.count");
     l.reads(&Ends::drop, End::to, "smart_volume.drop", Unit::metre);
-    l.reads(&Ends::radius, End::to, "smart_volume.radius", Unit::metre);
     l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
     l.proposes(&Out::move, End::to, "node.position", Unit::metre);
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
-    const double way = ends.drop + (in.footing - in.play) * ends.radius;
+    const double radius = ball_radius(ends.volume), way = ends.drop + (in.footing - in.play) * radius;
     if (!(ends.count > 0) || !(ends.volume > 0) || !(way > 0)) return Out{};
     // What falls by more than its own size in one tick would pass others on the way.
-    return Out{Vector3{0, 0, -std::min(in.stiffness * way, 0.5 * ends.radius)}};
+    return Out{Vector3{0, 0, -std::min(in.stiffness * way, 0.5 * radius)}};
   }
 };
 

@@ -5,11 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/touching_balls.h"
+
 namespace bl {
 
 namespace {
 
-constexpr double kCreep = 0.1;  // of the radius: the way down of a body that hangs though its ball has sunk into something
+// The way down of a body that hangs although its ball has sunk into something, because others cut it off from below: a share of
+// what is missing, and no more than a share of the radius that it would have alone. Such bodies change their shape with every
+// move, so that more would overshoot.
+constexpr double kCreepOfHang = 0.25, kCreepOfRadius = 0.1;
 
 struct HeightSpan {
   double bottom, top;
@@ -98,9 +103,9 @@ class StanceFinder {
     const bool is_content = rules_[i] == Standing::ground ? stance.stands_on == Stance::kGround : is_carried_[i];
     if (!is_content) stance.hang = std::max(0.0, cells_[i].bottom - ground);
     stance.drop = sites_[i].position.z - radius - ground;
+    const double creep = std::min(kCreepOfHang * stance.hang, kCreepOfRadius * ball_radius(cells_[i].volume));
     if (rules_[i] == Standing::ground) {
-      // The ball may reach the ground where others cut the body off from it.
-      stance.drop = std::max(stance.drop, stance.hang);
+      if (!is_content) stance.drop = std::max(stance.drop, creep);
     } else if (is_content) {
       if (stance.stands_on == Stance::kNothing) stance.drop = std::min(stance.drop, -radius);
       for (const FacetArea& facet : cells_[i].facets)
@@ -108,7 +113,7 @@ class StanceFinder {
     } else {
       for (std::size_t j = 0; j < sites_.size(); ++j)
         if (j != i && cells_[j].volume > 0) stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
-      stance.drop = std::max(stance.drop, std::min(stance.hang, kCreep * radius));
+      stance.drop = std::max(stance.drop, creep);
     }
   }
 

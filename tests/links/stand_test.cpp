@@ -7,7 +7,7 @@ namespace {
 LinkCase hanging_volume(double drop) {
   LinkCase link("stand");
   link.set("stiffness", 0.5).set("footing", 0.2).set("play", 0.05).from("smart_volumes_solver.count", 1.0);
-  link.to("smart_volume.drop", drop).to("smart_volume.radius", 10.0).to("smart_volume.volume", 4000.0);
+  link.to("smart_volume.drop", drop).to("smart_volume.volume", 4188.790204786391);  // radius 10 m
   return link;
 }
 
