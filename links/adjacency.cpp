@@ -81,8 +81,10 @@ struct Adjacency {
 
  private:
   // A body that others keep from following stays behind its position. The pull takes a share of the way that is left until the
-  // middle is so far behind, in radii of the body; a ball that is cut in half has its middle 3/8 of the radius off.
-  static constexpr double kPressed = 0.15, kShareOfRoom = 0.4;
+  // middle is so far behind, in radii of the body. That is less than the play of `make_room`: a pull that cannot be satisfied
+  // ends before the others begin to give way to each other for ever. A ball that is cut in half has its middle 3/8 of the radius
+  // off.
+  static constexpr double kPressed = 0.08, kShareOfRoom = 0.5;
   static double room_for(double ahead, double volume) {
     // What has no body yet is free.
     if (!(volume > 0)) return std::numeric_limits<double>::infinity();

@@ -12,7 +12,7 @@ namespace {
 
 struct MakeRoom {
   struct In {
-    double stiffness = 0.3, play = 0.1;
+    double stiffness = 0.3, play = 0.12;
   };
   struct Ends {
     double count = 0;
@@ -41,7 +41,7 @@ struct MakeRoom {
         .doc(
             "How far the position may be from the middle of the body before it follows, as a share of the radius of a ball of "
             "that "
-            "volume: neighbours that share a facet on purpose are left alone.");
+            "volume: neighbours that share a facet on purpose are left alone, and pulls that cannot be satisfied come to rest.");
     l.reads(&Ends::count, End::from, "smart_volumes_solver.count");
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads(&Ends::centroid, End::to, "smart_volume.centroid", Unit::metre);

@@ -29,13 +29,15 @@ struct Stand {
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0, 1)
-        .doc("The share of the way down that is made in one tick, but no more than half a radius: pulls do not hold a volume up.");
+        .doc(
+            "The share of the way down that is made in one tick, but no more than half a radius: pulls do not hold a volume up.");
     l.param(&In::footing, "footing")
         .unit(Unit::ratio)
         .range(0, 1)
         .soft(0, 0.5)
         .doc(
-            "How deep a ball sinks into what carries it, as a share of the radius that its volume has as a ball: one that only touches the ground would "
+            "How deep a ball sinks into what carries it, as a share of the radius that its volume has as a ball: one that only "
+            "touches the ground would "
             "have no "
             "floor there.");
     l.param(&In::play, "play")

@@ -125,7 +125,8 @@ class StanceFinder {
     const double steep_reach = radii * radii * (1 - kLeastSteepness * kLeastSteepness), aside = up.x * up.x + up.y * up.y;
     if (!(aside <= steep_reach)) return otherwise;
     const double gap = up.z - std::sqrt(radii * radii - aside);
-    // Balls that overlap carry each other where they share a facet that is level enough; without one a third ball is between them.
+    // Balls that overlap carry each other where they share a facet that is level enough; without one a third ball is between
+    // them.
     return gap > 0 || (share_facet(lower, upper) && is_below(lower, upper)) ? gap : otherwise;
   }
 

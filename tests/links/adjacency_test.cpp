@@ -23,10 +23,10 @@ LinkCase rooms(double length, double shared) {
 }
 
 TEST(Adjacency, PullsByTheClearDistanceAndTheMissingArea) {
-  auto apart = rooms(20, 0);  // 2 m clear and 6 m for the whole area: a tenth of 8 m, half by each
+  auto apart = rooms(18.5, 0);  // half a metre clear; the bodies allow 3.18 m, less than 6 m for the whole area
   ASSERT_EQ(apart.run(), "");
-  expect_near(apart.move(End::from), {0.4, 0, 0});
-  expect_near(apart.move(End::to), {-0.4, 0, 0});
+  expect_near(apart.move(End::from), {0.05 * (18.5 - 15.31946), 0, 0}, 1e-5);
+  expect_near(apart.move(End::to), {-0.05 * (18.5 - 15.31946), 0, 0}, 1e-5);
   auto touching = rooms(17, 30);  // a sixth of the area is missing
   ASSERT_EQ(touching.run(), "");
   expect_near(touching.move(End::from), {0.05, 0, 0});
@@ -56,15 +56,15 @@ TEST(Adjacency, NeverPullsNearerThanTheBodiesAllow) {
   EXPECT_LT(norm(far.move(End::from) - far.move(End::to)), 30 - 10);
 }
 
-// A body that stays behind its position by more than a third of its radius is pressed: its own end is pulled no further.
+// A body of radius 10 is pressed where its middle is 0.8 m behind its position; its end goes half of what is left until there.
 TEST(Adjacency, LeavesThoseThatArePressed) {
   auto free = rooms(20, 0), eased = rooms(20, 0), pressed = rooms(20, 0);
-  eased.from("smart_volume.centroid", Point3{-2.5, 0, 0});
-  pressed.from("smart_volume.centroid", Point3{-3.6, 0, 0}).to("smart_volume.centroid", Point3{20, 7, 0});
+  eased.from("smart_volume.centroid", Point3{-0.5, 0, 0});
+  pressed.from("smart_volume.centroid", Point3{-0.9, 0, 0}).to("smart_volume.centroid", Point3{20, 7, 0});
   ASSERT_EQ(free.run(), "");
   ASSERT_EQ(eased.run(), "");
   ASSERT_EQ(pressed.run(), "");
-  EXPECT_NEAR(eased.move(End::from).x, 0.5 * free.move(End::from).x, 1e-6);
+  EXPECT_NEAR(eased.move(End::from).x, 0.15, 1e-5);
   EXPECT_NEAR(eased.move(End::to).x, free.move(End::to).x, 1e-12);
   EXPECT_FALSE(pressed.moves(End::from));
   EXPECT_NEAR(pressed.move(End::to).x, free.move(End::to).x, 1e-12);  // aside is not behind
