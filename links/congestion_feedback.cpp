@@ -30,8 +30,7 @@ struct CongestionFeedback {
     l.id("congestion_feedback").label("Congestion feedback");
     l.doc(
         "Limits what a volume asks for while a street at its access carries more than a share of its capacity, or most of its "
-        "trips find no way, tick by tick, and loosens the limit again when there is room. With `request_traffic` this is a loop: "
-        "the streets say how large the volume "
+        "trips find no way, tick by tick, and loosens the limit again when there is room. With `request_traffic` this is a loop: the streets say how large the volume "
         "may be.");
     l.param(&In::limit, "limit")
         .unit(Unit::ratio)

@@ -24,8 +24,7 @@ struct FacadePerformance {
     l.id("facade_performance")
         .label("Façade performance")
         .doc(
-            "Asks a façade for more or less glass by how it performs: a curve leads from any number, such as the seconds of sun "
-            "on "
+            "Asks a façade for more or less glass by how it performs: a curve leads from any number, such as the seconds of sun on "
             "a receiver, to the factor on the glazing ratios of its style.");
     l.param(&In::source, "source").doc("The port that is read, written `typification.port`.");
     l.param(&In::curve, "curve")
@@ -53,8 +52,7 @@ struct FacadePerformance {
     while (next < curve.rows.size() && curve.number(next, "value") <= ends.value) ++next;
     if (next == 0) return Out{curve.number(0, "glazing")};
     if (next == curve.rows.size()) return Out{curve.number(next - 1, "glazing")};
-    const double low = curve.number(next - 1, "value"), high = curve.number(next, "value"),
-                 share = (ends.value - low) / (high - low);
+    const double low = curve.number(next - 1, "value"), high = curve.number(next, "value"), share = (ends.value - low) / (high - low);
     return Out{curve.number(next - 1, "glazing") * (1 - share) + curve.number(next, "glazing") * share};
   }
 };

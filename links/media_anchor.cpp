@@ -21,20 +21,15 @@ struct MediaAnchor {
   };
 
   static void declare(LinkBuilder<MediaAnchor>& l) {
-    l.id("media_anchor")
-        .label("Media anchor")
-        .doc("Makes a picture follow a node: it stays at an offset from it, wherever the node moves. Only the picture moves.");
+    l.id("media_anchor").label("Media anchor").doc(
+        "Makes a picture follow a node: it stays at an offset from it, wherever the node moves. Only the picture moves.");
     const auto offset = [&](double In::*member, const char* id, const char* doc) {
       l.param(member, id).unit(Unit::metre).range(-1e5, 1e5).soft(-50, 50).doc(doc);
     };
     offset(&In::x, "x", "Offset from the node along the scene's x axis.");
     offset(&In::y, "y", "Offset along the y axis.");
     offset(&In::z, "z", "Offset upwards.");
-    l.param(&In::share, "share")
-        .unit(Unit::ratio)
-        .range(0, 1)
-        .soft(0.05, 1)
-        .doc("How much of the way to its place it goes in one tick.");
+    l.param(&In::share, "share").unit(Unit::ratio).range(0, 1).soft(0.05, 1).doc("How much of the way to its place it goes in one tick.");
     l.reads(&Ends::media, End::from, "node.position", Unit::metre).reads(&Ends::node, End::to, "node.position", Unit::metre);
     l.reads(&Ends::opacity, End::from, "media.opacity", Unit::ratio);
     l.proposes(&Out::media, End::from, "node.position", Unit::metre);

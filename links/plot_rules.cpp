@@ -77,7 +77,8 @@ struct PlotRules {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
       const double top = ends.bottoms.values[i] + ends.heights.values[i] - ends.ground;
-      if (in.hold_height) limit = std::min(limit, granted(ends, i) * (1 + in.gain * (allowed(ends.height_max, top) - 1)));
+      if (in.hold_height)
+        limit = std::min(limit, granted(ends, i) * (1 + in.gain * (allowed(ends.height_max, top) - 1)));
       out.limits.values[i] = limit_that_grants(ends.demands.values[i], limit);
     }
     return out;

@@ -55,8 +55,7 @@ struct SetCap {
     if (!(ends.total > 0)) return out;
     const double answer = 1 + in.gain * (std::min(in.cap / ends.total, 2.0) - 1);
     const double share = share_granted(ends) * answer;
-    for (std::size_t i = 0; i < out.limits.values.size(); ++i)
-      out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
+    for (std::size_t i = 0; i < out.limits.values.size(); ++i) out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
     return out;
   }
 

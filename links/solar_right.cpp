@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/base/demand_limit.h"
 #include "core/base/direction.h"
+#include "core/base/demand_limit.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -34,8 +34,7 @@ struct SolarRight {
         .label("Solar right")
         .doc(
             "Defends the sun that a receiver needs. While points of it are short of it, the volumes in the way give way: the "
-            "worst one most, the others in proportion to what they take, and none once the need is met. Who takes next to "
-            "nothing "
+            "worst one most, the others in proportion to what they take, and none once the need is met. Who takes next to nothing "
             "is not held back.");
     l.param(&In::mode, "mode",
             {{Mode::lower, "lower", "The volume's position sinks, no lower than the foot of its shape: it grows wide, not high."},
@@ -104,9 +103,9 @@ struct SolarRight {
       return fall > 0 ? Out{Vector3{0, 0, -fall}, {}} : Out{};
     }
     if (in.mode == Mode::move) return answer * ends.radius > 0 ? Out{away(ends) * (answer * ends.radius), {}} : Out{};
-    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Below
-    // that it grows with the sun that is left over. Who takes little may grow nevertheless: what others limit, or limited once,
-    // is not ours to hold.
+    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Below that
+    // it grows with the sun that is left over. Who takes little may grow nevertheless: what others limit, or limited once, is not
+    // ours to hold.
     const double room = std::max({0.0, -missing - 0.5 * in.tolerance, surplus(ends), 1 - share / kLittle});
     return Out{{}, limit_that_grants(ends.demand, granted_share(ends.demand, ends.limit) * (1 - answer) * (1 + in.gain * room))};
   }
