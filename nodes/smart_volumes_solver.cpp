@@ -9,6 +9,7 @@
 #include "core/define/typification_builder.h"
 #include "core/geometry/domain_table.h"
 #include "core/geometry/fit_text.h"
+#include "core/geometry/standing.h"
 #include "core/geometry/volume_tick.h"
 
 namespace bl {
@@ -33,6 +34,7 @@ struct SmartVolumesSolver {
     std::string id;
     Point3 position;
     double demand = 0, limit = 0, least = 0, storey_height = 0, weight = 0, last_step = 0, last_direction = 0;
+    std::string standing;
   };
   struct Plot {
     std::string id;
@@ -49,6 +51,8 @@ struct SmartVolumesSolver {
     Table neighbours;
     Point3 centroid;
     MeshPointer mesh;
+    double hang = 0, drop = 0;
+    std::string stands_on = {};
   };
   struct Out {
     std::int64_t count = 0;
@@ -135,6 +139,8 @@ struct SmartVolumesSolver {
         .writes(&Reply::mesh, "smart_volume.mesh");
     set.writes(&Reply::state, "smart_volume.state").writes(&Reply::reason, "smart_volume.reason");
     set.writes(&Reply::centroid, "smart_volume.centroid").writes(&Reply::neighbours, "smart_volume.neighbours");
+    set.reads(&Member::standing, "smart_volume.standing").writes(&Reply::stands_on, "smart_volume.stands_on");
+    set.writes(&Reply::hang, "smart_volume.hang").writes(&Reply::drop, "smart_volume.drop");
   }
 
   template <class M>
@@ -192,6 +198,24 @@ struct SmartVolumesSolver {
                    " m³ that it asks for: raise what limits it, or lower its demand";
   }
 
+  static Standing rule_of(const std::string& standing) {
+    return standing == "ground" ? Standing::ground : standing == "bridge" ? Standing::bridge : Standing::stack;
+  }
+
+  static void write_stances(const Domain& domain, std::span<const PowerSite> sites, std::span<const CellMeasure> cells,
+                            const std::vector<Member>& members, std::vector<Reply>& replies) {
+    std::vector<Standing> rules;
+    for (const Member& member : members) rules.push_back(rule_of(member.standing));
+    const std::vector<Stance> stances = stances_of(domain, sites, cells, rules);
+    for (std::size_t i = 0; i < stances.size(); ++i) {
+      const std::int32_t on = stances[i].stands_on;
+      replies[i].hang = stances[i].hang;
+      replies[i].drop = stances[i].drop;
+      if (on != Stance::kNothing)
+        replies[i].stands_on = on == Stance::kGround ? "the ground" : members[static_cast<std::size_t>(on)].id;
+    }
+  }
+
   static FitState last_state(const In& in, const std::vector<Member>& members) {
     FitState state;
     state.momentum = std::max(1.0, in.last.momentum);
@@ -244,6 +268,7 @@ struct SmartVolumesSolver {
       out.largest_error = reply.error;
       out.worst = sets.members[i].id;
     }
+    write_stances(*domain, sites, done->cells, sets.members, out.replies);
     out.fill = out.total_volume / out.boundary_volume;
     out.memory = memory_of(done->state);
     out.message = losses_text(done->losses, out.total_demand, names);

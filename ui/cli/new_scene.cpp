@@ -87,16 +87,20 @@ class Builder {
     Json tags = Json::array({row.use});
     for (const std::string& tag : row.tags)
       if (tag != row.use) tags.push_back(tag);
-    node(volume.id, {{"name", volume.name},
-                     {"position", {volume.position.x, volume.position.y, volume.position.z}},
-                     {"tags", tags},
-                     {"types", {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}}}}}});
+    node(volume.id,
+         {{"name", volume.name},
+          {"position", {volume.position.x, volume.position.y, volume.position.z}},
+          {"tags", tags},
+          {"types", {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}, {"standing", row.standing}}}}}});
   }
 
   void general_links() {
     const Json all = {{"typification", "smart_volume"}};
     link("demands", {{"kind", "demand"}, {"from", kProgramme}, {"to", all}});
     link("inside", {{"kind", "inside_boundary"}, {"from", kSite}, {"to", all}, {"parameters", {{"margin", parts_.margin}}}});
+    // Wishes to touch pull volumes together and down; these keep each of them a body of its own that stands on something.
+    link("room", {{"kind", "make_room"}, {"from", kSolver}, {"to", all}});
+    link("standing", {{"kind", "stand"}, {"from", kSolver}, {"to", all}});
   }
 
   void contact(const WantedContact& contact, const std::vector<NewVolume>& volumes) {
@@ -128,7 +132,7 @@ class Builder {
   const SceneParts& parts_;
   const Registry& registry_;
   Json commands_ = Json::array();
-  std::set<std::string> link_ids_{"demands", "inside"};
+  std::set<std::string> link_ids_{"demands", "inside", "room", "standing"};
 };
 
 }  // namespace
@@ -178,11 +182,15 @@ Result<Command> new_scene_command(const SceneParts& parts, const Registry& regis
   std::vector<NewVolume> volumes = volumes_of(parts.programme);
   const std::vector<WantedContact> contacts = contacts_of(parts.programme, volumes);
   std::vector<double> demands;
-  for (const NewVolume& volume : volumes) demands.push_back(volume.demand);
+  std::vector<std::uint8_t> on_ground;
+  for (const NewVolume& volume : volumes) {
+    demands.push_back(volume.demand);
+    on_ground.push_back(parts.programme.rows[volume.row].standing == "ground" ? 1 : 0);
+  }
   std::vector<std::pair<std::size_t, std::size_t>> neighbours;
   for (const WantedContact& contact : contacts)
     for (const std::size_t partner : contact.partners) neighbours.emplace_back(contact.hub, partner);
-  const auto points = spread_points(parts.plan, 0, parts.height, demands, parts.seed, neighbours, parts.holes);
+  const auto points = spread_points(parts.plan, 0, parts.height, demands, parts.seed, neighbours, parts.holes, on_ground);
   if (!points) return points.error();
   // Millimetres are enough for a first position, and keep the file readable.
   const auto millimetres = [](double x) { return std::round(x * 1000) / 1000; };

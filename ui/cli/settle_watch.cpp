@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/text.h"
+#include "ui/cli/report/place_problems.h"
 #include "ui/cli/survey.h"
 
 namespace bl::cli {
@@ -71,6 +72,8 @@ bool SettleWatch::is_hopeless(const State& state) {
 }
 
 std::string why_not_settled(const State& state, const State* before) {
+  // A collapse comes before what follows from it.
+  if (const auto collapsed = report::collapsed_volumes(state); !collapsed.empty()) return collapsed.front().sentence();
   if (const std::string message = solver_message(state); !message.empty()) return "the demands cannot be met: " + message;
   const std::vector<VolumeRow> volumes = volumes_of(state);
   const auto worst =

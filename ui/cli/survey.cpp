@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "ui/cli/report/place_problems.h"
 #include "ui/cli/report/report_model.h"
 
 namespace bl::cli {
@@ -153,6 +154,8 @@ Survey survey_of(const State& state) {
   add_totals(state, model, survey);
   survey.tensions = tensions_of(state);
   survey.problems = problems_of(state);
+  for (const report::PlaceProblem& problem : report::place_problems(state))
+    survey.problems.push_back({ErrorCode::infeasible, "nodes/" + problem.nodes.front(), problem.sentence()});
   for (std::uint32_t n = 0; n < count_of(state); ++n)
     if (report::has_type(state, n, kSolver)) {
       const auto number = [&](const char* port) { return report::number_at(state, n, kSolver, port); };

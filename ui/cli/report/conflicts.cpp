@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "ui/cli/report/figures.h"
+#include "ui/cli/report/place_problems.h"
 #include "ui/cli/report/report_model.h"
 
 namespace bl::report {
@@ -142,6 +143,8 @@ void read_problems(const State& state, ReportModel& model) {
   for (const SetPlan& set : plan.sets)
     if (set.error && !state.nodes[set.node].types[set.type].error)
       add({"node " + name_at(state, set.node), set.error->text(), plan.nodes[set.node].id, "", false});
+  for (const PlaceProblem& problem : place_problems(state))
+    add({"node " + name_at(state, plan.node_index(problem.nodes.front())), problem.sentence(), problem.nodes.front(), "", false, true});
 }
 
 }  // namespace bl::report

@@ -70,6 +70,7 @@ struct ProblemRow {
   std::string place, message;
   std::string node, link;    ///< ids of where it is, as far as it is somewhere
   bool is_shortage = false;  ///< nothing failed: there is less than what is wanted
+  bool is_place = false;     ///< nothing failed: volumes hang in the air or lie on one point
 };
 
 struct ReportModel {

@@ -25,6 +25,7 @@ Sign sign_of(const Theme& theme, const ProblemItem& item) {
     case ProblemKind::shortage: return {icon::kWarning, item.is_error ? c.bad : c.warning};
     case ProblemKind::failing: return {icon::kError, c.bad};
     case ProblemKind::no_room: return {icon::kCube, c.warning};
+    case ProblemKind::place: return {icon::kCube, c.warning};
     case ProblemKind::idle: return {icon::kMuted, c.text_faint};
     case ProblemKind::file: return {icon::kFile, item.is_error ? c.bad : c.warning};
   }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "ui/cli/report/figures.h"
+#include "ui/cli/report/place_problems.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -52,6 +53,7 @@ const char* label_of(ProblemKind kind) {
     case ProblemKind::shortage: return "Shortages";
     case ProblemKind::failing: return "Failures";
     case ProblemKind::no_room: return "Without room";
+    case ProblemKind::place: return "Places";
     case ProblemKind::idle: return "Switched off";
     case ProblemKind::file: return "File";
   }
@@ -137,7 +139,7 @@ void ProblemList::add_losers(const State& state, const report::ReportModel& figu
 void ProblemList::add_failures(const State& state, const report::ReportModel& problems) {
   for (const bool is_shortage : {true, false})
     for (const report::ProblemRow& row : problems.problems) {
-      if (row.is_shortage != is_shortage || (is_shortage && state.tick == 0)) continue;
+      if (row.is_place || row.is_shortage != is_shortage || (is_shortage && state.tick == 0)) continue;
       // Ghosts hinder nobody: they stand among what does not run.
       if (const auto& links = state.plan->scene.links;
           !row.link.empty() && links.contains(row.link) && !links.at(row.link).ghost.empty())
@@ -159,6 +161,15 @@ void ProblemList::add_volumes(const State& state, const report::ReportModel& fig
     if (volume.state == "alive" || volume.reason.empty()) continue;
     items_.push_back(
         {ProblemKind::no_room, volume.id, 0, false, volume.name + " is " + volume.state, volume.reason, {}, {volume.id}, {}});
+  }
+}
+
+void ProblemList::add_places(const State& state) {
+  for (report::PlaceProblem& problem : report::place_problems(state)) {
+    // Heights change from tick to tick, who hangs does not.
+    ProblemItem item{ProblemKind::place, "place", 0, false, problem.subject, problem.text, {}, problem.nodes, problem.links};
+    for (const std::string& node : problem.nodes) item.key += "/" + node;
+    items_.push_back(std::move(item));
   }
 }
 
@@ -234,6 +245,7 @@ void ProblemList::refresh(const Editor& editor, const report::ReportModel& figur
     add_shortages(*state, figures);
     add_losers(*state, figures);
     add_volumes(*state, figures);
+    add_places(*state);
     add_idle(*state);
   }
   add_file(editor);

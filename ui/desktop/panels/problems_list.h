@@ -13,8 +13,8 @@
 namespace bl::desktop {
 
 /// In the order of the list.
-enum class ProblemKind { conflict, shortage, failing, no_room, idle, file };
-inline constexpr std::size_t kProblemKinds = 6;
+enum class ProblemKind { conflict, shortage, failing, no_room, place, idle, file };
+inline constexpr std::size_t kProblemKinds = 7;
 
 struct ProblemItem {
   ProblemKind kind = ProblemKind::file;
@@ -45,6 +45,7 @@ class ProblemList {
   void add_losers(const State& state, const report::ReportModel& figures);
   void add_failures(const State& state, const report::ReportModel& problems);
   void add_volumes(const State& state, const report::ReportModel& figures);
+  void add_places(const State& state);
   void add_idle(const State& state);
   void add_file(const Editor& editor);
 
