@@ -253,7 +253,7 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   const double grid = draw_ground(svg, sheet, model);
   draw_shadows(svg, sheet, model, scenery);
   draw_envelope(svg, sheet, model, false);
-  for (const UseRow& use : model.uses)
+  for (const UseAccount& use : model.accounts.uses)
     define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, "shade-" + palette.letter(use.use));
   const bool has_storeys = order.size() <= kMostStoreys;
   for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys);
