@@ -50,7 +50,7 @@ TEST(CsvTable, NoTextIsAFormulaAndNumbersStayNumbers) {
                                                   {"\xEF\xBC\x9D" "1", ""},     {"'=1", "a-b"}, {"a\x01\x1B[2J\xC2\x9B" "b\x7F", "'plain"}};
   EXPECT_EQ(write_csv(header, rows),
             "'=evil(),b\r\n'=cmd|'/c calc'!A0,-12.5\r\n'+1,-3\r\n'-1+1,1e-07\r\n'@SUM(A1),0\r\n' =1,\r\n' =1,\r\n"
-            "'\xEF\xBC\x9D" "1,\r\n''=1,a-b\r\na  [2J b ,'plain\r\n");
+            "'\xEF\xBC\x9D" "1,\r\n''=1,a-b\r\n\"a  [2J b \",'plain\r\n");
 }
 
 // The law: whatever people write, no text cell begins with a sign of a formula or holds a control character but a line end, and the

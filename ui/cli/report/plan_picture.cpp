@@ -196,7 +196,7 @@ std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model
   LabelPlacer placer({kFrame, 30, sheet.width() - 4, bottom}, {{sheet.width() - 70, 30, sheet.width(), 116}});
   const std::size_t without = placer.write(svg, labels, labels.size() > kMostNames ? 0 : labels.size());
   // Where room is left: what stands around.
-  const std::vector<Label> around = surroundings_labels(sheet, surroundings);
+  const std::vector<Label> around = surroundings_labels(sheet, surroundings, {kFrame, 30, sheet.width() - kFrame, bottom});
   placer.write(svg, around, around.size());
   return without == 0 ? "" : " " + counted(without, "volume") + " without a label for want of room.";
 }
@@ -225,7 +225,7 @@ std::string caption_of(const ReportModel& model, const DrawnLinks& links, double
 }  // namespace
 
 Picture draw_plan(const State& state, const ReportModel& model, const Palette& palette) {
-  const Surroundings surroundings = read_surroundings(state);
+  const Surroundings& surroundings = model.surroundings;
   const std::vector<Point3> content = framed(content_of(model), surroundings);
   if (content.empty()) return {empty_picture("plan", "Plan", "Nothing to draw: there is no boundary and no volume."), ""};
   const DrawnLinks links = links_to_draw(state);

@@ -161,6 +161,7 @@ void read_model(const State& state, ReportModel& model) {
   read_volumes(state, model, true);
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
     if (has_type(state, n, "boundary")) model.sites.push_back(read_site(state, n));
+  model.surroundings = read_surroundings(state);
   add_totals(model);
   read_conflicts(state, model);
   read_problems(state, model);

@@ -9,6 +9,7 @@
 #include "ui/cli/report/account.h"
 #include "ui/cli/report/exact_shape.h"
 #include "ui/cli/report/mesh_lines.h"
+#include "ui/cli/report/surroundings.h"
 
 namespace bl::report {
 
@@ -78,6 +79,7 @@ struct ReportModel {
   std::vector<VolumeRow> volumes;  ///< ascending id
   Accounts accounts;               ///< of uses and of all together; of volumes as in `volumes`
   std::vector<SiteRow> sites;
+  Surroundings surroundings;
   std::vector<ConflictRow> conflicts;  ///< the worst first
   std::size_t minor_conflicts = 0;     ///< too small to be listed
   std::vector<PullerRow> pullers;      ///< who stands in the conflicts, the largest share first

@@ -12,8 +12,6 @@ namespace bl::report {
 
 namespace {
 
-// So far around what is drawn in any case, as a share of its larger side, surroundings are taken in.
-constexpr double kAround = 0.6;
 // Points of a data layer beyond this are thinned for the eye; the tables have them all.
 constexpr std::size_t kMostDataPoints = 1500;
 
@@ -151,7 +149,7 @@ Surroundings read_surroundings(const State& state) {
   return all;
 }
 
-std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& surroundings) {
+std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& surroundings, double share) {
   SurroundingsExtent inner, outer;
   for (const Point3& point : core) inner.take(point);
   const auto around = [&](const Point3& point) { outer.take(point); };
@@ -165,7 +163,7 @@ std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& 
   for (const auto& [name, ring] : surroundings.plots) std::for_each(ring.begin(), ring.end(), around);
   if (outer.is_empty) return core;
   if (inner.is_empty) return {{outer.low_x, outer.low_y, 0}, {outer.high_x, outer.high_y, 0}};
-  const double reach = kAround * std::max({inner.high_x - inner.low_x, inner.high_y - inner.low_y, 1.0});
+  const double reach = share * std::max({inner.high_x - inner.low_x, inner.high_y - inner.low_y, 1.0});
   return {{std::min(inner.low_x, std::max(outer.low_x, inner.low_x - reach)),
            std::min(inner.low_y, std::max(outer.low_y, inner.low_y - reach)), 0},
           {std::max(inner.high_x, std::min(outer.high_x, inner.high_x + reach)),

@@ -58,17 +58,24 @@ struct Surroundings {
 
 Surroundings read_surroundings(const State& state);
 
-/// The corners of a frame around `core` that takes in what of the surroundings is near; far streets are cut at its edge.
-std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& surroundings);
+/// The lowest and the highest corner, in plan, of a frame around `core` that takes in what of the surroundings is near: up to `around`
+/// times the larger side of the core. Far streets are cut at its edge. The core itself where there are no surroundings.
+std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& surroundings, double around = 0.6);
 
 /// Below the site: ground, data and sun; then streets with their load, and buildings.
 void draw_ground_layers(Markup& svg, const Sheet& sheet, const Surroundings& surroundings);
 void draw_streets_and_buildings(Markup& svg, const Sheet& sheet, const Surroundings& surroundings);
 void draw_plots(Markup& svg, const Sheet& sheet, const Surroundings& surroundings);
-/// Names and heights of buildings, loads of streets, for a placer of labels.
-std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& surroundings);
+/// Names and heights of buildings, loads of streets, sun of receivers, for a placer of labels; those inside `frame` on the sheet.
+std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& surroundings, const Box& frame);
 /// Samples with their words, in rows of the sheet's width from `at` on; returns the height that they take.
 double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundings& surroundings, Pixel at);
+/// The same seen from aside: streets and sun on the ground at height `ground` inside the frame, then the buildings behind the middle
+/// of the core, and, after the volumes, those before it, which are pale so that they hide nothing.
+void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame, double ground);
+void draw_buildings_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
+                          const Point3& middle, const Vector3& to_sun, bool before);
+
 /// What the plan shows of it, in words.
 std::string surroundings_caption(const Surroundings& surroundings);
 

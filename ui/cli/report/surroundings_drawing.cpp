@@ -139,6 +139,19 @@ void draw_load(Markup& svg, const Sheet& sheet, const StreetLine& street) {
   svg.close();
 }
 
+// The middle of what of a line is inside the frame; streets lead out of it.
+bool middle_in(const Sheet& sheet, const std::vector<Point3>& line, const Box& frame, Pixel& middle) {
+  constexpr int kParts = 64;
+  std::vector<Pixel> inside;
+  for (int k = 0; k <= kParts; ++k) {
+    const Pixel at = sheet.at(point_on_line(line, static_cast<double>(k) / kParts));
+    if (at.x >= frame.left && at.x <= frame.right && at.y >= frame.top && at.y <= frame.bottom) inside.push_back(at);
+  }
+  if (inside.empty()) return false;
+  middle = inside[inside.size() / 2];
+  return true;
+}
+
 // Samples of the legend, 32 px wide, each with its words.
 class SampleRow {
  public:
@@ -212,13 +225,13 @@ void draw_plots(Markup& svg, const Sheet& sheet, const Surroundings& surrounding
   }
 }
 
-std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& surroundings) {
+std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& surroundings, const Box& frame) {
   constexpr std::size_t kMost = 40;
   std::vector<Label> labels;
   if (surroundings.streets.size() <= kMost)
     for (const StreetLine& street : surroundings.streets)
-      if (street.has_traffic && street.line.size() >= 2)
-        labels.push_back({sheet.at(point_on_line(street.line, 0.5)), street.name, "load " + percent(street.load), percent(street.load)});
+      if (Pixel at; street.has_traffic && street.line.size() >= 2 && middle_in(sheet, street.line, frame, at))
+        labels.push_back({at, street.name, "load " + percent(street.load), percent(street.load)});
   if (surroundings.buildings.size() <= kMost)
     for (const BuildingShape& building : surroundings.buildings) {
       Point3 middle;
@@ -261,6 +274,46 @@ double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundi
   if (const double step = contour_step(surroundings, low, high); step > 0)
     row.line(row.next("height lines, every " + shortest(step) + " m"), hex(kContour), 0.8, "");
   return row.height();
+}
+
+void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame, double ground) {
+  if (frame.size() != 2 || surroundings.is_empty()) return;
+  PathText edge;
+  edge.polyline({sheet.at({frame[0].x, frame[0].y, ground}), sheet.at({frame[1].x, frame[0].y, ground}),
+                 sheet.at({frame[1].x, frame[1].y, ground}), sheet.at({frame[0].x, frame[1].y, ground})},
+                true);
+  svg.open("clipPath", {{"id", "around"}}).path(edge, {}).close();
+  svg.open("g", {{"clip-path", "url(#around)"}});
+  for (const SunField& field : surroundings.sun)
+    if (!field.is_upright) draw_sun(svg, sheet, field, surroundings.most_sun);
+  for (const StreetLine& street : surroundings.streets) draw_street(svg, sheet, street);
+  for (const StreetLine& street : surroundings.streets) draw_load(svg, sheet, street);
+  svg.close();
+}
+
+void draw_buildings_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
+                          const Point3& middle, const Vector3& to_sun, bool before) {
+  if (frame.size() != 2) return;
+  std::vector<std::pair<double, const BuildingShape*>> order;
+  const double depth_of_middle = sheet.depth({middle.x, middle.y, 0});
+  for (const BuildingShape& building : surroundings.buildings) {
+    if (!building.mesh || building.mesh->triangles.empty()) continue;
+    Point3 centre;
+    bool is_near = false;
+    for (const Point3& corner : building.rings.front()) {
+      centre += corner / static_cast<double>(building.rings.front().size());
+      is_near = is_near || (corner.x >= frame[0].x && corner.x <= frame[1].x && corner.y >= frame[0].y && corner.y <= frame[1].y);
+    }
+    const double depth = sheet.depth({centre.x, centre.y, 0});
+    if (is_near && (depth > depth_of_middle) == before) order.emplace_back(depth, &building);
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [depth, building] : order) {
+    svg.open("g", {{"opacity", before ? ".45" : "1"}});
+    svg.element("title", building->name + ": " + quantity(building->height, Unit::metre) + " high" + (building->is_assumed ? ", assumed" : ""));
+    draw_solid(svg, sheet, *building->mesh, {kBodyTone, to_sun, 0, 0, 0});
+    svg.close();
+  }
 }
 
 std::string surroundings_caption(const Surroundings& surroundings) {
