@@ -9,7 +9,8 @@ namespace bl {
 namespace {
 
 // The signs by which spreadsheets know formulas, and the same in full width, which East Asian ones take for them.
-constexpr std::array<std::string_view, 8> kFormulaSigns{"=", "+", "-", "@", "\xEF\xBC\x9D", "\xEF\xBC\x8B", "\xEF\xBC\x8D", "\xEF\xBC\xA0"};
+constexpr std::array<std::string_view, 8> kFormulaSigns{
+    "=", "+", "-", "@", "\xEF\xBC\x9D", "\xEF\xBC\x8B", "\xEF\xBC\x8D", "\xEF\xBC\xA0"};
 
 // Would a spreadsheet read it as a formula? Blanks before the sign are dropped by some of them. `marks`: apostrophes that stand
 // before the sign do not count, as they are what was put there.

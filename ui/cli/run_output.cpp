@@ -39,10 +39,12 @@ void print_volumes(const Survey& survey, double tolerance) {
   for (const VolumeRow& row : survey.volumes) {
     const std::string name = row.name.empty() || row.name == row.id ? row.id : row.id + " (" + row.name + ")";
     const std::string state = row.reason.empty() ? row.state : row.state + ": " + row.reason;
-    const Colour colour = row.state != "alive" ? Colour::red : row.error > tolerance || row.is_short(survey.tolerance) ? Colour::yellow : Colour::plain;
+    const Colour colour = row.state != "alive"                                      ? Colour::red
+                          : row.error > tolerance || row.is_short(survey.tolerance) ? Colour::yellow
+                                                                                    : Colour::plain;
     table.add({name, row.use, fixed(row.asked, 1), fixed(row.limited, 1), fixed(row.volume, 1),
-               row.limited > 0 ? hundredths(row.error) : "", short_text(row, survey.tolerance),
-               fixed(row.floor_area, 1), fixed(row.surface_area, 1), state},
+               row.limited > 0 ? hundredths(row.error) : "", short_text(row, survey.tolerance), fixed(row.floor_area, 1),
+               fixed(row.surface_area, 1), state},
               colour);
   }
   table.print();
@@ -97,7 +99,9 @@ void print_tensions(const Survey& survey) {
     const TensionRow& row = survey.tensions[i];
     std::string pulls;
     for (std::size_t p = 0; p < std::min(kShownPulls, row.pulls.size()); ++p)
-      pulls += (p > 0 ? ", " : "") + (row.pulls[p].link.empty() ? (row.pulls[p].is_locked ? "locked by hand" : "set by hand") : row.pulls[p].link) + " " + amount(row.pulls[p].value, row.unit);
+      pulls += (p > 0 ? ", " : "") +
+               (row.pulls[p].link.empty() ? (row.pulls[p].is_locked ? "locked by hand" : "set by hand") : row.pulls[p].link) +
+               " " + amount(row.pulls[p].value, row.unit);
     if (row.pulls.size() > kShownPulls) pulls += " and " + std::to_string(row.pulls.size() - kShownPulls) + " more";
     table.add({row.node, row.port, fixed(row.tension, 3) + (row.unit.empty() ? "" : " " + row.unit),
                pulls.empty() ? "the value that is set" : pulls});

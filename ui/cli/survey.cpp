@@ -1,4 +1,5 @@
-// Volumes and uses are read by the report, so that table, JSON and page cannot disagree; conflicts and faults are added for programs.
+// Volumes and uses are read by the report, so that table, JSON and page cannot disagree; conflicts and faults are added for
+// programs.
 #include "ui/cli/survey.h"
 
 #include <algorithm>
@@ -68,7 +69,8 @@ std::vector<Pull> pulls_on(const State& state, PortRef target) {
   }
   const TypePlan& type = state.plan->nodes[target.node].types[target.type];
   const bool has_voice = type.is_set[target.port] && type.definition->ports[target.port].rule == CombineRule::blend;
-  if (type.is_locked[target.port] || has_voice) pulls.push_back({"", type.set_values[target.port], 1, type.is_locked[target.port]});
+  if (type.is_locked[target.port] || has_voice)
+    pulls.push_back({"", type.set_values[target.port], 1, type.is_locked[target.port]});
   return pulls;
 }
 

@@ -45,7 +45,8 @@ TEST(Compare, ASceneWithItselfDiffersInNothing) {
 // An FSI of 1.2 is no 120 per cent; the share of the ground that is built is one. What solvers still miss is no outcome.
 TEST(Compare, RatiosThatAreNoSharesArePlainNumbers) {
   const Workplace place;
-  const std::string plot = R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]}}})";
+  const std::string plot =
+      R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]}}})";
   place.write("a.json", scene_text(volume_text("east", "[8, 0, 8]", "2000") + "," + plot));
   place.write("b.json", scene_text(volume_text("east", "[8, 0, 8]", "6000") + "," + plot));
   const Outcome outcome = place.run({"compare", "a.json", "b.json"});

@@ -124,8 +124,11 @@ TEST(Run, DemandsThatDoNotFitAreNamedEarly) {
 // JSON, table and page say of one volume the same: what was asked for, by hand or brief, what limits leave, what is short.
 TEST(Run, WhatIsShortIsToldAlike) {
   const Workplace place;
-  place.write("s.json", scene_text(volume_text("free", "[8, 0, 8]", "2000") +
-                                   R"(, {"id": "cut", "position": [-8, 0, 8], "types": {"smart_volume": {"demand": 2000, "demand_limit": 1500}}})"));
+  place.write(
+      "s.json",
+      scene_text(
+          volume_text("free", "[8, 0, 8]", "2000") +
+          R"(, {"id": "cut", "position": [-8, 0, 8], "types": {"smart_volume": {"demand": 2000, "demand_limit": 1500}}})"));
   const Outcome outcome = place.run({"run", "s.json", "--json", "r.json", "--report", "out"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const nlohmann::json result = place.json("r.json");

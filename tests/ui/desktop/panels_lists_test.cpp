@@ -77,13 +77,15 @@ TEST(Problems, ABoundaryThatIsTooSmallNamesTheLosers) {
   EXPECT_TRUE(names_a_volume);
 }
 
-// What people have set by hand counts as what a brief asks: a cap over a thousand volumes leaves none of them "everybody has room".
+// What people have set by hand counts as what a brief asks: a cap over a thousand volumes leaves none of them "everybody has
+// room".
 TEST(Problems, WhatPeopleAskForByHandAndACapTakesIsShort) {
   ListDesktop desktop("scenes/studies/thousand_volumes.json");
   desktop.ticks(25);
   const auto short_of = desktop.of(ProblemKind::shortage);
   ASSERT_FALSE(short_of.empty());
-  const auto housing = std::find_if(short_of.begin(), short_of.end(), [](const ProblemItem& i) { return i.key == "use/housing"; });
+  const auto housing =
+      std::find_if(short_of.begin(), short_of.end(), [](const ProblemItem& i) { return i.key == "use/housing"; });
   ASSERT_NE(housing, short_of.end());
   EXPECT_NE(housing->text.find("asked for are"), std::string::npos) << housing->text;
   EXPECT_NE(housing->text.find("link `cap` leaves"), std::string::npos) << housing->text;
@@ -123,8 +125,9 @@ TEST(ProblemsLaw, ListColoursStatisticsAndReportAgreeOnWhoIsShort) {
       }
       for (const report::UseAccount& use : page.accounts.uses) {
         if (!use.is_short(page.accounts.tolerance)) continue;
-        EXPECT_TRUE(std::any_of(items.begin(), items.end(), [&](const ProblemItem& item) { return item.key == "use/" + use.use; }))
-            << use.use;
+        EXPECT_TRUE(std::any_of(items.begin(), items.end(), [&](const ProblemItem& item) {
+          return item.key == "use/" + use.use;
+        })) << use.use;
       }
     }
   }

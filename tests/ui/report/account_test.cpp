@@ -19,7 +19,8 @@ std::string scene_of(const std::string& nodes, const std::string& links) {
          (nodes.empty() ? "" : ", " + nodes) + R"(], "links": [)" + links + "]}";
 }
 
-constexpr const char* kCapped = R"({"id": "hand", "name": "Hand", "position": [0, 0, 5], "types": {"smart_volume": {"demand": 1000}}},
+constexpr const char* kCapped =
+    R"({"id": "hand", "name": "Hand", "position": [0, 0, 5], "types": {"smart_volume": {"demand": 1000}}},
   {"id": "total", "types": {"statistics": {"port": "smart_volume.floor_area"}}},
   {"id": "limited", "position": [-9, 0, 5], "types": {"smart_volume": {"demand": 600, "demand_limit": 400}}})";
 
@@ -53,7 +54,8 @@ constexpr const char* kBrief = R"({"id": "brief", "types": {"programme": {"rows"
 // A use that no volume has is short as a whole, with what to do; the others are counted on their own.
 TEST(Account, AUseWithoutVolumesIsShortOfAllThatTheBriefAsks) {
   World world = World::from_text(scene_of(
-      kBrief, R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}, "parameters": {"every_row": false}})"));
+      kBrief,
+      R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}, "parameters": {"every_row": false}})"));
   world.tick(120);
   const Accounts accounts = report::accounts_of(world.state());
   ASSERT_EQ(accounts.uses.size(), 2u);
@@ -67,7 +69,8 @@ TEST(Account, AUseWithoutVolumesIsShortOfAllThatTheBriefAsks) {
   EXPECT_EQ(accounts.all.asked_area, 700);
 }
 
-// The brief asks for floor, the solver gives volume: where storeys of the shape hold less, the use is short and the reason is told.
+// The brief asks for floor, the solver gives volume: where storeys of the shape hold less, the use is short and the reason is
+// told.
 TEST(Account, FloorAreaThatTheShapeDoesNotHoldIsMissing) {
   World world = World::from_text(scene_of(R"({"id": "brief", "types": {"programme": {"rows": [
       {"use": "theatre", "floor_area": 100, "storey_height": 8}]}}},
@@ -81,11 +84,12 @@ TEST(Account, FloorAreaThatTheShapeDoesNotHoldIsMissing) {
   ASSERT_LT(stage.floor_area, 0.98 * stage.asked_area) << "the case that is tested has gone; take another height";
   EXPECT_TRUE(stage.is_short(accounts.tolerance));
   EXPECT_TRUE(accounts.uses.front().is_short(accounts.tolerance));
-  EXPECT_NE(report::why_short(world.state(), accounts, accounts.uses.front()).find("storeys of its shape hold less floor"), std::string::npos);
+  EXPECT_NE(report::why_short(world.state(), accounts, accounts.uses.front()).find("storeys of its shape hold less floor"),
+            std::string::npos);
 }
 
-// The law: in random scenes with briefs, hands, limits and links, figures fit together, the sums are those of their parts, and page
-// and account call the same volumes short.
+// The law: in random scenes with briefs, hands, limits and links, figures fit together, the sums are those of their parts, and
+// page and account call the same volumes short.
 TEST(AccountLaw, FiguresFitTogetherInEveryScene) {
   Random random(12);
   const std::vector<std::string> uses = {"", "a", "b", "c"};
@@ -95,7 +99,8 @@ TEST(AccountLaw, FiguresFitTogetherInEveryScene) {
     const std::uint64_t count = random.below(6);
     for (std::uint64_t k = 0; k < count; ++k) {
       nodes += R"(, {"id": "v)" + std::to_string(k) + R"(", "position": [)" + std::to_string(random.uniform(-12, 12)) + ", " +
-               std::to_string(random.uniform(-12, 12)) + R"(, 5], "types": {"smart_volume": {"use": ")" + uses[random.below(4)] + "\"";
+               std::to_string(random.uniform(-12, 12)) + R"(, 5], "types": {"smart_volume": {"use": ")" + uses[random.below(4)] +
+               "\"";
       if (random.below(2) == 0) nodes += R"(, "demand": )" + std::to_string(random.below(2500));
       if (random.below(3) == 0) nodes += R"(, "demand_limit": )" + std::to_string(random.below(900));
       nodes += "}}}";
@@ -126,9 +131,7 @@ TEST(AccountLaw, FiguresFitTogetherInEveryScene) {
       had += use.volume;
       worst = std::max(worst, use.short_share());
       EXPECT_EQ(use.is_short(accounts.tolerance), !report::why_short(world.state(), accounts, use).empty());
-      if (use.is_in_programme) {
-        EXPECT_GE(use.asked_area, use.brief_area * (1 - 1e-12));
-      }
+      if (use.is_in_programme) { EXPECT_GE(use.asked_area, use.brief_area * (1 - 1e-12)); }
     }
     EXPECT_EQ(volumes, model.volumes.size());
     EXPECT_EQ(had, accounts.all.volume);

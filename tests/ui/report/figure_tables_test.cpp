@@ -39,12 +39,16 @@ TEST(FigureTablesLaw, EveryPortIsDeclared) {
 
 // The law: what a typification of the city computes as a number is in its table; what is left out is named here with its reason.
 TEST(FigureTablesLaw, NoComputedNumberIsForgotten) {
-  const std::set<std::string> left_out = {
-      "plot.volume",                                                     // none today; kept so that the set is never empty
-      "traffic_network.unrest", "traffic_network.objective",             // how the assignment got there
-      "shadow_receiver.columns", "shadow_receiver.rows",                 // how the map is laid out; the map itself is a table
-      "sun_study.ray_count", "terrain.columns", "terrain.row_count",     // sizes of what was computed with
-      "facade.true_north", "statistics.spread"};
+  const std::set<std::string> left_out = {"plot.volume",  // none today; kept so that the set is never empty
+                                          "traffic_network.unrest",
+                                          "traffic_network.objective",  // how the assignment got there
+                                          "shadow_receiver.columns",
+                                          "shadow_receiver.rows",  // how the map is laid out; the map itself is a table
+                                          "sun_study.ray_count",
+                                          "terrain.columns",
+                                          "terrain.row_count",  // sizes of what was computed with
+                                          "facade.true_north",
+                                          "statistics.spread"};
   for (const report::FigureTable& table : report::figure_tables()) {
     const TypificationDefinition& type = *full_registry().typification(table.type);
     for (const PortDefinition& port : type.ports) {
@@ -83,7 +87,8 @@ TEST_F(UrbanReport, EveryTableHasItsRowsInAllForms) {
   const State& state = world_->state();
   const std::string page = file("report.html");
   const Json json = report::figure_json(state);
-  for (const char* id : {"plots", "streets", "junctions", "zones", "networks", "sun", "sun_studies", "buildings", "layers", "facade_totals"}) {
+  for (const char* id :
+       {"plots", "streets", "junctions", "zones", "networks", "sun", "sun_studies", "buildings", "layers", "facade_totals"}) {
     const auto tables = report::figure_tables();
     const auto table = std::find_if(tables.begin(), tables.end(), [&](const report::FigureTable& t) { return t.id == id; });
     ASSERT_NE(table, tables.end()) << id;
@@ -99,7 +104,8 @@ TEST_F(UrbanReport, EveryTableHasItsRowsInAllForms) {
     }
   }
   EXPECT_EQ(json["plots"][0]["fsi"].get<double>(), world_->number("plot", "plot.fsi"));
-  EXPECT_EQ(json["streets"][0]["volume_over_capacity"].get<double>(), world_->number(json["streets"][0]["id"].get<std::string>(), "street.volume_over_capacity"));
+  EXPECT_EQ(json["streets"][0]["volume_over_capacity"].get<double>(),
+            world_->number(json["streets"][0]["id"].get<std::string>(), "street.volume_over_capacity"));
   EXPECT_GT(json["sun"][0]["map"].size(), 10u);
   EXPECT_GT(read_csv(file("sun_map.csv"), ',')->records.size(), 100u);
   EXPECT_GT(read_csv(file("uses.csv"), ',')->records.size(), 3u);
@@ -136,7 +142,8 @@ TEST(FigureTables, NothingOlderIsLeftBehind) {
   const std::string folder = (std::filesystem::path(testing::TempDir()) / "report_older").string();
   std::filesystem::create_directories(folder);
   ASSERT_TRUE(write_file(folder + "/streets.csv", "id,name\r\nold,Old street\r\n").ok());
-  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "v", "types": {"smart_volume": {}}}], "links": []})");
+  World world = World::from_text(
+      R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "v", "types": {"smart_volume": {}}}], "links": []})");
   world.tick(2);
   ASSERT_TRUE(write_report(folder, {&world.state(), {}, "v.json", "ticked"}).ok());
   EXPECT_EQ(read_file(folder + "/streets.csv")->find("Old street"), std::string::npos);
@@ -146,12 +153,17 @@ TEST(FigureTables, NothingOlderIsLeftBehind) {
 // Whatever people call things: no table of a report holds a formula.
 TEST(FigureTables, NoTableOfAReportHoldsAFormula) {
   const std::string evil = R"(=cmd|'/c calc'!A0)";
-  World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {"title": ")" + evil + R"("}, "nodes": [
-    {"id": "b", "name": ")" + evil + R"(", "types": {"existing_building": {"use": "@SUM", "origin": "+1"}}},
-    {"id": "d", "name": ")" + evil + R"(", "types": {"data_layer": {"quantity": ")" + evil + R"(", "unit": "-1", "source": "\t=1",
+  World world =
+      World::from_text(R"({"format": "behaviourlinks", "version": 1, "settings": {"title": ")" + evil + R"("}, "nodes": [
+    {"id": "b", "name": ")" +
+                       evil + R"(", "types": {"existing_building": {"use": "@SUM", "origin": "+1"}}},
+    {"id": "d", "name": ")" +
+                       evil + R"(", "types": {"data_layer": {"quantity": ")" + evil + R"(", "unit": "-1", "source": "\t=1",
       "values": [{"x": -5, "y": 1, "value": -3}]}}},
-    {"id": "p", "types": {"programme": {"rows": [{"use": ")" + evil + R"(", "floor_area": 100}]}}},
-    {"id": "v", "name": ")" + evil + R"(", "position": [-3, 0, 5], "types": {"smart_volume": {"use": ")" + evil + R"("}, "facade": {}}}],
+    {"id": "p", "types": {"programme": {"rows": [{"use": ")" +
+                       evil + R"(", "floor_area": 100}]}}},
+    {"id": "v", "name": ")" +
+                       evil + R"(", "position": [-3, 0, 5], "types": {"smart_volume": {"use": ")" + evil + R"("}, "facade": {}}}],
     "links": [{"id": "deal", "kind": "demand", "from": "p", "to": "v"}]})");
   world.tick(3);
   const std::string folder = (std::filesystem::path(testing::TempDir()) / "report_evil").string();

@@ -55,7 +55,8 @@ VolumeAccount read_account(const State& state, std::uint32_t node, const Briefed
   const double least = number("demand_min");
   account.asked = std::max(number("demand"), least);
   // Before a solver has seen the volume nobody aims at anything yet: then its limits themselves are the next best word.
-  account.limited = standing == "idle" ? std::max(std::min(number("demand"), number("demand_limit", 1e9)), least) : number("wanted");
+  account.limited =
+      standing == "idle" ? std::max(std::min(number("demand"), number("demand_limit", 1e9)), least) : number("wanted");
   account.volume = number("volume");
   account.floor_area = number("floor_area");
   if (account.storey_height > 0) {
@@ -65,7 +66,8 @@ VolumeAccount read_account(const State& state, std::uint32_t node, const Briefed
   return account;
 }
 
-// A use gets what its brief asks for or what its volumes do, whichever is more: whoever asked, it is missing where it is not there.
+// A use gets what its brief asks for or what its volumes do, whichever is more: whoever asked, it is missing where it is not
+// there.
 void finish_use(UseAccount& use) {
   constexpr double kRounding = 1e-9;
   if (!use.is_in_programme) return;
@@ -97,8 +99,8 @@ std::string causes_of(const Account& account, const std::vector<std::string>& li
     add((limiters.empty() ? std::string("limits leave ") : listed(limiters) + (limiters.size() == 1 ? " leaves " : " leave ")) +
         quantity(account.limited, Unit::cubic_metre) + " of " + quantity(account.asked, Unit::cubic_metre));
   if (share_missing(account.limited, account.volume) > tolerance)
-    add("there is room for " + quantity(account.volume, Unit::cubic_metre) + " of the " + quantity(account.limited, Unit::cubic_metre) +
-        " aimed at");
+    add("there is room for " + quantity(account.volume, Unit::cubic_metre) + " of the " +
+        quantity(account.limited, Unit::cubic_metre) + " aimed at");
   if (text.empty() && account.is_by_area)
     add("the volume is there, but storeys of its shape hold less floor: ask for more volume, or lower the storeys");
   return text;
@@ -201,7 +203,8 @@ std::vector<std::string> who_limits(const State& state, const VolumeAccount& vol
   for (std::size_t l = 0; l < state.links.size(); ++l) {
     if (state.plan->links[l].is_muted) continue;
     const std::vector<Voice>& voices = state.links[l].voices;
-    const auto voice = std::lower_bound(voices.begin(), voices.end(), *ref, [](const Voice& v, PortRef r) { return v.target < r; });
+    const auto voice =
+        std::lower_bound(voices.begin(), voices.end(), *ref, [](const Voice& v, PortRef r) { return v.target < r; });
     if (voice != voices.end() && voice->target == *ref && voice->strength > 0 && holds(voice->value))
       who.push_back("link `" + state.plan->links[l].id + "`");
   }

@@ -40,9 +40,9 @@ struct Account {
 
 struct VolumeAccount : Account {
   std::uint32_t node = 0;
-  std::string use;             ///< that it counts for: its own, or the one that a demand link credits it to
-  double storey_height = 0;    ///< [m]
-  bool is_alive = false;       ///< it has a shape
+  std::string use;           ///< that it counts for: its own, or the one that a demand link credits it to
+  double storey_height = 0;  ///< [m]
+  bool is_alive = false;     ///< it has a shape
 };
 
 struct UseAccount : Account {

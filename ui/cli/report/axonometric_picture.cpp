@@ -281,7 +281,9 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   if (grid > 0) caption += " Ground grid " + shortest(grid) + " m; dash-dotted, the boundary.";
   if (has_storeys && !order.empty()) caption += " Fine lines on the volumes are storey levels.";
   if (!model.surroundings.is_empty())
-    caption += " Around the site: streets with their load, sun on flat receivers, and existing buildings, pale where they stand before it.";
+    caption +=
+        " Around the site: streets with their load, sun on flat receivers, and existing buildings, pale where they stand before "
+        "it.";
   caption += " Light and shadow are a drawing convention, not a sun study.";
   return {svg.str(), caption + missing};
 }

@@ -110,14 +110,16 @@ class Walk {
     // What is missing of what was asked for is no port: it follows from several, by the account that all displays share.
     for (const VolumeAccount& volume : accounts_of(state).volumes) {
       const NodePlan& node = plan.nodes[volume.node];
-      take_figure(node, "account.missing", "SmartVolume: missing of the volume asked for", Unit::cubic_metre, volume.missing(), is_after);
+      take_figure(node, "account.missing", "SmartVolume: missing of the volume asked for", Unit::cubic_metre, volume.missing(),
+                  is_after);
       if (volume.is_by_area)
         take_figure(node, "account.missing_area", "SmartVolume: missing of the floor area asked for", Unit::square_metre,
                     volume.missing_area(), is_after);
     }
   }
 
-  void take_figure(const NodePlan& node, const std::string& path, const std::string& label, Unit unit, double value, bool is_after) {
+  void take_figure(const NodePlan& node, const std::string& path, const std::string& label, Unit unit, double value,
+                   bool is_after) {
     note(node, {path, label, unit, false}, value, is_after);
     add_up({path, label, unit, false}, value, is_after);
   }
@@ -266,7 +268,9 @@ double IndicatorRow::share() const {
   return most > 0 ? std::abs(after - before) / most : 0;
 }
 
-std::string IndicatorRow::figure(double value) const { return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit); }
+std::string IndicatorRow::figure(double value) const {
+  return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit);
+}
 
 std::string IndicatorRow::difference() const {
   // A percentage of what people read as zero says nothing, nor does one of dust beside what there is now.

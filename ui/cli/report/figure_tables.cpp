@@ -1,4 +1,4 @@
-// The list, and its three writers; kinds and units come from the declarations of the ports.
+// The three writers of the tables; kinds and units come from the declarations of the ports.
 #include "ui/cli/report/figure_tables.h"
 
 #include <algorithm>
@@ -15,73 +15,6 @@
 namespace bl::report {
 
 namespace {
-
-// Building regulations say FSI, GSI and OSR; everywhere else names are those that people read in the window.
-std::vector<FigureTable> all_tables() {
-  constexpr Shown kAll = Shown::everywhere, kFiles = Shown::files, kJson = Shown::json;
-  return {
-      {"plots", "plot", "Plots",
-       "Built floor and ground against what the rules of each plot allow. FSI: floor area to plot area; GSI: built ground to plot "
-       "area; OSR: open space to floor area; storeys: floor area to built ground.",
-       {{"area", "Area"}, {"count", "Volumes"}, {"floor_area", "Floor area"}, {"footprint", "Built ground"}, {"fsi", "FSI"},
-        {"fsi_max", "allowed"}, {"gsi", "GSI"}, {"gsi_max", "allowed"}, {"osr", "OSR"}, {"layers", "Storeys"}, {"top", "Height"},
-        {"height_max", "allowed"}, {"overshoot", "Overshoot", kAll, true}, {"floor_overshoot", "", kFiles},
-        {"footprint_overshoot", "", kFiles}, {"height_overshoot", "", kFiles}, {"setback_overshoot", "", kFiles},
-        {"message", "Remark"}, {"polygon", "", kJson}},
-       {}},
-      {"streets", "street", "Streets",
-       "Flows of the hour that the network looks at. Load: flow to open capacity, the larger of both directions; above 100 % the "
-       "street is overloaded.",
-       {{"used_length", "Length"}, {"lanes", "Lanes"}, {"open", "Open", kAll, true}, {"flow_forth", "Flow forth"}, {"flow_back", "Flow back"},
-        {"volume_over_capacity", "Load", kAll, true}, {"delay", "Delay"}, {"time_forth", "", kFiles}, {"time_back", "", kFiles},
-        {"capacity_per_lane", "", kFiles}, {"speed", "", kFiles}, {"toll", "", kFiles}, {"reason", "Remark"},
-        {"start", "", kJson}, {"end", "", kJson}, {"course", "", kJson}},
-       {}},
-      {"junctions", "junction", "Junctions", "Vehicles that arrive by all streets together, and the largest load of these streets.",
-       {{"streets", "Streets"}, {"flow", "Flow"}, {"volume_over_capacity", "Largest load", kAll, true}}, {}},
-      {"zones", "traffic_zone", "Traffic zones", "Where trips begin and end: volumes, and places beyond the site.",
-       {{"trips_out", "Trips out"}, {"trips_in", "Trips in"}, {"trips_served", "Served"}, {"trips_lost", "Lost"},
-        {"trips_ending", "Ending"}, {"mean_travel_time", "Mean time"}, {"accessibility", "", kFiles}, {"reason", "Remark"}},
-       {}},
-      {"networks", "traffic_network", "Traffic as a whole", "",
-       {{"trips", "Trips"}, {"trips_lost", "Lost"}, {"mean_travel_time", "Mean time"}, {"total_time", "Time of all"},
-        {"largest_load", "Largest load", kAll, true}, {"relative_gap", "", kFiles}, {"trips_missing", "", kFiles}, {"message", "Remark"}},
-       {}},
-      {"sun", "shadow_receiver", "Direct sun",
-       "Hours of sun per day of the period studied, on the points of each receiver. Without casters: what it would be if nothing "
-       "stood around.",
-       {{"area", "Area"}, {"required_sun", "Required"}, {"sun_min", "Least"}, {"sun_mean", "Mean"}, {"sun_max", "Most"},
-        {"sun_possible", "Without casters"}, {"share_met", "Area that has enough", kAll, true}, {"deficit", "Short by"}},
-       {{"sun_map", "map"}, {"sun_losses", "losses"}}},
-      {"sun_studies", "sun_study", "Sun studies", "",
-       {{"caster_count", "Casters"}, {"receiver_count", "Receivers"}, {"area", "Area"}, {"sun_mean", "Mean"},
-        {"sun_possible", "Without casters"}, {"share_met", "Area that has enough", kAll, true}, {"moment_count", "", kFiles},
-        {"message", "Remark"}},
-       {}},
-      {"buildings", "existing_building", "Existing buildings", "What stands around the site, and stays.",
-       {{"use", "Use"}, {"footprint", "Footprint"}, {"floor_area", "Floor area"}, {"base", "", kFiles}, {"top", "Top"},
-        {"volume", "Volume"}, {"is_assumed", "Height assumed"}, {"height_source", "", kFiles}, {"origin", "", kFiles},
-        {"outline", "", kJson}},
-       {{"building_courts", "holes"}}},
-      {"terrain", "terrain", "Terrain", "",
-       {{"width", "Width"}, {"depth", "Depth"}, {"cell", "Cell"}, {"minimum", "Lowest"}, {"mean", "Mean"}, {"maximum", "Highest"},
-        {"without_height", "Cells without height"}, {"west", "", kFiles}, {"north", "", kFiles}, {"origin", "Origin"}},
-       {}},
-      {"layers", "data_layer", "Data layers", "Urban data under the site.",
-       {{"quantity", "Quantity"}, {"unit", "Unit"}, {"count", "Points"}, {"minimum", "Least"}, {"mean", "Mean"}, {"maximum", "Most"},
-        {"sum", "", kFiles}, {"source", "Source"}, {"licence", "Licence"}},
-       {}},
-      // On the page façades have a table of their own, with orientations.
-      {"facade_totals", "facade", "", "",
-       {{"style_in_force", "", kFiles}, {"facade_area", "", kFiles}, {"glazed_area", "", kFiles}, {"opaque_area", "", kFiles},
-        {"roof_area", "", kFiles}, {"shared_area", "", kFiles}, {"glazing_ratio", "", kFiles}, {"panels", "", kFiles},
-        {"cost", "", kFiles}, {"message", "", kFiles}},
-       {{"facade_sides", "by_orientation"}, {"facade_storeys", "by_storey"}}},
-      {"statistics", "statistics", "Statistics", "",
-       {{"port", "Of"}, {"count", "Nodes"}, {"sum", "Sum"}, {"mean", "Mean"}, {"minimum", "Least"}, {"maximum", "Most"}},
-       {}},
-  };
-}
 
 const PortDefinition* port_of(const State& state, std::uint32_t node, std::string_view type, std::string_view port,
                               const Value*& value) {
@@ -149,7 +82,8 @@ bool is_text(const PortDefinition& port) {
 }
 
 // A column that is empty in all rows is left away, such as remarks where there are none.
-std::vector<const FigureColumn*> page_columns(const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
+std::vector<const FigureColumn*> page_columns(const State& state, const FigureTable& table,
+                                              const std::vector<std::uint32_t>& nodes) {
   std::vector<const FigureColumn*> columns;
   for (const FigureColumn& column : table.columns) {
     if (column.shown != Shown::everywhere) continue;
@@ -189,7 +123,8 @@ void write_one(Markup& page, const State& state, const FigureTable& table, const
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const Value* value = nullptr;
       const PortDefinition* port = port_of(state, nodes[r], table.type, columns[c]->port, value);
-      page.element("td", port == nullptr ? "" : figure_text(*value, *port, columns[c]->is_share), {{"class", texts[c] ? "reason" : "n"}});
+      page.element("td", port == nullptr ? "" : figure_text(*value, *port, columns[c]->is_share),
+                   {{"class", texts[c] ? "reason" : "n"}});
     }
     page.close();
   }
@@ -197,11 +132,6 @@ void write_one(Markup& page, const State& state, const FigureTable& table, const
 }
 
 }  // namespace
-
-std::span<const FigureTable> figure_tables() {
-  static const std::vector<FigureTable> tables = all_tables();
-  return tables;
-}
 
 std::vector<std::uint32_t> rows_of(const State& state, const FigureTable& table) {
   std::vector<std::uint32_t> nodes;
@@ -216,6 +146,7 @@ std::string figure_text(const Value& value, const PortDefinition& port, bool is_
   const double number = as_number(value);
   const bool is_endless = !std::isfinite(number) || std::abs(number) >= 1e9;
   if (is_endless) return "\xE2\x80\x93";
+  if (port.unit == Unit::count && number == std::floor(number)) return grouped(number);
   if (!port.unit_from.empty()) return readable(number);
   if (is_share) return percent(number);
   return port.unit == Unit::ratio ? grouped(number, 2) : quantity(number, port.unit);

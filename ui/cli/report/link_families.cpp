@@ -75,7 +75,8 @@ DrawnLinks links_to_draw(const State& state) {
   }
   for (const LinkFamily& family : kFamilies)
     if (seen.contains(&family)) drawn.families.push_back(&family);
-  for (const auto& [label, count] : beside) drawn.beside.push_back(label + (count == 1 ? "" : " (" + std::to_string(count) + ")"));
+  for (const auto& [label, count] : beside)
+    drawn.beside.push_back(label + (count == 1 ? "" : " (" + std::to_string(count) + ")"));
   return drawn;
 }
 

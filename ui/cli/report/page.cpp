@@ -31,7 +31,8 @@ void write_keys(Markup& page, const ReportModel& model) {
       all.is_in_programme ? "by the programme and by people" : "what the volumes asked for make");
   key(page, "Floor area reached", quantity(all.floor_area, Unit::square_metre),
       share_of(all.floor_area, all.asked_area) + " of what is asked for");
-  key(page, "Floor space index", has_site ? grouped(all.floor_area / model.plan_area, 2) : "\xE2\x80\x93", "floor area to plan area");
+  key(page, "Floor space index", has_site ? grouped(all.floor_area / model.plan_area, 2) : "\xE2\x80\x93",
+      "floor area to plan area");
   key(page, "Volume", quantity(all.volume, Unit::cubic_metre), share_of(all.volume, all.asked) + " of what is asked for");
   key(page, "Fill", share_of(all.volume, model.site_volume), "of the space inside the boundary");
   key(page, "Volumes", grouped(static_cast<double>(model.volumes.size())),
@@ -85,7 +86,8 @@ void write_notes(Markup& page, const ReportModel& model, const Palette& palette)
       "Volume is that of the shape: the part of a volume's cell, its share of the space inside the boundary, that lies within "
       "reach of its position. "
       "Asked for is what the programme, people and links ask for together; limited to is what caps and other limits leave of it, "
-      "and what the volume aims at. Short is what is missing against what was asked for, whoever asked: of the volume, and where a "
+      "and what the volume aims at. Short is what is missing against what was asked for, whoever asked: of the volume, and where "
+      "a "
       "programme asks, of the floor area, whichever share is larger.");
   note(
       "Floor area is the sum of horizontal sections through the middle of each storey, gross, without deductions for walls, "
@@ -107,8 +109,9 @@ void write_footer(Markup& page, const ReportModel& model, const ReportData& data
   row("Scene", data.scene_path.empty() ? "not from a file" : data.scene_path);
   row("Ticks", std::to_string(model.tick));
   row("State", "hash " + model.hash);
-  row("Made by", "BehaviourLinks, behaviourlinks run --report; beside this page lie shapes in volumes.obj and a table for spreadsheets "
-                 "of everything on it: volumes.csv, uses.csv, conflicts.csv and others");
+  row("Made by",
+      "BehaviourLinks, behaviourlinks run --report; beside this page lie shapes in volumes.obj and a table for spreadsheets "
+      "of everything on it: volumes.csv, uses.csv, conflicts.csv and others");
   page.close().close();
 }
 

@@ -32,7 +32,9 @@ void met_cell(Markup& page, const Account& account) {
   page.open("td");
   if (account.asked > 0 && words.find('%') != std::string::npos) {
     page.open("span", {{"class", "bar"}, {"aria-hidden", "true"}});
-    page.open("span", {{"style", "width:" + pixels(std::clamp(account.volume / account.asked, 0.0, 1.0) * 100) + "%"}}).close().close();
+    page.open("span", {{"style", "width:" + pixels(std::clamp(account.volume / account.asked, 0.0, 1.0) * 100) + "%"}})
+        .close()
+        .close();
   }
   page.text(words).close();
 }
@@ -44,7 +46,9 @@ std::string short_text(const Account& account, double tolerance) {
 
 // Caps and other limits lower demands before the solver sees them.
 std::string held_back(const Account& all) {
-  return all.withheld() > 0.001 * all.asked ? " Limits hold " + quantity(all.withheld(), Unit::cubic_metre) + " of the demand back." : "";
+  return all.withheld() > 0.001 * all.asked
+             ? " Limits hold " + quantity(all.withheld(), Unit::cubic_metre) + " of the demand back."
+             : "";
 }
 
 void volume_row(Markup& page, const State& state, const ReportModel& model, const VolumeRow& volume, const Palette& palette) {
@@ -62,7 +66,8 @@ void volume_row(Markup& page, const State& state, const ReportModel& model, cons
   number_cell(page, readable(volume.volume));
   number_cell(page, difference_of(volume.volume, volume.asked), is_good ? "" : "bad");
   number_cell(page, readable(volume.floor_area));
-  number_cell(page, volume.is_by_area ? difference_of(volume.floor_area, volume.asked_area) : "\xE2\x80\x93", is_good ? "" : "bad");
+  number_cell(page, volume.is_by_area ? difference_of(volume.floor_area, volume.asked_area) : "\xE2\x80\x93",
+              is_good ? "" : "bad");
   number_cell(page, readable(volume.surface_area));
   number_cell(page, readable(volume.footprint));
   number_cell(page, readable(volume.height));
@@ -107,10 +112,12 @@ void write_programme(Markup& page, const ReportModel& model, const State& state,
     page.element("p", "The scene has no programme and no volumes.");
     return;
   }
-  const bool has_own = std::any_of(accounts.uses.begin(), accounts.uses.end(), [](const UseAccount& use) { return !use.is_in_programme; });
-  open_table(page, "Programme",
-             "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(accounts.all) +
-                 std::string(has_own ? " Uses with * stand in no programme; their area follows from what their volumes ask for." : ""));
+  const bool has_own =
+      std::any_of(accounts.uses.begin(), accounts.uses.end(), [](const UseAccount& use) { return !use.is_in_programme; });
+  open_table(
+      page, "Programme",
+      "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(accounts.all) +
+          std::string(has_own ? " Uses with * stand in no programme; their area follows from what their volumes ask for." : ""));
   page.open("thead").open("tr");
   head(page, "Use", "", false);
   head(page, "Asked for", "m\xC2\xB2");
@@ -218,9 +225,10 @@ void write_conflicts(Markup& page, const ReportModel& model) {
 // Everybody who pulls, with how often and how hard: who stands in most conflicts stands first.
 void write_pullers(Markup& page, const ReportModel& model) {
   if (model.pullers.empty()) return;
-  open_table(page, "Conflicts by link and person",
-             "Who stands in these conflicts, in how many of them, and how hard: tension against the size of what is pulled at, shared "
-             "evenly among those who pull.");
+  open_table(
+      page, "Conflicts by link and person",
+      "Who stands in these conflicts, in how many of them, and how hard: tension against the size of what is pulled at, shared "
+      "evenly among those who pull.");
   page.open("thead").open("tr");
   head(page, "Who", "", false);
   head(page, "Kind", "", false);

@@ -233,14 +233,16 @@ Picture draw_plan(const State& state, const ReportModel& model, const Palette& p
   const double bottom = sheet.height() - 8, cut = ground_of(model) + kEyeHeight;
   const double link_rows = links.families.empty() ? 0 : links.families.size() > 4 ? 2 : 1;
   const Pixel below{20, sheet.height() + 42 + kLegendRow * link_rows};
-  const double height = sheet.height() + 34 + kLegendRow * link_rows + draw_surroundings_legend(nullptr, sheet, surroundings, below);
+  const double height =
+      sheet.height() + 34 + kLegendRow * link_rows + draw_surroundings_legend(nullptr, sheet, surroundings, below);
   Markup svg;
   open_picture(svg, sheet.width(), height, "plan", "Plan",
                "The site and its surroundings seen from above with all volumes, their positions, and the links between them.");
   const double step = draw_grid(svg, sheet, bottom);
   // Streets go on beyond the frame; they end at it.
   svg.open("clipPath", {{"id", "plan-frame"}});
-  svg.leaf("rect", {{"x", pixels(kFrame)}, {"y", "30"}, {"width", pixels(sheet.width() - 2 * kFrame)}, {"height", pixels(bottom - 30)}});
+  svg.leaf("rect",
+           {{"x", pixels(kFrame)}, {"y", "30"}, {"width", pixels(sheet.width() - 2 * kFrame)}, {"height", pixels(bottom - 30)}});
   svg.close();
   svg.open("g", {{"clip-path", "url(#plan-frame)"}});
   draw_ground_layers(svg, sheet, surroundings);

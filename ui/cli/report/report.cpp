@@ -18,17 +18,62 @@ using report::ReportModel;
 using report::VolumeRow;
 
 std::string csv_of(const ReportModel& model, const State& state) {
-  const std::vector<std::string> header = {"number", "id", "name", "use", "x [m]", "y [m]", "z [m]", "storey_height [m]",
-                                           "asked [m3]", "limited_to [m3]", "volume [m3]", "short [m3]", "short [%]",
-                                           "asked_floor_area [m2]", "floor_area [m2]", "cell_volume [m3]", "error [%]",
-                                           "surface_area [m2]", "footprint [m2]", "bottom [m]", "height [m]", "weight [m2]", "state",
-                                           "reason", "why_short", "facade_style", "facade_area [m2]", "glazed_area [m2]",
-                                           "opaque_area [m2]", "facade_cost [EUR]"};
+  const std::vector<std::string> header = {"number",
+                                           "id",
+                                           "name",
+                                           "use",
+                                           "x [m]",
+                                           "y [m]",
+                                           "z [m]",
+                                           "storey_height [m]",
+                                           "asked [m3]",
+                                           "limited_to [m3]",
+                                           "volume [m3]",
+                                           "short [m3]",
+                                           "short [%]",
+                                           "asked_floor_area [m2]",
+                                           "floor_area [m2]",
+                                           "cell_volume [m3]",
+                                           "error [%]",
+                                           "surface_area [m2]",
+                                           "footprint [m2]",
+                                           "bottom [m]",
+                                           "height [m]",
+                                           "weight [m2]",
+                                           "state",
+                                           "reason",
+                                           "why_short",
+                                           "facade_style",
+                                           "facade_area [m2]",
+                                           "glazed_area [m2]",
+                                           "opaque_area [m2]",
+                                           "facade_cost [EUR]"};
   std::vector<std::vector<CsvCell>> rows;
   for (const VolumeRow& v : model.volumes) {
-    rows.push_back({v.number, v.id, v.name, v.use, v.position.x, v.position.y, v.position.z, v.storey_height, v.asked, v.limited,
-                    v.volume, v.missing(), v.short_share() * 100, v.asked_area, v.floor_area, v.cell_volume, v.error() * 100,
-                    v.surface_area, v.footprint, v.bottom, v.height, v.weight, v.state, v.reason,
+    rows.push_back({v.number,
+                    v.id,
+                    v.name,
+                    v.use,
+                    v.position.x,
+                    v.position.y,
+                    v.position.z,
+                    v.storey_height,
+                    v.asked,
+                    v.limited,
+                    v.volume,
+                    v.missing(),
+                    v.short_share() * 100,
+                    v.asked_area,
+                    v.floor_area,
+                    v.cell_volume,
+                    v.error() * 100,
+                    v.surface_area,
+                    v.footprint,
+                    v.bottom,
+                    v.height,
+                    v.weight,
+                    v.state,
+                    v.reason,
                     report::why_short(state, model.accounts, v)});
     if (!report::has_type(state, v.node, "facade")) continue;
     rows.back().emplace_back(report::text_at(state, v.node, "facade", "style_in_force"));
@@ -39,14 +84,25 @@ std::string csv_of(const ReportModel& model, const State& state) {
 }
 
 std::string uses_csv_of(const ReportModel& model, const State& state) {
-  const std::vector<std::string> header = {"use",            "in_programme",           "volumes",         "short_volumes", "asked_floor_area [m2]",
-                                           "limited_to_floor_area [m2]", "floor_area [m2]", "asked [m3]",    "limited_to [m3]",
-                                           "volume [m3]",    "short [m3]",             "short [m2]",      "short [%]",     "why_short"};
+  const std::vector<std::string> header = {"use",
+                                           "in_programme",
+                                           "volumes",
+                                           "short_volumes",
+                                           "asked_floor_area [m2]",
+                                           "limited_to_floor_area [m2]",
+                                           "floor_area [m2]",
+                                           "asked [m3]",
+                                           "limited_to [m3]",
+                                           "volume [m3]",
+                                           "short [m3]",
+                                           "short [m2]",
+                                           "short [%]",
+                                           "why_short"};
   std::vector<std::vector<CsvCell>> rows;
   for (const report::UseAccount& use : model.accounts.uses)
     rows.push_back({use.use, use.is_in_programme ? "yes" : "no", use.volumes, use.short_volumes, use.asked_area, use.limited_area,
-                    use.floor_area, use.asked, use.limited, use.volume, use.missing(), use.missing_area(), use.short_share() * 100,
-                    report::why_short(state, model.accounts, use)});
+                    use.floor_area, use.asked, use.limited, use.volume, use.missing(), use.missing_area(),
+                    use.short_share() * 100, report::why_short(state, model.accounts, use)});
   return write_csv(header, rows);
 }
 
@@ -61,7 +117,9 @@ std::string conflicts_csv_of(const ReportModel& model, const State& state) {
       const std::size_t index = report::link_index(*state.plan, link);
       const bool is_link = index < state.plan->links.size() && state.plan->links[index].definition != nullptr;
       rows.push_back({conflict.node_id, conflict.node, conflict.port, conflict.amount, unit, conflict.severity * 100, link,
-                      is_link ? state.plan->links[index].definition->label : link.empty() && !conflict.pulls.empty() ? "by hand" : "",
+                      is_link                                   ? state.plan->links[index].definition->label
+                      : link.empty() && !conflict.pulls.empty() ? "by hand"
+                                                                : "",
                       k < conflict.pulls.size() ? conflict.pulls[k] : "a limit of the port itself"});
     }
   }
@@ -78,8 +136,8 @@ report::CsvFile facades_csv_of(const ReportModel& model, const State& state) {
                       sides->text(row, "orientation"), sides->number(row, "area"), sides->number(row, "glazed"),
                       sides->number(row, "opaque"), sides->number(row, "cost")});
   }
-  const std::vector<std::string> header = {"id",          "name",        "use",        "style", "orientation", "area [m2]",
-                                           "glazed [m2]", "opaque [m2]", "cost [EUR]"};
+  const std::vector<std::string> header = {"id",        "name",        "use",         "style",     "orientation",
+                                           "area [m2]", "glazed [m2]", "opaque [m2]", "cost [EUR]"};
   return {"facades.csv", write_csv(header, rows), !rows.empty()};
 }
 

@@ -18,12 +18,12 @@ struct VolumeRow : VolumeAccount {
   std::size_t number = 0;  ///< from 1, as in the table and the pictures
   std::string id, name, state, reason;
   Point3 position;
-  double cell_volume = 0, weight = 0;     ///< [m³], [m²]
-  double surface_area = 0, footprint = 0; ///< [m²]
-  double height = 0, bottom = 0;          ///< [m]
-  MeshPointer mesh;                       ///< none where there is no shape
-  ExactShape exact;                       ///< radius 0 where only the mesh is known
-  std::size_t group = 0;                  ///< volumes of one solver stand together
+  double cell_volume = 0, weight = 0;      ///< [m³], [m²]
+  double surface_area = 0, footprint = 0;  ///< [m²]
+  double height = 0, bottom = 0;           ///< [m]
+  MeshPointer mesh;                        ///< none where there is no shape
+  ExactShape exact;                        ///< radius 0 where only the mesh is known
+  std::size_t group = 0;                   ///< volumes of one solver stand together
 
   /// How far the volume is from what the solver aims at, as a share of it: what settling looks at.
   double error() const { return limited > 0 ? (volume - limited) / limited : 0; }

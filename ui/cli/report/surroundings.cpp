@@ -97,7 +97,8 @@ void read_sun_field(const State& state, std::uint32_t node, Surroundings& all) {
   field.half_up = half_of_square(*map, columns, map->rows.size() > columns, point_at(state, node, "shadow_receiver", "half_up"));
   all.most_sun = std::max(all.most_sun, field.possible);
   for (std::size_t row = 0; row < map->rows.size(); ++row) {
-    field.points.emplace_back(Point3{map->number(row, "x"), map->number(row, "y"), map->number(row, "z")}, map->number(row, "sun"));
+    field.points.emplace_back(Point3{map->number(row, "x"), map->number(row, "y"), map->number(row, "z")},
+                              map->number(row, "sun"));
     all.most_sun = std::max(all.most_sun, field.points.back().second);
   }
   all.sun.push_back(std::move(field));
@@ -142,9 +143,11 @@ Surroundings read_surroundings(const State& state) {
     if (is("shadow_receiver")) read_sun_field(state, n, all);
     if (is("data_layer")) read_data_field(state, n, all);
     if (is("plot"))
-      if (auto ring = ring_at(state, n, "plot", "polygon"); ring.size() >= 3) all.plots.emplace_back(name_at(state, n), std::move(ring));
+      if (auto ring = ring_at(state, n, "plot", "polygon"); ring.size() >= 3)
+        all.plots.emplace_back(name_at(state, n), std::move(ring));
     if (is("terrain"))
-      if (const MeshPointer mesh = mesh_at(state, n, "terrain", "mesh"); mesh && !mesh->triangles.empty()) all.grounds.push_back(mesh);
+      if (const MeshPointer mesh = mesh_at(state, n, "terrain", "mesh"); mesh && !mesh->triangles.empty())
+        all.grounds.push_back(mesh);
   }
   return all;
 }

@@ -58,8 +58,8 @@ struct Surroundings {
 
 Surroundings read_surroundings(const State& state);
 
-/// The lowest and the highest corner, in plan, of a frame around `core` that takes in what of the surroundings is near: up to `around`
-/// times the larger side of the core. Far streets are cut at its edge. The core itself where there are no surroundings.
+/// The lowest and the highest corner, in plan, of a frame around `core` that takes in what of the surroundings is near: up to
+/// `around` times the larger side of the core. Far streets are cut at its edge. The core itself where there are no surroundings.
 std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& surroundings, double around = 0.6);
 
 /// Below the site: ground, data and sun; then streets with their load, and buildings.
@@ -70,9 +70,10 @@ void draw_plots(Markup& svg, const Sheet& sheet, const Surroundings& surrounding
 std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& surroundings, const Box& frame);
 /// Samples with their words, in rows of the sheet's width from `at` on; returns the height that they take.
 double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundings& surroundings, Pixel at);
-/// The same seen from aside: streets and sun on the ground at height `ground` inside the frame, then the buildings behind the middle
-/// of the core, and, after the volumes, those before it, which are pale so that they hide nothing.
-void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame, double ground);
+/// The same seen from aside: streets and sun on the ground at height `ground` inside the frame, then the buildings behind the
+/// middle of the core, and, after the volumes, those before it, which are pale so that they hide nothing.
+void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
+                       double ground);
 void draw_buildings_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
                           const Point3& middle, const Vector3& to_sun, bool before);
 

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kLaneWidth = 3.25;  // [m]
 constexpr double kSampleRow = 17;
-constexpr Colour kRoadTone = {0.86, 0.85, 0.82}, kFootway = {0.91, 0.90, 0.86}, kBodyTone = {0.80, 0.78, 0.74}, kContour = {0.72, 0.62, 0.45};
+constexpr Colour kRoadTone = {0.86, 0.85, 0.82}, kFootway = {0.91, 0.90, 0.86}, kBodyTone = {0.80, 0.78, 0.74},
+                 kContour = {0.72, 0.62, 0.45};
 constexpr Colour kLeastSun = {0.55, 0.62, 0.78}, kMostSun = {1.0, 0.90, 0.45};
 constexpr Colour kLeastData = {0.90, 0.87, 0.93}, kMostData = {0.45, 0.20, 0.50};
 
@@ -128,8 +129,9 @@ void draw_load(Markup& svg, const Sheet& sheet, const StreetLine& street) {
   for (const Point3& point : street.line) places.push_back(sheet.at(point));
   path.polyline(places, false);
   const LoadClass& load = kLoads[load_class(street.load)];
-  svg.open("g").element("title", street.name + ": " + (street.is_open ? grouped(street.flow) + " vehicles per hour, load " + percent(street.load)
-                                                                      : std::string("closed")));
+  svg.open("g").element("title", street.name + ": " +
+                                     (street.is_open ? grouped(street.flow) + " vehicles per hour, load " + percent(street.load)
+                                                     : std::string("closed")));
   svg.path(path, {{"fill", "none"},
                   {"stroke", street.is_open ? std::string(load.colour) : hex(kInk)},
                   {"stroke-width", pixels(street.is_open ? load.width : 1.2)},
@@ -170,18 +172,32 @@ class SampleRow {
   }
   void box(Pixel at, const std::string& fill, const std::string& stroke, const std::string& dashes) {
     if (svg_ != nullptr)
-      svg_->leaf("rect", {{"x", pixels(at.x)}, {"y", pixels(at.y - 9)}, {"width", "32"}, {"height", "10"}, {"fill", fill},
-                          {"stroke", stroke}, {"stroke-width", ".8"}, {"stroke-dasharray", dashes}});
+      svg_->leaf("rect", {{"x", pixels(at.x)},
+                          {"y", pixels(at.y - 9)},
+                          {"width", "32"},
+                          {"height", "10"},
+                          {"fill", fill},
+                          {"stroke", stroke},
+                          {"stroke-width", ".8"},
+                          {"stroke-dasharray", dashes}});
   }
   void line(Pixel at, const std::string& stroke, double width, const std::string& dashes) {
     if (svg_ != nullptr)
-      svg_->leaf("line", {{"x1", pixels(at.x)}, {"y1", pixels(at.y - 3.5)}, {"x2", pixels(at.x + 32)}, {"y2", pixels(at.y - 3.5)},
-                          {"stroke", stroke}, {"stroke-width", pixels(width)}, {"stroke-dasharray", dashes}});
+      svg_->leaf("line", {{"x1", pixels(at.x)},
+                          {"y1", pixels(at.y - 3.5)},
+                          {"x2", pixels(at.x + 32)},
+                          {"y2", pixels(at.y - 3.5)},
+                          {"stroke", stroke},
+                          {"stroke-width", pixels(width)},
+                          {"stroke-dasharray", dashes}});
   }
   void ramp(Pixel at, const Colour& low, const Colour& high) {
     if (svg_ == nullptr) return;
     for (int k = 0; k < 8; ++k)
-      svg_->leaf("rect", {{"x", pixels(at.x + 4 * k)}, {"y", pixels(at.y - 9)}, {"width", "4.3"}, {"height", "10"},
+      svg_->leaf("rect", {{"x", pixels(at.x + 4 * k)},
+                          {"y", pixels(at.y - 9)},
+                          {"width", "4.3"},
+                          {"height", "10"},
                           {"fill", hex(between(low, high, k / 7.0))}});
   }
   double height() const { return used_ ? at_.y - first_.y + kSampleRow : 0; }
@@ -205,7 +221,8 @@ void draw_streets_and_buildings(Markup& svg, const Sheet& sheet, const Surroundi
   for (const StreetLine& street : surroundings.streets) draw_load(svg, sheet, street);
   for (const BuildingShape& building : surroundings.buildings) {
     svg.open("g").element("title", building.name + (building.use.empty() ? "" : ", " + building.use) + ": " +
-                                       quantity(building.height, Unit::metre) + " high" + (building.is_assumed ? ", assumed" : ""));
+                                       quantity(building.height, Unit::metre) + " high" +
+                                       (building.is_assumed ? ", assumed" : ""));
     svg.path(ring_path(sheet, building.rings), {{"fill", hex(kBodyTone)},
                                                 {"fill-rule", "evenodd"},
                                                 {"stroke", hex(mix(kBodyTone, kInk, 0.5))},
@@ -220,7 +237,8 @@ void draw_streets_and_buildings(Markup& svg, const Sheet& sheet, const Surroundi
 void draw_plots(Markup& svg, const Sheet& sheet, const Surroundings& surroundings) {
   for (const auto& [name, ring] : surroundings.plots) {
     svg.open("g").element("title", "Plot " + name);
-    svg.path(ring_path(sheet, {ring}), {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1"}, {"stroke-dasharray", "1.5 3"}});
+    svg.path(ring_path(sheet, {ring}),
+             {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1"}, {"stroke-dasharray", "1.5 3"}});
     svg.close();
   }
 }
@@ -236,13 +254,15 @@ std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& s
     for (const BuildingShape& building : surroundings.buildings) {
       Point3 middle;
       for (const Point3& corner : building.rings.front()) middle += corner / static_cast<double>(building.rings.front().size());
-      labels.push_back({sheet.at(middle), building.name, quantity(building.height, Unit::metre) + (building.is_assumed ? ", assumed" : ""),
+      labels.push_back({sheet.at(middle), building.name,
+                        quantity(building.height, Unit::metre) + (building.is_assumed ? ", assumed" : ""),
                         readable(building.height)});
     }
   for (const SunField& field : surroundings.sun) {
     Point3 middle;
     for (const auto& [point, sun] : field.points) middle += point / static_cast<double>(field.points.size());
-    labels.push_back({sheet.at(middle), field.name, "sun " + quantity(field.mean, Unit::second), quantity(field.mean, Unit::second)});
+    labels.push_back(
+        {sheet.at(middle), field.name, "sun " + quantity(field.mean, Unit::second), quantity(field.mean, Unit::second)});
   }
   return labels;
 }
@@ -267,7 +287,8 @@ double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundi
     row.ramp(row.next("sun per day, 0 to " + quantity(surroundings.most_sun, Unit::second)), kLeastSun, kMostSun);
   if (!surroundings.data.empty()) {
     const DataField& field = surroundings.data.front();
-    row.ramp(row.next(field.name + ", " + readable(field.low) + " to " + readable(field.high) + (field.unit.empty() ? "" : " " + field.unit)),
+    row.ramp(row.next(field.name + ", " + readable(field.low) + " to " + readable(field.high) +
+                      (field.unit.empty() ? "" : " " + field.unit)),
              kLeastData, kMostData);
   }
   double low = 0, high = 0;
@@ -276,7 +297,8 @@ double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundi
   return row.height();
 }
 
-void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame, double ground) {
+void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
+                       double ground) {
   if (frame.size() != 2 || surroundings.is_empty()) return;
   PathText edge;
   edge.polyline({sheet.at({frame[0].x, frame[0].y, ground}), sheet.at({frame[1].x, frame[0].y, ground}),
@@ -310,7 +332,8 @@ void draw_buildings_aside(Markup& svg, const Sheet& sheet, const Surroundings& s
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [depth, building] : order) {
     svg.open("g", {{"opacity", before ? ".45" : "1"}});
-    svg.element("title", building->name + ": " + quantity(building->height, Unit::metre) + " high" + (building->is_assumed ? ", assumed" : ""));
+    svg.element("title", building->name + ": " + quantity(building->height, Unit::metre) + " high" +
+                             (building->is_assumed ? ", assumed" : ""));
     draw_solid(svg, sheet, *building->mesh, {kBodyTone, to_sun, 0, 0, 0});
     svg.close();
   }
@@ -319,8 +342,7 @@ void draw_buildings_aside(Markup& svg, const Sheet& sheet, const Surroundings& s
 std::string surroundings_caption(const Surroundings& surroundings) {
   if (surroundings.is_empty()) return "";
   std::string caption = " Around the site, as far as the frame reaches: what stands and runs there; the tables have all of it.";
-  if (surroundings.data.size() > 1)
-    caption += " Of " + counted(surroundings.data.size(), "data layer") + " the first is drawn.";
+  if (surroundings.data.size() > 1) caption += " Of " + counted(surroundings.data.size(), "data layer") + " the first is drawn.";
   return caption;
 }
 

@@ -37,8 +37,8 @@ std::string missing_words(const report::Account& account) {
   const Unit unit = is_area ? Unit::square_metre : Unit::cubic_metre;
   const double asked = is_area ? account.asked_area : account.asked, had = is_area ? account.floor_area : account.volume;
   return "asked for are " + report::quantity(asked, unit) + (is_area ? " of floor area" : "") + ", there are " +
-         report::quantity(had, unit) + ": " + report::quantity(asked - had, unit) + " (" + report::percent(account.short_share()) +
-         ") go without";
+         report::quantity(had, unit) + ": " + report::quantity(asked - had, unit) + " (" +
+         report::percent(account.short_share()) + ") go without";
 }
 
 std::string lower_first(std::string text) {
@@ -111,8 +111,8 @@ void ProblemList::write(const State& state, ProblemItem& item) const {
   item.links.assign(links.begin(), links.end());
 }
 
-// Uses first; then volumes whose use is not listed, or all where a solver says that not everything can be had. One account decides
-// who is short, here as in colours, statistics and report.
+// Uses first; then volumes whose use is not listed, or all where a solver says that not everything can be had. One account
+// decides who is short, here as in colours, statistics and report.
 void ProblemList::add_shortages(const State& state, const report::ReportModel& figures) {
   accounts_ = figures.accounts;
   if (state.tick == 0) return;
@@ -130,16 +130,19 @@ void ProblemList::add_shortages(const State& state, const report::ReportModel& f
     return &items_.emplace_back(std::move(item));
   };
   for (const report::UseAccount& use : accounts_.uses) {
-    ProblemItem* item = add("use/" + use.use, use, use.use.empty() ? "Not all without a use can be had" : "Not all " + use.use + " can be had");
+    ProblemItem* item =
+        add("use/" + use.use, use, use.use.empty() ? "Not all without a use can be had" : "Not all " + use.use + " can be had");
     if (item == nullptr) continue;
     listed_uses.insert(use.use);
     item->text += ", in " + report::counted(use.volumes, "volume");
     for (const report::VolumeRow& volume : figures.volumes)
-      if (volume.use == use.use && (use.short_volumes == 0 || volume.is_short(accounts_.tolerance))) item->nodes.push_back(volume.id);
+      if (volume.use == use.use && (use.short_volumes == 0 || volume.is_short(accounts_.tolerance)))
+        item->nodes.push_back(volume.id);
   }
   for (const report::VolumeRow& volume : figures.volumes) {
     // Who has no shape stands among those without room, with the reason.
-    const bool is_told = (listed_uses.contains(volume.use) && !is_too_small) || (volume.state != "alive" && !volume.reason.empty());
+    const bool is_told =
+        (listed_uses.contains(volume.use) && !is_too_small) || (volume.state != "alive" && !volume.reason.empty());
     if (is_told) continue;
     if (ProblemItem* item = add("volume/" + volume.id, volume, volume.name + " falls short")) item->nodes = {volume.id};
   }
@@ -193,7 +196,8 @@ void ProblemList::add_idle(const State& state) {
     items_.push_back(std::move(item));
   };
   for (const LinkPlan& link : state.plan->links) {
-    if (link.definition == nullptr) add(link, " does not run", "this program does not know its kind; it is kept and saved as it is");
+    if (link.definition == nullptr)
+      add(link, " does not run", "this program does not know its kind; it is kept and saved as it is");
     else if (!link.is_enabled) add(link, " is off", link.definition->label + ": it is not evaluated at all");
     else if (link.is_muted) add(link, " is muted", link.definition->label + ": it is evaluated, but what it says does not count");
   }

@@ -22,9 +22,9 @@ struct ProblemItem {
   std::string key;  ///< the same from tick to tick
   int band = 0;     ///< how bad, in steps: the worse come first within their kind
   bool is_error = false;
-  std::string subject, text;              ///< what it is about, and the sentence; of conflicts made when they are seen
-  report::TensePort tense;                ///< of conflicts
-  std::string why;                        ///< of shortages of a use ("use/...") or a volume ("volume/..."): filled when it is seen
+  std::string subject, text;  ///< what it is about, and the sentence; of conflicts made when they are seen
+  report::TensePort tense;    ///< of conflicts
+  std::string why;            ///< of shortages of a use ("use/...") or a volume ("volume/..."): filled when it is seen
   std::vector<std::string> nodes, links;  ///< where a press goes
 };
 

@@ -126,8 +126,8 @@ void draw_volume(Editor& editor, const report::VolumeRow& row, int index, float 
       row.asked / most, colour);
   if (is_hovered) {
     editor.picks.hovered_node = row.id;
-    std::string text =
-        "has " + report::quantity(row.volume, Unit::cubic_metre) + " of " + report::quantity(row.asked, Unit::cubic_metre) + " asked for";
+    std::string text = "has " + report::quantity(row.volume, Unit::cubic_metre) + " of " +
+                       report::quantity(row.asked, Unit::cubic_metre) + " asked for";
     if (row.withheld() > tolerance * row.asked) text += "\nlimited to " + report::quantity(row.limited, Unit::cubic_metre);
     text += "\nfloor area " + report::quantity(row.floor_area, Unit::square_metre);
     card(editor, row.name, text,
@@ -157,7 +157,8 @@ void draw_volumes(Editor& editor, RunRecord& record) {
   while (clipper.Step())
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const report::VolumeRow& volume = model.volumes[order[static_cast<std::size_t>(row)]];
-      draw_volume(editor, volume, row, height, largest, model.accounts.tolerance, colour_of_use(editor.theme, numbers.of(volume.use)));
+      draw_volume(editor, volume, row, height, largest, model.accounts.tolerance,
+                  colour_of_use(editor.theme, numbers.of(volume.use)));
     }
   ImGui::PopStyleVar();
   ImGui::EndChild();
@@ -186,8 +187,8 @@ void draw_use(Editor& editor, const report::UseAccount& use, ImU32 colour, doubl
       use.asked_area / std::max(largest, 1e-9), colour);
   if (!ImGui::IsItemHovered()) return;
   card(editor, name,
-       report::quantity(use.floor_area, Unit::square_metre) + " of " +
-           report::quantity(use.asked_area, Unit::square_metre) + " floor area asked for",
+       report::quantity(use.floor_area, Unit::square_metre) + " of " + report::quantity(use.asked_area, Unit::square_metre) +
+           " floor area asked for",
        report::counted(use.volumes, "volume") + ", " + report::quantity(use.volume, Unit::cubic_metre) +
            (use.is_in_programme ? "" : "\nnot in any programme: what its volumes ask for counts"));
 }
