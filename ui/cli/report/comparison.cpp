@@ -274,7 +274,7 @@ std::string IndicatorRow::figure(double value) const {
 
 std::string IndicatorRow::difference() const {
   // A percentage of what people read as zero says nothing, nor does one of dust beside what there is now.
-  const bool is_nothing = reads_as_zero(before) || std::abs(before) < 1e-6 * std::abs(after);
+  const bool is_nothing = reads_as_zero(before) || std::abs(before) < 1e-3 * std::abs(after);
   return is_nothing ? figure(after - before) : signed_percent((after - before) / std::abs(before));
 }
 
