@@ -101,8 +101,11 @@ std::string causes_of(const Account& account, const std::vector<std::string>& li
   if (share_missing(account.limited, account.volume) > tolerance)
     add("there is room for " + quantity(account.volume, Unit::cubic_metre) + " of the " +
         quantity(account.limited, Unit::cubic_metre) + " aimed at");
-  if (text.empty() && account.is_by_area)
-    add("the volume is there, but storeys of its shape hold less floor: ask for more volume, or lower the storeys");
+  // Floor area can be missing where the volume is there: storeys of a rounded shape hold less than volume over height.
+  if (account.is_by_area &&
+      share_missing(account.asked_area, account.floor_area) > share_missing(account.asked, account.volume) + tolerance)
+    add("storeys of the shape hold less floor than its volume would: ask for more volume, or lower the storeys");
+  if (text.empty()) add("limits, room and shape each take a little");
   return text;
 }
 

@@ -163,6 +163,7 @@ std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& 
     for (const auto& [point, sun] : field.points) around(point);
   for (const DataField& field : surroundings.data)
     for (const auto& [point, value] : field.points) around(point);
+  for (const MeshPointer& ground : surroundings.grounds) std::for_each(ground->vertices.begin(), ground->vertices.end(), around);
   for (const auto& [name, ring] : surroundings.plots) std::for_each(ring.begin(), ring.end(), around);
   if (outer.is_empty) return core;
   if (inner.is_empty) return {{outer.low_x, outer.low_y, 0}, {outer.high_x, outer.high_y, 0}};
