@@ -43,7 +43,7 @@ void print_volumes(const Survey& survey, double tolerance) {
                           : row.error > tolerance || row.is_short(survey.tolerance) ? Colour::yellow
                                                                                     : Colour::plain;
     table.add({name, row.use, fixed(row.asked, 1), fixed(row.limited, 1), fixed(row.volume, 1),
-               row.limited > 0 ? hundredths(row.error) : "", short_text(row, survey.tolerance), fixed(row.floor_area, 1),
+               row.limited > 1e-3 ? hundredths(row.error) : "", short_text(row, survey.tolerance), fixed(row.floor_area, 1),
                fixed(row.surface_area, 1), state},
               colour);
   }

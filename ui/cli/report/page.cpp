@@ -41,7 +41,9 @@ void write_keys(Markup& page, const ReportModel& model) {
   const bool is_short = model.accounts.worst_short > model.accounts.tolerance;
   key(page, "Short", is_short ? percent(model.accounts.worst_short) : "nobody",
       is_short ? model.accounts.worst + ", the worst" : "all have what is asked for");
-  key(page, "Worst error", model.worst ? percent(std::abs(model.worst->error())) : "\xE2\x80\x93",
+  // An error against an aim of nothing is no percentage.
+  const bool has_error = model.worst != nullptr && model.worst->limited > 1e-3;
+  key(page, "Worst error", has_error ? percent(std::abs(model.worst->error())) : "\xE2\x80\x93",
       model.worst ? model.worst->name : "no volumes");
   page.close();
 }

@@ -66,7 +66,7 @@ std::string csv_of(const ReportModel& model, const State& state) {
                     v.asked_area,
                     v.floor_area,
                     v.cell_volume,
-                    v.error() * 100,
+                    v.limited > 1e-3 ? CsvCell(v.error() * 100) : CsvCell(),
                     v.surface_area,
                     v.footprint,
                     v.bottom,
