@@ -31,8 +31,9 @@ Mover fastest(const State& state, const State* before) {
 }
 
 std::string of_worst(const VolumeRow& worst) {
-  std::string text = "`" + worst.id + "` has " + fixed(worst.volume, 1) + " of " + fixed(worst.demand, 1) + " m³ (" +
-                     fixed(100 * worst.error, 2) + " %)";
+  std::string text = "`" + worst.id + "` has " + fixed(worst.volume, 1) + " of " + fixed(worst.demand, 1) + " m³";
+  // A percentage of nothing says nothing.
+  if (worst.demand > 1e-3) text += " (" + fixed(100 * worst.error, 2) + " %)";
   if (worst.state != "alive") text += ", it is " + worst.state;
   if (!worst.reason.empty()) text += ": " + worst.reason;
   return text;

@@ -177,6 +177,34 @@ TEST(Run, AUseWithoutAVolumeIsNamedAndTheRestSettles) {
       << result["problems"].dump();
 }
 
+// JSON, table and page say of one volume the same: what was asked for, by hand or brief, what limits leave, what is short.
+TEST(Run, WhatIsShortIsToldAlike) {
+  const Workplace place;
+  place.write(
+      "s.json",
+      scene_text(
+          volume_text("free", "[8, 0, 8]", "2000") +
+          R"(, {"id": "cut", "position": [-8, 0, 8], "types": {"smart_volume": {"demand": 2000, "demand_limit": 1500}}})"));
+  const Outcome outcome = place.run({"run", "s.json", "--json", "r.json", "--report", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json result = place.json("r.json");
+  ASSERT_EQ(result["volumes"][0]["id"], "cut");
+  const nlohmann::json& cut = result["volumes"][0];
+  EXPECT_EQ(cut["asked"], 2000);
+  EXPECT_EQ(cut["demand"], 1500);
+  EXPECT_NEAR(cut["short_share"].get<double>(), 0.25, 0.01);
+  EXPECT_NEAR(cut["short"].get<double>(), 2000 - cut["volume"].get<double>(), 1e-9);
+  EXPECT_NE(cut["why_short"].get<std::string>().find("a limit set by hand leaves 1500"), std::string::npos) << cut["why_short"];
+  EXPECT_EQ(result["volumes"][1]["why_short"], "");
+  EXPECT_EQ(result["worst_short"], "volume cut");
+  EXPECT_NE(outcome.out.find("short %"), std::string::npos);
+  EXPECT_NE(place.text("out/volumes.csv").find("a limit set by hand leaves"), std::string::npos);
+  EXPECT_NE(place.text("out/report.html").find("a limit set by hand leaves"), std::string::npos);
+  // A report of a settled scene says settled.
+  ASSERT_TRUE(result["settled"]);
+  EXPECT_NE(place.text("out/report.html").find("\xE2\x9C\x93 Settled"), std::string::npos);
+}
+
 TEST(Run, ReportIsWritten) {
   const Workplace place;
   place.write("s.json", moving_scene());
