@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -88,6 +89,7 @@ struct Context {
   std::vector<ContextStreet> streets;
   std::vector<ContextRestriction> restrictions;
   std::vector<ContextArea> areas;
+  std::set<std::string> properties;  ///< names that features of the file have, where it has features
   ImportReport report;
   std::vector<std::string> notes;
 };

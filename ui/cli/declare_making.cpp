@@ -31,7 +31,9 @@ void declare_new(CLI::App& app, NewOptions& o) {
   c.add_option("--title", o.title, "Name of the project. Default: the name of the programme's file.")->type_name("TEXT");
   c.add_option("--feature", o.feature, "Which polygon: its index from 0, or PROPERTY=VALUE. Default: the only or largest one.")
       ->type_name("WHICH");
-  c.add_option("--crs", o.crs, "CRS of the boundary in place of what the file says, such as EPSG:28992.")->type_name("CRS");
+  c.add_option("--crs", o.crs,
+               "CRS of the boundary in place of what the file says, such as EPSG:28992; `local` for metres without a place on Earth.")
+      ->type_name("CRS");
   c.add_flag("--hull", o.use_hull, "Takes the convex hull of a plan that is not convex.");
   c.add_option("--column", o.columns,
                "Names a column that is called otherwise in the table, as often as needed: use=\"Room name\".")
@@ -56,7 +58,9 @@ void declare_import(CLI::App& app, ImportOptions& o) {
   c.add_option("--as", o.kind, "What the features or the grid are, where the file does not say: building, street, plot, area, terrain, layer.")
       ->type_name("KIND")
       ->check(CLI::IsMember({"building", "street", "plot", "area", "terrain", "layer"}));
-  c.add_option("--crs", o.context.crs, "CRS of the files in place of what they say, such as EPSG:28992.")->type_name("CRS");
+  c.add_option("--crs", o.context.crs,
+               "CRS of the files in place of what they say, such as EPSG:28992; `local` for metres of a model that has no place on Earth.")
+      ->type_name("CRS");
   c.add_option("--origin", o.origin, "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
       ->type_name("X,Y");
   c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m. Default: 0, which takes all.")->type_name("METRES");
@@ -80,6 +84,11 @@ void declare_import(CLI::App& app, ImportOptions& o) {
   c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")->type_name("LEVEL");
   c.add_flag("--extruded", o.is_extruded, "Makes buildings from outline and height even where the file has solids.");
   c.add_flag("--all-streets", o.takes_all_streets, "Takes footpaths, cycleways and steps as well, not only streets for cars.");
+  c.add_flag("--keep", o.keeps,
+             "Of buildings inside a site of the scene: keeps them, and the site leaves out their ground up to their roofs. "
+             "Default: asks; without a terminal, keeps them.");
+  c.add_flag("--clear", o.clears,
+             "Of buildings inside a site of the scene: leaves them out. What is inside with less than half of its ground is kept.");
   c.add_option("--report", o.report, "Writes what became of every single element as CSV.")->type_name("FILE");
   c.footer(
       "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
