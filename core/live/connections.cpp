@@ -267,6 +267,17 @@ std::vector<Report> Connections::take(std::int64_t tick) {
   return reports;
 }
 
+namespace {
+
+// Does any link say, or has it last said, what a port should be?
+bool is_steered(const State& state, PortRef port) {
+  return std::any_of(state.links.begin(), state.links.end(), [port](const LinkState& link) {
+    return std::any_of(link.voices.begin(), link.voices.end(), [port](const Voice& voice) { return voice.target == port; });
+  });
+}
+
+}  // namespace
+
 void Connections::send(const State& state) {
   const Clock::time_point now = Clock::now();
   for (auto& [id, actuator] : actuators_) {
@@ -275,6 +286,9 @@ void Connections::send(const State& state) {
     const auto message = state.plan->find(node, {kActuator, "message", ""}),
                value = state.plan->find(node, {kActuator, "value", ""});
     if (!message || !value) continue;
+    // A default that nobody has chosen is no order to a machine.
+    const bool is_set = state.plan->nodes[node].types[value->type].is_set[value->port];
+    if (!is_set && !is_steered(state, *value)) continue;
     const TypeState& type = state.nodes[node].types[message->type];
     if (type.error || !type.is_evaluated) continue;
     const std::string& text = std::get<std::string>(type.values[message->port]);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/base/text.h"
+#include "core/live/unusable_sensors.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/report/report_model.h"
@@ -65,8 +66,15 @@ LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate, bool 
 
 void LiveRun::before_tick(Session& session) {
   connections_.follow(session.scene());
+  if (is_live_) tell_unusable(session.scene());
   for (const Report& report : connections_.take(session.state()->tick))
     if (auto done = session.submit(report.command, report.author); !done) print_error(report.author, done.error());
+}
+
+// Once for each fault: an address may be set while the scene runs.
+void LiveRun::tell_unusable(const Scene& scene) {
+  for (const Error& error : unusable_sensors(scene))
+    if (unusable_.insert(error.text()).second) print_error("", error);
 }
 
 void LiveRun::after_tick(const Session& session) {

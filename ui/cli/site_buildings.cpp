@@ -54,7 +54,7 @@ double footprint_of(const ContextBuilding& building) {
   return area;
 }
 
-std::string percent(double share) { return fixed(std::min(100.0, 100 * share), 0) + " %"; }
+std::string share_text(double share) { return fixed(std::min(100.0, 100 * share), 0) + " %"; }
 
 double tidy_length(double number) { return std::round(number * 1e4) / 1e4 + 0.0; }
 
@@ -167,7 +167,7 @@ void SiteBuildings::keep(std::size_t building, const ContextBuilding& made, cons
   for (const Stay& stay : stays->second) {
     Site& site = sites_[stay.site];
     if (made.row != kNoRow)
-      report.remark(made.row, percent(stay.share) + " of it inside the site `" + site.id + "`, which leaves its ground out");
+      report.remark(made.row, share_text(stay.share) + " of it inside the site `" + site.id + "`, which leaves its ground out");
     // From the underside of the site: nothing is built below a building that stays.
     const double bottom = tidy_length(std::min(made.base, site.bottom)), top = tidy_length(made.base + made.height);
     for (const Point3& corner : made.outer) {
