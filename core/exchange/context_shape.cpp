@@ -49,7 +49,8 @@ Result<LocalFrame> context_frame(const ContextOptions& options, const std::strin
   const std::string crs = context_crs(options, file_crs);
   if (crs.empty())
     return Error{ErrorCode::missing, "crs",
-                 "The file does not say in which CRS its coordinates are. Give it by --crs, such as EPSG:28992, or `--crs local` where they "
+                 "The file does not say in which CRS its coordinates are. Give it by --crs, such as EPSG:28992, or `--crs local` "
+                 "where they "
                  "are metres of a model that has no place on Earth."};
   const std::array<double, 2> about = options.origin.value_or(middle);
   if (is_longitude_latitude(crs) && !(std::abs(about[0]) <= 180 && std::abs(about[1]) <= 90))
@@ -119,7 +120,8 @@ SoundRing sound_ring(std::vector<Point3> points, bool counter_clockwise) {
   const RingCleaning cleaning = clean_corners(points);
   if (cleaning.repeated > 0) result.mended = "repeated points dropped (" + std::to_string(cleaning.repeated) + ")";
   if (cleaning.spikes > 0)
-    result.mended += std::string(result.mended.empty() ? "" : ", ") + "spikes without width cut off (" + std::to_string(cleaning.spikes) + ")";
+    result.mended +=
+        std::string(result.mended.empty() ? "" : ", ") + "spikes without width cut off (" + std::to_string(cleaning.spikes) + ")";
   if (points.size() < 3) {
     result.fault = "its outline has fewer than 3 different corners";
     return result;
@@ -167,7 +169,8 @@ void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& droppe
   }
   holes = std::move(kept);
   if (bad == 0) return;
-  dropped += std::string(dropped.empty() ? "" : ", ") + "holes dropped that meet another ring or lie outside (" + std::to_string(bad) + ")";
+  dropped += std::string(dropped.empty() ? "" : ", ") + "holes dropped that meet another ring or lie outside (" +
+             std::to_string(bad) + ")";
 }
 
 std::string limit_corners(const Ring& outer, std::vector<Ring>& holes, std::string& dropped) {
@@ -227,8 +230,8 @@ void assume_heights(const ContextOptions& options, Context& context) {
     context.notes.push_back("The heights of " + how_many(by_neighbours, "building") +
                             " were taken from their neighbours within " + shortest(options.neighbour_distance) + " m (median).");
   if (by_default > 0)
-    context.notes.push_back("The heights of " + how_many(by_default, "building") + " are not known: " +
-                            shortest(options.default_height) + " m were assumed.");
+    context.notes.push_back("The heights of " + how_many(by_default, "building") +
+                            " are not known: " + shortest(options.default_height) + " m were assumed.");
 }
 
 std::optional<std::array<double, 2>> place_of(const std::vector<Point3>& points) {

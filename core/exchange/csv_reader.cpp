@@ -166,7 +166,8 @@ Result<void> parse_lines(std::string_view text, std::size_t first_line, CsvText&
     return Error{ErrorCode::parse, "line " + std::to_string(line),
                  "A double quote opens a field in this record and is never closed. Close or remove it."};
   if (collector.ended) keep_record(collector, csv, empty);
-  if (empty > 0) csv.notes.push_back(how_many(empty, "row") + " without any text " + by_number(empty, "was", "were") + " skipped.");
+  if (empty > 0)
+    csv.notes.push_back(how_many(empty, "row") + " without any text " + by_number(empty, "was", "were") + " skipped.");
   return {};
 }
 

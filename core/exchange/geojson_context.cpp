@@ -348,11 +348,10 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   }
   importer.cut_streets();
   if (importer.unsure > 0)
-    context.notes.push_back(
-        "The properties of " + how_many(importer.unsure, "polygon") +
-        by_number(importer.unsure, " do not say what it is: it was taken as a building.",
-                  " do not say what they are: they were taken as buildings.") +
-        " Say so by `--as plot` or `--as area` if that is wrong.");
+    context.notes.push_back("The properties of " + how_many(importer.unsure, "polygon") +
+                            by_number(importer.unsure, " do not say what it is: it was taken as a building.",
+                                      " do not say what they are: they were taken as buildings.") +
+                            " Say so by `--as plot` or `--as area` if that is wrong.");
   assume_heights(options, context);
   return context;
 }

@@ -129,7 +129,8 @@ Result<GeoDocument> PolygonReader::read(const SortedJson& root) {
   return std::move(document_);
 }
 
-Result<void> PolygonReader::read_feature(const SortedJson& object, const std::string& place, const std::string& crs, GeoFeature& feature) {
+Result<void> PolygonReader::read_feature(const SortedJson& object, const std::string& place, const std::string& crs,
+                                         GeoFeature& feature) {
   if (!object.is_object())
     return Error{ErrorCode::parse, place, "A feature must be an object; this is " + std::string(object.type_name()) + "."};
   const bool is_feature = type_of(object) == "Feature";

@@ -46,8 +46,8 @@ struct GeoDocument {
   std::vector<std::string> notes;
 };
 
-/// Understands FeatureCollection, Feature, all geometries of RFC 7946 and the older `crs` member of the 2008 format. A fault of one
-/// feature of several is told with it, and leaves the others as they are; only where every one has a fault is it an error.
+/// Understands FeatureCollection, Feature, all geometries of RFC 7946 and the older `crs` member of the 2008 format. A fault of
+/// one feature of several is told with it, and leaves the others as they are; only where every one has a fault is it an error.
 Result<GeoDocument> read_geojson_polygons(std::string_view text);
 
 }  // namespace bl

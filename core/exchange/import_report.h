@@ -34,9 +34,9 @@ struct ImportRow {
 /// Many small elements without rows of their own, such as the nodes of OpenStreetMap that are corners of ways: one counts as
 /// taken where a row that uses it is one that was taken.
 struct ImportCorners {
-  std::string kind;                    ///< what they are in the file: "node"
-  std::string taken, skipped;          ///< the reasons of both rows
-  std::size_t number = 0;              ///< how many there are
+  std::string kind;            ///< what they are in the file: "node"
+  std::string taken, skipped;  ///< the reasons of both rows
+  std::size_t number = 0;      ///< how many there are
   /// Each row that uses some, with the numbers of these, counted from 0.
   std::vector<std::pair<std::size_t, std::vector<std::uint32_t>>> users;
 };

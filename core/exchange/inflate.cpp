@@ -13,8 +13,8 @@ namespace bl {
 namespace {
 
 // Kinds of text that people make pack to a tenth, sparse grids to a hundredth; what packs to a thousandth was made for that.
-constexpr std::size_t kMostPacked = 200;             // bytes for each byte of the file,
-constexpr std::size_t kNeverTooMuch = 64u << 20;     // from so many on [bytes]
+constexpr std::size_t kMostPacked = 200;          // bytes for each byte of the file,
+constexpr std::size_t kNeverTooMuch = 64u << 20;  // from so many on [bytes]
 
 // The last four bytes of a gzip file say how long its last member is unpacked, modulo 2^32.
 std::size_t promised_size(std::string_view bytes) {

@@ -17,7 +17,7 @@ namespace {
 // A CRS is kept when 1 m on the ground is 1 m in it within this: UTM (4e-4) passes, web Mercator does not.
 constexpr double kStretchKept = 1e-3;
 constexpr double kNearOrigin = 10000;  // [m] so near to 0 the coordinates of a model need no shift
-constexpr double kProbe = 100;  // [m] half the length over which the stretch is measured
+constexpr double kProbe = 100;         // [m] half the length over which the stretch is measured
 constexpr double kDegree = std::numbers::pi / 180;
 
 double whole(double number, double step) { return std::round(number / step) * step; }
@@ -174,8 +174,8 @@ Result<LocalFrame> LocalFrame::make(const std::string& crs, double x, double y, 
     if (std::abs(east - 1) > 1e-4)
       frame.notes_.push_back("Lengths are those of " + crs + ": 1 m on the ground is " + fixed(east, 5) + " m in it.");
   } else {
-    frame.notes_.push_back("1 m on the ground is " + fixed(east, 5) + " (east) by " + fixed(north, 5) +
-                           " (north) units of " + crs + ": the plan was projected anew in metres about its middle.");
+    frame.notes_.push_back("1 m on the ground is " + fixed(east, 5) + " (east) by " + fixed(north, 5) + " (north) units of " +
+                           crs + ": the plan was projected anew in metres about its middle.");
   }
   return frame;
 }
@@ -192,9 +192,10 @@ Result<LocalFrame> LocalFrame::into(const std::string& crs, const GeoReference& 
     return frame;
   }
   if (target.crs == kLocalCrs)
-    return Error{ErrorCode::conflict, "crs",
-                 "The scene has metres of its own and no place on Earth, so that nothing in " + crs +
-                     " has a place in it. Set its coordinate system first, or give `--crs local` if the file is in these metres."};
+    return Error{
+        ErrorCode::conflict, "crs",
+        "The scene has metres of its own and no place on Earth, so that nothing in " + crs +
+            " has a place in it. Set its coordinate system first, or give `--crs local` if the file is in these metres."};
   if (!is_longitude_latitude(crs)) {
     if (auto opened = transforms.open(crs, database); !opened) return opened.error();
   }

@@ -165,7 +165,8 @@ class Areas {
     const bool is_body = is_osm_building(*tags) || is_osm_part(*tags);
     std::string mended, fault;
     if (missing > 0) note(mended, how_many(missing, "member way") + by_number(missing, " is", " are") + " not in the file");
-    if (repeated > 0) note(mended, how_many(repeated, "member way") + by_number(repeated, " that is", " that are") + " listed again left out");
+    if (repeated > 0)
+      note(mended, how_many(repeated, "member way") + by_number(repeated, " that is", " that are") + " listed again left out");
     const Joined outlines = join(outer), courts = join(inner);
     if (outlines.open > 0) note(mended, how_many(outlines.open, "open outer ring") + " left out");
     if (courts.open > 0) note(mended, how_many(courts.open, "open inner ring") + " left out");

@@ -48,7 +48,8 @@ ImportCorners corners_of(const OsmStore& store, std::vector<bool>& is_corner) {
       used.push_back(numbers[index]);
     }
   };
-  for (std::size_t w = 0; w < store.ways.size(); ++w) add(store.ways[w], corners.users.emplace_back(w, std::vector<std::uint32_t>()).second);
+  for (std::size_t w = 0; w < store.ways.size(); ++w)
+    add(store.ways[w], corners.users.emplace_back(w, std::vector<std::uint32_t>()).second);
   for (std::size_t r = 0; r < store.relations.size(); ++r) {
     auto& used = corners.users.emplace_back(store.ways.size() + r, std::vector<std::uint32_t>()).second;
     for (const OsmMember& member : store.relations[r].members)
@@ -114,7 +115,7 @@ void locate(OsmImport& import) {
     for (const OsmMember& member : import.store->relations[i].members) {
       std::size_t missing = 0;
       const OsmWay* way = member.kind == 'w' ? import.store->way(member.id) : nullptr;
-      const std::vector<Point3> more = way != nullptr      ? places_of(*way)
+      const std::vector<Point3> more = way != nullptr       ? places_of(*way)
                                        : member.kind == 'n' ? import.places({member.id}, missing)
                                                             : std::vector<Point3>();
       points.insert(points.end(), more.begin(), more.end());

@@ -204,15 +204,12 @@ Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch) {
     if (auto whole = check_pbf_blocks(*text); !whole) return whole.error();
   try {
     return read(*text, format, watch);
-  } catch (const osmium::xml_error& error) {
-    return xml_fault(error);
-  } catch (const std::bad_alloc&) {
+  } catch (const osmium::xml_error& error) { return xml_fault(error); } catch (const std::bad_alloc&) {
     throw;  // no fault of the file
-  } catch (const std::system_error&) {
-    throw;
-  } catch (const std::exception& error) {
-    return Error{ErrorCode::parse, format == "pbf" ? "PBF" : "XML",
-                 std::string("The OpenStreetMap file cannot be read to its end: ") + error.what() + ". It is damaged or cut off."};
+  } catch (const std::system_error&) { throw; } catch (const std::exception& error) {
+    return Error{
+        ErrorCode::parse, format == "pbf" ? "PBF" : "XML",
+        std::string("The OpenStreetMap file cannot be read to its end: ") + error.what() + ". It is damaged or cut off."};
   }
 }
 

@@ -61,7 +61,8 @@ double common_area(const PlanShape& a, const PlanShape& b) {
   for (const Ring& triangle : first)
     for (const std::size_t other : grid.meeting(plan_box(triangle))) {
       Ring common = triangle;
-      for (std::size_t i = 0; i < 3 && common.size() >= 3; ++i) common = left_of(common, second[other][i], second[other][(i + 1) % 3]);
+      for (std::size_t i = 0; i < 3 && common.size() >= 3; ++i)
+        common = left_of(common, second[other][i], second[other][(i + 1) % 3]);
       if (common.size() >= 3) area += std::abs(signed_area(common));
     }
   return area;

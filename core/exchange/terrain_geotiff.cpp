@@ -177,7 +177,8 @@ Result<void> read_blocks(TIFF* tiff, const MemoryFile& file, const Sample& sampl
   const std::size_t pixel = sample.bits / 8u * (planar == PLANARCONFIG_CONTIG ? sample.per_pixel : 1u);
   const tmsize_t size = is_tiled ? TIFFTileSize(tiff) : TIFFStripSize(tiff);
   if (width == 0 || height == 0 || size <= 0 || static_cast<std::size_t>(size) < pixel * width * height ||
-      static_cast<std::size_t>(size) > (std::size_t{1} << 29) || static_cast<std::size_t>(size) / kMostPacking > file.bytes.size())
+      static_cast<std::size_t>(size) > (std::size_t{1} << 29) ||
+      static_cast<std::size_t>(size) / kMostPacking > file.bytes.size())
     return Error{ErrorCode::parse, "TIFF", "The blocks of the GeoTIFF have no sensible size: it is damaged or cut off."};
   std::vector<unsigned char> block(static_cast<std::size_t>(size));
   for (std::size_t top = 0; top < grid.rows; top += height)
@@ -231,9 +232,9 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes) {
   MemoryFile file{bytes, 0, {}};
   const Tiff tiff = open(file);
   if (!tiff)
-    return Error{
-        ErrorCode::parse, "TIFF",
-        "The GeoTIFF cannot be opened" + (file.message.empty() ? "" : " (" + file.message + ")") + ": it is cut off or damaged. Fetch it again."};
+    return Error{ErrorCode::parse, "TIFF",
+                 "The GeoTIFF cannot be opened" + (file.message.empty() ? "" : " (" + file.message + ")") +
+                     ": it is cut off or damaged. Fetch it again."};
   std::uint32_t width = 0, height = 0;
   Sample sample;
   TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
@@ -256,7 +257,8 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes) {
   grid.height_unit = height_unit_of(tiff.get());
   // What the file has room for, unpacked a thousand times at most.
   if (grid.columns * grid.rows / kMostPacking > bytes.size())
-    return Error{ErrorCode::parse, "TIFF", "The header promises more pixels than the file can hold: the GeoTIFF is cut off or damaged."};
+    return Error{ErrorCode::parse, "TIFF",
+                 "The header promises more pixels than the file can hold: the GeoTIFF is cut off or damaged."};
   grid.values.assign(grid.columns * grid.rows, 0);
   if (auto done = read_blocks(tiff.get(), file, sample, grid); !done) return done.error();
   if (sample.per_pixel > 1) grid.notes.push_back("Of " + std::to_string(sample.per_pixel) + " bands the first was read.");

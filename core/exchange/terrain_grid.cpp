@@ -102,10 +102,12 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
     const std::string_view word = words.next();
     if (word.empty())
       return Error{ErrorCode::parse, "end of the file",
-                   "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) + " cells: the file is cut off. Fetch or export it again."};
+                   "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) +
+                       " cells: the file is cut off. Fetch or export it again."};
     const auto value = number_of(word);
     if (!value && std::any_of(word.begin(), word.end(), [](char c) { return c <= ' ' || c > '~'; }))
-      return Error{ErrorCode::parse, words.place(), "Something stands here that is no number and no text: the ASCII grid is damaged."};
+      return Error{ErrorCode::parse, words.place(),
+                   "Something stands here that is no number and no text: the ASCII grid is damaged."};
     if (!value) return Error{ErrorCode::parse, words.place(), "`" + std::string(word.substr(0, 40)) + "` is no number."};
     grid.values.push_back(*value == nodata || !std::isfinite(*value) ? kNothing : *value);
   }
@@ -264,8 +266,9 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
   const auto is_absurd = [unit](double value) { return std::isfinite(value) && std::abs(value * unit) > kHighestTop; };
   const auto absurd = std::count_if(grid.values.begin(), grid.values.end(), is_absurd);
   if (absurd > 0)
-    notes.push_back(how_many(static_cast<std::size_t>(absurd), "cell") + by_number(static_cast<std::size_t>(absurd), " has a height", " have heights") +
-                    " beyond 100 km and " + by_number(static_cast<std::size_t>(absurd), "counts", "count") +
+    notes.push_back(how_many(static_cast<std::size_t>(absurd), "cell") +
+                    by_number(static_cast<std::size_t>(absurd), " has a height", " have heights") + " beyond 100 km and " +
+                    by_number(static_cast<std::size_t>(absurd), "counts", "count") +
                     " as without a value: does the file name its own?");
   if (absurd == 0 && unit == 1) return local_grid(grid, options, most_cells);
   TerrainGrid metres = grid;

@@ -36,14 +36,16 @@ void try_scripts(const Scene& scene, std::vector<Problem>& problems) {
   const Registry& types = scene.scripts.types(full_registry());
   for (const auto& [name, kind] : scene.scripts.kinds()) {
     const LinkDefinition* definition = types.link(kind);
-    const bool is_used = std::any_of(scene.links.begin(), scene.links.end(),
-                                     [&id = kind](const auto& entry) { return entry.second.kind == id && entry.second.is_enabled; });
+    const bool is_used = std::any_of(scene.links.begin(), scene.links.end(), [&id = kind](const auto& entry) {
+      return entry.second.kind == id && entry.second.is_enabled;
+    });
     if (definition == nullptr || is_used) continue;
     if (const auto fault = fault_of_kind(*definition, types)) problems.push_back({true, fault->within("scripts/" + name)});
   }
 }
 
-// A check has no devices: that a sensor has brought nothing yet is no fault of the scene, and neither is it one of what waits for it.
+// A check has no devices: that a sensor has brought nothing yet is no fault of the scene, and neither is it one of what waits for
+// it.
 bool waits_for_sensor(const State& state, const Scene& scene, const Error& error) {
   constexpr std::string_view kLinks = "links/";
   if (error.code != ErrorCode::missing || !error.place.starts_with(kLinks)) return false;

@@ -79,7 +79,11 @@ std::optional<Error> foreign_to_name(const std::string& path, Format format, std
 class Import {
  public:
   Import(const Scene& scene, const ImportOptions& options, const Registry& registry)
-      : scene_(scene), o_(options), registry_(registry), context_(options.context), nodes_(scene, registry),
+      : scene_(scene),
+        o_(options),
+        registry_(registry),
+        context_(options.context),
+        nodes_(scene, registry),
         sites_(scene, registry, options.inside, options.ask_to_clear) {}
 
   ImportedScene run() {
@@ -163,18 +167,18 @@ class Import {
   // A name that no feature has would be passed over in silence, with all that it should have said.
   void check_properties() {
     for (const auto& [ours, theirs] : context_.properties) {
-      const bool is_there = std::any_of(properties_.begin(), properties_.end(), [&theirs = theirs](const std::string& name) {
-        return lower(name) == lower(theirs);
-      });
+      const bool is_there = std::any_of(properties_.begin(), properties_.end(),
+                                        [&theirs = theirs](const std::string& name) { return lower(name) == lower(theirs); });
       if (is_there) continue;
       const std::vector<std::string> names(properties_.begin(), properties_.end());
       std::string list;
       for (std::size_t i = 0; i < names.size() && i < 12; ++i) list += (i == 0 ? "" : ", ") + names[i].substr(0, 40);
       if (names.size() > 12) list += ", ...";
       const std::string near = did_you_mean(theirs, names);
-      refuse("--property", names.empty() ? "none of the files has features with properties: leave `" + ours + "=" + theirs + "` out"
-                                         : "no feature has a property `" + theirs + "`" + near + (near.empty() ? ". " : " ") +
-                                               "They have: " + list + ".");
+      refuse("--property", names.empty()
+                               ? "none of the files has features with properties: leave `" + ours + "=" + theirs + "` out"
+                               : "no feature has a property `" + theirs + "`" + near + (near.empty() ? ". " : " ") +
+                                     "They have: " + list + ".");
     }
   }
 
@@ -191,9 +195,11 @@ class Import {
 
   std::string why_nothing() const {
     std::string questions;
-    if (!o_.origin.empty()) questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
+    if (!o_.origin.empty())
+      questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
     if (context_.radius > 0) questions += "is anything within --radius " + shortest(context_.radius) + " m of the origin? ";
-    if (questions.empty() && context_.target) questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
+    if (questions.empty() && context_.target)
+      questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
     return questions + "--report FILE lists every element with its reason";
   }
 
@@ -213,7 +219,8 @@ class Import {
                                          [](const auto& entry) { return entry.second.types.contains("terrain"); });
     if (has_terrain && from_ground_ > 0)
       result_.notes.push_back(how_many(from_ground_, "building or piece of street", "buildings and pieces of street") +
-                              by_number(from_ground_, " has heights above the ground only: it stands", " have heights above the ground only: they stand") +
+                              by_number(from_ground_, " has heights above the ground only: it stands",
+                                        " have heights above the ground only: they stand") +
                               " at 0, and the terrain, whose heights count from the sea, lies above or below.");
   }
 
@@ -233,7 +240,8 @@ class Import {
     making_ = {o_.source.empty() ? name : o_.source, o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets, context_.watch};
     const Format format = format_of(file, *text);
     if (text->substr(0, 4096).find("\"behaviourlinks\"") != std::string::npos)
-      return fail(file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
+      return fail(
+          file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
     if (auto foreign = foreign_to_name(file, format, *text)) return fail(file, *foreign);
     if (format == Format::grid) return read_grid(file, *text);
     if (format == Format::table || o_.kind == "layer") return read_layer(file, *text, format);

@@ -278,10 +278,11 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     notes_.push_back("Streets and junctions have no place for the licence " + making.licence +
                      ": name it beside what you publish.");
   if (without_cars > 0)
-    notes_.push_back(how_many(without_cars, "piece") + " of street without cars became " + by_number(without_cars, "no node", "no nodes") +
-                     ": such streets are taken where all are asked for.");
+    notes_.push_back(how_many(without_cars, "piece") + " of street without cars became " +
+                     by_number(without_cars, "no node", "no nodes") + ": such streets are taken where all are asked for.");
   if (loops > 0)
-    notes_.push_back(how_many(loops, "piece") + " of street without any length became " + by_number(loops, "no node.", "no nodes."));
+    notes_.push_back(how_many(loops, "piece") + " of street without any length became " +
+                     by_number(loops, "no node.", "no nodes."));
 }
 
 std::string ContextNodes::add_junction(const ContextJunction& junction, const Json& turns) {

@@ -52,7 +52,8 @@ class ContextNodes {
   /// By row of the report: why an element became no node.
   using Unused = std::map<std::size_t, std::string>;
   std::string fresh_id(const std::string& wanted);
-  void add_buildings(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report, Unused& unused);
+  void add_buildings(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report,
+                     Unused& unused);
   std::string add_building(const ContextBuilding& building, const NodeMaking& making);
   void add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused);
   std::string add_junction(const ContextJunction& junction, const Json& turns);
@@ -66,7 +67,7 @@ class ContextNodes {
   const Registry* registry_;
   std::set<std::string> taken_;
   std::map<std::string, std::size_t> numbers_;  // the last one given to each stem
-  std::vector<std::string> commands_;  // each a JSON text
+  std::vector<std::string> commands_;           // each a JSON text
   std::map<std::string, std::size_t> made_;
   std::vector<std::string> notes_;
   std::pair<Point3, Point3> bounds_{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};

@@ -52,8 +52,7 @@ class ImportDisplay {
     catch_interrupts();
     try {
       thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error&) {
-    }
+    } catch (const std::system_error&) {}
   }
   ~ImportDisplay() { end(); }
   ImportDisplay(const ImportDisplay&) = delete;
@@ -99,9 +98,10 @@ class ImportDisplay {
 // Asks on the terminal what becomes of buildings that stand inside a site.
 bool asks_to_clear(std::size_t buildings, const std::string& site) {
   std::fflush(stdout);
-  std::fprintf(stderr, "%s\n", shown(counted(buildings, "building") + (buildings == 1 ? " stands" : " stand") + " inside the site `" +
-                                     site + "`. Keep " + (buildings == 1 ? "it" : "them") +
-                                     ", so that nothing is built there, or clear the site?").c_str());
+  std::fprintf(stderr, "%s\n",
+               shown(counted(buildings, "building") + (buildings == 1 ? " stands" : " stand") + " inside the site `" + site +
+                     "`. Keep " + (buildings == 1 ? "it" : "them") + ", so that nothing is built there, or clear the site?")
+                   .c_str());
   std::fputs("keep / clear [keep]: ", stderr);
   std::fflush(stderr);
   char answer[16] = "";

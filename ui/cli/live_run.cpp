@@ -8,8 +8,8 @@
 #include "core/base/text.h"
 #include "core/live/unusable_sensors.h"
 #include "ui/cli/interrupt.h"
-#include "ui/cli/scene_loading.h"
 #include "ui/cli/report/report_model.h"
+#include "ui/cli/scene_loading.h"
 #include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
@@ -29,7 +29,8 @@ std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "s
 std::string reading_of(const State& state, const std::string& node) {
   const std::uint32_t index = state.plan->node_index(node);
   if (index >= state.nodes.size()) return "it is no longer in the scene";
-  const std::string unit = report::text_at(state, index, "sensor", "unit"), message = report::text_at(state, index, "sensor", "message");
+  const std::string unit = report::text_at(state, index, "sensor", "unit"),
+                    message = report::text_at(state, index, "sensor", "message");
   return shortest(report::number_at(state, index, "sensor", "value")) + (unit.empty() ? "" : " " + unit) + ", " +
          report::text_at(state, index, "sensor", "quality") + (message.empty() ? "" : " (" + message + ")");
 }
@@ -122,8 +123,8 @@ void LiveRun::sum_up(const State& state) const {
       text += counted(static_cast<std::size_t>(t.received), "message") + ", " + std::to_string(t.skipped) + " of them skipped" +
               (status.is_recording && status.rows > 0 ? rows_of(status) : "") + "; at the end " + reading_of(state, status.node);
     else
-      text += counted(static_cast<std::size_t>(t.sent), "message") + " sent, " + std::to_string(t.acknowledged) + " acknowledged, " +
-              std::to_string(t.replaced) + " replaced by newer ones";
+      text += counted(static_cast<std::size_t>(t.sent), "message") + " sent, " + std::to_string(t.acknowledged) +
+              " acknowledged, " + std::to_string(t.replaced) + " replaced by newer ones";
     print_line(text);
   }
 }

@@ -67,7 +67,9 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->needs(live)
       ->check(CLI::Range(0.001, 1000.0));
   c.add_option("--log", o.log, "Writes the log of commands and hashes, for `replay`.")->type_name("FILE");
-  c.add_option("--report", o.report, "Writes report.html, volumes.csv, volumes.obj and, of dressed volumes, facades.csv into a folder.")->type_name("DIR");
+  c.add_option("--report", o.report,
+               "Writes report.html, volumes.csv, volumes.obj and, of dressed volumes, facades.csv into a folder.")
+      ->type_name("DIR");
   c.add_option("--json", o.json, "Writes all figures as JSON, lengths in m, areas in m2, volumes in m3.")->type_name("FILE");
   c.add_option("--save", o.save, "Saves the scene with its running state, to continue later.")->type_name("FILE");
   c.footer(
@@ -271,9 +273,7 @@ int main(int count, char** arguments) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     bl::cli::complain("what was to be printed could not be written: the disk is full, or nobody reads it.");
     return bl::cli::kBadInput;
-  } catch (const std::bad_alloc&) {
-    bl::cli::complain(bl::cli::memory_sentence());
-  } catch (const std::system_error& error) {
+  } catch (const std::bad_alloc&) { bl::cli::complain(bl::cli::memory_sentence()); } catch (const std::system_error& error) {
     if (error.code() == std::errc::resource_unavailable_try_again) bl::cli::complain(bl::cli::thread_sentence());
     else bl::cli::complain(std::string("the system refused something that the program needs: ") + error.what());
   } catch (const std::exception& error) {

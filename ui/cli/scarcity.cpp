@@ -45,8 +45,7 @@ void no_memory() {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::resource_unavailable_try_again) say_and_end(kThreads);
-  } catch (...) {
-  }
+  } catch (...) {}
   if (usual_end != nullptr) usual_end();
   std::_Exit(1);
 }

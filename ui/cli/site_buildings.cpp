@@ -174,7 +174,11 @@ void SiteBuildings::keep(std::size_t building, const ContextBuilding& made, cons
       std::vector<Scalar>& row = site.rows.rows.emplace_back();
       for (const std::string& column : site.rows.columns)
         if (column == "name") row.emplace_back(node);
-        else row.emplace_back(column == "x" ? tidy_length(corner.x) : column == "y" ? tidy_length(corner.y) : column == "top" ? top : bottom);
+        else
+          row.emplace_back(column == "x"     ? tidy_length(corner.x)
+                           : column == "y"   ? tidy_length(corner.y)
+                           : column == "top" ? top
+                                             : bottom);
     }
     ++site.barred;
   }
@@ -200,9 +204,9 @@ std::vector<std::string> SiteBuildings::notes() const {
                       ": the site leaves out the ground under them, courts included, up to their roofs." +
                       (is_assumed_ ? " That is what --keep does; --clear leaves such buildings out of the scene." : ""));
     if (site.reaching > 0)
-      notes.push_back(how_many(site.reaching, "building") + by_number(site.reaching, " reaches", " reach") +
-                      " into the site `" + site.id + "` with less than half of " + by_number(site.reaching, "its", "their") +
-                      " ground and " + by_number(site.reaching, "stays", "stay") + ": the site leaves that ground out.");
+      notes.push_back(how_many(site.reaching, "building") + by_number(site.reaching, " reaches", " reach") + " into the site `" +
+                      site.id + "` with less than half of " + by_number(site.reaching, "its", "their") + " ground and " +
+                      by_number(site.reaching, "stays", "stay") + ": the site leaves that ground out.");
   }
   return notes;
 }

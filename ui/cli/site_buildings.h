@@ -21,8 +21,8 @@ enum class InsideChoice { unsaid, keep, clear };
 using AskToClear = std::function<bool(std::size_t buildings, const std::string& site)>;
 
 /// The boundaries of a scene in plan, and the buildings of an import that meet them.
-/// A building counts as inside where more of its footprint lies in the site than drawings are inexact by. It is judged as a whole,
-/// with all of its parts: where less than half of it is inside, it is a neighbour that reaches in, and stays in any case.
+/// A building counts as inside where more of its footprint lies in the site than drawings are inexact by. It is judged as a
+/// whole, with all of its parts: where less than half of it is inside, it is a neighbour that reaches in, and stays in any case.
 class SiteBuildings {
  public:
   SiteBuildings(const Scene& scene, const Registry& registry, InsideChoice choice, AskToClear ask);

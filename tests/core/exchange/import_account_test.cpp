@@ -59,8 +59,8 @@ TEST(ImportAccount, WhatBecomesNoNodeTakesItsCornersWithIt) {
 }
 
 std::string dutch_features(const std::string& features) {
-  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" + features +
-         "]}";
+  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" +
+         features + "]}";
 }
 const std::string kSoundHouse =
     R"({"type": "Feature", "properties": {"height": 9, "level": 5}, "geometry": {"type": "Polygon", "coordinates": [[[85000, 447000], [85010, 447000], [85010, 447010], [85000, 447000]]]}})";
@@ -68,8 +68,8 @@ const std::string kNullHouse =
     R"({"type": "Feature", "properties": {"height": 9}, "geometry": {"type": "Polygon", "coordinates": [[[85000, 447000], [85010, null], [85010, 447010], [85000, 447000]]]}})";
 
 TEST(ImportAccount, OneNullCoordinateCostsItsFeatureAlone) {
-  const auto context =
-      read_geojson_context(dutch_features(kNullHouse + "," + kSoundHouse + R"(, 7, {"type": "Feature", "geometry": {"type": "Polygn"}})"));
+  const auto context = read_geojson_context(
+      dutch_features(kNullHouse + "," + kSoundHouse + R"(, 7, {"type": "Feature", "geometry": {"type": "Polygn"}})"));
   ASSERT_TRUE(context.ok()) << context.error().text();
   EXPECT_EQ(context->buildings.size(), 1u);
   EXPECT_EQ(context->report.total(), 4u);
@@ -90,8 +90,10 @@ TEST(ImportAccount, SitesAndLayersPassBrokenFeaturesOverAsWell) {
   EXPECT_TRUE(std::any_of(plan->notes.begin(), plan->notes.end(), [](const std::string& note) {
     return note == "The geometry of 1 feature cannot be read: such features were left out.";
   }));
-  const std::string point = R"({"type": "Feature", "properties": {"level": 5}, "geometry": {"type": "Point", "coordinates": [85000, 447000]}})";
-  const std::string broken = R"({"type": "Feature", "properties": {"level": 5}, "geometry": {"type": "Point", "coordinates": [null, 447000]}})";
+  const std::string point =
+      R"({"type": "Feature", "properties": {"level": 5}, "geometry": {"type": "Point", "coordinates": [85000, 447000]}})";
+  const std::string broken =
+      R"({"type": "Feature", "properties": {"level": 5}, "geometry": {"type": "Point", "coordinates": [null, 447000]}})";
   const auto layer = read_layer_geojson(dutch_features(broken + "," + point), {});
   ASSERT_TRUE(layer.ok()) << layer.error().text();
   EXPECT_EQ(layer->points.size(), 1u);

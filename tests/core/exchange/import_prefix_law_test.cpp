@@ -82,7 +82,8 @@ const std::string kSampleSequence =
     "\n"
     R"({"type": "CityJSONFeature", "id": "b", "vertices": [[0,0,0],[10,0,0],[10,10,0],[0,10,0]], "CityObjects": {"b": {"type": "Building", "attributes": {"measuredHeight": 8}, "geometry": [{"type": "MultiSurface", "lod": "0", "boundaries": [[[0,1,2,3]]]}]}}})"
     "\n";
-const std::string kSampleGrid = "ncols 3\nnrows 2\nxllcorner 84990\nyllcorner 446990\ncellsize 50\nNODATA_value -9999\n1 2 3\n4 5 6\n";
+const std::string kSampleGrid =
+    "ncols 3\nnrows 2\nxllcorner 84990\nyllcorner 446990\ncellsize 50\nNODATA_value -9999\n1 2 3\n4 5 6\n";
 const std::string kSampleTable = "x,y,level\n85000,447000,55\n85040,447040,65\n";
 const std::string kSampleBrief = "use,floor_area_m2,count\nhousing,1200,3\noffices,800,2\n";
 const std::string kSampleSites = "x,y,z,weight,demand\n1,2,3,4,100\n5,6,7,8,200\n";
@@ -119,7 +120,7 @@ struct Importer {
   const char* name;
   std::string sample;
   std::function<Verdict(const std::string&)> read;
-  bool is_cut_seen;              // wherever it is cut off, it cannot be a whole file
+  bool is_cut_seen;                // wherever it is cut off, it cannot be a whole file
   std::vector<const char*> names;  // of what the file should be, one of which a refusal contains
 };
 
@@ -132,19 +133,29 @@ std::vector<Importer> all_importers() {
       {"OSM XML", kSampleMap, osm, true, {"OpenStreetMap", "XML"}},
       {"OSM gzip", gzip_of(kSampleMap), osm, true, {"OpenStreetMap", "XML", "packed file"}},
       {"OSM PBF", sample_pbf(), osm, false, {"OpenStreetMap", "PBF", "holds no node"}},
-      {"GeoJSON", kSampleFeatures, [](const std::string& text) { return verdict_of(read_geojson_context(text)); }, true, {"GeoJSON", "JSON", "features", "position", "geometr"}},
-      {"GeoJSON layer", kSampleFeatures,
+      {"GeoJSON",
+       kSampleFeatures,
+       [](const std::string& text) { return verdict_of(read_geojson_context(text)); },
+       true,
+       {"GeoJSON", "JSON", "features", "position", "geometr"}},
+      {"GeoJSON layer",
+       kSampleFeatures,
        [](const std::string& text) {
          const auto layer = read_layer_geojson(text, {}, "level");
          return layer ? verdict_of(layer->report) : verdict_of(layer.error());
        },
        true,
        {"GeoJSON", "JSON", "features", "position", "point"}},
-      {"GeoJSON plan", kSampleFeatures, [](const std::string& text) { return verdict_of_plain(read_plan_boundary(text)); }, true, {"GeoJSON", "JSON", "feature", "polygon", "ring"}},
+      {"GeoJSON plan",
+       kSampleFeatures,
+       [](const std::string& text) { return verdict_of_plain(read_plan_boundary(text)); },
+       true,
+       {"GeoJSON", "JSON", "feature", "polygon", "ring"}},
       {"CityJSON", kSampleModel, city, true, {"CityJSON", "CityObjects", "vert", "JSON"}},
       {"CityJSON sequence", kSampleSequence, city, false, {"CityJSON", "CityObjects", "line", "vert"}},
       {"ASCII grid", kSampleGrid, grid, false, {"ASCII grid"}},
-      {"table", kSampleTable,
+      {"table",
+       kSampleTable,
        [local](const std::string& text) {
          const auto layer = read_layer_csv(text, local, "");
          return layer ? verdict_of(layer->report) : verdict_of(layer.error());
@@ -153,7 +164,11 @@ std::vector<Importer> all_importers() {
        {"table", "column", "point"}},
       {"programme", kSampleBrief, [](const std::string& text) { return verdict_of_plain(read_programme_csv(text)); }, false, {}},
       {"sites", kSampleSites, [](const std::string& text) { return verdict_of_plain(read_site_table(text)); }, false, {}},
-      {"TNTP network", kSampleNetwork, [](const std::string& text) { return verdict_of_plain(read_tntp_network(text)); }, false, {}},
+      {"TNTP network",
+       kSampleNetwork,
+       [](const std::string& text) { return verdict_of_plain(read_tntp_network(text)); },
+       false,
+       {}},
       {"TNTP trips", kSampleTrips, [](const std::string& text) { return verdict_of_plain(read_tntp_trips(text)); }, false, {}},
   };
 }
@@ -165,9 +180,11 @@ bool says(const std::string& error, const std::vector<const char*>& words) {
 // A sentence for people, none of a machine's words, and no suspicion of what is not so.
 void expect_sentence(const std::string& error, const std::vector<const char*>& names) {
   EXPECT_LT(error.size(), 600u) << error;
-  for (const char* word : {"std::", "exception", "basic_string", "is it complete", "Is it complete", "is the file complete", "is it GeoJSON?"})
+  for (const char* word :
+       {"std::", "exception", "basic_string", "is it complete", "Is it complete", "is the file complete", "is it GeoJSON?"})
     EXPECT_EQ(error.find(word), std::string::npos) << error;
-  const bool is_named = names.empty() || says(error, names) || says(error, {"cut off", "empty", "damaged", "binary data", "no format", "crs"});
+  const bool is_named =
+      names.empty() || says(error, names) || says(error, {"cut off", "empty", "damaged", "binary data", "no format", "crs"});
   EXPECT_TRUE(is_named) << error;
 }
 
@@ -236,10 +253,15 @@ TEST(ImportPrefixLaw, RealFilesCutOffAreCalledCutOff) {
   };
   const auto osm = [](const std::string& text) { return verdict_of(read_osm_context(text)); };
   const auto grid = [](const std::string& text) { return verdict_of_plain(read_terrain_grid(text)); };
-  for (const Real& real : {Real{"osm/small_village.osm", osm}, {"osm/monaco.osm.gz", osm}, {"osm/lemans_centre.osm.pbf", osm},
-                           {"geojson/prague_bubenec_plots.geojson", [](const std::string& text) { return verdict_of(read_geojson_context(text)); }},
-                           {"cityjson/denhaag_DH01_subset_v11.city.json", [](const std::string& text) { return verdict_of(read_cityjson_context(text)); }},
-                           {"layers/elevation_luxembourg_wgs84.tif", grid}, {"layers/terrain_loire_15m_l93.asc.gz", grid}}) {
+  for (const Real& real :
+       {Real{"osm/small_village.osm", osm},
+        {"osm/monaco.osm.gz", osm},
+        {"osm/lemans_centre.osm.pbf", osm},
+        {"geojson/prague_bubenec_plots.geojson", [](const std::string& text) { return verdict_of(read_geojson_context(text)); }},
+        {"cityjson/denhaag_DH01_subset_v11.city.json",
+         [](const std::string& text) { return verdict_of(read_cityjson_context(text)); }},
+        {"layers/elevation_luxembourg_wgs84.tif", grid},
+        {"layers/terrain_loire_15m_l93.asc.gz", grid}}) {
     const std::string bytes = test::shared_bytes(real.file);
     if (bytes.empty()) continue;
     SCOPED_TRACE(real.file);

@@ -30,7 +30,8 @@ double seconds_for(std::size_t count) {
   return seconds;
 }
 
-// Quadratic work shows as four times as much for twice as many; the processor's own time is measured, so that others do not count.
+// Quadratic work shows as four times as much for twice as many; the processor's own time is measured, so that others do not
+// count.
 TEST(Batch, TwiceAsManyCommandsTakeAboutTwiceAsLong) {
   (void)seconds_for(1000);
   const double some = seconds_for(20000), many = seconds_for(80000);

@@ -19,8 +19,8 @@ std::string square_feature(const std::string& id, double x, double y, double wid
          corner(x + width, y + depth) + "," + corner(x, y + depth) + "," + corner(x, y) + "]]}}";
 }
 std::string feature_file(const std::string& features) {
-  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" + features +
-         "]}";
+  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" +
+         features + "]}";
 }
 
 class ImportSite : public testing::Test {
@@ -29,18 +29,18 @@ class ImportSite : public testing::Test {
     place.write("site.geojson", feature_file(square_feature("site", 0, 0, 60, 50, 0)));
     place.write("brief.csv", "use,floor_area_m2,count,storey_height_m\nhousing,1200,6,3\nschool,2500,1,3.5\n");
     // Inside; inside with a quarter; a neighbour whose wall is drawn two centimetres over the line; away.
-    place.write("around.geojson", feature_file(square_feature("inside", 10, 10, 10, 10, 12) + "," +
-                                               square_feature("reaching", 55, 20, 20, 10, 9) + "," +
-                                               square_feature("beside", 59.98, 0, 10, 10, 9) + "," +
-                                               square_feature("away", 90, 0, 10, 10, 9)));
+    place.write(
+        "around.geojson",
+        feature_file(square_feature("inside", 10, 10, 10, 10, 12) + "," + square_feature("reaching", 55, 20, 20, 10, 9) + "," +
+                     square_feature("beside", 59.98, 0, 10, 10, 9) + "," + square_feature("away", 90, 0, 10, 10, 9)));
   }
   // The scene with the surroundings, and what was said.
   Outcome import(std::vector<std::string> more = {}) {
-    const Outcome made = place.run({"new", "--boundary", "site.geojson", "--height", "30", "--programme", "brief.csv", "--out",
-                                    "scene.json", "--force"});
+    const Outcome made = place.run(
+        {"new", "--boundary", "site.geojson", "--height", "30", "--programme", "brief.csv", "--out", "scene.json", "--force"});
     EXPECT_EQ(made.code, 0) << made.err;
-    std::vector<std::string> arguments{"import", "around.geojson", "--into", "scene.json",
-                                       "--out",  "all.json",       "--force", "--report", "rows.csv"};
+    std::vector<std::string> arguments{"import",   "around.geojson", "--into",   "scene.json", "--out",
+                                       "all.json", "--force",        "--report", "rows.csv"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return place.run(arguments);
   }
@@ -70,7 +70,8 @@ TEST_F(ImportSite, WithoutATerminalTheyAreKeptAndItIsSaid) {
             std::string::npos)
       << done.out;
   EXPECT_NE(done.out.find("That is what --keep does; --clear leaves such buildings out"), std::string::npos) << done.out;
-  EXPECT_NE(done.out.find("1 building reaches into the site `site` with less than half of its ground and stays"), std::string::npos)
+  EXPECT_NE(done.out.find("1 building reaches into the site `site` with less than half of its ground and stays"),
+            std::string::npos)
       << done.out;
   const nlohmann::json rows = node("site")["types"]["boundary"]["exclusions"];
   ASSERT_EQ(rows.size(), 8u) << rows.dump();
@@ -117,7 +118,8 @@ TEST_F(ImportSite, ClearedOnesAreLeftOutWithARow) {
   EXPECT_TRUE(node("building_inside").is_null());
   EXPECT_FALSE(node("building_reaching").is_null()) << "less than half of it is inside: a neighbour";
   EXPECT_NE(row("features/0").find("skipped"), std::string::npos) << row("features/0");
-  EXPECT_NE(row("features/0").find("building: it stands inside the site, which is cleared"), std::string::npos) << row("features/0");
+  EXPECT_NE(row("features/0").find("building: it stands inside the site, which is cleared"), std::string::npos)
+      << row("features/0");
   EXPECT_NEAR(boundary_volume(), 60 * 50 * 30 - 5 * 10 * 9, 1e-6);
 }
 
@@ -130,9 +132,14 @@ TEST_F(ImportSite, PartsShareTheFateOfTheirBuilding) {
     <way id="3"><nd ref="5"/><nd ref="2"/><nd ref="3"/><nd ref="6"/><nd ref="5"/><tag k="building:part" v="yes"/><tag k="height" v="20"/></way></osm>)";
   place.write("parts.osm", map);
   // A site over three quarters of it: the eastern part lies half outside.
-  place.write("site.geojson", R"({"type": "Polygon", "coordinates": [[[4.9998,51.9998],[5.00015,51.9998],[5.00015,52.0004],[4.9998,52.0004],[4.9998,51.9998]]]})");
-  ASSERT_EQ(place.run({"new", "--boundary", "site.geojson", "--height", "30", "--programme", "brief.csv", "--out", "scene.json"}).code, 0);
-  const Outcome done = place.run({"import", "parts.osm", "--into", "scene.json", "--clear", "--out", "all.json", "--report", "rows.csv"});
+  place.write(
+      "site.geojson",
+      R"({"type": "Polygon", "coordinates": [[[4.9998,51.9998],[5.00015,51.9998],[5.00015,52.0004],[4.9998,52.0004],[4.9998,51.9998]]]})");
+  ASSERT_EQ(
+      place.run({"new", "--boundary", "site.geojson", "--height", "30", "--programme", "brief.csv", "--out", "scene.json"}).code,
+      0);
+  const Outcome done =
+      place.run({"import", "parts.osm", "--into", "scene.json", "--clear", "--out", "all.json", "--report", "rows.csv"});
   EXPECT_EQ(done.code, 2) << "nothing else is in the file";
   EXPECT_NE(place.text("rows.csv").find("skipped,way,w1,"), std::string::npos) << place.text("rows.csv");
   EXPECT_NE(place.text("rows.csv").find("skipped,way,w3,"), std::string::npos);
@@ -150,13 +157,17 @@ TEST_F(ImportSite, PropertiesThatNobodyHasAreToldOnBothSides) {
     EXPECT_FALSE(std::filesystem::exists(place.path("p.json")));
     return outcome.err;
   };
-  EXPECT_NE(said("hieght=height").find("--property: there is no property `hieght` that an import looks for, did you mean `height`?"),
-            std::string::npos)
+  EXPECT_NE(
+      said("hieght=height").find("--property: there is no property `hieght` that an import looks for, did you mean `height`?"),
+      std::string::npos)
       << said("hieght=height");
-  EXPECT_NE(said("height=heihgt").find("--property: no feature has a property `heihgt`, did you mean `height`?"), std::string::npos)
+  EXPECT_NE(said("height=heihgt").find("--property: no feature has a property `heihgt`, did you mean `height`?"),
+            std::string::npos)
       << said("height=heihgt");
   EXPECT_NE(said("height=").find("expects OURS=THEIRS"), std::string::npos);
-  place.write("map.osm", R"(<osm version="0.6"><node id="1" lat="52" lon="5"/><node id="2" lat="52" lon="5.001"/><way id="1"><nd ref="1"/><nd ref="2"/><tag k="highway" v="residential"/></way></osm>)");
+  place.write(
+      "map.osm",
+      R"(<osm version="0.6"><node id="1" lat="52" lon="5"/><node id="2" lat="52" lon="5.001"/><way id="1"><nd ref="1"/><nd ref="2"/><tag k="highway" v="residential"/></way></osm>)");
   const Outcome map = place.run({"import", "map.osm", "--property", "height=h", "--out", "p.json"});
   EXPECT_EQ(map.code, 2);
   EXPECT_NE(map.err.find("none of the files has features with properties"), std::string::npos) << map.err;
@@ -164,7 +175,8 @@ TEST_F(ImportSite, PropertiesThatNobodyHasAreToldOnBothSides) {
 }
 
 TEST_F(ImportSite, AnOldReportDoesNotOutliveAFailedImport) {
-  for (const auto& [file, into] : {std::pair<std::string, std::string>{"cut.osm", ""}, {"missing.osm", ""}, {"around.geojson", "cut.osm"}}) {
+  for (const auto& [file, into] :
+       {std::pair<std::string, std::string>{"cut.osm", ""}, {"missing.osm", ""}, {"around.geojson", "cut.osm"}}) {
     place.write("cut.osm", R"(<osm version="0.6"><node id="1")");
     place.write("rows.csv", "old");
     std::vector<std::string> arguments{"import", file, "--out", "p.json", "--report", "rows.csv"};
@@ -176,8 +188,9 @@ TEST_F(ImportSite, AnOldReportDoesNotOutliveAFailedImport) {
 }
 
 TEST_F(ImportSite, ModelsWithoutACrsComeInAsLocal) {
-  place.write("model.city.json",
-              R"({"type": "CityJSON", "version": "2.0", "vertices": [[1,2,0],[11,2,0],[11,12,0],[1,12,0]], "CityObjects": {"b": {"type": "Building",
+  place.write(
+      "model.city.json",
+      R"({"type": "CityJSON", "version": "2.0", "vertices": [[1,2,0],[11,2,0],[11,12,0],[1,12,0]], "CityObjects": {"b": {"type": "Building",
        "attributes": {"measuredHeight": 8}, "geometry": [{"type": "MultiSurface", "lod": "0", "boundaries": [[[0,1,2,3]]]}]}}})");
   const Outcome refused = place.run({"import", "model.city.json", "--out", "all.json"});
   EXPECT_EQ(refused.code, 2);
@@ -191,9 +204,11 @@ TEST_F(ImportSite, ModelsWithoutACrsComeInAsLocal) {
   EXPECT_EQ(elsewhere.code, 2);
   EXPECT_NE(elsewhere.err.find("no place on Earth"), std::string::npos) << elsewhere.err;
   // Into a scene that has a place they come in its own metres.
-  const Outcome made = place.run({"new", "--boundary", "site.geojson", "--height", "30", "--programme", "brief.csv", "--out", "scene.json"});
+  const Outcome made =
+      place.run({"new", "--boundary", "site.geojson", "--height", "30", "--programme", "brief.csv", "--out", "scene.json"});
   ASSERT_EQ(made.code, 0) << made.err;
-  const Outcome added = place.run({"import", "model.city.json", "--crs", "local", "--into", "scene.json", "--out", "all.json", "--force"});
+  const Outcome added =
+      place.run({"import", "model.city.json", "--crs", "local", "--into", "scene.json", "--out", "all.json", "--force"});
   ASSERT_EQ(added.code, 0) << added.err;
   EXPECT_EQ(place.json("all.json")["settings"]["coordinate_system"], "EPSG:28992");
   EXPECT_EQ(node("building_b")["types"]["existing_building"]["outline"][0], nlohmann::json::array({1.0, 2.0, 0.0}));
@@ -203,7 +218,8 @@ TEST_F(ImportSite, ModelsWithoutACrsComeInAsLocal) {
 TEST_F(ImportSite, ThirtyThousandHousesComeInQuickly) {
   std::string houses;
   for (int i = 0; i < 30000; ++i)
-    houses += (i > 0 ? ",\n" : "") + square_feature(i % 2 == 0 ? "same" : "h" + std::to_string(i), 15.0 * (i % 200), 15.0 * (i / 200), 10, 10, 9);
+    houses += (i > 0 ? ",\n" : "") +
+              square_feature(i % 2 == 0 ? "same" : "h" + std::to_string(i), 15.0 * (i % 200), 15.0 * (i / 200), 10, 10, 9);
   place.write("town.geojson", feature_file(houses));
   // Seconds of the processor, so that a busy machine does not decide; it took 40 of them once.
   const Outcome done = place.shell("ulimit -t 20; \"$BEHAVIOURLINKS\" import town.geojson --out town.json");
@@ -221,12 +237,13 @@ TEST_F(ImportSite, MemoryThatRunsOutEndsInASentence) {
 #endif
 #endif
   std::string houses;
-  for (int i = 0; i < 20000; ++i) houses += (i > 0 ? ",\n" : "") + square_feature("h", 15.0 * (i % 200), 15.0 * (i / 200), 10, 10, 9);
+  for (int i = 0; i < 20000; ++i)
+    houses += (i > 0 ? ",\n" : "") + square_feature("h", 15.0 * (i % 200), 15.0 * (i / 200), 10, 10, 9);
   place.write("town.geojson", feature_file(houses));
   std::size_t refused = 0;
   for (int megabytes = 90; megabytes <= 330; megabytes += 20) {
-    const Outcome done =
-        place.shell("ulimit -v " + std::to_string(megabytes * 1024) + "; \"$BEHAVIOURLINKS\" import town.geojson --out town.json --force");
+    const Outcome done = place.shell("ulimit -v " + std::to_string(megabytes * 1024) +
+                                     "; \"$BEHAVIOURLINKS\" import town.geojson --out town.json --force");
     if (done.code == 0) continue;
     if (done.code == 127 || done.err.find("error while loading shared libraries") != std::string::npos) continue;
     ++refused;

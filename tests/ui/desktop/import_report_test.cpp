@@ -83,7 +83,10 @@ TEST(ImportRows, HeightsOfNeighboursAreTold) {
   }
   const Folder folder("import_heights");
   ImportDesktop desktop;
-  desktop.import({folder.write("five.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" + features + "]}")});
+  desktop.import({folder.write(
+      "five.geojson",
+      R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" + features +
+          "]}")});
   desktop.frames(3);
   ImportList& list = *memory_of(desktop.editor()).imports;
   ASSERT_EQ(list.groups().size(), 2u) << desktop.told();
