@@ -16,15 +16,6 @@ namespace {
 constexpr std::size_t kMostPacked = 200;          // bytes for each byte of the file,
 constexpr std::size_t kNeverTooMuch = 64u << 20;  // from so many on [bytes]
 
-// The last four bytes of a gzip file say how long its last member is unpacked, modulo 2^32.
-std::size_t promised_size(std::string_view bytes) {
-  std::size_t size = 0;
-  for (std::size_t i = 0; bytes.size() > 18 && i < 4; ++i)
-    size |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[bytes.size() - 4 + i])) << (8 * i);
-  // Nothing packs better than to a thousandth: more than that is no promise but the end of a damaged file, or padding.
-  return size / 1100 > bytes.size() ? 0 : size;
-}
-
 bool is_too_much(std::size_t size, std::size_t packed, std::size_t limit) {
   return size > limit || (size > kNeverTooMuch && size / kMostPacked > packed);
 }
@@ -55,17 +46,15 @@ Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
                  "The file unpacks to more than " + std::to_string(kMostPacked) +
                      " times its size, as no map, model or table does: it is not read. Unpack it first if it is one."};
   };
-  const std::size_t promised = promised_size(bytes);
-  if (is_too_much(promised, bytes.size(), limit)) return refusal(promised);
   std::string text;
-  text.reserve(promised);
   std::array<char, 1 << 16> chunk;
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) return Error{ErrorCode::internal, "", "zlib could not be started."};
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   stream.avail_in = static_cast<uInt>(bytes.size());
   int state = Z_OK;
-  while (!is_too_much(text.size(), bytes.size(), limit)) {
+  const auto packed = [&] { return bytes.size() - stream.avail_in; };  // of what is unpacked so far
+  while (!is_too_much(text.size(), packed(), limit)) {
     if (is_stop_wished()) {
       inflateEnd(&stream);
       return stopped_error();
@@ -82,9 +71,9 @@ Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
     }
     if (state != Z_OK) break;
   }
-  const std::size_t read = stream.total_in;
+  const std::size_t read = packed();
   inflateEnd(&stream);
-  if (is_too_much(text.size(), bytes.size(), limit)) return refusal(text.size());
+  if (is_too_much(text.size(), read, limit)) return refusal(text.size());
   if (state != Z_STREAM_END)
     return Error{ErrorCode::parse, "byte " + std::to_string(read),
                  "The packed file is damaged or cut off here: fetch or pack it again."};

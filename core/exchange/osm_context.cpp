@@ -51,6 +51,8 @@ ImportCorners corners_of(const OsmStore& store, std::vector<bool>& is_corner) {
   for (std::size_t w = 0; w < store.ways.size(); ++w)
     add(store.ways[w], corners.users.emplace_back(w, std::vector<std::uint32_t>()).second);
   for (std::size_t r = 0; r < store.relations.size(); ++r) {
+    // A turn restriction names streets, and is no shape of its own.
+    if (tag_of(store.relations[r].tags, "type") != "multipolygon") continue;
     auto& used = corners.users.emplace_back(store.ways.size() + r, std::vector<std::uint32_t>()).second;
     for (const OsmMember& member : store.relations[r].members)
       if (const OsmWay* way = member.kind == 'w' ? store.way(member.id) : nullptr) add(*way, used);
