@@ -38,12 +38,41 @@ void ImportReport::drop(const std::map<std::size_t, std::string>& unused) {
     row.outcome = ImportOutcome::skipped;
     row.reason += ": " + reason;
   }
+  for (const auto& [index, leader] : leaders_) {
+    ImportRow& row = rows_[index];
+    if (rows_[leader].outcome != ImportOutcome::skipped || row.outcome == ImportOutcome::skipped || !row.made.empty()) continue;
+    row.outcome = ImportOutcome::skipped;
+    row.reason += ": nothing became of that";
+  }
+  count_corners();
+}
+
+void ImportReport::set_corners(ImportCorners corners) {
+  corners_ = std::move(corners);
+  count_corners();
+}
+
+void ImportReport::count_corners() {
+  rows_.resize(rows_.size() - corner_rows_);
+  const std::size_t before = rows_.size();
+  std::vector<bool> is_taken(corners_.number, false);
+  for (const auto& [row, used] : corners_.users)
+    if (rows_[row].outcome != ImportOutcome::skipped)
+      for (const std::uint32_t corner : used) is_taken[corner] = true;
+  const auto count = static_cast<std::size_t>(std::count(is_taken.begin(), is_taken.end(), true));
+  if (count > 0) take(corners_.kind, "", corners_.taken, "", count);
+  if (count < corners_.number) skip(corners_.kind, "", corners_.skipped, "", corners_.number - count);
+  corner_rows_ = rows_.size() - before;
 }
 
 void ImportReport::mend(std::size_t row, const std::string& detail) {
   ImportRow& mended = rows_[row];
   if (mended.outcome == ImportOutcome::taken) mended.outcome = ImportOutcome::repaired;
   mended.detail += (mended.detail.empty() ? "" : ", ") + detail;
+}
+
+void ImportReport::remark(std::size_t row, const std::string& detail) {
+  rows_[row].detail += (rows_[row].detail.empty() ? "" : "; ") + detail;
 }
 
 std::size_t ImportReport::count(ImportOutcome outcome, std::string_view kind) const {

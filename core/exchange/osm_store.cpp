@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <charconv>
 #include <exception>
+#include <new>
 #include <osmium/io/pbf_input.hpp>
 #include <osmium/io/reader.hpp>
 #include <osmium/io/xml_input.hpp>
 #include <osmium/osm.hpp>
 #include <osmium/thread/pool.hpp>
 #include <set>
+#include <system_error>
 
 #include "core/exchange/foreign_bytes.h"
 #include "core/exchange/inflate.h"
+#include "core/exchange/pbf_blocks.h"
 
 namespace bl {
 
@@ -118,6 +121,17 @@ const Element* find_in(const std::vector<Element>& list, std::int64_t id) {
   return it != list.end() && it->id == id ? &*it : nullptr;
 }
 
+// So little of a file that it could become one: `<?xm`, or the first bytes of a PBF.
+bool is_beginning_of_osm(std::string_view bytes) {
+  constexpr std::string_view kPbf("\0\0\0", 3), kType("\x0a\x09OSMHeader");
+  if (bytes.size() < 15 && bytes.substr(0, 3) == kPbf.substr(0, bytes.size()))
+    return bytes.size() <= 4 || kType.starts_with(bytes.substr(4));
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (start == std::string_view::npos) return false;
+  const std::string_view head = bytes.substr(start);
+  return std::string_view("<?xml").starts_with(head) || std::string_view("<osm").starts_with(head);
+}
+
 // The format by the first bytes; empty where it is none of OpenStreetMap.
 std::string format_of(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 4096);
@@ -152,6 +166,16 @@ Result<OsmStore> read(const std::string& bytes, const std::string& format, Impor
   return store;
 }
 
+Error xml_fault(const osmium::xml_error& error) {
+  // The end of the file where more of it was to come.
+  const bool is_cut = error.error_code == XML_ERROR_NO_ELEMENTS || error.error_code == XML_ERROR_UNCLOSED_TOKEN ||
+                      error.error_code == XML_ERROR_PARTIAL_CHAR || error.error_code == XML_ERROR_UNCLOSED_CDATA_SECTION;
+  const std::string place =
+      error.line > 0 ? "line " + std::to_string(error.line) + ", column " + std::to_string(error.column) : "XML";
+  if (is_cut) return {ErrorCode::parse, place, "The XML ends here: the file is cut off. Fetch or export it again."};
+  return {ErrorCode::parse, place, std::string("The XML cannot be read from here on: ") + error.what() + ". It is damaged."};
+}
+
 }  // namespace
 
 const std::string& tag_of(const OsmTags& tags, std::string_view key) {
@@ -169,21 +193,23 @@ Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch) {
   if (text->empty()) return Error{ErrorCode::missing, "byte 0", "The file is empty: an OpenStreetMap extract is needed."};
   const std::string format = format_of(*text);
   if (format.empty()) {
+    if (is_beginning_of_osm(*text))
+      return Error{ErrorCode::parse, "byte " + std::to_string(text->size()),
+                   "The OpenStreetMap file ends in its first lines: it is cut off. Fetch or export it again."};
     const std::string_view remedy = "it has to be XML that begins with <osm>, or PBF";
     if (auto foreign = foreign_bytes(*text, "OpenStreetMap file", remedy)) return *foreign;
     return Error{ErrorCode::parse, "byte 0", "This is no OpenStreetMap file: neither XML that begins with <osm> nor PBF."};
   }
+  if (format == "pbf")
+    if (auto whole = check_pbf_blocks(*text); !whole) return whole.error();
   try {
     return read(*text, format, watch);
-  } catch (const osmium::xml_error& error) {
-    // Where the reader knows no place (what is no XML error but one of OpenStreetMap's form), it says 0.
-    if (error.line == 0)
-      return Error{ErrorCode::parse, "XML", std::string("This is not what OpenStreetMap files hold: ") + error.what() + "."};
-    return Error{ErrorCode::parse, "line " + std::to_string(error.line) + ", column " + std::to_string(error.column),
-                 std::string("The XML cannot be read from here on: ") + error.what() + ". Is the file complete?"};
-  } catch (const std::exception& error) {
-    return Error{ErrorCode::parse, format == "pbf" ? "PBF" : "XML",
-                 std::string("The file cannot be read to its end: ") + error.what() + ". Is it complete?"};
+  } catch (const osmium::xml_error& error) { return xml_fault(error); } catch (const std::bad_alloc&) {
+    throw;  // no fault of the file
+  } catch (const std::system_error&) { throw; } catch (const std::exception& error) {
+    return Error{
+        ErrorCode::parse, format == "pbf" ? "PBF" : "XML",
+        std::string("The OpenStreetMap file cannot be read to its end: ") + error.what() + ". It is damaged or cut off."};
   }
 }
 

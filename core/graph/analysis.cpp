@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <new>
+#include <system_error>
 
 namespace bl {
 
@@ -64,8 +65,8 @@ void Analysis::run(const StopWish& is_unwanted) {
     if (is_claimed_) return;
     is_claimed_ = true;
   }
-  // What may be stopped works on a copy: values and tables are shared, so that this costs next to nothing. Nobody else could catch
-  // an exception: this may be a thread of its own, and others wait for the result.
+  // What may be stopped works on a copy: values and tables are shared, so that this costs next to nothing. Nobody else could
+  // catch an exception: this may be a thread of its own, and others wait for the result.
   AnalysisResult result;
   try {
     if (is_unwanted) {
@@ -76,7 +77,8 @@ void Analysis::run(const StopWish& is_unwanted) {
       result = worked_out(input_);
     }
   } catch (const std::bad_alloc&) {
-    result = {{}, Error{ErrorCode::out_of_range, "", "memory ran out in this analysis: ask for less, such as fewer or coarser points"}};
+    result = {
+        {}, Error{ErrorCode::out_of_range, "", "memory ran out in this analysis: ask for less, such as fewer or coarser points"}};
   } catch (const std::exception& thrown) {
     result = {{}, Error{ErrorCode::internal, "", std::string("the analysis failed: ") + thrown.what()}};
   }
@@ -113,7 +115,15 @@ AnalysisRunner::~AnalysisRunner() {
 void AnalysisRunner::begin(const std::shared_ptr<Analysis>& analysis) {
   const std::lock_guard lock(mutex_);
   waiting_.push_back(analysis);
-  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  if (!thread_.joinable()) {
+    try {
+      thread_ = std::thread([this] { work(); });
+    } catch (const std::system_error&) {
+      // The system gives no more threads: whoever wants the result works it out then.
+      waiting_.clear();
+      return;
+    }
+  }
   wake_.notify_all();
 }
 

@@ -3,13 +3,16 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "core/base/text.h"
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 #include "ui/cli/plugin_choice.h"
+#include "ui/cli/scarcity.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -65,7 +68,9 @@ void declare_run(CLI::App& app, RunOptions& o) {
       ->needs(live)
       ->check(CLI::Range(0.001, 1000.0));
   c.add_option("--log", o.log, "Writes the log of commands and hashes, for `replay`.")->type_name("FILE");
-  c.add_option("--report", o.report, "Writes report.html, volumes.csv, volumes.obj and, of dressed volumes, facades.csv into a folder.")->type_name("DIR");
+  c.add_option("--report", o.report,
+               "Writes report.html, volumes.csv, volumes.obj and, of dressed volumes, facades.csv into a folder.")
+      ->type_name("DIR");
   c.add_option("--json", o.json, "Writes all figures as JSON, lengths in m, areas in m2, volumes in m3.")->type_name("FILE");
   c.add_option("--save", o.save, "Saves the scene with its running state, to continue later; may be the scene itself.")
       ->type_name("FILE");
@@ -277,12 +282,16 @@ int run_program(int count, char** arguments) {
 int main(int count, char** arguments) {
   // A limit on the size of files shall be an error of the write, which is told and cleaned up after, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  bl::cli::prepare_for_scarcity();
   try {
     const int code = bl::cli::run_program(count, arguments);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     bl::cli::complain("what was to be printed could not be written: the disk is full, or nobody reads it.");
     return bl::cli::kBadInput;
-  } catch (const std::bad_alloc&) { bl::cli::complain("memory ran out."); } catch (const std::exception& error) {
+  } catch (const std::bad_alloc&) { bl::cli::complain(bl::cli::memory_sentence()); } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again) bl::cli::complain(bl::cli::thread_sentence());
+    else bl::cli::complain(std::string("the system refused something that the program needs: ") + error.what());
+  } catch (const std::exception& error) {
     bl::cli::complain(std::string("this is a defect of the program, please report it: ") + error.what());
   }
   return 1;

@@ -115,7 +115,7 @@ TEST(ProgrammeCsv, SeparatorsLineEndsAndEncodings) {
   ASSERT_TRUE(quoted) << quoted.error().text();
   EXPECT_EQ(quoted->rows[0].use, "hall \"A\",\nlarge");
   EXPECT_EQ(quoted->rows[1].line, 5u);
-  EXPECT_TRUE(brief_has_note(*quoted, "1 rows without any text were skipped."));
+  EXPECT_TRUE(brief_has_note(*quoted, "1 row without any text was skipped."));
   const auto latin = read_programme_csv("use,area\ncaf\xE9,5\n");
   ASSERT_TRUE(latin);
   EXPECT_EQ(latin->rows[0].use, "café");
