@@ -30,8 +30,8 @@ class Simulation {
   Result<void> restore_state(const SavedState& saved);
   /// Goes on from an earlier state of this scene, as far as that still fits the scene.
   void return_to(std::shared_ptr<const State> earlier);
-  /// One tick.
-  void step();
+  /// One tick. False where the work was stopped on the way (core/base/stop): then nothing has happened.
+  bool step();
 
   /// The last published state; stays valid and unchanged for as long as somebody holds it.
   std::shared_ptr<const State> state() const { return state_; }
