@@ -49,6 +49,11 @@ void Simulation::return_to(std::shared_ptr<const State> earlier) {
   else state_ = std::make_shared<State>(carry(*earlier, state_->plan, {}));
 }
 
+std::shared_ptr<const State> Simulation::shown(std::shared_ptr<const State> state) {
+  auto seen = std::make_shared<State>(*state);
+  return evaluate_unasked(*seen, pool_) ? seen : state;
+}
+
 bool Simulation::step() {
   double last = now_ ? now_() : 0;
   auto lap = [&](double& share) {
