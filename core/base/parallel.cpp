@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -50,15 +51,21 @@ struct ThreadPool::Shared {
 ThreadPool::ThreadPool(int threads) : threads_(std::max(1, threads)) {
   if (threads_ == 1) return;
   shared_ = std::make_unique<Shared>();
-  for (int i = 1; i < threads_; ++i) {
-    shared_->workers.emplace_back([s = shared_.get()] {
-      std::unique_lock lock(s->mutex);
-      while (true) {
-        s->work_ready.wait(lock, [s] { return s->is_stopping || (s->body != nullptr && s->next < s->count); });
-        if (s->is_stopping) return;
-        s->drain(lock);
-      }
-    });
+  shared_->workers.reserve(static_cast<std::size_t>(threads_) - 1);
+  const auto work = [s = shared_.get()] {
+    std::unique_lock lock(s->mutex);
+    while (true) {
+      s->work_ready.wait(lock, [s] { return s->is_stopping || (s->body != nullptr && s->next < s->count); });
+      if (s->is_stopping) return;
+      s->drain(lock);
+    }
+  };
+  try {
+    for (int i = 1; i < threads_; ++i) shared_->workers.emplace_back(work);
+  } catch (const std::system_error&) {
+    // The system gives no more of them: those that are there do the work, and the result is the same.
+    threads_ = 1 + static_cast<int>(shared_->workers.size());
+    if (threads_ == 1) shared_.reset();
   }
 }
 

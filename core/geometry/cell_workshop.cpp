@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/mathematics.h"
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/geometry/cell_mesh.h"
@@ -315,7 +316,7 @@ std::size_t CellWorkshop::runs_per_thread(std::size_t threads, const CellOptions
   const auto whole = std::count_if(sites_.begin(), sites_.end(),
                                    [&](const PowerSite& site) { return limit_of(site.weight, options) == kNoLimit; });
   if (2 * static_cast<std::size_t>(whole) < sites_.size()) return kRunsPerThread;
-  const double layers = std::cbrt(static_cast<double>(sites_.size()) / SiteGrid::kSitesPerBlock);
+  const double layers = mathematics::cube_root(static_cast<double>(sites_.size()) / SiteGrid::kSitesPerBlock);
   const double most = layers / (kThickness * static_cast<double>(threads));
   return std::clamp<std::size_t>(static_cast<std::size_t>(most), 1, kRunsPerThread);
 }

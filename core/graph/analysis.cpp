@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <system_error>
 
 #include "core/base/stop_check.h"
 
@@ -122,7 +123,15 @@ AnalysisRunner::~AnalysisRunner() {
 void AnalysisRunner::begin(const std::shared_ptr<Analysis>& analysis) {
   const std::lock_guard lock(mutex_);
   waiting_.push_back(analysis);
-  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  if (!thread_.joinable()) {
+    try {
+      thread_ = std::thread([this] { work(); });
+    } catch (const std::system_error&) {
+      // The system gives no more threads: whoever wants the result works it out then.
+      waiting_.clear();
+      return;
+    }
+  }
   wake_.notify_all();
 }
 

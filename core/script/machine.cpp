@@ -14,6 +14,7 @@
 #include "core/base/stop_check.h"
 #include "core/script/library.h"
 #include "core/script/link_script.h"
+#include "core/script/lua_mathematics.h"
 #include "core/script/utf8.h"
 
 namespace bl {
@@ -277,6 +278,9 @@ Result<std::unique_ptr<Machine>> Machine::compile(const std::string& name, std::
   if (box->lua == nullptr) return Error{ErrorCode::io, "", "no memory for a Lua machine"};
   std::unique_ptr<Machine> machine(new Machine(std::move(box)));
   Box& self = *machine->box_;
+  // Some editors put a byte order mark before everything; Lua would take it for a name.
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   if (text.size() > ScriptLimits::kSource)
     return Error{ErrorCode::out_of_range, "",
                  self.file + ": the script is longer than " + std::to_string(ScriptLimits::kSource >> 10) + " KiB"};
@@ -284,6 +288,10 @@ Result<std::unique_ptr<Machine>> Machine::compile(const std::string& name, std::
     return Error{ErrorCode::parse, "",
                  self.file + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(zero), '\n')) +
                      ": a text of a script cannot hold a zero byte; write no `\\0`"};
+  if (const std::size_t taken = text.find(kPowerName); taken != std::string_view::npos)
+    return Error{ErrorCode::parse, "",
+                 self.file + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(taken), '\n')) +
+                     ": the name `" + std::string(kPowerName) + "` is taken by the library; take another"};
   const PlainLocale locale;
   lua_gc(self.lua, LUA_GCSTOP);
   lua_pushcfunction(self.lua, open_library);
@@ -291,7 +299,8 @@ Result<std::unique_ptr<Machine>> Machine::compile(const std::string& name, std::
   self.is_limited = true;
   self.left = ScriptLimits::kMemory;
   // "t": text only; a precompiled chunk can break the machine.
-  const int status = luaL_loadbufferx(self.lua, text.data(), text.size(), ("@" + self.file).c_str(), "t");
+  const std::string own = with_own_power(text);
+  const int status = luaL_loadbufferx(self.lua, own.data(), own.size(), ("@" + self.file).c_str(), "t");
   self.is_limited = false;
   if (status != LUA_OK) {
     Error error = machine->failure(status);

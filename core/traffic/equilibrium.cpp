@@ -189,6 +189,7 @@ EquilibriumFigures Equilibrium::totals(double excess) const {
     if (!(loads_.flows[l] > 0)) continue;
     figures.total_cost += loads_.flows[l] * loads_.costs[l];
     figures.objective += network_.integral(l, loads_.flows[l]);
+    figures.cut += network_.is_cut(l, loads_.flows[l]) ? 1 : 0;
   }
   figures.shortest_cost = figures.total_cost - excess;
   figures.gap = figures.total_cost > 0 ? excess / figures.total_cost : 0;

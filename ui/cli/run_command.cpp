@@ -149,7 +149,7 @@ class Run {
   std::string outcome(const Survey& survey) const {
     const State& state = *session_->state();
     const auto idle = static_cast<std::size_t>(
-        std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.error.has_value(); }));
+        std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.has_failed(); }));
     const std::string without = idle == 0   ? ""
                                 : idle == 1 ? " (1 link does not run)"
                                             : " (" + std::to_string(idle) + " links do not run)";
