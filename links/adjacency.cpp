@@ -84,7 +84,7 @@ struct Adjacency {
   // middle is so far behind, in radii of the body. That is less than the play of `make_room`: a pull that cannot be satisfied
   // ends before the others begin to give way to each other for ever. A ball that is cut in half has its middle 3/8 of the radius
   // off.
-  static constexpr double kPressed = 0.08, kShareOfRoom = 0.5;
+  static constexpr double kPressed = 0.08, kShareOfRoom = 0.25;
   static double room_for(double ahead, double volume) {
     // What has no body yet is free.
     if (!(volume > 0)) return std::numeric_limits<double>::infinity();

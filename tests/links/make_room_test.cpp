@@ -37,7 +37,7 @@ TEST(MakeRoom, ScenePartsTheWorkshops) {
     for (const char* b : ids) {
       if (a == b) continue;
       const double radii = world.number(a, "smart_volume.radius") + world.number(b, "smart_volume.radius");
-      EXPECT_GT(distance(world.point(a, "node.position"), world.point(b, "node.position")), 0.6 * radii) << a << " " << b;
+      EXPECT_GT(distance(world.point(a, "node.position"), world.point(b, "node.position")), 0.5 * radii) << a << " " << b;
     }
 }
 

@@ -26,7 +26,7 @@ void declare_new(CLI::App& app, NewOptions& o) {
       ->type_name("FILE")
       ->required();
   c.add_option("--height", o.height, "Height of the boundary above the ground, in m.")->type_name("METRES")->required();
-  c.add_option("--programme", o.programme, "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, ...")
+  c.add_option("--programme", o.programme, "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, standing, ...")
       ->type_name("FILE")
       ->required();
   c.add_option("--out", o.out, "The scene file to write.")->type_name("FILE")->required();
