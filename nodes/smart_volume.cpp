@@ -100,7 +100,11 @@ struct SmartVolume {
     t.out(&Out::centroid, "centroid")
         .unit(Unit::metre)
         .doc("Centre of gravity of the shape; the node's position where the shape is empty.");
-    t.out(&Out::mesh, "mesh").doc("The shape as a triangle mesh, for the eye and for export.");
+    t.out(&Out::mesh, "mesh")
+        .doc(
+            "The shape as a closed triangle mesh, for the eye and for export. It lies within the shape and is the nearer to it, "
+            "the "
+            "deeper the solver tessellates.");
   }
 
   static void declare_standing(TypificationBuilder<SmartVolume>& t) {

@@ -140,7 +140,9 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& m
   AnalysisState& analysis = next.analyses[one.analysis];
   std::vector<Reply> own;
   if (analysis.running && next.tick >= analysis.due) {
-    take_result(next, one, analysis.running->result(), own);
+    const AnalysisResult* result = analysis.running->result();
+    if (result == nullptr) return;  // stopped: so is the tick
+    take_result(next, one, *result, own);
     analysis = done_at(analysis.begun, next.tick, analysis.running_inputs);
   }
   const auto hand_on = [&] { std::move(own.begin(), own.end(), std::back_inserter(replies)); };
@@ -162,7 +164,9 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& m
     runner.begin(begun);
   } else {
     own.clear();  // of an older one that was due in the same tick
-    take_result(next, one, begun->result(), own);
+    const AnalysisResult* result = begun->result();
+    if (result == nullptr) return;
+    take_result(next, one, *result, own);
     analysis = done_at(next.tick, next.tick, inputs);
   }
   hand_on();

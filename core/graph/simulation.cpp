@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/stop_check.h"
 #include "core/graph/amend.h"
 
 namespace bl {
@@ -48,7 +49,12 @@ void Simulation::return_to(std::shared_ptr<const State> earlier) {
   else state_ = std::make_shared<State>(carry(*earlier, state_->plan, {}));
 }
 
-void Simulation::step() {
+std::shared_ptr<const State> Simulation::shown(std::shared_ptr<const State> state) {
+  auto seen = std::make_shared<State>(*state);
+  return evaluate_unasked(*seen, pool_) ? seen : state;
+}
+
+bool Simulation::step() {
   double last = now_ ? now_() : 0;
   auto lap = [&](double& share) {
     if (!now_) return;
@@ -61,15 +67,25 @@ void Simulation::step() {
   ++next->tick;
   evaluate_links(frozen, *next, pool_);
   lap(times_.links);
+  // A phase that was stopped has left gaps, which the next one must not meet.
+  if (is_stop_wished()) return false;
   resolve_proposals(frozen, *next, pool_);
   lap(times_.resolve);
+  if (is_stop_wished()) return false;
   evaluate_nodes(frozen, *next, pool_);
   lap(times_.nodes);
+  if (is_stop_wished()) return false;
   evaluate_sets(*next, pool_, memos_, runner_);
   lap(times_.solve);
+  if (is_stop_wished()) {
+    // What evaluations keep for the next tick may have gaps as well.
+    memos_.clear();
+    return false;
+  }
   commit(*next);
   lap(times_.commit);
   state_ = std::move(next);
+  return true;
 }
 
 }  // namespace bl

@@ -128,13 +128,16 @@ SavedState save(const State& state) {
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const AnalysisState& now = state.analyses[a];
     if (now.as_of < 0 && now.due < 0) continue;
+    const AnalysisResult* result = now.running ? now.running->result() : nullptr;
+    // Of a run that is to end at once, one that is under way is left out: the next tick begins it again.
+    const bool is_kept = !now.running || result != nullptr;
     saved.analyses[analysis_name(plan, a)] = {.as_of = now.as_of,
                                               .taken = now.taken,
-                                              .begun = now.begun,
-                                              .due = now.due,
+                                              .begun = is_kept ? now.begun : -1,
+                                              .due = is_kept ? now.due : -1,
                                               .inputs = now.inputs,
-                                              .running_inputs = now.running_inputs,
-                                              .result = now.running ? now.running->result() : AnalysisResult{}};
+                                              .running_inputs = is_kept ? now.running_inputs : 0,
+                                              .result = result ? *result : AnalysisResult{}};
   }
   // What a failing solver leaves standing cannot be made again from inputs that it refuses.
   for (const SetPlan& set : plan.sets)

@@ -39,6 +39,8 @@ struct LinkState {
                                ///< or of somebody who goes without, although it ran
   std::optional<LinkRemark> remark;  ///< set where `error` is a remark: the voices are of this tick
   std::optional<Error> work;         ///< a rule that it is still bringing about
+
+  bool has_failed() const { return error.has_value() && !remark; }
 };
 
 /// How far an analysis beside the loop has come.

@@ -11,6 +11,7 @@
 
 #include <lua.hpp>
 
+#include "core/base/stop_check.h"
 #include "core/script/library.h"
 #include "core/script/link_script.h"
 #include "core/script/lua_mathematics.h"
@@ -28,7 +29,7 @@ constexpr std::size_t kGarbage = std::size_t{512} << 10;
 // A place for a name in a table of Lua: value, key, and the next place with the same remainder [byte].
 constexpr std::size_t kNameBytes = 24;
 
-enum class Stop { none, instructions, memory, piece, text };
+enum class Stop { none, instructions, memory, piece, text, wish };
 
 // The order of texts, the decimal point and the letters of upper() are those of C, whatever the rest of the program has set.
 class PlainLocale {
@@ -122,8 +123,8 @@ struct Machine::Box {
     if (moved != nullptr) self.held += new_size - old_size;
     return moved;
   }
-  // The stack gets its size here: grown by and by, its last size, and so the depth at which a script is stopped, would follow from
-  // the runs before. It doubles when it grows, which is beyond kPiece.
+  // The stack gets its size here: grown by and by, its last size, and so the depth at which a script is stopped, would follow
+  // from the runs before. It doubles when it grows, which is beyond kPiece.
   void fix_stack() { lua_checkstack(lua, ScriptLimits::kStack); }
   // Numbers can be chosen such that all names of a table lie in one chain, which an instruction then walks from end to end. So
   // large tables of names make instructions dearer. Their pieces are powers of two of places; lists are moved when they grow.
@@ -134,8 +135,8 @@ struct Machine::Box {
   }
   void pay(lua_State* on, std::int64_t count) {
     instructions -= count * price;
-    if (instructions > 0) return;
-    note(Stop::instructions);
+    if (instructions > 0 && !is_stop_wished()) return;
+    note(instructions > 0 ? Stop::wish : Stop::instructions);
     lua_pushliteral(on, "stopped");
     lua_error(on);
   }
@@ -336,6 +337,7 @@ Error Machine::failure(int status) {
     case Stop::text:
       return {ErrorCode::cancelled, "",
               place + "stopped when a text grew beyond " + std::to_string(ScriptLimits::kText >> 10) + " KiB"};
+    case Stop::wish: return {ErrorCode::cancelled, "", place + "stopped, because the work was"};
     case Stop::none: break;
   }
   const char* text = lua_type(self.lua, -1) == LUA_TSTRING ? lua_tostring(self.lua, -1) : nullptr;

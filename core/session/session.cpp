@@ -20,10 +20,10 @@ Result<std::unique_ptr<Session>> Session::start(const Registry& registry, const 
   return session;
 }
 
-void Session::tick() {
+bool Session::tick() {
   if (const Ledger::Changes changes = ledger_.take_changes(); changes.is_logic_changed)
     simulation_.set_scene(ledger_.scene(), changes.placed);
-  simulation_.step();
+  return simulation_.step();
 }
 
 namespace {

@@ -253,8 +253,8 @@ TEST(Analysis, StoppedByTheEndOfTheRunnerItIsLeftToWhoeverHoldsIt) {
     runner.begin(held);
     endless.wait_until_begun();
   }
-  ASSERT_TRUE(held->result().error.has_value());
-  EXPECT_EQ(held->result().error->message, "came to its end");
+  ASSERT_TRUE(held->result()->error.has_value());
+  EXPECT_EQ(held->result()->error->message, "came to its end");
   EXPECT_EQ(endless.begun, 2);
 }
 
