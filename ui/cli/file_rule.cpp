@@ -66,8 +66,12 @@ std::string_view what_lies_in(const std::string& path) {
   const std::string_view begin =
       std::string_view(text).substr(std::min(text.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text.size()));
   if (begin.empty()) return "";
-  if (begin.front() == '{' && begin.find("\"behaviourlinks-log\"") < 64) return name_of(FileKind::log);
-  if (begin.front() == '{' && begin.find("\"behaviourlinks\"") < 256) return name_of(FileKind::scene);
+  // "format": "behaviourlinks" or "behaviourlinks-log", with whatever blanks.
+  if (const std::size_t key = begin.find("\"format\""); begin.front() == '{' && key < 256) {
+    const std::string_view value = begin.substr(std::min(begin.find_first_not_of(": \t\r\n", key + 8), begin.size()));
+    if (value.starts_with("\"behaviourlinks-log\"")) return name_of(FileKind::log);
+    if (value.starts_with("\"behaviourlinks\"")) return name_of(FileKind::scene);
+  }
   for (const char* word : {"\"FeatureCollection\"", "\"Feature\"", "\"CityJSON\"", "\"CityJSONFeature\""})
     if (begin.front() == '{' && begin.find(word) != std::string_view::npos) return "a map";
   if (begin.front() == '{' || begin.front() == '[') return name_of(FileKind::figures);
@@ -78,8 +82,6 @@ std::string_view what_lies_in(const std::string& path) {
   const bool is_code = path.ends_with(".lua") || line.starts_with("--") || line.find_first_of("{}()=") != std::string_view::npos;
   return !is_code && line.find_first_of(",;\t") != std::string_view::npos ? name_of(FileKind::table) : "another text";
 }
-
-std::string quoted_path(const std::string& path) { return "`" + path + "`"; }
 
 // Without its dashes, an argument stands in the help in capitals.
 std::string shown_option(const CLI::Option& option) {
@@ -115,25 +117,33 @@ bool falls_on(const NamedFile& output, const std::string& other) {
 std::string meets_another(const CLI::App& task, const std::vector<NamedFile>& named, std::size_t place) {
   const NamedFile& output = named[place];
   const CLI::Option* changed = output.role->changed.empty() ? nullptr : task.get_option_no_throw(output.role->changed);
+  const std::string thing = output.role->use == Use::fills ? "folder" : "file";
   for (std::size_t i = 0; i < named.size(); ++i) {
     const NamedFile& other = named[i];
     if (i == place || other.role->use == Use::fills || !is_plain_file(other.path) || !falls_on(output, other.path)) continue;
     if (other.role->use == Use::writes)
-      return output.option + " and " + other.option + " would write the same file " + quoted_path(other.path) +
-             ": name one for each";
+      return output.option + ": " + other.path + ": is written by " + other.option + " already; choose another " + thing;
     if (changed != nullptr && shown_option(*changed) == other.option) continue;
-    return output.option + " would be written over " + quoted_path(other.path) + ", which is read (" + other.option +
-           "): name another " + (output.role->use == Use::fills ? "folder" : "file");
+    return output.option + ": " + other.path + ": is read as " + other.option + "; choose another " + thing;
   }
   return "";
+}
+
+// Better told before the work than after it.
+std::string lacks_its_folder(const NamedFile& output) {
+  const fs::path folder = fs::path(output.path).parent_path();
+  std::error_code none;
+  if (output.role->use != Use::writes || folder.empty() || fs::is_directory(folder, none)) return "";
+  return output.option + ": " + output.path + ": cannot be written: there is no folder " + folder.string();
 }
 
 std::string replaces_another_kind(const NamedFile& output, bool has_force) {
   if (output.role->use != Use::writes || !is_plain_file(output.path) || output.path.starts_with("/dev/")) return "";
   const std::string_view found = what_lies_in(output.path), wanted = name_of(output.role->kind);
   if (found.empty() || found == wanted) return "";
-  return output.option + ": " + quoted_path(output.path) + " is there and holds " + std::string(found) + ", and " +
-         std::string(wanted) + " would replace it: name another file, " + (has_force ? "or say --force" : "or remove it first");
+  return output.option + ": " + output.path + ": exists already and holds " + std::string(found) + ", not " +
+         std::string(wanted) +
+         (has_force ? "; choose another name, or replace it with --force" : "; choose another name, or remove it first");
 }
 
 }  // namespace
@@ -161,6 +171,7 @@ std::string wrong_files(const CLI::App& task) {
   for (std::size_t i = 0; i < named.size(); ++i) {
     if (named[i].role->use == Use::reads || named[i].path.empty()) continue;
     if (const std::string sentence = meets_another(task, named, i); !sentence.empty()) return sentence;
+    if (const std::string sentence = lacks_its_folder(named[i]); !sentence.empty()) return sentence;
     if (force == nullptr || force->count() == 0)
       if (const std::string sentence = replaces_another_kind(named[i], force != nullptr); !sentence.empty()) return sentence;
   }

@@ -1,6 +1,5 @@
 // `run`: ticks a scene until it settles, and says what came of it.
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -51,29 +50,7 @@ class Run {
     return false;
   }
 
-  // Writing over the scene that is read, or twice over one file, loses something.
-  bool check_outputs() {
-    namespace fs = std::filesystem;
-    const std::vector<std::pair<std::string, std::string>> outputs{
-        {"--log", options_.log}, {"--json", options_.json}, {"--save", options_.save}};
-    std::error_code none;
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-      const auto& [name, file] = outputs[i];
-      if (file.empty()) continue;
-      if (name != "--save" && fs::equivalent(file, options_.scene, none))
-        return fail(name, {ErrorCode::conflict, file, "is the scene itself; choose another file"});
-      for (std::size_t j = 0; j < i; ++j)
-        if (!outputs[j].second.empty() && fs::weakly_canonical(file, none) == fs::weakly_canonical(outputs[j].second, none))
-          return fail(name, {ErrorCode::conflict, file, "is written by " + outputs[j].first + " already; choose another file"});
-      const fs::path folder = fs::path(file).parent_path();
-      if (!folder.empty() && !fs::is_directory(folder, none))
-        return fail(name, {ErrorCode::io, file, "cannot be written: there is no folder " + folder.string()});
-    }
-    return true;
-  }
-
   bool start() {
-    if (!check_outputs()) return false;
     auto reading = load_scene(options_.scene, !options_.scripts.empty());
     if (!reading) return false;
     auto session = Session::start(full_registry(), reading->scene, reading->state ? &*reading->state : nullptr, options_.threads);

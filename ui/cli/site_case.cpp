@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -24,21 +23,6 @@ namespace {
 bool is_table(const std::string& file) {
   const std::string name = lower_case(file);
   return name.ends_with(".csv") || name.ends_with(".tsv") || name.ends_with(".txt");
-}
-
-// Writing over what is read loses it; a folder that is not there is better told before the work than after.
-bool is_output_sound(const CaseFiles& files) {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  for (const auto& [what, file] : {std::pair("input", files.input), std::pair("boundary", files.boundary)}) {
-    if (file.empty() || !fs::equivalent(files.output, file, none)) continue;
-    print_error("--json", {ErrorCode::conflict, files.output, std::string("is the ") + what + " itself; choose another file"});
-    return false;
-  }
-  const fs::path folder = fs::path(files.output).parent_path();
-  if (folder.empty() || fs::is_directory(folder, none)) return true;
-  print_error("--json", {ErrorCode::io, files.output, "cannot be written: there is no folder " + folder.string()});
-  return false;
 }
 
 Result<Json> json_of(const std::string& text) {
@@ -210,7 +194,6 @@ Result<BoundaryReading> read_boundary(const std::string& text) {
 }
 
 std::optional<SiteCases> load_site_cases(const CaseFiles& files, CasePurpose purpose) {
-  if (!is_output_sound(files)) return std::nullopt;
   const auto text = read_file(files.input);
   if (!text) {
     print_error(files.input, text.error());

@@ -50,22 +50,22 @@ class FileRule : public testing::Test {
 };
 
 TEST_F(FileRule, OutputsAreNoInputs) {
-  expect_refused({"check", "s.json", "--json", "s.json"}, "--json would be written over `s.json`, which is read (FILE)");
-  expect_refused({"check", "s.json", "b.json", "--json", "b.json"}, "which is read");
-  expect_refused({"compare", "s.json", "b.json", "--report", "s.json", "--ticks", "1"}, "which is read (SCENE_A)");
-  expect_refused({"compare", "s.json", "b.json", "--report", "b.json", "--ticks", "1"}, "which is read (SCENE_B)");
-  expect_refused({"import", "rows.csv", "--into", "s.json", "--out", "o.json", "--report", "rows.csv"}, "which is read (FILE)");
-  expect_refused({"import", "rows.csv", "--into", "s.json", "--out", "o.json", "--report", "s.json"}, "which is read (--into)");
-  expect_refused({"import", "site.geojson", "--out", "site.geojson", "--force"}, "which is read");
-  expect_refused({"run", "s.json", "--script", "f.lua", "--json", "f.lua", "--ticks", "1"}, "which is read (--script)");
-  expect_refused({"run", "s.json", "--script", "f.lua", "--log", "s.json", "--ticks", "1"}, "which is read (SCENE)");
-  expect_refused({"cells", "case.json", "--json", "case.json"}, "which is read");
-  expect_refused({"fit", "case.json", "--json", "./case.json"}, "which is read");
+  expect_refused({"check", "s.json", "--json", "s.json"}, "--json: s.json: is read as FILE; choose another file");
+  expect_refused({"check", "s.json", "b.json", "--json", "b.json"}, "is read as");
+  expect_refused({"compare", "s.json", "b.json", "--report", "s.json", "--ticks", "1"}, "is read as SCENE_A");
+  expect_refused({"compare", "s.json", "b.json", "--report", "b.json", "--ticks", "1"}, "is read as SCENE_B");
+  expect_refused({"import", "rows.csv", "--into", "s.json", "--out", "o.json", "--report", "rows.csv"}, "is read as FILE");
+  expect_refused({"import", "rows.csv", "--into", "s.json", "--out", "o.json", "--report", "s.json"}, "is read as --into");
+  expect_refused({"import", "site.geojson", "--out", "site.geojson", "--force"}, "is read as");
+  expect_refused({"run", "s.json", "--script", "f.lua", "--json", "f.lua", "--ticks", "1"}, "is read as --script");
+  expect_refused({"run", "s.json", "--script", "f.lua", "--log", "s.json", "--ticks", "1"}, "is read as SCENE");
+  expect_refused({"cells", "case.json", "--json", "case.json"}, "is read as");
+  expect_refused({"fit", "case.json", "--json", "./case.json"}, "is read as");
   expect_refused(
       {"new", "--boundary", "site.geojson", "--height", "9", "--programme", "rows.csv", "--out", "rows.csv", "--force"},
-      "which is read (--programme)");
-  expect_refused({"assign", "rows.csv", "case.json", "--json", "case.json"}, "which is read (TRIPS)");
-  expect_refused({"script", "s.json", "f.lua", "--out", "o.json", "--extract", "."}, "which is read");
+      "is read as --programme");
+  expect_refused({"assign", "rows.csv", "case.json", "--json", "case.json"}, "is read as TRIPS");
+  expect_refused({"script", "s.json", "f.lua", "--out", "o.json", "--extract", "."}, "is read as");
   expect_refused({"docs", "--from", "f.lua", "--out", "f.lua"}, "");
 }
 
@@ -74,15 +74,16 @@ TEST_F(FileRule, AFileHasManyNames) {
   std::filesystem::create_hard_link(place.path("s.json"), place.path("twin.json"));
   std::filesystem::create_directory(place.path("folder"));
   for (const char* name : {"link.json", "twin.json", "./s.json", "folder/../s.json"})
-    expect_refused({"check", "s.json", "--json", name}, "which is read");
-  expect_refused({"check", "s.json", "--json", place.path("s.json").string()}, "which is read");
+    expect_refused({"check", "s.json", "--json", name}, "is read as");
+  expect_refused({"check", "s.json", "--json", place.path("s.json").string()}, "is read as");
 }
 
 TEST_F(FileRule, TwoOutputsAreTwoFiles) {
-  expect_refused({"run", "s.json", "--ticks", "1", "--json", "o", "--log", "o"}, "would write the same file `o`");
-  expect_refused({"run", "s.json", "--ticks", "1", "--json", "o", "--save", "./o"}, "would write the same file");
-  expect_refused({"run", "s.json", "--ticks", "1", "--json", "out/volumes.csv", "--report", "out"}, "would write the same file");
-  expect_refused({"import", "rows.csv", "--out", "o.json", "--report", "o.json"}, "would write the same file");
+  expect_refused({"run", "s.json", "--ticks", "1", "--json", "o", "--log", "o"},
+                 "--json: o: is written by --log already; choose another file");
+  expect_refused({"run", "s.json", "--ticks", "1", "--json", "o", "--save", "./o"}, " already; choose another");
+  expect_refused({"run", "s.json", "--ticks", "1", "--json", "out/volumes.csv", "--report", "out"}, " already; choose another");
+  expect_refused({"import", "rows.csv", "--out", "o.json", "--report", "o.json"}, " already; choose another");
   EXPECT_FALSE(std::filesystem::exists(place.path("o"))) << "nothing is left behind";
   const Outcome both = place.run({"run", "s.json", "--ticks", "1", "--json", "/dev/null", "--log", "/dev/null"});
   EXPECT_EQ(both.code, 0) << "devices take what comes: " << both.err;
@@ -90,13 +91,13 @@ TEST_F(FileRule, TwoOutputsAreTwoFiles) {
 
 TEST_F(FileRule, OtherKindsStay) {
   expect_refused({"import", "rows.csv", "--out", "o.json", "--report", "b.json"},
-                 "--report: `b.json` is there and holds a scene, and a table would replace it");
-  expect_refused({"run", "s.json", "--ticks", "1", "--json", "b.json"}, "holds a scene, and figures as JSON would replace it");
+                 "--report: b.json: exists already and holds a scene, not a table");
+  expect_refused({"run", "s.json", "--ticks", "1", "--json", "b.json"}, "holds a scene, not figures as JSON");
   expect_refused({"run", "s.json", "--ticks", "1", "--json", "f.lua"}, "holds another text");
-  expect_refused({"run", "s.json", "--ticks", "1", "--save", "case.json"}, "holds figures as JSON, and a scene would replace it");
-  expect_refused({"run", "s.json", "--ticks", "1", "--log", "rows.csv"}, "holds a table, and a log");
+  expect_refused({"run", "s.json", "--ticks", "1", "--save", "case.json"}, "holds figures as JSON, not a scene");
+  expect_refused({"run", "s.json", "--ticks", "1", "--log", "rows.csv"}, "holds a table, not a log");
   expect_refused({"run", "s.json", "--ticks", "1", "--json", "site.geojson"}, "holds a map");
-  expect_refused({"compare", "s.json", "b.json", "--ticks", "1", "--report", "rows.csv"}, "holds a table, and a page");
+  expect_refused({"compare", "s.json", "b.json", "--ticks", "1", "--report", "rows.csv"}, "holds a table, not a page");
   expect_refused({"schema", "--out", "b.json"}, "holds a scene");
 }
 
@@ -109,8 +110,8 @@ TEST_F(FileRule, TheSameKindIsReplaced) {
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(place.run({"compare", "s.json", "b.json", "--ticks", "1", "--report", "page.html"}).code, 0);
     EXPECT_EQ(place
-                  .run({"import", "rows.csv", "--as", "layer", "--value", "value", "--into", "s.json", "--out", "i.json",
-                        "--force", "--report", "i.csv"})
+                  .run({"import", "rows.csv", "--as", "layer", "--value", "value", "--crs", "EPSG:28992", "--into", "s.json",
+                        "--out", "i.json", "--force", "--report", "i.csv"})
                   .code,
               0);
     EXPECT_EQ(place.run({"schema", "--out", "schema.json"}).code, 0);
@@ -180,8 +181,8 @@ TEST_F(FileRule, HoldsForEveryPairOfOptionsOfEveryTask) {
         const bool is_changing =
             in_place.contains(task + " " + options[b].name) || in_place.contains(task + " " + options[a].name);
         if (!is_changing || outcome.code == 2) { EXPECT_EQ(place.text("twice"), moving_scene()) << what << "\n" << outcome.err; }
-        const bool is_told =
-            outcome.err.find("which is read") != std::string::npos || outcome.err.find("same file") != std::string::npos;
+        const bool is_told = outcome.err.find("is read as") != std::string::npos ||
+                             outcome.err.find(" already; choose another ") != std::string::npos;
         pairs += is_told ? 1 : 0;
         if (is_told) { EXPECT_EQ(outcome.code, 2) << what; }
       }

@@ -271,7 +271,7 @@ std::vector<Hostile> options() {
           row("boundary_that_is_none", {"--boundary", "none.json"}, "none.json: expects `planes`, `vertices`, `plan` or `mesh`"),
           row("output_without_folder", {"--json", "no/where/o.json"},
               "--json: no/where/o.json: cannot be written: there is no folder no/where"),
-          row("output_is_the_input", {"--json", "i.json"}, "--json: i.json: is the input itself; choose another file"),
+          row("output_is_the_input", {"--json", "i.json"}, "--json: i.json: is read as FILE; choose another file"),
           row("output_is_a_folder", {"--json", "/"}, "/: cannot be written: Is a directory"),
           row("output_on_a_full_disk", {"--json", "/dev/full"}, "/dev/full: cannot be written: No space left on device")};
 }
