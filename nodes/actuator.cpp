@@ -32,7 +32,8 @@ struct Actuator {
     t.in(&In::value, "value")
         .unit_from("unit")
         .combine(CombineRule::blend)
-        .doc("The number, set by people or proposed by links.");
+        .keeps_default()
+        .doc("The number, set by people or proposed by links. As long as neither has happened, nothing is sent.");
     t.in(&In::unit, "unit").doc("Unit that the number is sent in, as a symbol such as `m` or `cm`; empty for a plain number.");
     t.in(&In::address, "address").doc("Where it goes: `mqtt://host:1883/topic` or `osc://host:9000/path`.");
     t.in(&In::format, "format")

@@ -5,8 +5,11 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
+
+#include "core/base/stop_check.h"
 
 namespace bl {
 
@@ -14,6 +17,7 @@ struct ThreadPool::Shared {
   std::mutex mutex;
   std::condition_variable work_ready, work_done;
   const std::function<void(std::size_t, std::size_t)>* body = nullptr;
+  const StopWish* wish = nullptr;  // of the caller
   std::size_t count = 0, grain = 1, next = 0, running = 0;
   std::exception_ptr failure;
   bool is_stopping = false;
@@ -26,13 +30,18 @@ struct ThreadPool::Shared {
       next = end;
       ++running;
       const auto* current = body;
+      const StopWish* wished = wish;
       lock.unlock();
       std::exception_ptr caught;
+      bool is_stopped = false;
       try {
-        (*current)(begin, end);
+        const StopLoan loan(wished);
+        is_stopped = is_stop_wished();
+        if (!is_stopped) (*current)(begin, end);
       } catch (...) { caught = std::current_exception(); }
       lock.lock();
       --running;
+      if (is_stopped) next = count;
       if (caught && !failure) failure = caught;
     }
     if (running == 0) work_done.notify_all();
@@ -42,15 +51,21 @@ struct ThreadPool::Shared {
 ThreadPool::ThreadPool(int threads) : threads_(std::max(1, threads)) {
   if (threads_ == 1) return;
   shared_ = std::make_unique<Shared>();
-  for (int i = 1; i < threads_; ++i) {
-    shared_->workers.emplace_back([s = shared_.get()] {
-      std::unique_lock lock(s->mutex);
-      while (true) {
-        s->work_ready.wait(lock, [s] { return s->is_stopping || (s->body != nullptr && s->next < s->count); });
-        if (s->is_stopping) return;
-        s->drain(lock);
-      }
-    });
+  shared_->workers.reserve(static_cast<std::size_t>(threads_) - 1);
+  const auto work = [s = shared_.get()] {
+    std::unique_lock lock(s->mutex);
+    while (true) {
+      s->work_ready.wait(lock, [s] { return s->is_stopping || (s->body != nullptr && s->next < s->count); });
+      if (s->is_stopping) return;
+      s->drain(lock);
+    }
+  };
+  try {
+    for (int i = 1; i < threads_; ++i) shared_->workers.emplace_back(work);
+  } catch (const std::system_error&) {
+    // The system gives no more of them: those that are there do the work, and the result is the same.
+    threads_ = 1 + static_cast<int>(shared_->workers.size());
+    if (threads_ == 1) shared_.reset();
   }
 }
 
@@ -67,11 +82,12 @@ ThreadPool::~ThreadPool() {
 void ThreadPool::for_each_chunk(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   grain = std::max<std::size_t>(1, grain);
   if (!shared_ || count <= grain) {
-    for (std::size_t begin = 0; begin < count; begin += grain) body(begin, std::min(count, begin + grain));
+    for (std::size_t begin = 0; begin < count && !is_stop_wished(); begin += grain) body(begin, std::min(count, begin + grain));
     return;
   }
   std::unique_lock lock(shared_->mutex);
   shared_->body = &body;
+  shared_->wish = stop_wish();
   shared_->count = count;
   shared_->grain = grain;
   shared_->next = 0;

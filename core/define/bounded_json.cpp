@@ -75,6 +75,10 @@ std::string place_in_text(std::string_view text, std::size_t at) {
 }
 
 Result<void> check_json_bounds(std::string_view text) {
+  // The library's parser takes it for the end of the text, and what follows would be lost in silence.
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+    return Error{ErrorCode::parse, place_in_text(text, zero),
+                 "A zero byte stands here, which no text holds: the file is damaged. Get a whole copy of it."};
   std::size_t depth = 0, values = 1, deep = std::string_view::npos, many = std::string_view::npos;
   scan(text, [&](char c, std::size_t at) {
     if (c == '[' || c == '{') {
@@ -104,8 +108,12 @@ Result<SortedJson> read_bounded_json(std::string_view text, std::string_view for
     return SortedJson::parse(Bytes(begin, end), Bytes(end, end));
   } catch (const SortedJson::parse_error& error) {
     if (is_stop_wished()) return Error{ErrorCode::cancelled, "", "The reading was stopped."};
-    return Error{ErrorCode::parse, place_in_text(text, std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size())),
-                 "The text is not valid JSON from here on; is the file complete, and is it " + std::string(format) + "?"};
+    // The parser has read past the end only where it wanted more: what is there is sound as far as it goes.
+    if (error.byte > text.size())
+      return Error{ErrorCode::parse, place_in_text(text, text.size()),
+                   "The text ends in the middle of its JSON: the file is cut off. Fetch or export it again."};
+    return Error{ErrorCode::parse, place_in_text(text, error.byte > 0 ? error.byte - 1 : 0),
+                 "The text is not valid JSON from here on: it is damaged, or no " + std::string(format) + " at all."};
   } catch (const SortedJson::exception&) {
     return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
   }

@@ -12,6 +12,7 @@
 #include "core/exchange/cityjson_model.h"
 #include "core/exchange/context_shape.h"
 #include "core/exchange/osm_tags.h"
+#include "core/exchange/plural.h"
 
 namespace bl {
 
@@ -188,8 +189,7 @@ class CityImporter {
     const bool is_drawn_by_parts = has_drawn_parts(object);
     // Its own outline in level 0 says nothing that the parts do not say.
     if (is_drawn_by_parts && (geometry == nullptr || geometry->level_of_detail < 1))
-      return context_.report.take(object.type, object.id, "drawn by its parts",
-                                  std::to_string(object.children.size()) + " parts");
+      return context_.report.take(object.type, object.id, "drawn by its parts", how_many(object.children.size(), "part"));
     if (geometry == nullptr) return context_.report.skip(object.type, object.id, "no geometry that can be read", faults);
     const std::vector<Point3> points = corners(object, *geometry);
     std::vector<Outline> found = outlines_in_reach(object, *geometry, points);
@@ -206,8 +206,8 @@ class CityImporter {
     if (const std::string beyond = out_of_heights(made.base, made.height); !beyond.empty())
       return context_.report.skip(object.type, object.id, beyond, "from " + shortest(made.base) + " m");
     if (found.size() > 1)
-      note_of_building(mended, std::to_string(found.size() - 1) +
-                                   (made.solid ? " more outlines only in its solid" : " smaller outlines left out"));
+      note_of_building(mended, how_many(found.size() - 1, made.solid ? "more outline" : "smaller outline") +
+                                   (made.solid ? " only in its solid" : " left out"));
     const std::string reason = made.solid ? "building with a solid" : "building as an extrusion";
     if (mended.empty()) context_.report.take(object.type, object.id, reason);
     else context_.report.repair(object.type, object.id, reason, mended);
@@ -246,7 +246,7 @@ class CityImporter {
         made.solid = std::make_shared<const Mesh>(std::move(solid.mesh));
       } else if (geometry.solids > 0) {
         note_of_building(mended,
-                         "its solid is not closed (" + std::to_string(solid.open_edges) + " open edges): drawn as an extrusion");
+                         "its solid is not closed (" + how_many(solid.open_edges, "open edge") + "): drawn as an extrusion");
       }
       return;
     }

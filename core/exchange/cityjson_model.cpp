@@ -70,7 +70,7 @@ Error too_many(const std::string& place) {
 Result<std::vector<Point3>> vertices_of(const SortedJson& root, const Transform& t) {
   const SortedJson* list = city_member(root, "vertices");
   if (list == nullptr || !list->is_array())
-    return Error{ErrorCode::missing, "vertices", "The array `vertices` is missing: is this CityJSON, and is it complete?"};
+    return Error{ErrorCode::missing, "vertices", "The array `vertices` is missing, which every CityJSON has."};
   if (list->size() > kMostVertices) return too_many("vertices");
   std::vector<Point3> vertices;
   vertices.reserve(list->size());
@@ -207,10 +207,13 @@ class CityReader {
       if (part.find_first_not_of(" \t\r") == std::string_view::npos) continue;
       const std::string place = "line " + std::to_string(line);
       const auto json = read_bounded_json(part, "CityJSON");
-      if (!json)
-        return Error{
-            json.error().code, place,
-            json.error().code == ErrorCode::parse ? "This line is not valid JSON; is the file complete?" : json.error().message};
+      if (!json) {
+        const bool is_last = text.find_first_not_of(" \t\r\n", stop) == std::string::npos;
+        return Error{json.error().code, place,
+                     json.error().code != ErrorCode::parse ? json.error().message
+                     : is_last && text.back() != '\n'      ? "The file is cut off within this line. Fetch or export it again."
+                                                           : "This line is not valid JSON: it is damaged."};
+      }
       if (text_of(city_member(*json, "type")) != "CityJSONFeature")
         return Error{ErrorCode::parse, place, "Every line after the first must be a CityJSONFeature."};
       if (auto done = feature(*json, place); !done) return done;
@@ -223,7 +226,7 @@ class CityReader {
     if (!vertices) return place.empty() ? vertices.error() : vertices.error().within(place);
     const SortedJson* objects = city_member(root, "CityObjects");
     if (objects == nullptr || !objects->is_object())
-      return Error{ErrorCode::missing, place, "The object `CityObjects` is missing: is this CityJSON?"};
+      return Error{ErrorCode::missing, place, "The object `CityObjects` is missing, which every CityJSON has."};
     for (const auto& [id, json] : objects->items()) {
       if (model_.objects.size() % 64 == 0 && is_stop_wished()) return stopped_error();
       CityObject& object = model_.objects.emplace_back();

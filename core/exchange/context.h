@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -88,6 +89,7 @@ struct Context {
   std::vector<ContextStreet> streets;
   std::vector<ContextRestriction> restrictions;
   std::vector<ContextArea> areas;
+  std::set<std::string> properties;  ///< names that features of the file have, where it has features
   ImportReport report;
   std::vector<std::string> notes;
 };
@@ -103,9 +105,9 @@ struct ContextOptions {
   double neighbour_distance = 100;              ///< [m] how near buildings are whose heights are taken over
   std::string feature_kind;                     ///< GeoJSON: "building", "street", "plot", "area"; empty: from the properties
   std::vector<std::pair<std::string, std::string>> properties;  ///< ours and the file's: {"height", "H_MAX"}
-  double height_unit = 0;      ///< [m] of one unit of the heights of models and grids; 0: what the CRS says
-  double level_of_detail = 9;  ///< CityJSON: the finest one up to this is taken
-  std::string proj_database;   ///< path of proj.db; empty: PROJ finds its own
+  double height_unit = 0;        ///< [m] of one unit of the heights of models and grids; 0: what the CRS says
+  double level_of_detail = 9;    ///< CityJSON: the finest one up to this is taken
+  std::string proj_database;     ///< path of proj.db; empty: PROJ finds its own
   ImportWatch* watch = nullptr;  ///< who waits for it; may be null
 };
 

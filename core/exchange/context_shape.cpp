@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/exchange/assumed_height.h"
 #include "core/exchange/box_grid.h"
+#include "core/exchange/plural.h"
 
 namespace bl {
 
@@ -48,13 +49,16 @@ Result<LocalFrame> context_frame(const ContextOptions& options, const std::strin
   const std::string crs = context_crs(options, file_crs);
   if (crs.empty())
     return Error{ErrorCode::missing, "crs",
-                 "The file does not say in which CRS its coordinates are. Give it by --crs, such as EPSG:28992."};
+                 "The file does not say in which CRS its coordinates are. Give it by --crs, such as EPSG:28992, or `--crs local` "
+                 "where they "
+                 "are metres of a model that has no place on Earth."};
   const std::array<double, 2> about = options.origin.value_or(middle);
   if (is_longitude_latitude(crs) && !(std::abs(about[0]) <= 180 && std::abs(about[1]) <= 90))
     return Error{
         ErrorCode::out_of_range, "crs",
         "(" + fixed(about[0], 3) + ", " + fixed(about[1], 3) +
             ") is no longitude and latitude: the coordinates are probably projected. Give their CRS, such as EPSG:28992."};
+  if (crs == kLocalCrs && options.origin && !options.target) return LocalFrame::local(about[0], about[1]);
   if (options.target && !options.origin) return LocalFrame::into(crs, *options.target, options.proj_database);
   return LocalFrame::make(crs, about[0], about[1], options.proj_database);
 }
@@ -114,9 +118,10 @@ SoundRing sound_ring(std::vector<Point3> points, bool counter_clockwise) {
   }
   if (points.size() > 1 && points.front() == points.back()) points.pop_back();
   const RingCleaning cleaning = clean_corners(points);
-  if (cleaning.repeated > 0) result.mended = std::to_string(cleaning.repeated) + " repeated points dropped";
+  if (cleaning.repeated > 0) result.mended = "repeated points dropped (" + std::to_string(cleaning.repeated) + ")";
   if (cleaning.spikes > 0)
-    result.mended += (result.mended.empty() ? "" : ", ") + std::to_string(cleaning.spikes) + " spikes without width cut off";
+    result.mended +=
+        std::string(result.mended.empty() ? "" : ", ") + "spikes without width cut off (" + std::to_string(cleaning.spikes) + ")";
   if (points.size() < 3) {
     result.fault = "its outline has fewer than 3 different corners";
     return result;
@@ -164,8 +169,8 @@ void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& droppe
   }
   holes = std::move(kept);
   if (bad == 0) return;
-  dropped += (dropped.empty() ? "" : ", ") + std::to_string(bad) + (bad == 1 ? " hole" : " holes") +
-             " that meet another ring or lie outside dropped";
+  dropped += std::string(dropped.empty() ? "" : ", ") + "holes dropped that meet another ring or lie outside (" +
+             std::to_string(bad) + ")";
 }
 
 std::string limit_corners(const Ring& outer, std::vector<Ring>& holes, std::string& dropped) {
@@ -174,7 +179,7 @@ std::string limit_corners(const Ring& outer, std::vector<Ring>& holes, std::stri
   std::size_t corners = outer.size();
   for (const Ring& hole : holes) corners += hole.size();
   if (corners <= kMostBodyCorners) return {};
-  dropped += (dropped.empty() ? "its " : ", its ") + std::to_string(holes.size()) + " holes left out: with them it has " + most;
+  dropped += (dropped.empty() ? "its " : ", its ") + how_many(holes.size(), "hole") + " left out: with them it has " + most;
   holes.clear();
   return {};
 }
@@ -183,21 +188,6 @@ std::string out_of_heights(double base, double height) {
   if (base >= kLowestBase && base + height <= kHighestTop) return {};
   return "its heights lie beyond -10 km or 100 km";
 }
-
-namespace {
-
-ImportReport with_details(const ImportReport& report, const std::map<std::size_t, std::string>& details) {
-  ImportReport out;
-  for (std::size_t k = 0; k < report.rows().size(); ++k) {
-    ImportRow row = report.rows()[k];
-    if (const auto found = details.find(k); found != details.end())
-      row.detail += (row.detail.empty() ? "" : "; ") + found->second;
-    out.add(std::move(row));
-  }
-  return out;
-}
-
-}  // namespace
 
 void assume_heights(const ContextOptions& options, Context& context) {
   struct Known {
@@ -212,7 +202,7 @@ void assume_heights(const ContextOptions& options, Context& context) {
     return a.centre.y != b.centre.y ? a.centre.y < b.centre.y : a.height < b.height;
   });
   std::size_t by_neighbours = 0, by_default = 0;
-  std::map<std::size_t, std::string> told;  // by row
+  std::map<std::size_t, std::string> told;  // by row; of several buildings of one element the last
   for (ContextBuilding& building : context.buildings) {
     if (building.height > 0) continue;
     const Point3 centre = centre_of(building.outer);
@@ -234,14 +224,14 @@ void assume_heights(const ContextOptions& options, Context& context) {
     told[building.row] =
         std::string(has_neighbours ? kHeightOfNeighbours : kHeightAssumed) + ": " + shortest(building.height) + " m";
   }
-  if (!told.empty()) context.report = with_details(context.report, told);
+  for (const auto& [row, detail] : told)
+    if (row != kNoRow) context.report.remark(row, detail);
   if (by_neighbours > 0)
-    context.notes.push_back("The heights of " + std::to_string(by_neighbours) +
-                            " buildings were taken from their neighbours within " + shortest(options.neighbour_distance) +
-                            " m (median).");
+    context.notes.push_back("The heights of " + how_many(by_neighbours, "building") +
+                            " were taken from their neighbours within " + shortest(options.neighbour_distance) + " m (median).");
   if (by_default > 0)
-    context.notes.push_back("The heights of " + std::to_string(by_default) +
-                            " buildings are not known: " + shortest(options.default_height) + " m were assumed.");
+    context.notes.push_back("The heights of " + how_many(by_default, "building") +
+                            " are not known: " + shortest(options.default_height) + " m were assumed.");
 }
 
 std::optional<std::array<double, 2>> place_of(const std::vector<Point3>& points) {

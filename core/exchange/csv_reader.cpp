@@ -10,6 +10,7 @@
 #include "core/base/stop_check.h"
 #include "core/exchange/context_shape.h"
 #include "core/exchange/foreign_bytes.h"
+#include "core/exchange/plural.h"
 
 namespace bl {
 
@@ -74,7 +75,7 @@ Result<std::string> tidy_text(std::string_view text, std::vector<std::string>& n
   if (auto foreign = foreign_bytes(text, "CSV table", "save it as CSV in UTF-8")) return *foreign;
   if (text.find('\0') != std::string_view::npos)
     return Error{ErrorCode::parse, "line " + std::to_string(line_at(text, text.find('\0'))),
-                 "From here on this is no text: is the file complete? Save it as CSV in UTF-8."};
+                 "From here on this is no text: the table is damaged. Save it as CSV in UTF-8."};
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   std::string tidy;
   tidy.reserve(text.size() + 1);
@@ -165,7 +166,8 @@ Result<void> parse_lines(std::string_view text, std::size_t first_line, CsvText&
     return Error{ErrorCode::parse, "line " + std::to_string(line),
                  "A double quote opens a field in this record and is never closed. Close or remove it."};
   if (collector.ended) keep_record(collector, csv, empty);
-  if (empty > 0) csv.notes.push_back(std::to_string(empty) + " rows without any text were skipped.");
+  if (empty > 0)
+    csv.notes.push_back(how_many(empty, "row") + " without any text " + by_number(empty, "was", "were") + " skipped.");
   return {};
 }
 

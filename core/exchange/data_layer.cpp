@@ -256,6 +256,10 @@ Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOption
   for (std::size_t i = 0; i < document->features.size(); ++i) {
     const GeoFeature& feature = document->features[i];
     const std::string place = feature.place.empty() ? "the feature" : feature.place;
+    if (feature.fault) {
+      layer.report.skip("feature", place, "its geometry cannot be read", feature.fault->text());
+      continue;
+    }
     if (feature.points.empty()) {
       if (const auto at = first_position(feature)) skipped.push_back({layer.report.rows().size(), (*at)[0], (*at)[1]});
       layer.report.skip("feature", place, "it is no point");

@@ -12,6 +12,7 @@
 #include "core/exchange/geojson_polygons.h"
 #include "core/exchange/inflate.h"
 #include "core/exchange/osm_tags.h"
+#include "core/exchange/plural.h"
 
 namespace bl {
 
@@ -83,7 +84,8 @@ class GeoImporter {
     id_ = properties.get("id");
     if (id_.empty()) id_ = std::to_string(index);
     const std::string shown = feature.place.empty() ? "the feature" : feature.place;
-    if (!feature.polygons.empty()) polygons(feature, properties, shown);
+    if (feature.fault) context_.report.skip("feature", shown, "its geometry cannot be read", feature.fault->text());
+    else if (!feature.polygons.empty()) polygons(feature, properties, shown);
     else if (!feature.lines.empty()) lines(feature, properties, shown);
     else if (!feature.points.empty()) context_.report.skip("feature", shown, "a single place: points are not read");
     else context_.report.skip("feature", shown, "it has no geometry");
@@ -223,7 +225,7 @@ class GeoImporter {
         fault = why;
         continue;
       }
-      if (line.size() < given) note_of_feature(mended, std::to_string(given - line.size()) + " repeated points dropped");
+      if (line.size() < given) note_of_feature(mended, "repeated points dropped (" + std::to_string(given - line.size()) + ")");
       if (road.direction < 0) std::reverse(line.begin(), line.end());
       const std::string id = feature.lines.size() > 1 ? id_ + "/" + std::to_string(i + 1) : id_;
       raw_.push_back({std::move(line), road, id, properties.get("name"), next_row()});
@@ -308,6 +310,12 @@ std::optional<std::array<double, 2>> middle(const GeoDocument& document) {
 
 }  // namespace
 
+std::vector<std::string> context_property_names() {
+  std::vector<std::string> names;
+  for (const Alias& alias : kAliases) names.emplace_back(alias.ours);
+  return names;
+}
+
 Result<Context> read_geojson_context(std::string_view bytes, const ContextOptions& options) {
   auto text = unpacked(bytes);
   if (!text) return text.error();
@@ -315,9 +323,12 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   if (!document) return document.error();
   const auto centre = middle(*document);
   if (!centre) return Error{ErrorCode::missing, "features", "The file holds no positions: there is nothing to import."};
-  const std::string crs = document->features.front().crs;
+  // A feature that cannot be read says nothing of the others.
+  std::string crs;
   for (const GeoFeature& feature : document->features)
-    if (feature.crs != crs && options.crs.empty())
+    if (crs.empty() && !feature.fault) crs = feature.crs;
+  for (const GeoFeature& feature : document->features)
+    if (!feature.fault && feature.crs != crs && options.crs.empty())
       return Error{
           ErrorCode::conflict, feature.place,
           "This feature is in " + feature.crs + ", the first one in " + crs + ": split the file, or give one CRS for all."};
@@ -328,6 +339,8 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   context.reference = frame->reference();
   context.notes = document->notes;
   context.notes.insert(context.notes.end(), frame->notes().begin(), frame->notes().end());
+  for (const GeoFeature& feature : document->features)
+    for (const auto& [name, value] : feature.properties) context.properties.insert(name);
   GeoImporter importer(options, *frame, context);
   for (std::size_t i = 0; i < document->features.size(); ++i) {
     if (i % 256 == 0 && !goes_on(options.watch, "features", i, document->features.size())) return stopped_error();
@@ -335,9 +348,10 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   }
   importer.cut_streets();
   if (importer.unsure > 0)
-    context.notes.push_back("The properties of " + std::to_string(importer.unsure) +
-                            " polygons do not say what they are: they were taken as buildings. Say so by `--as plot` or `--as "
-                            "area` if they are something else.");
+    context.notes.push_back("The properties of " + how_many(importer.unsure, "polygon") +
+                            by_number(importer.unsure, " do not say what it is: it was taken as a building.",
+                                      " do not say what they are: they were taken as buildings.") +
+                            " Say so by `--as plot` or `--as area` if that is wrong.");
   assume_heights(options, context);
   return context;
 }

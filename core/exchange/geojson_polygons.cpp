@@ -60,7 +60,7 @@ class PolygonReader {
 
  private:
   Result<std::string> crs_of(const SortedJson& object, const std::string& place, const std::string& inherited);
-  Result<void> read_feature(const SortedJson& object, const std::string& place, const std::string& crs);
+  Result<void> read_feature(const SortedJson& object, const std::string& place, const std::string& crs, GeoFeature& feature);
   Result<void> read_geometry(const SortedJson& object, const std::string& place, GeoFeature& feature);
   Result<void> read_polygon(const SortedJson& coordinates, const std::string& place, GeoFeature& feature);
   Result<void> read_places(const SortedJson& coordinates, const std::string& place, const std::string& type, GeoFeature& feature);
@@ -104,22 +104,35 @@ Result<GeoDocument> PolygonReader::read(const SortedJson& root) {
     const SortedJson* features = member(root, "features");
     if (features == nullptr || !features->is_array())
       return Error{ErrorCode::missing, "features", "A FeatureCollection needs an array `features`; it is missing or no array."};
+    std::size_t faults = 0;
     for (std::size_t i = 0; i < features->size(); ++i) {
       if (i % 256 == 0 && is_stop_wished()) return stopped_error();
-      if (auto done = read_feature((*features)[i], "features/" + std::to_string(i), *crs); !done) return done.error();
+      const std::string place = "features/" + std::to_string(i);
+      GeoFeature feature;
+      feature.place = place;
+      feature.crs = *crs;
+      if (auto done = read_feature((*features)[i], place, *crs, feature); !done) {
+        feature.polygons.clear(), feature.lines.clear(), feature.points.clear();
+        feature.fault = done.error();
+        ++faults;
+      }
+      document_.features.push_back(std::move(feature));
     }
-  } else if (auto done = read_feature(root, "", *crs); !done) {
-    return done.error();
+    // Where there is nothing else, the first fault is that of the file.
+    if (faults > 0 && faults == features->size()) return *document_.features.front().fault;
+  } else {
+    GeoFeature feature;
+    if (auto done = read_feature(root, "", *crs, feature); !done) return done.error();
+    document_.features.push_back(std::move(feature));
   }
   if (heights_) document_.notes.push_back("The third numbers of the positions (heights) were left out: a plan is flat.");
   return std::move(document_);
 }
 
-Result<void> PolygonReader::read_feature(const SortedJson& object, const std::string& place, const std::string& crs) {
+Result<void> PolygonReader::read_feature(const SortedJson& object, const std::string& place, const std::string& crs,
+                                         GeoFeature& feature) {
   if (!object.is_object())
     return Error{ErrorCode::parse, place, "A feature must be an object; this is " + std::string(object.type_name()) + "."};
-  GeoFeature feature;
-  feature.place = place;
   const bool is_feature = type_of(object) == "Feature";
   auto own_crs = place.empty() ? Result<std::string>(crs) : crs_of(object, place, crs);
   if (!own_crs) return own_crs.error();
@@ -136,7 +149,6 @@ Result<void> PolygonReader::read_feature(const SortedJson& object, const std::st
   if (geometry && !geometry->is_null()) {
     if (auto done = read_geometry(*geometry, is_feature ? join(place, "geometry") : place, feature); !done) return done.error();
   }
-  document_.features.push_back(std::move(feature));
   return {};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,7 @@ struct GeoFeature {
   std::vector<GeoPolygon> polygons;
   std::vector<GeoLine> lines;
   std::vector<GeoPoint> points;
+  std::optional<Error> fault;  ///< why its geometry cannot be read; it has none then
 };
 
 struct GeoDocument {
@@ -44,7 +46,8 @@ struct GeoDocument {
   std::vector<std::string> notes;
 };
 
-/// Understands FeatureCollection, Feature, all geometries of RFC 7946 and the older `crs` member of the 2008 format.
+/// Understands FeatureCollection, Feature, all geometries of RFC 7946 and the older `crs` member of the 2008 format. A fault of
+/// one feature of several is told with it, and leaves the others as they are; only where every one has a fault is it an error.
 Result<GeoDocument> read_geojson_polygons(std::string_view text);
 
 }  // namespace bl

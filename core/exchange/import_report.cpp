@@ -38,12 +38,41 @@ void ImportReport::drop(const std::map<std::size_t, std::string>& unused) {
     row.outcome = ImportOutcome::skipped;
     row.reason += ": " + reason;
   }
+  for (const auto& [index, leader] : leaders_) {
+    ImportRow& row = rows_[index];
+    if (rows_[leader].outcome != ImportOutcome::skipped || row.outcome == ImportOutcome::skipped || !row.made.empty()) continue;
+    row.outcome = ImportOutcome::skipped;
+    row.reason += ": nothing became of that";
+  }
+  count_corners();
+}
+
+void ImportReport::set_corners(ImportCorners corners) {
+  corners_ = std::move(corners);
+  count_corners();
+}
+
+void ImportReport::count_corners() {
+  rows_.resize(rows_.size() - corner_rows_);
+  const std::size_t before = rows_.size();
+  std::vector<bool> is_taken(corners_.number, false);
+  for (const auto& [row, used] : corners_.users)
+    if (rows_[row].outcome != ImportOutcome::skipped)
+      for (const std::uint32_t corner : used) is_taken[corner] = true;
+  const auto count = static_cast<std::size_t>(std::count(is_taken.begin(), is_taken.end(), true));
+  if (count > 0) take(corners_.kind, "", corners_.taken, "", count);
+  if (count < corners_.number) skip(corners_.kind, "", corners_.skipped, "", corners_.number - count);
+  corner_rows_ = rows_.size() - before;
 }
 
 void ImportReport::mend(std::size_t row, const std::string& detail) {
   ImportRow& mended = rows_[row];
   if (mended.outcome == ImportOutcome::taken) mended.outcome = ImportOutcome::repaired;
   mended.detail += (mended.detail.empty() ? "" : ", ") + detail;
+}
+
+void ImportReport::remark(std::size_t row, const std::string& detail) {
+  rows_[row].detail += (rows_[row].detail.empty() ? "" : "; ") + detail;
 }
 
 std::size_t ImportReport::count(ImportOutcome outcome, std::string_view kind) const {
@@ -71,7 +100,7 @@ const std::vector<std::string>& csv_header() {
 }
 
 // Millimetres are finer than anybody looks.
-std::string metres(double number) { return shortest(std::round(number * 1000) / 1000 + 0.0); }
+CsvCell metres(double number) { return std::round(number * 1000) / 1000 + 0.0; }
 
 std::vector<std::string> words(std::string_view text) {
   std::vector<std::string> list;
@@ -90,17 +119,17 @@ std::optional<ImportRow> row_of(const CsvRecord& record) {
   if (outcome == "repaired") row.outcome = ImportOutcome::repaired;
   else if (outcome == "skipped") row.outcome = ImportOutcome::skipped;
   else if (outcome != "taken") return std::nullopt;
-  row.kind = record.fields[2];
-  row.id = record.fields[3];
-  row.reason = record.fields[4];
-  row.detail = record.fields[5];
+  row.kind = text_of_harmless(record.fields[2]);
+  row.id = text_of_harmless(record.fields[3]);
+  row.reason = text_of_harmless(record.fields[4]);
+  row.detail = text_of_harmless(record.fields[5]);
   const std::string& count = record.fields[6];
   const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), row.count);
   if (problem != std::errc() || end != count.data() + count.size()) return std::nullopt;
   const auto x = parse_number(record.fields[7]), y = parse_number(record.fields[8]);
   if (x && y) row.place = {*x, *y};
   else if (!record.fields[7].empty() || !record.fields[8].empty()) return std::nullopt;
-  row.made = words(record.fields[9]);
+  row.made = words(text_of_harmless(record.fields[9]));
   return row;
 }
 
@@ -113,7 +142,7 @@ std::string import_csv(const ImportReports& reports) {
       std::string made;
       for (const std::string& id : row.made) made += (made.empty() ? "" : " ") + id;
       cells.push_back({file, name_of(row.outcome), row.kind, row.id, row.reason, row.detail, row.count,
-                       row.place ? metres((*row.place)[0]) : "", row.place ? metres((*row.place)[1]) : "", made});
+                       row.place ? metres((*row.place)[0]) : CsvCell(), row.place ? metres((*row.place)[1]) : CsvCell(), made});
     }
   return write_csv(csv_header(), cells);
 }
@@ -133,7 +162,8 @@ Result<ImportReports> read_import_csv(std::string_view text) {
     if (!row)
       return Error{ErrorCode::parse, "line " + std::to_string(record.line),
                    "This is no row of an import report: it was changed."};
-    if (reports.empty() || reports.back().first != record.fields[0]) reports.emplace_back(record.fields[0], ImportReport());
+    std::string file = text_of_harmless(record.fields[0]);
+    if (reports.empty() || reports.back().first != file) reports.emplace_back(std::move(file), ImportReport());
     reports.back().second.add(std::move(*row));
   }
   return reports;

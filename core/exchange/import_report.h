@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,6 +31,16 @@ struct ImportRow {
   std::vector<std::string> made;               ///< ids of what was made of it, where somebody has made something
 };
 
+/// Many small elements without rows of their own, such as the nodes of OpenStreetMap that are corners of ways: one counts as
+/// taken where a row that uses it is one that was taken.
+struct ImportCorners {
+  std::string kind;            ///< what they are in the file: "node"
+  std::string taken, skipped;  ///< the reasons of both rows
+  std::size_t number = 0;      ///< how many there are
+  /// Each row that uses some, with the numbers of these, counted from 0.
+  std::vector<std::pair<std::size_t, std::vector<std::uint32_t>>> users;
+};
+
 /// Every element of the file has exactly one row; repaired ones were taken, after something was mended.
 class ImportReport {
  public:
@@ -37,13 +48,20 @@ class ImportReport {
   void repair(std::string kind, std::string id, std::string reason, std::string detail = "");
   void skip(std::string kind, std::string id, std::string reason, std::string detail = "", std::size_t count = 1);
   /// Elements that were read and then not used, by row, with the reason: rows of which nothing was made become skipped ones.
+  /// What depends on them (`follow`, `set_corners`) is counted anew.
   void drop(const std::map<std::size_t, std::string>& unused);
+  /// An element that was taken for the sake of another one alone: where nothing becomes of that, nothing becomes of it.
+  void follow(std::size_t row, std::size_t leader) { leaders_.emplace_back(row, leader); }
+  /// Adds the rows of such elements. Nothing is added to the report after them.
+  void set_corners(ImportCorners corners);
   void add(ImportRow row) { rows_.push_back(std::move(row)); }
   /// Where the element of the newest row lies.
   void locate(const std::optional<std::array<double, 2>>& place) { rows_.back().place = place; }
   void locate(std::size_t row, const std::optional<std::array<double, 2>>& place) { rows_[row].place = place; }
   /// Says of an element that was taken what had to be changed for it.
   void mend(std::size_t row, const std::string& detail);
+  /// Says more about the element of a row.
+  void remark(std::size_t row, const std::string& detail);
   /// Says what was made of the element of a row.
   void made(std::size_t row, const std::string& id) { rows_[row].made.push_back(id); }
 
@@ -55,7 +73,12 @@ class ImportReport {
   std::map<std::tuple<ImportOutcome, std::string, std::string>, std::size_t> counts() const;
 
  private:
+  void count_corners();
+
   std::vector<ImportRow> rows_;
+  std::vector<std::pair<std::size_t, std::size_t>> leaders_;  // rows, each with the one that it follows
+  ImportCorners corners_;
+  std::size_t corner_rows_ = 0;  // so many of the last rows speak of corners
 };
 
 /// Each file with the report about it.

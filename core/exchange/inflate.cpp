@@ -10,6 +10,24 @@
 
 namespace bl {
 
+namespace {
+
+// Kinds of text that people make pack to a tenth, sparse grids to a hundredth; what packs to a thousandth was made for that.
+constexpr std::size_t kMostPacked = 200;          // bytes for each byte of the file,
+constexpr std::size_t kNeverTooMuch = 64u << 20;  // from so many on [bytes]
+
+bool is_too_much(std::size_t size, std::size_t packed, std::size_t limit) {
+  return size > limit || (size > kNeverTooMuch && size / kMostPacked > packed);
+}
+
+}  // namespace
+
+Error too_large_unpacked(std::size_t limit) {
+  return {ErrorCode::out_of_range, "",
+          "The file unpacks to more than " + std::to_string(limit >> 20) +
+              " MiB, the most that is read: cut out the part that you need."};
+}
+
 Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
   const auto refused = [](const char* name) {
     return Error{ErrorCode::parse, "",
@@ -20,7 +38,14 @@ Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
                         "7zXZ"))
     return refused("xz");
   if (bytes.starts_with("PK\x03\x04")) return refused("zip");
+  if (bytes == "\x1F") return Error{ErrorCode::parse, "byte 1", "The packed file is cut off here: fetch or pack it again."};
   if (!bytes.starts_with("\x1F\x8B")) return std::string(bytes);
+  const auto refusal = [&](std::size_t size) {
+    if (size > limit) return too_large_unpacked(limit);
+    return Error{ErrorCode::out_of_range, "",
+                 "The file unpacks to more than " + std::to_string(kMostPacked) +
+                     " times its size, as no map, model or table does: it is not read. Unpack it first if it is one."};
+  };
   std::string text;
   std::array<char, 1 << 16> chunk;
   z_stream stream{};
@@ -28,7 +53,8 @@ Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   stream.avail_in = static_cast<uInt>(bytes.size());
   int state = Z_OK;
-  while (text.size() <= limit) {
+  const auto packed = [&] { return bytes.size() - stream.avail_in; };  // of what is unpacked so far
+  while (!is_too_much(text.size(), packed(), limit)) {
     if (is_stop_wished()) {
       inflateEnd(&stream);
       return stopped_error();
@@ -45,12 +71,9 @@ Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
     }
     if (state != Z_OK) break;
   }
-  const std::size_t read = stream.total_in;
+  const std::size_t read = packed();
   inflateEnd(&stream);
-  if (text.size() > limit)
-    return Error{ErrorCode::out_of_range, "",
-                 "The file unpacks to more than " + std::to_string(limit >> 20) +
-                     " MiB, the most that is read: cut out the part that you need."};
+  if (is_too_much(text.size(), read, limit)) return refusal(text.size());
   if (state != Z_STREAM_END)
     return Error{ErrorCode::parse, "byte " + std::to_string(read),
                  "The packed file is damaged or cut off here: fetch or pack it again."};

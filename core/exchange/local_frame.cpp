@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 
 namespace bl {
@@ -16,7 +17,8 @@ namespace {
 
 // A CRS is kept when 1 m on the ground is 1 m in it within this: UTM (4e-4) passes, web Mercator does not.
 constexpr double kStretchKept = 1e-3;
-constexpr double kProbe = 100;  // [m] half the length over which the stretch is measured
+constexpr double kNearOrigin = 10000;  // [m] so near to 0 the coordinates of a model need no shift
+constexpr double kProbe = 100;         // [m] half the length over which the stretch is measured
 constexpr double kDegree = std::numbers::pi / 180;
 
 double whole(double number, double step) { return std::round(number / step) * step; }
@@ -33,6 +35,7 @@ struct LocalFrame::Transforms {
   PJ* to_degrees = nullptr;  // CRS → longitude, latitude [deg]; null where the CRS is that already
   PJ* to_metres = nullptr;   // longitude, latitude [rad] → own projection; null where the CRS is kept
   PJ* to_target = nullptr;   // longitude, latitude [deg] → CRS of a scene; null where there is none, or it is the file's
+  bool is_of_scene = false;  // the coordinates are local metres already
 
   ~Transforms() {
     proj_destroy(to_degrees);
@@ -115,7 +118,7 @@ Result<void> LocalFrame::use_own_projection() {
 }
 
 void LocalFrame::keep_crs(const std::string& crs, double x, double y, double north_x, double north_y) {
-  reference_ = {crs, std::round(x), std::round(y), 0, 0, std::atan2(north_x, north_y) / kDegree};
+  reference_ = {crs, std::round(x), std::round(y), 0, 0, mathematics::arc_tangent(north_x, north_y) / kDegree};
   proj_destroy(transforms_->to_metres);
   transforms_->to_metres = nullptr;
   const PJ_COORD origin = transforms_->degrees(reference_.origin_x, reference_.origin_y);
@@ -123,7 +126,24 @@ void LocalFrame::keep_crs(const std::string& crs, double x, double y, double nor
   reference_.latitude = origin.xy.y;
 }
 
+LocalFrame LocalFrame::local(double x, double y) {
+  LocalFrame frame;
+  frame.reference_.crs = kLocalCrs;
+  frame.reference_.origin_x = x;
+  frame.reference_.origin_y = y;
+  return frame;
+}
+
 Result<LocalFrame> LocalFrame::make(const std::string& crs, double x, double y, const std::string& database) {
+  if (crs == kLocalCrs) {
+    if (!std::isfinite(x) || !std::isfinite(y))
+      return Error{ErrorCode::not_finite, "crs", "The middle of the coordinates is not finite: the file is damaged."};
+    if (std::abs(x) <= kNearOrigin && std::abs(y) <= kNearOrigin) return local(0, 0);
+    LocalFrame shifted = local(std::round(x), std::round(y));
+    shifted.notes_.push_back("The coordinates lie far from 0: the origin of the scene is at (" + fixed(std::round(x), 0) + ", " +
+                             fixed(std::round(y), 0) + ") of them.");
+    return shifted;
+  }
   LocalFrame frame;
   Transforms& transforms = *frame.transforms_;
   transforms.start();
@@ -155,8 +175,8 @@ Result<LocalFrame> LocalFrame::make(const std::string& crs, double x, double y, 
     if (std::abs(east - 1) > 1e-4)
       frame.notes_.push_back("Lengths are those of " + crs + ": 1 m on the ground is " + fixed(east, 5) + " m in it.");
   } else {
-    frame.notes_.push_back("1 m on the ground is " + fixed(east, 5) + " (east) by " + fixed(north, 5) +
-                           " (north) units of " + crs + ": the plan was projected anew in metres about its middle.");
+    frame.notes_.push_back("1 m on the ground is " + fixed(east, 5) + " (east) by " + fixed(north, 5) + " (north) units of " +
+                           crs + ": the plan was projected anew in metres about its middle.");
   }
   return frame;
 }
@@ -167,6 +187,16 @@ Result<LocalFrame> LocalFrame::into(const std::string& crs, const GeoReference& 
   frame.reference_ = target;
   transforms.start();
   if (crs == target.crs) return frame;  // a plain shift
+  if (crs == kLocalCrs) {
+    transforms.is_of_scene = true;
+    frame.notes_.push_back("The coordinates were taken as metres from the origin of the scene.");
+    return frame;
+  }
+  if (target.crs == kLocalCrs)
+    return Error{
+        ErrorCode::conflict, "crs",
+        "The scene has metres of its own and no place on Earth, so that nothing in " + crs +
+            " has a place in it. Set its coordinate system first, or give `--crs local` if the file is in these metres."};
   if (!is_longitude_latitude(crs)) {
     if (auto opened = transforms.open(crs, database); !opened) return opened.error();
   }
@@ -186,6 +216,7 @@ Result<LocalFrame> LocalFrame::into(const std::string& crs, const GeoReference& 
 }
 
 Point3 LocalFrame::to_local(double x, double y) const {
+  if (transforms_->is_of_scene) return {x, y, 0};
   if (transforms_->to_target != nullptr) {
     const PJ_COORD there = proj_trans(transforms_->to_target, PJ_FWD, transforms_->degrees(x, y));
     return {there.xy.x - reference_.origin_x, there.xy.y - reference_.origin_y, 0};
@@ -196,6 +227,7 @@ Point3 LocalFrame::to_local(double x, double y) const {
 }
 
 Point3 LocalFrame::from_local(double x, double y) const {
+  if (transforms_->is_of_scene) return {x, y, 0};
   const double there_x = x + reference_.origin_x, there_y = y + reference_.origin_y;
   PJ_COORD degree;
   if (transforms_->to_target != nullptr) {
@@ -215,6 +247,7 @@ std::string tidy_crs_name(std::string_view name) {
   while (!name.empty() && (name.back() == ' ' || name.back() == '\t')) name.remove_suffix(1);
   std::string upper(name);
   for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  if (upper == "LOCAL") return kLocalCrs;
   if (upper.ends_with("CRS84") || upper == "WGS84" || upper == "WGS 84") return "OGC:CRS84";
   const std::size_t digits = upper.find_last_not_of("0123456789") + 1;
   const bool has_code = digits > 0 && digits < upper.size() && (upper[digits - 1] == ':' || upper[digits - 1] == '/');
@@ -267,6 +300,7 @@ double unit_of_last_axis(PJ_CONTEXT* context, const PJ* crs) {
 }  // namespace
 
 double height_unit(const std::string& crs, const std::string& database) {
+  if (crs == kLocalCrs) return 1;
   const LooseCrs whole(crs, database);
   if (whole.get() == nullptr) return 1;
   PJ* vertical = whole.is_compound() ? proj_crs_get_sub_crs(whole.context(), whole.get(), 1) : nullptr;
@@ -276,6 +310,7 @@ double height_unit(const std::string& crs, const std::string& database) {
 }
 
 std::string horizontal_crs(const std::string& crs, const std::string& database) {
+  if (crs == kLocalCrs) return crs;
   const LooseCrs whole(crs, database);
   std::string name = crs;
   if (!whole.is_compound()) return name;

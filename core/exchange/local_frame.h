@@ -13,7 +13,7 @@ namespace bl {
 
 /// Where a local frame lies. A local point (x, y) is (origin_x + x, origin_y + y) in `crs`.
 struct GeoReference {
-  std::string crs;                     ///< "EPSG:28992", or a PROJ text of the projection made for the site
+  std::string crs;                     ///< "EPSG:28992", a PROJ text of the projection made for the site, or kLocalCrs
   double origin_x = 0, origin_y = 0;   ///< the local origin in `crs` [m]
   double latitude = 0, longitude = 0;  ///< of the local origin, WGS84 [deg]
   double true_north = 0;               ///< direction of true north, clockwise from local +y [deg]
@@ -25,6 +25,8 @@ struct GeoReference {
 /// "urn:ogc:def:crs:EPSG::28992", "http://www.opengis.net/def/crs/EPSG/0/28992", "epsg:28992" as "EPSG:28992";
 /// all spellings of WGS84 longitude and latitude as "OGC:CRS84"; anything else as it is.
 std::string tidy_crs_name(std::string_view name);
+/// The name that stands for coordinates in metres without a place on Earth: those of a model that somebody drew.
+inline constexpr const char* kLocalCrs = "local";
 /// Does the tidy name mean WGS84 longitude and latitude in degrees?
 bool is_longitude_latitude(std::string_view crs);
 
@@ -41,10 +43,14 @@ double height_unit(const std::string& crs, const std::string& database = "");
 /// its own, which stretches lengths by less than 1e-7 within 2 km.
 class LocalFrame {
  public:
+  /// Of kLocalCrs the coordinates stay as they are; where the middle is far from 0, they are shifted, which a note says.
   /// `x`, `y`: middle of the site in `crs`, east or longitude first. `database`: path of PROJ's proj.db; empty: PROJ finds its
   /// own.
   static Result<LocalFrame> make(const std::string& crs, double x, double y, const std::string& database = "");
-  /// The way from `crs` into a frame that exists already: that of a scene.
+  /// Coordinates of kLocalCrs about an origin.
+  static LocalFrame local(double x, double y);
+  /// The way from `crs` into a frame that exists already: that of a scene. Coordinates in kLocalCrs are those of a scene that has
+  /// another CRS itself.
   static Result<LocalFrame> into(const std::string& crs, const GeoReference& target, const std::string& database = "");
   LocalFrame(LocalFrame&&) noexcept;
   LocalFrame& operator=(LocalFrame&&) noexcept;

@@ -11,6 +11,7 @@
 #include "core/exchange/osm_import.h"
 #include "core/exchange/osm_tags.h"
 #include "core/exchange/plan_cover.h"
+#include "core/exchange/plural.h"
 
 namespace bl {
 
@@ -118,7 +119,7 @@ class Areas {
     const std::vector<Point3> places = in_.places(nodes, missing);
     if (missing > 0) {
       fault = "corners are not in the file";
-      note(mended, std::to_string(missing) + " of " + std::to_string(nodes.size()) + " nodes are missing");
+      note(mended, std::to_string(missing) + " of " + how_many(nodes.size(), "node") + " missing");
       return {};
     }
     if (const std::string far = out_of_reach(*in_.options, places); !far.empty()) {
@@ -163,11 +164,12 @@ class Areas {
     const std::string word = word_for(*tags);
     const bool is_body = is_osm_building(*tags) || is_osm_part(*tags);
     std::string mended, fault;
-    if (missing > 0) note(mended, std::to_string(missing) + " member ways are not in the file");
-    if (repeated > 0) note(mended, std::to_string(repeated) + " member ways that are listed again left out");
+    if (missing > 0) note(mended, how_many(missing, "member way") + by_number(missing, " is", " are") + " not in the file");
+    if (repeated > 0)
+      note(mended, how_many(repeated, "member way") + by_number(repeated, " that is", " that are") + " listed again left out");
     const Joined outlines = join(outer), courts = join(inner);
-    if (outlines.open > 0) note(mended, std::to_string(outlines.open) + " open outer rings left out");
-    if (courts.open > 0) note(mended, std::to_string(courts.open) + " open inner rings left out");
+    if (outlines.open > 0) note(mended, how_many(outlines.open, "open outer ring") + " left out");
+    if (courts.open > 0) note(mended, how_many(courts.open, "open inner ring") + " left out");
     std::vector<Shape> shapes = shapes_of(outlines, is_body, fault, mended);
     if (shapes.empty()) {
       if (fault.empty()) fault = "its outer ring is open";
@@ -184,8 +186,9 @@ class Areas {
     for (const OsmWay* way : outer)
       if (tags == &way->tags || way->tags.empty() || word_for(way->tags) == word) {
         ImportRow& used = in_.row_of(*way);
-        if (used.reason.empty() && tag_of(way->tags, "highway").empty())
-          decide(used, ImportOutcome::taken, "outline of a multipolygon", "relation " + std::to_string(relation.id));
+        if (!used.reason.empty() || !tag_of(way->tags, "highway").empty()) continue;
+        decide(used, ImportOutcome::taken, "outline of a multipolygon", "relation " + std::to_string(relation.id));
+        in_.followers.emplace_back(in_.index_of(used), in_.index_of(row));
       }
   }
 
@@ -315,7 +318,7 @@ class Areas {
       if (on_ground >= wanted && covered_area(grounded) >= 0.99 * wanted) {
         whole.is_dropped = true;
         whole.row->reason = "building, drawn by its parts";
-        note(whole.row->detail, std::to_string(list.size()) + " parts");
+        note(whole.row->detail, how_many(list.size(), "part"));
         for (const std::size_t p : list)
           if (parts_[p].building.height == 0 && whole.building.height > 0) {
             parts_[p].building.height =

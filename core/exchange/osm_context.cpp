@@ -2,6 +2,7 @@
 #include "core/exchange/osm_context.h"
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <set>
 
@@ -32,14 +33,41 @@ std::optional<std::array<double, 2>> middle(const OsmStore& store) {
   return middle_of(std::move(points));
 }
 
+// Which corners each way has, and each relation by its ways: what became of these decides what became of the corners.
+ImportCorners corners_of(const OsmStore& store, std::vector<bool>& is_corner) {
+  ImportCorners corners{"node", "corner of the lines of ways", "corner of lines that nothing was made of", 0, {}};
+  constexpr std::uint32_t kNone = 0xffffffff;
+  std::vector<std::uint32_t> numbers(store.nodes.size(), kNone);
+  const auto add = [&](const OsmWay& way, std::vector<std::uint32_t>& used) {
+    for (const std::int64_t id : way.nodes) {
+      const OsmNode* node = store.node(id);
+      if (node == nullptr || !node->has_position) continue;
+      const auto index = static_cast<std::size_t>(node - store.nodes.data());
+      if (numbers[index] == kNone) numbers[index] = static_cast<std::uint32_t>(corners.number++);
+      is_corner[index] = true;
+      used.push_back(numbers[index]);
+    }
+  };
+  for (std::size_t w = 0; w < store.ways.size(); ++w)
+    add(store.ways[w], corners.users.emplace_back(w, std::vector<std::uint32_t>()).second);
+  for (std::size_t r = 0; r < store.relations.size(); ++r) {
+    // A turn restriction names streets, and is no shape of its own.
+    if (tag_of(store.relations[r].tags, "type") != "multipolygon") continue;
+    auto& used = corners.users.emplace_back(store.ways.size() + r, std::vector<std::uint32_t>()).second;
+    for (const OsmMember& member : store.relations[r].members)
+      if (const OsmWay* way = member.kind == 'w' ? store.way(member.id) : nullptr) add(*way, used);
+  }
+  return corners;
+}
+
 void report_nodes(const OsmStore& store, const LocalFrame& frame, ImportReport& report) {
-  std::set<std::int64_t> used;
-  for (const OsmWay& way : store.ways) used.insert(way.nodes.begin(), way.nodes.end());
-  std::size_t corners = 0, loose = 0, lost = 0;
-  for (const OsmNode& node : store.nodes) {
-    const bool is_used = used.contains(node.id);
+  std::vector<bool> is_corner(store.nodes.size(), false);
+  ImportCorners corners = corners_of(store, is_corner);
+  std::size_t loose = 0, lost = 0;
+  for (std::size_t i = 0; i < store.nodes.size(); ++i) {
+    const OsmNode& node = store.nodes[i];
     if (!node.has_position) ++lost;
-    else if (is_used) ++corners;
+    else if (is_corner[i]) continue;
     else if (node.tags.empty()) ++loose;
     else {
       report.skip("node", "n" + std::to_string(node.id), "a single place: points are not read",
@@ -47,7 +75,6 @@ void report_nodes(const OsmStore& store, const LocalFrame& frame, ImportReport& 
       report.locate(place_of({frame.to_local(node.longitude, node.latitude)}));
     }
   }
-  if (corners > 0) report.take("node", "", "corner of the lines of ways", "", corners);
   if (loose > 0) report.skip("node", "", "neither tags nor a way that uses it", "", loose);
   if (lost > 0) report.skip("node", "", "without a position", "", lost);
   for (const auto& [kind, id] : store.deleted)
@@ -58,6 +85,7 @@ void report_nodes(const OsmStore& store, const LocalFrame& frame, ImportReport& 
   older("node", store.older_nodes);
   older("way", store.older_ways);
   older("relation", store.older_relations);
+  report.set_corners(std::move(corners));
 }
 
 // Ways and relations that nobody wanted, told apart by what people would look for.
@@ -89,7 +117,7 @@ void locate(OsmImport& import) {
     for (const OsmMember& member : import.store->relations[i].members) {
       std::size_t missing = 0;
       const OsmWay* way = member.kind == 'w' ? import.store->way(member.id) : nullptr;
-      const std::vector<Point3> more = way != nullptr      ? places_of(*way)
+      const std::vector<Point3> more = way != nullptr       ? places_of(*way)
                                        : member.kind == 'n' ? import.places({member.id}, missing)
                                                             : std::vector<Point3>();
       points.insert(points.end(), more.begin(), more.end());
@@ -135,7 +163,7 @@ Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& o
   context.source_crs = kDegrees;
   context.reference = frame->reference();
   context.notes = frame->notes();
-  OsmImport import{&*store, &options, &*frame, &context, {}, {}};
+  OsmImport import{&*store, &options, &*frame, &context, {}, {}, {}};
   for (const OsmWay& way : store->ways)
     import.ways.push_back({ImportOutcome::taken, "way", "w" + std::to_string(way.id), "", "", 1, {}, {}});
   for (const OsmRelation& relation : store->relations)
@@ -147,6 +175,7 @@ Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& o
   locate(import);
   for (const std::vector<ImportRow>* rows : {&import.ways, &import.relations})
     for (const ImportRow& row : *rows) context.report.add(row);
+  for (const auto& [row, leader] : import.followers) context.report.follow(row, leader);
   report_nodes(*store, *frame, context.report);
   assume_heights(options, context);
   return context;

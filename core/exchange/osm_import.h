@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/exchange/context_shape.h"
@@ -17,6 +18,7 @@ struct OsmImport {
   const LocalFrame* frame = nullptr;
   Context* context = nullptr;
   std::vector<ImportRow> ways, relations;
+  std::vector<std::pair<std::size_t, std::size_t>> followers;  ///< rows of the report, each with the one that it is taken for
 
   ImportRow& row_of(const OsmWay& way) { return ways[static_cast<std::size_t>(&way - store->ways.data())]; }
   /// Of a row in one of the lists: where it will stand in the report.

@@ -4,6 +4,7 @@
 
 #include "core/exchange/osm_import.h"
 #include "core/exchange/osm_tags.h"
+#include "core/exchange/plural.h"
 
 namespace bl {
 
@@ -103,8 +104,8 @@ class Streets {
   static void settle(ImportRow& row, const OsmRoad& road, std::size_t missing, std::size_t beyond, std::size_t pieces) {
     std::string detail;
     const auto add = [&detail](const std::string& text) { detail += (detail.empty() ? "" : ", ") + text; };
-    if (missing > 0) add(std::to_string(missing) + " nodes are not in the file");
-    if (beyond > 0) add(std::to_string(beyond) + " pieces are out of reach");
+    if (missing > 0) add(how_many(missing, "node") + by_number(missing, " is", " are") + " not in the file");
+    if (beyond > 0) add(how_many(beyond, "piece") + by_number(beyond, " is", " are") + " out of reach");
     if (!road.fault.empty()) add("not understood: " + road.fault);
     if (pieces == 0)
       return decide(row, ImportOutcome::skipped,

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/exchange/context_shape.h"
 #include "core/exchange/geojson_polygons.h"
+#include "core/exchange/plural.h"
 
 namespace bl {
 
@@ -31,7 +33,7 @@ double raw_area(const GeoPolygon& polygon, bool degrees) {
   Ring ring;
   for (const auto& p : polygon.rings[0]) ring.push_back({p[0], p[1], 0});
   const double area = std::abs(signed_area(ring));
-  return degrees && !ring.empty() ? area * std::abs(std::cos(ring[0].y * 0.017453292519943295)) : area;
+  return degrees && !ring.empty() ? area * std::abs(mathematics::cosine(ring[0].y * 0.017453292519943295)) : area;
 }
 
 double raw_area(const GeoFeature& feature) {
@@ -85,12 +87,17 @@ Result<std::size_t> feature_by_size(const GeoDocument& document, std::vector<std
       best = i;
     }
   }
-  const std::size_t others = document.features.size() - with_polygons;
+  const auto broken = static_cast<std::size_t>(std::count_if(
+      document.features.begin(), document.features.end(), [](const GeoFeature& feature) { return feature.fault.has_value(); }));
+  if (broken > 0)
+    notes.push_back("The geometry of " + how_many(broken, "feature") + " cannot be read: such features were left out.");
+  const std::size_t others = document.features.size() - with_polygons - broken;
   if (with_polygons == 0)
     return Error{ErrorCode::missing, "",
-                 "There is no polygon in the file (" + std::to_string(others) +
-                     " other features). A plan boundary must be a Polygon or a MultiPolygon."};
-  if (others > 0) notes.push_back(std::to_string(others) + " features without a polygon were left out.");
+                 "There is no polygon in the file (" + how_many(others, "other feature") +
+                     "). A plan boundary must be a Polygon or a MultiPolygon."};
+  if (others > 0)
+    notes.push_back(how_many(others, "feature") + " without a polygon " + by_number(others, "was", "were") + " left out.");
   if (with_polygons > 1)
     notes.push_back("Of " + std::to_string(with_polygons) + " polygon features the largest was taken, number " +
                     std::to_string(best) + "; choose another one by the option `feature`: an index from 0 to " +
@@ -116,6 +123,7 @@ Result<std::size_t> choose_feature(const GeoDocument& document, const std::strin
           ErrorCode::out_of_range, "feature",
           "There is no feature " + wanted + ": the file has " + std::to_string(document.features.size()) + ", counted from 0."};
   }
+  if (document.features[index].fault) return *document.features[index].fault;
   if (document.features[index].polygons.empty())
     return Error{ErrorCode::wrong_kind, "features/" + std::to_string(index),
                  "This feature has no polygon. A plan boundary must be a Polygon or a MultiPolygon: choose another feature."};
@@ -160,9 +168,11 @@ Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, bool counte
   }
   const RingCleaning cleaning = clean_corners(ring);
   if (cleaning.repeated > 0)
-    notes.push_back("In the ring " + place + ", " + std::to_string(cleaning.repeated) + " repeated points were dropped.");
+    notes.push_back("In the ring " + place + ", " + how_many(cleaning.repeated, "repeated point") +
+                    by_number(cleaning.repeated, " was", " were") + " dropped.");
   if (cleaning.spikes > 0)
-    notes.push_back("In the ring " + place + ", " + std::to_string(cleaning.spikes) + " spikes without width were cut off.");
+    notes.push_back("In the ring " + place + ", " + how_many(cleaning.spikes, "spike") + " without width " +
+                    by_number(cleaning.spikes, "was", "were") + " cut off.");
   if (ring.size() < 3)
     return Error{ErrorCode::geometry, place,
                  "A ring needs at least 3 different points; this one has " + std::to_string(ring.size()) + "."};

@@ -26,7 +26,47 @@ std::vector<std::pair<double, double>> stretches_at(const PlanShape& rings, doub
   return stretches;
 }
 
+// The triangles of a shape, counter-clockwise.
+std::vector<Ring> triangles_of(const PlanShape& shape) {
+  std::vector<Ring> rings;
+  Ring corners;
+  for (const Ring* ring : shape) {
+    rings.push_back(*ring);
+    corners.insert(corners.end(), ring->begin(), ring->end());
+  }
+  std::vector<Ring> triangles;
+  for (const auto& [i, j, k] : polygon_triangles(rings)) triangles.push_back({corners[i], corners[j], corners[k]});
+  return triangles;
+}
+
+// What of a convex ring lies to the left of the line from a to b (Sutherland and Hodgman 1974).
+Ring left_of(const Ring& ring, const Point3& a, const Point3& b) {
+  const auto side = [&](const Point3& p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); };
+  Ring kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point3 &here = ring[i], &next = ring[(i + 1) % ring.size()];
+    const double at = side(here), after = side(next);
+    if (at >= 0) kept.push_back(here);
+    if ((at > 0 && after < 0) || (at < 0 && after > 0)) kept.push_back(here + (next - here) * (at / (at - after)));
+  }
+  return kept;
+}
+
 }  // namespace
+
+double common_area(const PlanShape& a, const PlanShape& b) {
+  const std::vector<Ring> first = triangles_of(a), second = triangles_of(b);
+  const BoxGrid grid = BoxGrid::of(second, [](const Ring& triangle) -> const Ring& { return triangle; });
+  double area = 0;
+  for (const Ring& triangle : first)
+    for (const std::size_t other : grid.meeting(plan_box(triangle))) {
+      Ring common = triangle;
+      for (std::size_t i = 0; i < 3 && common.size() >= 3; ++i)
+        common = left_of(common, second[other][i], second[other][(i + 1) % 3]);
+      if (common.size() >= 3) area += std::abs(signed_area(common));
+    }
+  return area;
+}
 
 Point3 place_inside(const Ring& ring) {
   constexpr std::size_t kMany = 2000;

@@ -18,4 +18,8 @@ using PlanShape = std::vector<const Ring*>;
 /// east, exactly on each of them.
 double covered_area(const std::vector<PlanShape>& shapes);
 
+/// The ground that lies under both shapes [m²], exactly: their triangles are cut by each other. The first ring of a shape is its
+/// outline, the others are holes.
+double common_area(const PlanShape& a, const PlanShape& b);
+
 }  // namespace bl

@@ -21,6 +21,7 @@ namespace bl {
 
 namespace {
 
+constexpr std::size_t kMostPacking = 1000;  // bytes of pixels for each byte of the file, as deflate packs at most
 constexpr std::uint32_t kNodataTag = 42113, kScaleTag = 33550, kTiepointTag = 33922, kMatrixTag = 34264;
 
 // A file in memory as libtiff wants to see it.
@@ -176,8 +177,9 @@ Result<void> read_blocks(TIFF* tiff, const MemoryFile& file, const Sample& sampl
   const std::size_t pixel = sample.bits / 8u * (planar == PLANARCONFIG_CONTIG ? sample.per_pixel : 1u);
   const tmsize_t size = is_tiled ? TIFFTileSize(tiff) : TIFFStripSize(tiff);
   if (width == 0 || height == 0 || size <= 0 || static_cast<std::size_t>(size) < pixel * width * height ||
-      static_cast<std::size_t>(size) > (std::size_t{1} << 29))
-    return Error{ErrorCode::parse, "TIFF", "The blocks of the picture have no sensible size: the file is damaged."};
+      static_cast<std::size_t>(size) > (std::size_t{1} << 29) ||
+      static_cast<std::size_t>(size) / kMostPacking > file.bytes.size())
+    return Error{ErrorCode::parse, "TIFF", "The blocks of the GeoTIFF have no sensible size: it is damaged or cut off."};
   std::vector<unsigned char> block(static_cast<std::size_t>(size));
   for (std::size_t top = 0; top < grid.rows; top += height)
     for (std::size_t left = 0; left < grid.columns; left += width) {
@@ -191,8 +193,8 @@ Result<void> read_blocks(TIFF* tiff, const MemoryFile& file, const Sample& sampl
                                     : TIFFReadEncodedStrip(tiff, number, block.data(), size);
       if (got < 0 || static_cast<std::size_t>(got) < pixel * width * (rows - 1) + pixel * columns)
         return Error{ErrorCode::parse, "block " + std::to_string(number),
-                     "The picture cannot be read from here on" + (file.message.empty() ? "" : " (" + file.message + ")") +
-                         ": is the file complete?"};
+                     "The GeoTIFF cannot be read from here on" + (file.message.empty() ? "" : " (" + file.message + ")") +
+                         ": it is cut off or damaged. Fetch it again."};
       for (std::size_t r = 0; r < rows; ++r)
         for (std::size_t c = 0; c < columns; ++c)
           grid.values[(top + r) * grid.columns + left + c] = sample.read(block.data() + (r * width + c) * pixel);
@@ -230,9 +232,9 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes) {
   MemoryFile file{bytes, 0, {}};
   const Tiff tiff = open(file);
   if (!tiff)
-    return Error{
-        ErrorCode::parse, "TIFF",
-        "The file cannot be read as TIFF" + (file.message.empty() ? "" : " (" + file.message + ")") + ": is it complete?"};
+    return Error{ErrorCode::parse, "TIFF",
+                 "The GeoTIFF cannot be opened" + (file.message.empty() ? "" : " (" + file.message + ")") +
+                     ": it is cut off or damaged. Fetch it again."};
   std::uint32_t width = 0, height = 0;
   Sample sample;
   TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
@@ -254,8 +256,9 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes) {
   grid.crs = crs_of(tiff.get());
   grid.height_unit = height_unit_of(tiff.get());
   // What the file has room for, unpacked a thousand times at most.
-  if (grid.columns * grid.rows / 1000 > bytes.size())
-    return Error{ErrorCode::parse, "TIFF", "The header promises more pixels than the file can hold: is it complete?"};
+  if (grid.columns * grid.rows / kMostPacking > bytes.size())
+    return Error{ErrorCode::parse, "TIFF",
+                 "The header promises more pixels than the file can hold: the GeoTIFF is cut off or damaged."};
   grid.values.assign(grid.columns * grid.rows, 0);
   if (auto done = read_blocks(tiff.get(), file, sample, grid); !done) return done.error();
   if (sample.per_pixel > 1) grid.notes.push_back("Of " + std::to_string(sample.per_pixel) + " bands the first was read.");

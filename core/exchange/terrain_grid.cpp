@@ -13,6 +13,7 @@
 #include "core/exchange/csv_reader.h"
 #include "core/exchange/foreign_bytes.h"
 #include "core/exchange/inflate.h"
+#include "core/exchange/plural.h"
 
 namespace bl {
 
@@ -94,17 +95,19 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
   // A cell takes two characters at least; a header that promises more than the file can hold is not believed.
   if (count > text.size())
     return Error{ErrorCode::parse, "header",
-                 "The header promises " + std::to_string(count) + " cells, more than the file can hold: is it complete?"};
+                 "The header promises " + how_many(count, "cell") + ", more than the file can hold: the ASCII grid is cut off."};
   grid.values.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (i % 65536 == 0 && is_stop_wished()) return stopped_error();
     const std::string_view word = words.next();
     if (word.empty())
       return Error{ErrorCode::parse, "end of the file",
-                   "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) + " cells: is the file complete?"};
+                   "The grid ends after " + std::to_string(i) + " of " + std::to_string(count) +
+                       " cells: the file is cut off. Fetch or export it again."};
     const auto value = number_of(word);
     if (!value && std::any_of(word.begin(), word.end(), [](char c) { return c <= ' ' || c > '~'; }))
-      return Error{ErrorCode::parse, words.place(), "Something stands here that is no number and no text: is the file complete?"};
+      return Error{ErrorCode::parse, words.place(),
+                   "Something stands here that is no number and no text: the ASCII grid is damaged."};
     if (!value) return Error{ErrorCode::parse, words.place(), "`" + std::string(word.substr(0, 40)) + "` is no number."};
     grid.values.push_back(*value == nodata || !std::isfinite(*value) ? kNothing : *value);
   }
@@ -263,8 +266,10 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
   const auto is_absurd = [unit](double value) { return std::isfinite(value) && std::abs(value * unit) > kHighestTop; };
   const auto absurd = std::count_if(grid.values.begin(), grid.values.end(), is_absurd);
   if (absurd > 0)
-    notes.push_back(std::to_string(absurd) +
-                    " cells have heights beyond 100 km and count as without a value: does the file name its own?");
+    notes.push_back(how_many(static_cast<std::size_t>(absurd), "cell") +
+                    by_number(static_cast<std::size_t>(absurd), " has a height", " have heights") + " beyond 100 km and " +
+                    by_number(static_cast<std::size_t>(absurd), "counts", "count") +
+                    " as without a value: does the file name its own?");
   if (absurd == 0 && unit == 1) return local_grid(grid, options, most_cells);
   TerrainGrid metres = grid;
   for (double& value : metres.values) value = is_absurd(value) ? kNothing : value * unit;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/text.h"
+#include "core/exchange/plural.h"
 #include "core/exchange/tntp_lines.h"
 
 namespace bl {
@@ -114,6 +115,22 @@ Result<TrafficLink> link_of(const TntpLine& line, std::span<const std::size_t> p
   return link;
 }
 
+// Counts that files promise are sometimes off by a few; a file that was cut off lacks more, or ends within a row.
+constexpr double kLackTolerated = 0.01;
+
+Result<void> check_whole(const TntpText& text, const std::string& promise, double promised, double held,
+                         const std::string& what) {
+  const std::string remedy = ". Fetch it again";
+  if (text.is_cut_off)
+    return Error{ErrorCode::parse, tntp_line_place(text.lines.back().number),
+                 "the last row lacks the `;` that ends every other one: the file is cut off here" + remedy};
+  if (promised - held > kLackTolerated * promised)
+    return Error{ErrorCode::missing, "<" + promise + ">",
+                 "the file promises " + shortest(promised) + " " + what + " and holds " + shortest(held) + ": it is cut off" +
+                     remedy + ", or correct this line if it is wrong"};
+  return {};
+}
+
 }  // namespace
 
 Result<TntpNetwork> read_tntp_network(std::string_view text) {
@@ -144,6 +161,10 @@ Result<TntpNetwork> read_tntp_network(std::string_view text) {
     else out.links.push_back(std::move(*link));
   }
   if (split->lines.empty()) return Error{ErrorCode::missing, "", "the network has no links; is this the `_net` file?"};
+  if (auto whole =
+          check_whole(*split, "NUMBER OF LINKS", static_cast<double>(*links), static_cast<double>(split->lines.size()), "links");
+      !whole)
+    return whole.error();
   if (split->metadata.contains("NUMBER OF NODES") && last > *nodes)
     out.notes.push_back("The file promises " + std::to_string(*nodes) + " nodes and names node " + std::to_string(last) +
                         "; all are taken.");
@@ -151,7 +172,10 @@ Result<TntpNetwork> read_tntp_network(std::string_view text) {
     out.notes.push_back("The file promises " + std::to_string(*links) + " links and holds " +
                         std::to_string(split->lines.size()) + "; these are taken.");
   if (loops > 0)
-    out.notes.push_back(std::to_string(loops) + " link(s) end where they begin and were left out: nobody gets anywhere by them.");
+    out.notes.push_back(
+        how_many(static_cast<std::size_t>(loops), "link") +
+        by_number(static_cast<std::size_t>(loops), " ends where it begins and was", " end where they begin and were") +
+        " left out: nobody gets anywhere that way.");
   for (std::int64_t n = 1; n <= last; ++n) out.nodes.push_back({std::to_string(n), n >= *through});
   return out;
 }
@@ -214,6 +238,7 @@ Result<TntpTrips> read_tntp_trips(std::string_view text) {
   if (!is_any) return Error{ErrorCode::missing, "", "there is no `Origin` in the text; is this the `_trips` file?"};
   const auto promised = tntp_metadata_number(*split, "TOTAL OD FLOW", out.total);
   if (!promised) return promised.error();
+  if (auto whole = check_whole(*split, "TOTAL OD FLOW", *promised, out.total, "trips"); !whole) return whole.error();
   if (std::abs(*promised - out.total) > 1e-6 * std::max(1.0, out.total))
     out.notes.push_back("The file promises " + shortest(*promised) + " trips and holds " + shortest(out.total) +
                         "; these are taken.");

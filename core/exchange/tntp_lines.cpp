@@ -68,12 +68,17 @@ Result<void> take_metadata(std::string_view line, int number, TntpText& out) {
   return {};
 }
 
+// A row of numbers; `Origin 3` and names of columns never end with `;`.
+bool is_row(const TntpLine& line) { return parse_number(line.fields.front()).has_value(); }
+
 }  // namespace
 
 std::string tntp_line_place(int number) { return "line " + std::to_string(number); }
 
 Result<TntpText> split_tntp(std::string_view text) {
   TntpText out;
+  std::size_t rows = 0, open_rows = 0;  // all, and those that `;` does not end
+  bool is_open = false;                 // the last one is among these
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -89,8 +94,16 @@ Result<TntpText> split_tntp(std::string_view text) {
       if (comment == 0 && out.lines.empty()) out.columns = names_of(line.substr(1));
       line = without_blanks(line.substr(0, comment));
     }
-    if (auto fields = fields_of(line); !fields.empty()) out.lines.push_back({number, std::move(fields), line});
+    if (auto fields = fields_of(line); !fields.empty()) {
+      out.lines.push_back({number, std::move(fields), line});
+      if (is_row(out.lines.back())) {
+        is_open = !line.ends_with(';');
+        open_rows += is_open ? 1 : 0;
+        ++rows;
+      }
+    }
   }
+  out.is_cut_off = is_open && open_rows == 1 && rows > 1 && is_row(out.lines.back());
   // Files of flows and places name their columns in a plain first row.
   if (!out.lines.empty() && !parse_number(out.lines.front().fields.front()) &&
       upper(out.lines.front().fields.front()) != "ORIGIN") {

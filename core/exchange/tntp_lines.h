@@ -18,6 +18,7 @@ struct TntpLine {
 
 /// Metadata by upper-case name; lines that hold data; names of columns where a comment line or the first row gives some.
 struct TntpText {
+  bool is_cut_off = false;  ///< every row but the last one ends with `;`: that one was longer once
   std::map<std::string, std::string> metadata;
   std::vector<TntpLine> lines;
   std::vector<std::string> columns;  ///< lower case, without blanks and underscores

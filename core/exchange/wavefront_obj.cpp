@@ -1,7 +1,9 @@
 // OBJ counts vertices from 1 and over all objects; names end at the first blank.
 #include "core/exchange/wavefront_obj.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <map>
 #include <set>
 
 #include "core/base/text.h"
@@ -30,6 +32,7 @@ std::string one_line(std::string text) {
 std::string write_obj(std::span<const NamedMesh> meshes) {
   std::string out = "# BehaviourLinks: lengths in metres, z up\n";
   std::set<std::string> used;
+  std::map<std::string, int> numbers;  // the last one given to each name
   std::size_t first = 1;
   for (const NamedMesh& named : meshes) {
     if (named.mesh == nullptr || named.mesh->triangles.empty()) {
@@ -38,7 +41,9 @@ std::string write_obj(std::span<const NamedMesh> meshes) {
     }
     const std::string base = object_name(named.name);
     std::string name = base;
-    for (int number = 2; !used.insert(name).second; ++number) name = base + "_" + std::to_string(number);
+    // From where the last one of that name left off: a thousand volumes of one name are not a thousand times a thousand looks.
+    int& number = numbers[base];
+    while (!used.insert(name).second) name = base + "_" + std::to_string(number = std::max(2, number + 1));
     if (name != named.name) out.append("# ").append(one_line(named.name)).append("\n");
     out.append("o ").append(name).append("\n");
     for (const Point3& v : named.mesh->vertices)

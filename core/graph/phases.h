@@ -16,6 +16,9 @@ void evaluate_links(const State& frozen, State& next, ThreadPool& pool);
 void resolve_proposals(const State& frozen, State& next, ThreadPool& pool);
 /// Phase 5: typifications without sets, where an input changed. Parallel over nodes.
 void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool);
+/// What typifications without sets make of their settings where no tick has asked them yet, as far as they keep no memory;
+/// whether there were any. For the eye: in a tick, phase 5 does it.
+bool evaluate_unasked(State& state, ThreadPool& pool);
 /// What typifications with sets keep from tick to tick, by node and type id; no state.
 using SetMemos = std::map<std::pair<std::string, std::string>, Memo>;
 /// Phase 6: typifications with sets; all read what phase 5 left, then all replies are written, in ascending node id. Analyses

@@ -162,6 +162,11 @@ struct Unrest {
   PortRef restless;
 };
 
+// What huge voices add up to may lie beyond all numbers: then the port stays as it is.
+void keep_sound(const Value& before, Value& value) {
+  if (!take_in(value)) value = before;
+}
+
 void resolve_node(const State& frozen, State& next, std::uint32_t n, const Stillness& rest, std::span<const Heard> heard,
                   Unrest& unrest) {
   std::size_t at = 0;
@@ -175,14 +180,16 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, const Still
       while (at < heard.size() && heard[at].target == PortRef{n, t, p}) ++at;
       const auto voices = heard.subspan(first, at - first);
       double tension = 0, move = 0;
+      const Value& before = frozen.nodes[n].types[t].values[p];
       if (port.rule == CombineRule::sum) {
         if (!voices.empty()) resolve_sum(port, type.is_locked[p], rest, voices, state.values[p], tension, move);
+        keep_sound(before, state.values[p]);
         if (port.unit == Unit::metre) unrest.move = std::max(unrest.move, move);
       } else if (port.rule != CombineRule::none) {
-        const Value& before = frozen.nodes[n].types[t].values[p];
         if (port.rule == CombineRule::collect)
           resolve_texts(type.set_values[p], type.is_locked[p], voices, state.values[p], tension);
         else resolve_value(port, type, p, before, rest, voices, state.values[p], tension);
+        keep_sound(before, state.values[p]);
         if (const double change = relative_change(before, state.values[p]); change > unrest.change) {
           unrest.change = change;
           unrest.restless = {n, t, p};

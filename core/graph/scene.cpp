@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/define/port_builder.h"
 
@@ -189,13 +190,13 @@ Unit unit_of(const Registry& registry, const NodeRecord& node, const Typificatio
 Result<NodeRecord*> SceneEdit::node(const std::string& id) {
   const auto it = scene_->nodes.find(id);
   if (it != scene_->nodes.end()) return &it->second;
-  return Error{ErrorCode::not_found, "nodes/" + id, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene_->nodes))};
+  return Error{ErrorCode::not_found, "nodes/" + id, "there is no node `" + id + "`" + did_you_mean_among(id, scene_->nodes)};
 }
 
 Result<LinkRecord*> SceneEdit::link(const std::string& id) {
   const auto it = scene_->links.find(id);
   if (it != scene_->links.end()) return &it->second;
-  return Error{ErrorCode::not_found, "links/" + id, "there is no link `" + id + "`" + did_you_mean(id, keys_of(scene_->links))};
+  return Error{ErrorCode::not_found, "links/" + id, "there is no link `" + id + "`" + did_you_mean_among(id, scene_->links)};
 }
 
 }  // namespace bl

@@ -85,10 +85,12 @@ std::optional<Error> first_work(const State& state);
 /// a city that has settled comes to a standstill.
 bool is_at_rest(const State& state);
 
-/// The hash of everything that the next tick depends on: values, held proposals, the calm count, the tick.
+/// Would it stay in force if its link failed in the next tick? A push must not go on for ever.
+bool is_lasting(const State& state, const Voice& voice);
+
+/// The hash of everything that the next tick depends on: values, who fails, what links want, the calm count, the tick.
 std::uint64_t hash_of(const State& state);
 
-/// Values of a running state as a scene file keeps them, by node and "typification.port"; meshes are not among them.
 /// An analysis as files keep it. One that was running is finished first: its result follows from what it was given.
 struct SavedAnalysis {
   std::int64_t as_of = -1, taken = -1, begun = -1, due = -1;  ///< due is -1 where none was running
@@ -96,13 +98,21 @@ struct SavedAnalysis {
   AnalysisResult result;  ///< of the one that was running
 };
 
+/// What a link wants of a port, named.
+struct SavedVoice {
+  std::string node, path;  ///< "typification.port"
+  Value value;
+};
+
+/// A running state as a scene file keeps it; ports are named "typification.port".
 struct SavedState {
   std::int64_t tick = 0, calm = 0;
-  std::map<std::string, std::map<std::string, Value>> nodes;
-  std::map<std::string, std::vector<std::pair<std::pair<std::string, std::string>, Voice>>>
-      held;                                                               ///< by link: (node, path), voice
+  std::map<std::string, std::map<std::string, Value>> nodes;              ///< by node and port; meshes are not among them
+  std::map<std::string, std::vector<SavedVoice>> voices;                  ///< by link: what would stay in force if it failed
+  std::map<std::pair<std::string, std::string>, Error> errors;            ///< by node and typification: links ask who fails
+  std::map<std::string, Error> link_errors;                               ///< by link, beside those that the plan tells
   std::map<std::pair<std::string, std::string>, SavedAnalysis> analyses;  ///< by node and typification
-  /// By node and path: those that a solver which fails now has made before. All others follow from the values.
+  /// By node and port: those that a solver which fails now has made before. All others follow from the values.
   std::map<std::pair<std::string, std::string>, MeshPointer> meshes;
 };
 SavedState save(const State& state);

@@ -23,8 +23,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uintmax_t kLongestRecording = 64u << 20;  // [bytes]
-constexpr double kOldest = 1e12;                        // [ticks] that a message can have waited
-constexpr std::int64_t kNeverMeasured = -1;             // of a sensor that has no reading
+constexpr double kOldest = 1e12;                         // [ticks] that a message can have waited
+constexpr std::int64_t kNeverMeasured = -1;              // of a sensor that has no reading
 constexpr const char *kSensor = "sensor", *kActuator = "actuator";
 
 // Links of the file system are followed first, so that none of them leads out of the folder.
@@ -39,8 +39,9 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
 Result<Recording> read_table(const LiveOptions& options, const LiveAddress& address) {
   const std::filesystem::path path = std::filesystem::path(options.folder) / address.path;
   if (!options.reads_anywhere && !is_below(options.folder, path))
-    return Error{ErrorCode::io, "",
-                 "it does not lie in the folder of the scene: put it there, or run with --recordings-anywhere if you trust the scene"};
+    return Error{
+        ErrorCode::io, "",
+        "it does not lie in the folder of the scene: put it there, or run with --recordings-anywhere if you trust the scene"};
   const auto text = read_plain_file(path.string(), kLongestRecording);
   if (!text) return text.error();
   return read_recording(*text, address);
@@ -64,7 +65,7 @@ struct Connections::Sensor {
   std::shared_ptr<Station> station;
   std::string known_line;  // as the scene has it
   Recording recording;
-  std::size_t next = 0;       // of the recording
+  std::size_t next = 0;         // of the recording
   std::int64_t last_tick = -1;  // that was asked for
 };
 
@@ -98,7 +99,8 @@ void Connections::begin_recording(Sensor& sensor) {
 }
 
 bool Connections::follow_sensor(const std::string& id, const PortValues& values) {
-  const std::string address = value_of<std::string>(values, "address", ""), known_line = value_of<std::string>(values, "connection", "");
+  const std::string address = value_of<std::string>(values, "address", ""),
+                    known_line = value_of<std::string>(values, "connection", "");
   // What is wrong with an address, the sensor itself says.
   const auto parsed = parse_live_address(address);
   const bool is_wanted = parsed && (options_.opens_network || parsed->scheme == LiveAddress::Scheme::replay);
@@ -219,7 +221,8 @@ void Connections::follow_endpoints() {
 }
 
 bool Connections::has_recordings() const {
-  return std::any_of(sensors_.begin(), sensors_.end(), [](const auto& entry) { return !entry.second->recording.readings.empty(); });
+  return std::any_of(sensors_.begin(), sensors_.end(),
+                     [](const auto& entry) { return !entry.second->recording.readings.empty(); });
 }
 
 // The newest row up to the tick after `tick`. After the clock was set back, that is the row which holds there, once more.
@@ -267,6 +270,17 @@ std::vector<Report> Connections::take(std::int64_t tick) {
   return reports;
 }
 
+namespace {
+
+// Does any link say, or has it last said, what a port should be?
+bool is_steered(const State& state, PortRef port) {
+  return std::any_of(state.links.begin(), state.links.end(), [port](const LinkState& link) {
+    return std::any_of(link.voices.begin(), link.voices.end(), [port](const Voice& voice) { return voice.target == port; });
+  });
+}
+
+}  // namespace
+
 void Connections::send(const State& state) {
   const Clock::time_point now = Clock::now();
   for (auto& [id, actuator] : actuators_) {
@@ -275,6 +289,9 @@ void Connections::send(const State& state) {
     const auto message = state.plan->find(node, {kActuator, "message", ""}),
                value = state.plan->find(node, {kActuator, "value", ""});
     if (!message || !value) continue;
+    // A default that nobody has chosen is no order to a machine.
+    const bool is_set = state.plan->nodes[node].types[value->type].is_set[value->port];
+    if (!is_set && !is_steered(state, *value)) continue;
     const TypeState& type = state.nodes[node].types[message->type];
     if (type.error || !type.is_evaluated) continue;
     const std::string& text = std::get<std::string>(type.values[message->port]);

@@ -4,11 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/file_io.h"
+#include "core/live/unusable_sensors.h"
 #include "core/script/link_script.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
+#include "ui/cli/report/report_model.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/script_file.h"
+#include "ui/cli/script_trial.h"
 #include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
@@ -28,6 +31,37 @@ struct Checked {
   }
 };
 
+// Kinds of scripts that no link uses fail at nobody's tick.
+void try_scripts(const Scene& scene, std::vector<Problem>& problems) {
+  const Registry& types = scene.scripts.types(full_registry());
+  for (const auto& [name, kind] : scene.scripts.kinds()) {
+    const LinkDefinition* definition = types.link(kind);
+    const bool is_used = std::any_of(scene.links.begin(), scene.links.end(), [&id = kind](const auto& entry) {
+      return entry.second.kind == id && entry.second.is_enabled;
+    });
+    if (definition == nullptr || is_used) continue;
+    if (const auto fault = fault_of_kind(*definition, types)) problems.push_back({true, fault->within("scripts/" + name)});
+  }
+}
+
+// A check has no devices: that a sensor has brought nothing yet is no fault of the scene, and neither is it one of what waits for
+// it.
+bool waits_for_sensor(const State& state, const Scene& scene, const Error& error) {
+  constexpr std::string_view kLinks = "links/";
+  if (error.code != ErrorCode::missing || !error.place.starts_with(kLinks)) return false;
+  const std::string id = error.place.substr(kLinks.size(), error.place.find('/', kLinks.size()) - kLinks.size());
+  const auto link = scene.links.find(id);
+  if (link == scene.links.end()) return false;
+  const auto is_silent = [&state](const std::string& node) {
+    const std::uint32_t index = state.plan->node_index(node);
+    if (index >= state.nodes.size() || !report::has_type(state, index, "sensor")) return false;
+    const std::string quality = report::text_at(state, index, "sensor", "quality");
+    return quality == "never" || quality == "stale";
+  };
+  const std::vector<std::string> from = resolve(scene, full_registry(), link->second.from);
+  return std::any_of(from.begin(), from.end(), is_silent);
+}
+
 // What only shows when the scene runs: a boundary that crosses itself, a volume outside, demands that cannot be met.
 void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
   auto session = Session::start(full_registry(), reading.scene, reading.state ? &*reading.state : nullptr, 1);
@@ -36,8 +70,12 @@ void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
   const State& state = *(*session)->state();
   for (Error& error : problems_of(state)) {
     const bool is_known = std::any_of(problems.begin(), problems.end(), [&](const Problem& p) { return p.error == error; });
-    if (!is_known) problems.push_back({true, std::move(error)});
+    if (is_known) continue;
+    const bool is_error = !waits_for_sensor(state, reading.scene, error);
+    problems.push_back({is_error, std::move(error)});
   }
+  for (Error& error : unusable_sensors(reading.scene)) problems.push_back({true, std::move(error)});
+  try_scripts(reading.scene, problems);
   for (const VolumeRow& row : volumes_of(state))
     if (row.state == "coincident" || row.state == "outside" || row.state == "idle")
       problems.push_back(
@@ -54,8 +92,9 @@ Checked check_file(const std::string& file, bool is_writing) {
     return checked;
   }
   if (file.ends_with(".lua")) {
-    if (auto kind = read_link_script(script_name(file), *text, full_registry()); !kind)
-      checked.problems.push_back({true, kind.error()});
+    auto kind = read_link_script(script_name(file), *text, full_registry());
+    if (!kind) checked.problems.push_back({true, kind.error()});
+    else if (auto fault = fault_of_kind(*kind, full_registry())) checked.problems.push_back({true, *fault});
     return checked;
   }
   SceneReading reading = read_scene(*text, full_registry());
@@ -75,12 +114,14 @@ Checked check_file(const std::string& file, bool is_writing) {
 Json checked_json(const std::string& file, const Checked& checked) {
   Json problems = Json::array();
   for (const bool is_error : {true, false})
-    for (const Problem& problem : checked.problems)
-      if (problem.is_error == is_error)
-        problems.push_back({{"severity", is_error ? "error" : "warning"},
-                            {"code", std::string(name_of(problem.error.code))},
-                            {"place", problem.error.place},
-                            {"message", problem.error.message}});
+    for (const Problem& problem : checked.problems) {
+      if (problem.is_error != is_error) continue;
+      const Error error = bounded(problem.error);
+      problems.push_back({{"severity", is_error ? "error" : "warning"},
+                          {"code", std::string(name_of(error.code))},
+                          {"place", error.place},
+                          {"message", error.message}});
+    }
   return {{"file", file},
           {"ok", checked.errors() == 0},
           {"nodes", checked.nodes},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "core/base/stop.h"
 #include "core/base/text.h"
@@ -15,6 +16,7 @@
 #include "core/exchange/geojson_polygons.h"
 #include "core/exchange/inflate.h"
 #include "core/exchange/osm_context.h"
+#include "core/exchange/plural.h"
 #include "core/exchange/terrain_grid.h"
 #include "core/file/file_io.h"
 #include "core/session/ledger.h"
@@ -77,7 +79,12 @@ std::optional<Error> foreign_to_name(const std::string& path, Format format, std
 class Import {
  public:
   Import(const Scene& scene, const ImportOptions& options, const Registry& registry)
-      : scene_(scene), o_(options), registry_(registry), context_(options.context), nodes_(scene, registry) {}
+      : scene_(scene),
+        o_(options),
+        registry_(registry),
+        context_(options.context),
+        nodes_(scene, registry),
+        sites_(scene, registry, options.inside, options.ask_to_clear) {}
 
   ImportedScene run() {
     check();
@@ -88,6 +95,9 @@ class Import {
         read(o_.files[i]);
       }
     if (is_stopped() && result_.errors.empty()) fail("", stopped_error());
+    if (result_.errors.empty()) check_properties();
+    for (const auto& [site, rows] : sites_.exclusions()) nodes_.set_port(site, "boundary.exclusions", Shared<Table>(rows));
+    for (const std::string& note : sites_.notes()) result_.notes.push_back(note);
     result_.notes.insert(result_.notes.end(), nodes_.notes().begin(), nodes_.notes().end());
     result_.nodes = nodes_.made();
     tell_of_ground();
@@ -107,7 +117,11 @@ class Import {
 
  private:
   bool is_stopped() const { return context_.watch != nullptr && context_.watch->is_stopped; }
-  void fail(const std::string& file, Error error) { result_.errors.emplace_back(file, std::move(error)); }
+  void fail(const std::string& file, Error error) {
+    if (!file.empty() && std::find(o_.files.begin(), o_.files.end(), file) != o_.files.end())
+      result_.reports.emplace_back(file, ImportReport()).second.skip("file", "", "it cannot be read", error.text());
+    result_.errors.emplace_back(file, std::move(error));
+  }
   void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
 
   void check() {
@@ -119,15 +133,25 @@ class Import {
     if (!(context_.radius >= 0) || !(context_.neighbour_distance >= 0)) refuse("--radius", "distances must be 0 m or more");
     for (const std::string& property : o_.properties) {
       const std::size_t equals = property.find('=');
-      if (equals == std::string::npos || equals == 0)
+      const std::vector<std::string> known = context_property_names();
+      const std::string ours = property.substr(0, equals);
+      if (equals == std::string::npos || equals == 0 || equals + 1 == property.size()) {
         refuse("--property", "expects OURS=THEIRS such as height=H_MAX, found `" + property + "`");
-      else context_.properties.emplace_back(property.substr(0, equals), property.substr(equals + 1));
+      } else if (std::find(known.begin(), known.end(), ours) == known.end()) {
+        std::string list;
+        for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+        refuse("--property", "there is no property `" + ours + "` that an import looks for" + did_you_mean(ours, known) +
+                                 (did_you_mean(ours, known).empty() ? ". These are: " : " These are: ") + list + ".");
+      } else context_.properties.emplace_back(property.substr(0, equals), property.substr(equals + 1));
     }
     if (o_.kind == "building" || o_.kind == "street" || o_.kind == "plot" || o_.kind == "area") context_.feature_kind = o_.kind;
     const Settings settings = settings_of(scene_);
     if (!settings.coordinate_system.empty())
       context_.target = GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
                                      settings.latitude,          settings.longitude, settings.true_north};
+    // What was drawn without a place on Earth is drawn in the metres of the model.
+    if (o_.origin.empty() && !context_.target && !scene_.nodes.empty() && tidy_crs_name(context_.crs) == kLocalCrs)
+      context_.origin = {0, 0};
     if (o_.origin.empty()) return;
     const std::size_t comma = o_.origin.find(',');
     const auto x = parse_number(o_.origin.substr(0, comma)),
@@ -140,10 +164,28 @@ class Import {
     context_.origin = {*x, *y};
   }
 
+  // A name that no feature has would be passed over in silence, with all that it should have said.
+  void check_properties() {
+    for (const auto& [ours, theirs] : context_.properties) {
+      const bool is_there = std::any_of(properties_.begin(), properties_.end(),
+                                        [&theirs = theirs](const std::string& name) { return lower(name) == lower(theirs); });
+      if (is_there) continue;
+      const std::vector<std::string> names(properties_.begin(), properties_.end());
+      std::string list;
+      for (std::size_t i = 0; i < names.size() && i < 12; ++i) list += (i == 0 ? "" : ", ") + names[i].substr(0, 40);
+      if (names.size() > 12) list += ", ...";
+      const std::string near = did_you_mean(theirs, names);
+      refuse("--property", names.empty()
+                               ? "none of the files has features with properties: leave `" + ours + "=" + theirs + "` out"
+                               : "no feature has a property `" + theirs + "`" + near + (near.empty() ? ". " : " ") +
+                                     "They have: " + list + ".");
+    }
+  }
+
   // The first file decides where the scene lies; all others follow it.
   void settle(const GeoReference& reference) {
     if (context_.target) return;
-    if (!scene_.nodes.empty())
+    if (!scene_.nodes.empty() && reference.crs != kLocalCrs)
       result_.notes.push_back(
           "The scene had no place on Earth: it has that of the first file now, and what was in it is about its origin.");
     nodes_.place(reference);
@@ -153,9 +195,11 @@ class Import {
 
   std::string why_nothing() const {
     std::string questions;
-    if (!o_.origin.empty()) questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
+    if (!o_.origin.empty())
+      questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
     if (context_.radius > 0) questions += "is anything within --radius " + shortest(context_.radius) + " m of the origin? ";
-    if (questions.empty() && context_.target) questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
+    if (questions.empty() && context_.target)
+      questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
     return questions + "--report FILE lists every element with its reason";
   }
 
@@ -174,9 +218,10 @@ class Import {
                              std::any_of(scene_.nodes.begin(), scene_.nodes.end(),
                                          [](const auto& entry) { return entry.second.types.contains("terrain"); });
     if (has_terrain && from_ground_ > 0)
-      result_.notes.push_back(std::to_string(from_ground_) +
-                              " buildings and pieces of street have heights above the ground only: they stand at 0, and the "
-                              "terrain, whose heights count from the sea, lies above or below them.");
+      result_.notes.push_back(how_many(from_ground_, "building or piece of street", "buildings and pieces of street") +
+                              by_number(from_ground_, " has heights above the ground only: it stands",
+                                        " have heights above the ground only: they stand") +
+                              " at 0, and the terrain, whose heights count from the sea, lies above or below.");
   }
 
   template <class Read>
@@ -192,10 +237,11 @@ class Import {
     auto text = unpacked(*bytes);
     if (!text) return fail(file, text.error());
     const std::string name = file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1);
-    making_ = {o_.source.empty() ? name : o_.source, o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets};
+    making_ = {o_.source.empty() ? name : o_.source, o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets, context_.watch};
     const Format format = format_of(file, *text);
     if (text->substr(0, 4096).find("\"behaviourlinks\"") != std::string::npos)
-      return fail(file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
+      return fail(
+          file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
     if (auto foreign = foreign_to_name(file, format, *text)) return fail(file, *foreign);
     if (format == Format::grid) return read_grid(file, *text);
     if (format == Format::table || o_.kind == "layer") return read_layer(file, *text, format);
@@ -213,8 +259,10 @@ class Import {
       result_.notes.push_back(file + ": --as " + o_.kind + " was not needed: the file says what its elements are");
     for (const ContextBuilding& building : context->buildings) from_ground_ += building.is_above_sea ? 0 : 1;
     from_ground_ += context->streets.size();
+    properties_.insert(context->properties.begin(), context->properties.end());
+    sites_.judge(*context);
     take(file, context->report, context->notes, context->reference);
-    nodes_.add(*context, making_, result_.reports.back().second);
+    nodes_.add(*context, making_, sites_, result_.reports.back().second);
   }
 
   void read_grid(const std::string& file, const std::string& text) {
@@ -247,6 +295,8 @@ class Import {
   const Registry& registry_;
   ContextOptions context_;
   ContextNodes nodes_;
+  SiteBuildings sites_;
+  std::set<std::string> properties_;  // of all features
   NodeMaking making_;
   std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea
   ImportedScene result_;

@@ -10,6 +10,7 @@
 #include "core/define/command_builder.h"
 #include "core/exchange/context.h"
 #include "core/graph/scene.h"
+#include "ui/cli/site_buildings.h"
 
 namespace bl::cli {
 
@@ -21,15 +22,18 @@ struct ImportOptions {
   std::vector<std::string> properties;
   std::string value, unit, source, licence;
   ContextOptions context;
+  InsideChoice inside = InsideChoice::unsaid;  ///< of buildings that stand inside a site of the scene
+  AskToClear ask_to_clear;                     ///< who is asked where that is unsaid; empty: they are kept, and a note says so
+  bool keeps = false, clears = false;          ///< as the command line has it; `inside` is what counts
   bool is_forced = false, is_extruded = false, takes_all_streets = false;
 };
 
 /// What came of it. Without a scene there are errors, each with the file that it is in.
 struct ImportedScene {
   std::optional<Scene> scene;
-  Command command;                   ///< leads from the scene that was added to to that one, as one step
-  std::pair<Point3, Point3> bounds;  ///< around all that was added [m]; the first is above the second where nothing was
-  ImportReports reports;
+  Command command;                           ///< leads from the scene that was added to to that one, as one step
+  std::pair<Point3, Point3> bounds;          ///< around all that was added [m]; the first is above the second where nothing was
+  ImportReports reports;                     ///< of a file that could not be read: one row that says so
   std::map<std::string, std::size_t> nodes;  ///< how many were made, by typification
   std::vector<std::string> notes;
   std::vector<std::pair<std::string, Error>> errors;

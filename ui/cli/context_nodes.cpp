@@ -9,6 +9,7 @@
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "core/exchange/plural.h"
 #include "core/exchange/thin_line.h"
 #include "core/geometry/height_grid.h"
 #include "core/geometry/plan_ring.h"
@@ -90,7 +91,9 @@ ContextNodes::ContextNodes(const Scene& scene, const Registry& registry) : regis
 std::string ContextNodes::fresh_id(const std::string& wanted) {
   const std::string stem = to_identifier(wanted);
   std::string id = stem;
-  for (int i = 2; !taken_.insert(id).second; ++i) id = stem + "_" + std::to_string(i);
+  // From where the last one of that stem left off: files with one id for all of their features are large, too.
+  std::size_t& number = numbers_[stem];
+  while (!taken_.insert(id).second) id = stem + "_" + std::to_string(number = std::max<std::size_t>(2, number + 1));
   return id;
 }
 
@@ -124,26 +127,18 @@ void ContextNodes::add_node(const std::string& id, const Json& node) {
   commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({id, {write_json_line(node)}}))));
 }
 
-void ContextNodes::add(const Context& context, const NodeMaking& making, ImportReport& report) {
-  // Of buildings that are drawn by their parts: what the parts became.
-  std::map<std::string, std::vector<std::string>> of_parts;
-  for (const ContextBuilding& building : context.buildings) {
-    if (is_stop_wished()) return;  // what is half made is dropped by who wished it
-    const std::string id = add_building(building, making);
-    if (building.row != kNoRow) report.made(building.row, id);
-    // An outline of several has the number of the outline behind the id of its element.
-    if (!building.whole.empty()) of_parts[building.whole].push_back(id);
-    if (const std::size_t slash = building.whole.rfind('/'); slash != std::string::npos)
-      of_parts[building.whole.substr(0, slash)].push_back(id);
-  }
-  for (std::size_t row = 0; row < report.rows().size(); ++row) {
-    const ImportRow& one = report.rows()[row];
-    const auto parts = of_parts.find(one.id);
-    if (parts != of_parts.end() && one.outcome != ImportOutcome::skipped && one.made.empty())
-      for (const std::string& id : parts->second) report.made(row, id);
-  }
-  std::size_t ground = 0;
+void ContextNodes::set_port(const std::string& node, const std::string& path, const Value& value) {
+  const auto parsed = parse_port_path(path);
+  const auto port = parsed ? registry_->port(*parsed) : Result<const PortDefinition*>(Error{});
+  if (!port) return;
+  const JsonText text{write_json_line(value_to_json(value, **port))};
+  commands_.push_back(write_json_line(command_to_json(*registry_, command<SetPort>({node, {path}, text}))));
+}
+
+void ContextNodes::add(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report) {
   Unused unused;
+  add_buildings(context, making, sites, report, unused);
+  std::size_t ground = 0;
   for (const ContextArea& area : context.areas) {
     if (!area.is_plot) {
       ++ground;
@@ -154,10 +149,42 @@ void ContextNodes::add(const Context& context, const NodeMaking& making, ImportR
     if (area.row != kNoRow) report.made(area.row, id);
   }
   if (ground > 0)
-    notes_.push_back(std::to_string(ground) +
-                     " areas of ground (land use, green, water) became no nodes: there is no typification for them.");
+    notes_.push_back(how_many(ground, "area") + " of ground (land use, green, water) became " +
+                     by_number(ground, "no node", "no nodes") + ": there is no typification for that.");
   if (!context.streets.empty()) add_streets(context, making, report, unused);
   report.drop(unused);
+}
+
+void ContextNodes::add_buildings(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report,
+                                 Unused& unused) {
+  // Of buildings that are drawn by their parts: what the parts became.
+  std::map<std::string, std::vector<std::string>> of_parts;
+  std::set<std::string> cleared;  // buildings of which parts were left out
+  for (std::size_t b = 0; b < context.buildings.size(); ++b) {
+    if (is_stop_wished()) return;  // what is half made is dropped by who wished it
+    if (b % 256 == 0) (void)goes_on(making.watch, "buildings", b, context.buildings.size());
+    const ContextBuilding& building = context.buildings[b];
+    if (sites.is_cleared(b)) {
+      if (building.row != kNoRow) unused[building.row] = SiteBuildings::kClearedReason;
+      cleared.insert(building.whole);
+      continue;
+    }
+    const std::string id = add_building(building, making);
+    if (building.row != kNoRow) report.made(building.row, id);
+    sites.keep(b, building, id, report);
+    // An outline of several has the number of the outline behind the id of its element.
+    if (!building.whole.empty()) of_parts[building.whole].push_back(id);
+    if (const std::size_t slash = building.whole.rfind('/'); slash != std::string::npos)
+      of_parts[building.whole.substr(0, slash)].push_back(id);
+  }
+  for (std::size_t row = 0; row < report.rows().size(); ++row) {
+    const ImportRow& one = report.rows()[row];
+    if (one.id.empty() || one.outcome == ImportOutcome::skipped || !one.made.empty()) continue;
+    const auto parts = of_parts.find(one.id);
+    if (parts != of_parts.end())
+      for (const std::string& id : parts->second) report.made(row, id);
+    else if (cleared.contains(one.id)) unused[row] = SiteBuildings::kClearedReason;
+  }
 }
 
 std::string ContextNodes::add_building(const ContextBuilding& building, const NodeMaking& making) {
@@ -207,14 +234,15 @@ std::string ContextNodes::add_plot(const ContextArea& area) {
 
 void ContextNodes::add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused) {
   if (registry_->typification("junction") == nullptr || registry_->typification("street") == nullptr) {
-    notes_.push_back(std::to_string(context.streets.size()) +
-                     " pieces of street became no nodes: this program has no typifications `junction` and `street`.");
+    notes_.push_back(how_many(context.streets.size(), "piece") +
+                     " of street became no nodes: this program has no typifications `junction` and `street`.");
     return;
   }
   // Ids first: turn rules stand at junctions and name streets.
   std::vector<std::string> street_ids(context.streets.size()), junction_ids(context.junctions.size());
   std::size_t without_cars = 0, loops = 0, without_walkers = 0;
   for (std::size_t s = 0; s < context.streets.size() && !is_stop_wished(); ++s) {
+    if (s % 256 == 0) (void)goes_on(making.watch, "streets", s, context.streets.size());
     const ContextStreet& piece = context.streets[s];
     const auto leave = [&](std::size_t& count, const char* reason) {
       ++count;
@@ -244,17 +272,17 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
   }
   if (without_walkers > 0)
-    notes_.push_back(std::to_string(without_walkers) +
-                     " pieces of street are closed to people on foot, which a street cannot say.");
+    notes_.push_back(how_many(without_walkers, "piece") + " of street " + by_number(without_walkers, "is", "are") +
+                     " closed to people on foot, which a street cannot say.");
   if (!making.licence.empty() && made_.contains("street"))
     notes_.push_back("Streets and junctions have no place for the licence " + making.licence +
                      ": name it beside what you publish.");
   if (without_cars > 0)
-    notes_.push_back(std::to_string(without_cars) +
-                     " pieces of street without cars became no nodes: they are taken where all streets are asked for.");
+    notes_.push_back(how_many(without_cars, "piece") + " of street without cars became " +
+                     by_number(without_cars, "no node", "no nodes") + ": such streets are taken where all are asked for.");
   if (loops > 0)
-    notes_.push_back(std::to_string(loops) +
-                     " pieces of street that end where they begin, without a way between, became no nodes.");
+    notes_.push_back(how_many(loops, "piece") + " of street without any length became " +
+                     by_number(loops, "no node.", "no nodes."));
 }
 
 std::string ContextNodes::add_junction(const ContextJunction& junction, const Json& turns) {

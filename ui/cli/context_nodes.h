@@ -12,6 +12,7 @@
 #include "core/exchange/data_layer.h"
 #include "core/exchange/terrain_grid.h"
 #include "core/session/commands.h"
+#include "ui/cli/site_buildings.h"
 
 namespace bl::cli {
 
@@ -20,6 +21,7 @@ struct NodeMaking {
   std::string source, licence, unit;
   bool is_extruded = false;        ///< buildings from outline and height, even where there is a solid
   bool takes_all_streets = false;  ///< footpaths and the like, too
+  ImportWatch* watch = nullptr;    ///< who waits for it; may be null
 };
 
 /// Collects commands that add nodes; ids are new to the scene and tell what they are and where they come from.
@@ -30,9 +32,12 @@ class ContextNodes {
   /// Sets where the scene lies.
   void place(const GeoReference& reference);
   // Each says in `report`, which is that of the elements, what was made of them.
-  void add(const Context& context, const NodeMaking& making, ImportReport& report);
+  void add(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report);
   void add(const LocalTerrain& terrain, const NodeMaking& making, ImportReport& report);
   void add(const DataLayer& layer, const NodeMaking& making, ImportReport& report);
+
+  /// Sets a port of a node that is there already.
+  void set_port(const std::string& node, const std::string& path, const Value& value);
 
   /// All as one command.
   Command batch() const;
@@ -44,10 +49,12 @@ class ContextNodes {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  std::string fresh_id(const std::string& wanted);
-  std::string add_building(const ContextBuilding& building, const NodeMaking& making);
   /// By row of the report: why an element became no node.
   using Unused = std::map<std::size_t, std::string>;
+  std::string fresh_id(const std::string& wanted);
+  void add_buildings(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report,
+                     Unused& unused);
+  std::string add_building(const ContextBuilding& building, const NodeMaking& making);
   void add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused);
   std::string add_junction(const ContextJunction& junction, const Json& turns);
   void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
@@ -59,7 +66,8 @@ class ContextNodes {
 
   const Registry* registry_;
   std::set<std::string> taken_;
-  std::vector<std::string> commands_;  // each a JSON text
+  std::map<std::string, std::size_t> numbers_;  // the last one given to each stem
+  std::vector<std::string> commands_;           // each a JSON text
   std::map<std::string, std::size_t> made_;
   std::vector<std::string> notes_;
   std::pair<Point3, Point3> bounds_{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};

@@ -1,5 +1,6 @@
 // The words of the commands that make scenes: new, import, place and script.
 #include "ui/cli/declarations.h"
+#include "ui/cli/file_rule.h"
 
 namespace bl::cli {
 
@@ -13,7 +14,9 @@ void declare_script(CLI::App& app, ScriptOptions& o) {
       ->take_all();
   c.add_option("--extract", o.extract, "Writes all scripts of the scene as files into a folder.")->type_name("DIR");
   c.add_option("--out", o.out, "Where the changed scene is written; may be the scene itself.")->type_name("SCENE");
-  c.add_flag("--force", o.is_forced, "Replaces --out where it exists and is another file than the scene.");
+  c.add_flag("--force", o.is_forced,
+             "Replaces --out where it exists and is another file than the scene, and extracted files that were changed since.");
+  files_of(c).reads({"scene", "files"}).writes("--out", FileKind::scene, "scene").fills("--extract", {".lua"});
   c.footer("Example:\n  behaviourlinks script scene.json lean_uphill.lua --out scene.json");
 }
 
@@ -28,10 +31,14 @@ void declare_new(CLI::App& app, NewOptions& o) {
       ->required();
   c.add_option("--out", o.out, "The scene file to write.")->type_name("FILE")->required();
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
+  files_of(c).reads({"--boundary", "--programme"}).writes("--out", FileKind::scene);
   c.add_option("--title", o.title, "Name of the project. Default: the name of the programme's file.")->type_name("TEXT");
   c.add_option("--feature", o.feature, "Which polygon: its index from 0, or PROPERTY=VALUE. Default: the only or largest one.")
       ->type_name("WHICH");
-  c.add_option("--crs", o.crs, "CRS of the boundary in place of what the file says, such as EPSG:28992.")->type_name("CRS");
+  c.add_option(
+       "--crs", o.crs,
+       "CRS of the boundary in place of what the file says, such as EPSG:28992; `local` for metres without a place on Earth.")
+      ->type_name("CRS");
   c.add_flag("--hull", o.use_hull, "Takes the convex hull of a plan that is not convex.");
   c.add_option("--column", o.columns,
                "Names a column that is called otherwise in the table, as often as needed: use=\"Room name\".")
@@ -46,44 +53,67 @@ void declare_new(CLI::App& app, NewOptions& o) {
 }
 
 void declare_import(CLI::App& app, ImportOptions& o) {
-  CLI::App& c = *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
-  c.add_option("files", o.files, "OSM (.osm, .osm.gz, .pbf), CityJSON (.json, .jsonl), GeoJSON, ASCII grid (.asc), GeoTIFF, CSV with coordinates; or pictures (JPEG, PNG).")
+  CLI::App& c =
+      *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
+  c.add_option("files", o.files,
+               "OSM (.osm, .osm.gz, .pbf), CityJSON (.json, .jsonl), GeoJSON, ASCII grid (.asc), GeoTIFF, CSV with coordinates; "
+               "or pictures (JPEG, PNG).")
       ->type_name("FILE")
       ->required();
   c.add_option("--into", o.into, "The scene that is added to. Default: an empty one.")->type_name("SCENE");
   c.add_option("--out", o.out, "The scene file to write.")->type_name("SCENE")->required();
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
-  c.add_option("--as", o.kind, "What the features or the grid are, where the file does not say: building, street, plot, area, terrain, layer.")
+  c.add_option("--as", o.kind,
+               "What the features or the grid are, where the file does not say: building, street, plot, area, terrain, layer.")
       ->type_name("KIND")
       ->check(CLI::IsMember({"building", "street", "plot", "area", "terrain", "layer"}));
-  c.add_option("--crs", o.context.crs, "CRS of the files in place of what they say, such as EPSG:28992.")->type_name("CRS");
-  c.add_option("--origin", o.origin, "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
+  c.add_option("--crs", o.context.crs,
+               "CRS of the files in place of what they say, such as EPSG:28992; `local` for metres of a model that has no place "
+               "on Earth.")
+      ->type_name("CRS");
+  c.add_option("--origin", o.origin,
+               "Origin of the scene as X,Y in the CRS of the first file. Default: the middle of what is in it.")
       ->type_name("X,Y");
-  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m. Default: 0, which takes all.")->type_name("METRES");
+  c.add_option("--radius", o.context.radius, "Takes only what is that near to the origin, in m. Default: 0, which takes all.")
+      ->type_name("METRES");
   c.add_option("--property", o.properties, "Names a property that is called otherwise, as often as needed: height=H_MAX.")
       ->type_name("OURS=THEIRS")
       ->expected(1)
       ->take_all();
   c.add_option("--value", o.value, "Of a data layer: the column or property with the values.")->type_name("NAME");
   c.add_option("--unit", o.unit, "Of a data layer: the unit of the values, such as dB.")->type_name("UNIT");
-  c.add_option("--source", o.source, "Who made the data, for the nodes that keep it. Default: the name of the file.")->type_name("TEXT");
+  c.add_option("--source", o.source, "Who made the data, for the nodes that keep it. Default: the name of the file.")
+      ->type_name("TEXT");
   c.add_option("--licence", o.licence, "What may be done with the data, for the nodes that keep it.")->type_name("TEXT");
-  c.add_option("--height-unit", o.context.height_unit,
-               "Metres of one unit of height in city models and terrains, such as 0.3048. Default: what the file or its CRS says.")
+  c.add_option(
+       "--height-unit", o.context.height_unit,
+       "Metres of one unit of height in city models and terrains, such as 0.3048. Default: what the file or its CRS says.")
       ->type_name("METRES");
-  c.add_option("--storey-height", o.context.storey_height, "Height of storeys where only their number is known, in m. Default: 3.2.")
+  c.add_option("--storey-height", o.context.storey_height,
+               "Height of storeys where only their number is known, in m. Default: 3.2.")
       ->type_name("METRES");
-  c.add_option("--default-height", o.context.default_height, "Height of buildings that nothing is known about, in m. Default: 9.6.")
+  c.add_option("--default-height", o.context.default_height,
+               "Height of buildings that nothing is known about, in m. Default: 9.6.")
       ->type_name("METRES");
-  c.add_option("--neighbours", o.context.neighbour_distance, "How near buildings are whose heights are taken over, in m. Default: 100.")
+  c.add_option("--neighbours", o.context.neighbour_distance,
+               "How near buildings are whose heights are taken over, in m. Default: 100.")
       ->type_name("METRES");
-  c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")->type_name("LEVEL");
+  c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")
+      ->type_name("LEVEL");
   c.add_flag("--extruded", o.is_extruded, "Makes buildings from outline and height even where the file has solids.");
   c.add_flag("--all-streets", o.takes_all_streets, "Takes footpaths, cycleways and steps as well, not only streets for cars.");
+  c.add_flag("--keep", o.keeps,
+             "Of buildings inside a site of the scene: keeps them, and the site leaves out their ground up to their roofs. "
+             "Default: asks; without a terminal, keeps them.");
+  c.add_flag(
+      "--clear", o.clears,
+      "Of buildings inside a site of the scene: leaves them out. What is inside with less than half of its ground is kept.");
   c.add_option("--report", o.report, "Writes what became of every single element as CSV.")->type_name("FILE");
+  files_of(c).reads({"files", "--into"}).writes("--out", FileKind::scene, "--into").writes("--report", FileKind::table);
   c.footer(
       "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
-      "--report import.csv\n\nHeights that are not in the file are assumed, and marked as such. Exit codes: 0 imported; 2 bad input, "
+      "--report import.csv\n\nHeights that are not in the file are assumed, and marked as such. Exit codes: 0 imported; 2 bad "
+      "input, "
       "nothing written.");
 }
 
@@ -93,6 +123,7 @@ void declare_place(CLI::App& app, PlaceOptions& o) {
   c.add_option("--into", o.into, "The scene.")->type_name("SCENE")->required();
   c.add_option("--out", o.out, "Where the scene is written. Default: the same file.")->type_name("SCENE");
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists and is another file than the scene.");
+  files_of(c).reads({"pictures", "--into"}).writes("--out", FileKind::scene, "--into");
   c.add_option("--at", o.at, "Position in m. Default: by the coordinates in the picture.")->type_name("X Y Z")->expected(3);
   c.add_option("--placement", o.media.placement, "Default: camera where the picture says where it looked, else billboard.")
       ->check(CLI::IsMember({"ground", "billboard", "camera"}));

@@ -1,11 +1,19 @@
 // `import`: adds the surroundings of a site to a scene, and says what became of every element.
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <system_error>
+#include <thread>
 
 #include "core/file/file_io.h"
 #include "core/session/ledger.h"
 #include "ui/cli/commands.h"
+#include "ui/cli/interrupt.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/terminal.h"
 
@@ -15,6 +23,7 @@ namespace {
 
 void print_counts(const ImportedScene& imported) {
   for (const auto& [file, report] : imported.reports) {
+    if (report.total("file") > 0) continue;  // it could not be read, which is told as an error
     print_line(file, Colour::bold);
     TextTable table({{"outcome"}, {"kind"}, {"number", true}, {"what it is, or why not"}});
     for (const auto& [key, number] : report.counts()) {
@@ -36,6 +45,78 @@ bool is_there(const std::string& file) {
   return ::stat(file.c_str(), &status) == 0;
 }
 
+// Shows on a terminal how far an import is, and has Ctrl-C end it between two elements. Without a thread to be had it is silent.
+class ImportDisplay {
+ public:
+  ImportDisplay(const std::vector<std::string>& files, ImportWatch& watch) : files_(files), watch_(watch) {
+    catch_interrupts();
+    try {
+      thread_ = std::thread([this] { run(); });
+    } catch (const std::system_error&) {}
+  }
+  ~ImportDisplay() { end(); }
+  ImportDisplay(const ImportDisplay&) = delete;
+  ImportDisplay& operator=(const ImportDisplay&) = delete;
+
+  void end() {
+    is_over_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+  /// While somebody is asked something.
+  void pause(bool is_paused) {
+    is_paused_ = is_paused;
+    if (is_paused) std::this_thread::sleep_for(3 * kLook);
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kLook{50};
+
+  void run() {
+    Progress progress;
+    const bool is_terminal = ::isatty(STDERR_FILENO) == 1;
+    while (!is_over_) {
+      std::this_thread::sleep_for(kLook);
+      if (is_interrupted()) watch_.is_stopped = true;
+      if (is_paused_) progress.clear();
+      else if (is_terminal && progress.is_due()) progress.show(line());
+    }
+  }
+
+  std::string line() const {
+    const std::size_t file = std::min<std::size_t>(watch_.file, files_.size() - 1), done = watch_.done, total = watch_.total;
+    std::string text = files_[file] + ": " + watch_.step.load();
+    if (done > 0) text += " " + std::to_string(done);
+    return total > 0 ? text + " of " + std::to_string(total) : text;
+  }
+
+  const std::vector<std::string>& files_;
+  ImportWatch& watch_;
+  std::atomic<bool> is_over_{false}, is_paused_{false};
+  std::thread thread_;
+};
+
+// Asks on the terminal what becomes of buildings that stand inside a site.
+bool asks_to_clear(std::size_t buildings, const std::string& site) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "%s\n",
+               shown(counted(buildings, "building") + (buildings == 1 ? " stands" : " stand") + " inside the site `" + site +
+                     "`. Keep " + (buildings == 1 ? "it" : "them") + ", so that nothing is built there, or clear the site?")
+                   .c_str());
+  std::fputs("keep / clear [keep]: ", stderr);
+  std::fflush(stderr);
+  char answer[16] = "";
+  if (std::fgets(answer, sizeof answer, stdin) == nullptr) return false;
+  return answer[0] == 'c' || answer[0] == 'C';
+}
+
+// An old report must not stand for an import that failed.
+bool write_report(const ImportOptions& options, const ImportReports& reports) {
+  if (options.report.empty()) return true;
+  auto written = write_file(options.report, import_csv(reports));
+  if (!written) print_error(options.report, written.error());
+  return written.ok();
+}
+
 // Pictures alone: as `place` does it.
 int import_pictures(const ImportOptions& options) {
   if (options.into.empty()) {
@@ -53,30 +134,58 @@ int import_pictures(const ImportOptions& options) {
 
 }  // namespace
 
-int import_command(const ImportOptions& options) {
-  if (std::all_of(options.files.begin(), options.files.end(), is_picture_name)) return import_pictures(options);
+int import_command(const ImportOptions& given) {
+  if (std::all_of(given.files.begin(), given.files.end(), is_picture_name)) return import_pictures(given);
+  ImportOptions options = given;
+  if (options.keeps && options.clears) {
+    complain("--keep and --clear say two things of the same buildings: choose one.");
+    return kBadInput;
+  }
+  if (options.keeps || options.clears) options.inside = options.clears ? InsideChoice::clear : InsideChoice::keep;
   const Registry& registry = full_registry();
   Scene scene;
   if (!options.into.empty()) {
     auto reading = load_scene(options.into);
-    if (!reading) return kBadInput;
+    if (!reading) {
+      ImportReports nothing;
+      for (const std::string& file : options.files)
+        nothing.emplace_back(file, ImportReport()).second.skip("file", "", "the scene that it was to be added to cannot be read");
+      (void)write_report(options, nothing);
+      return kBadInput;
+    }
     scene = std::move(reading->scene);
   }
   const bool is_taken = !options.is_forced && is_there(options.out);
   if (is_taken)
     print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
+  ImportWatch watch;
+  options.context.watch = &watch;
+  std::optional<ImportDisplay> display(std::in_place, options.files, watch);
+  if (::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1)
+    options.ask_to_clear = [&display](std::size_t buildings, const std::string& site) {
+      display->pause(true);
+      const bool is_clearing = asks_to_clear(buildings, site);
+      display->pause(false);
+      return is_clearing;
+    };
   const ImportedScene imported = import_context(scene, options, registry);
+  std::vector<Problem> problems;
+  std::string text;
+  if (!is_taken && imported.scene) {
+    (void)goes_on(&watch, "checking the scene", 0, 0);
+    problems = check_scene(*imported.scene, registry);
+    (void)goes_on(&watch, "writing the scene", 0, 0);
+    text = write_scene(*imported.scene, registry);
+  }
+  display.reset();
   print_counts(imported);
   for (const std::string& note : imported.notes) print_line("note: " + note);
   for (const auto& [file, error] : imported.errors) print_error(file, error);
-  if (!options.report.empty() && !imported.reports.empty())
-    if (auto written = write_file(options.report, import_csv(imported.reports)); !written) {
-      print_error(options.report, written.error());
-      return kBadInput;
-    }
+  if (!write_report(options, imported.reports)) return kBadInput;
+  if (is_interrupted()) return interrupt_exit_code();
   if (is_taken || !imported.scene) return kBadInput;
-  print_problems(options.out, check_scene(*imported.scene, registry));
-  if (auto written = write_file(options.out, write_scene(*imported.scene, registry)); !written) {
+  print_problems(options.out, problems);
+  if (auto written = write_file(options.out, text); !written) {
     print_error(options.out, written.error());
     return kBadInput;
   }

@@ -6,9 +6,10 @@
 #include <thread>
 
 #include "core/base/text.h"
+#include "core/live/unusable_sensors.h"
 #include "ui/cli/interrupt.h"
-#include "ui/cli/scene_loading.h"
 #include "ui/cli/report/report_model.h"
+#include "ui/cli/scene_loading.h"
 #include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
@@ -28,7 +29,8 @@ std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "s
 std::string reading_of(const State& state, const std::string& node) {
   const std::uint32_t index = state.plan->node_index(node);
   if (index >= state.nodes.size()) return "it is no longer in the scene";
-  const std::string unit = report::text_at(state, index, "sensor", "unit"), message = report::text_at(state, index, "sensor", "message");
+  const std::string unit = report::text_at(state, index, "sensor", "unit"),
+                    message = report::text_at(state, index, "sensor", "message");
   return shortest(report::number_at(state, index, "sensor", "value")) + (unit.empty() ? "" : " " + unit) + ", " +
          report::text_at(state, index, "sensor", "quality") + (message.empty() ? "" : " (" + message + ")");
 }
@@ -65,8 +67,15 @@ LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate, bool 
 
 void LiveRun::before_tick(Session& session) {
   connections_.follow(session.scene());
+  if (is_live_) tell_unusable(session.scene());
   for (const Report& report : connections_.take(session.state()->tick))
     if (auto done = session.submit(report.command, report.author); !done) print_error(report.author, done.error());
+}
+
+// Once for each fault: an address may be set while the scene runs.
+void LiveRun::tell_unusable(const Scene& scene) {
+  for (const Error& error : unusable_sensors(scene))
+    if (unusable_.insert(error.text()).second) print_error("", error);
 }
 
 void LiveRun::after_tick(const Session& session) {
@@ -114,8 +123,8 @@ void LiveRun::sum_up(const State& state) const {
       text += counted(static_cast<std::size_t>(t.received), "message") + ", " + std::to_string(t.skipped) + " of them skipped" +
               (status.is_recording && status.rows > 0 ? rows_of(status) : "") + "; at the end " + reading_of(state, status.node);
     else
-      text += counted(static_cast<std::size_t>(t.sent), "message") + " sent, " + std::to_string(t.acknowledged) + " acknowledged, " +
-              std::to_string(t.replaced) + " replaced by newer ones";
+      text += counted(static_cast<std::size_t>(t.sent), "message") + " sent, " + std::to_string(t.acknowledged) +
+              " acknowledged, " + std::to_string(t.replaced) + " replaced by newer ones";
     print_line(text);
   }
 }

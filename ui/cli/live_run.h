@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <map>
+#include <set>
 #include <string>
 
 #include "core/live/connections.h"
@@ -26,12 +27,14 @@ class LiveRun {
 
  private:
   void tell();
+  void tell_unusable(const Scene& scene);
   void tell_readings(const State& state);
 
   bool is_live_;
   double rate_;
   Connections connections_;
   std::map<std::string, std::string> told_;  // by sensor or actuator: the last sentence about its connection
+  std::set<std::string> unusable_;           // sentences about sensors' addresses that were told
   std::map<std::string, std::string> read_;  // by node: the last sentence about its value
   std::chrono::steady_clock::time_point told_readings_;
   std::chrono::steady_clock::time_point due_;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "core/file/log_writer.h"
@@ -118,7 +119,9 @@ class Run {
     history_.push_back(sample);
   }
 
+  // What an interrupt meets in mid-tick is dropped: the tick before it is the last one.
   void tick_until_done() {
+    const StopScope scope(is_interrupted);
     const bool is_settling = options_.ticks < 0 && !options_.is_live;
     const long long most = is_settling           ? options_.max_ticks
                            : options_.ticks >= 0 ? options_.ticks
@@ -129,7 +132,7 @@ class Run {
     for (long long done = 0; done < most && !is_interrupted(); ++done) {
       before_ = session_->state();
       live_.before_tick(*session_);
-      session_->tick();
+      if (!session_->tick()) return;
       live_.after_tick(*session_);
       const std::shared_ptr<const State> state = session_->state();
       record(*state);
@@ -170,6 +173,8 @@ class Run {
       is_saved &= write(options_.log, log_.close());
     }
     if (!options_.save.empty()) {
+      // An analysis that is under way would be waited for.
+      const StopScope scope(is_interrupted);
       const SavedState saved = save(*state);
       is_saved &= write(options_.save, write_file(options_.save, write_scene(session_->scene(), full_registry(), &saved)));
     }

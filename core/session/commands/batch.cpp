@@ -1,6 +1,10 @@
 // Several commands as one: all of them, or none.
+#include <algorithm>
+#include <iterator>
+
 #include <nlohmann/json.hpp>
 
+#include "core/base/stop_check.h"
 #include "core/define/codec.h"
 #include "core/session/support.h"
 
@@ -12,23 +16,38 @@ void Batch::declare(CommandBuilder<Batch>& c) {
   c.argument(&In::commands, "commands").required().doc("A list of commands, each {\"command\": ..., \"arguments\": {...}}.");
 }
 
+namespace {
+
+// Appends the commands that undo one step from the last to the first: the whole list is turned once, so that a long batch costs
+// no more for each step than a short one.
+void append_backwards(std::vector<Command>& list, std::vector<Command>& step) {
+  list.insert(list.end(), std::make_move_iterator(step.rbegin()), std::make_move_iterator(step.rend()));
+}
+
+}  // namespace
+
 Inverse Batch::apply(SceneEdit& edit, const In& in) {
   auto list = parse_json(in.commands.text);
   if (!list) return list.error().within("commands");
   if (!list->is_array()) return Error{ErrorCode::wrong_kind, "commands", "expects a list of commands"};
   if (list->empty()) return Error{ErrorCode::missing, "commands", "an empty batch changes nothing"};
-  std::vector<Command> inverse;
+  std::vector<Command> backwards;
   for (std::size_t i = 0; i < list->size(); ++i) {
     auto step = command_from_json(edit.registry(), (*list)[i], "commands/" + std::to_string(i));
     Inverse undo = step ? bl::apply(edit, *step) : Inverse(step.error());
+    if (undo && i % 256 == 0 && is_stop_wished()) {
+      append_backwards(backwards, *undo);
+      undo = Error{ErrorCode::cancelled, "commands", "This was stopped; nothing was changed."};
+    }
     if (!undo) {
       // The steps so far are taken back; each inverse was made for exactly this scene, so it fits.
-      for (const Command& back : inverse) (void)bl::apply(edit, back);
+      std::for_each(backwards.rbegin(), backwards.rend(), [&edit](const Command& back) { (void)bl::apply(edit, back); });
       return undo.error();
     }
-    inverse.insert(inverse.begin(), undo->begin(), undo->end());
+    append_backwards(backwards, *undo);
   }
-  return inverse;
+  std::reverse(backwards.begin(), backwards.end());
+  return backwards;
 }
 
 }  // namespace bl

@@ -112,7 +112,7 @@ TEST(PlanBoundary, CleansRingsAndTurnsThem) {
   EXPECT_FALSE(plan->is_convex);
   ASSERT_EQ(plan->holes.size(), 1u);
   EXPECT_LT(signed_area(plan->holes[0]), 0);
-  EXPECT_TRUE(has_note(*plan, "In the ring coordinates/0, 1 repeated points were dropped."));
+  EXPECT_TRUE(has_note(*plan, "In the ring coordinates/0, 1 repeated point was dropped."));
   EXPECT_TRUE(has_note(*plan, "1 hole with 100 m² stays open: nothing is built there."));
   const ConvexPlan convex = convex_hull_plan(*plan);
   EXPECT_DOUBLE_EQ(convex.area, 5000);
@@ -167,7 +167,7 @@ TEST(PlanBoundary, ChoosesFeatures) {
   EXPECT_TRUE(has_note(*largest,
                        "Of 2 polygon features the largest was taken, number 2; choose another one by the option `feature`: an "
                        "index from 0 to 2, or property=value."));
-  EXPECT_TRUE(has_note(*largest, "1 features without a polygon were left out."));
+  EXPECT_TRUE(has_note(*largest, "1 feature without a polygon was left out."));
   EXPECT_TRUE(has_note(*largest, "The feature has 2 separate polygons; only the largest was taken, number 1."));
   EXPECT_TRUE(has_note(*largest, "The third numbers of the positions (heights) were left out: a plan is flat."));
   EXPECT_DOUBLE_EQ(read_plan_boundary(kThree, {.feature = "0", .crs = "", .proj_database = ""})->area, 50);
@@ -222,7 +222,7 @@ TEST(PlanBoundary, RingErrors) {
 TEST(PlanBoundary, FormatErrors) {
   EXPECT_EQ(boundary_error_of(""), "line 1, column 1: The file is empty: GeoJSON is needed.");
   EXPECT_EQ(boundary_error_of("{\n\"type\": oops}"),
-            "line 2, column 9: The text is not valid JSON from here on; is the file complete, and is it GeoJSON?");
+            "line 2, column 9: The text is not valid JSON from here on: it is damaged, or no GeoJSON at all.");
   EXPECT_EQ(boundary_error_of("[1, 2]"),
             "This is JSON but not GeoJSON: it has no member `type`. A FeatureCollection, a Feature or a geometry is needed.");
   EXPECT_EQ(boundary_error_of(R"({"type":"Polygn","coordinates":[]})"),

@@ -77,14 +77,23 @@ TEST(Tntp, VariantsOfTheFormatAreRead) {
 
 TEST(Tntp, WrongCountsAreNotedAndNothingIsLost) {
   const std::string net = kNet;
-  EXPECT_EQ(read_tntp_network(replaced(net, "LINKS> 3", "LINKS> 7"))->notes.size(), 1u);
+  EXPECT_EQ(read_tntp_network(replaced(net, "LINKS> 3", "LINKS> 2"))->notes.size(), 1u);
+  const auto cut = read_tntp_network(replaced(net, "LINKS> 3", "LINKS> 7"));
+  ASSERT_FALSE(cut.ok());
+  EXPECT_EQ(cut.error().text(),
+            "<NUMBER OF LINKS>: the file promises 7 links and holds 3: it is cut off. Fetch it again, or correct this line if it is wrong");
   const auto more = read_tntp_network(replaced(net, "NODES> 4", "NODES> 2"));
   EXPECT_EQ(more->nodes.size(), 3u);
   EXPECT_EQ(more->notes.size(), 1u);
   const auto loop = read_tntp_network(net + "\t3\t3\t1\t1\t1\t0\t0\t0\t0\t1\t;\n");
   EXPECT_EQ(loop->links.size(), 3u);
   EXPECT_EQ(loop->notes.size(), 2u) << "another number of links, and one that was left out";
-  EXPECT_EQ(read_tntp_trips(replaced(kTrips, "12.5", "13"))->notes.size(), 1u);
+  EXPECT_EQ(read_tntp_trips(replaced(kTrips, "12.5", "12.55"))->notes.size(), 1u);
+  EXPECT_EQ(read_tntp_trips(replaced(kTrips, "12.5", "12"))->notes.size(), 1u) << "more than promised is not cut off";
+  EXPECT_EQ(read_tntp_trips(replaced(kTrips, "12.5", "25")).error().place, "<TOTAL OD FLOW>") << "half of them are missing";
+  const auto open = read_tntp_trips("<TOTAL OD FLOW> 12\nOrigin 1\n2 : 3;\n3 : 4;\n4 : 5");
+  ASSERT_FALSE(open.ok());
+  EXPECT_EQ(open.error().place, "line 5") << "it was 50 perhaps";
 }
 
 TEST(Tntp, ErrorsSayWhere) {

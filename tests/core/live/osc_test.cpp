@@ -162,5 +162,36 @@ TEST(Osc, AnActuatorSendsANumberOrAText) {
   EXPECT_EQ(heard[1], packet("/say", "s", padded("25000 cm")));
 }
 
+// A default is no order: a machine hears nothing before somebody has said something, be it the default itself.
+TEST(Osc, AnActuatorThatNobodySteersIsSilent) {
+  const Loopback ear(SOCK_DGRAM);
+  const std::string place = "osc://127.0.0.1:" + std::to_string(ear.port());
+  LiveWorld live(
+      R"({"id": "a", "types": {"actuator": {"address": ")" + place + R"(/dim"}}},
+    {"id": "b", "types": {"actuator": {"address": ")" +
+          place + R"(/told", "value": 0}}},
+    {"id": "c", "types": {"actuator": {"address": ")" +
+          place + R"(/led"}}}, {"id": "s", "types": {"sensor": {}}})",
+      R"({"id": "l", "kind": "sensor_to_parameter", "from": "s", "to": "c", "parameters": {"target": "actuator.value"}})");
+  std::vector<std::string> heard;
+  const auto listen = [&] {
+    if (const std::string bytes = ear.received(); !bytes.empty()) heard.push_back(bytes);
+  };
+  ASSERT_TRUE(live.steps_until([&] {
+    listen();
+    return !heard.empty();
+  }));
+  for (int i = 0; i < 20; ++i) live.step(), listen();
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0], packet("/told", "f", real(0))) << "somebody has said 0";
+  // Its sensor speaks: now the link does, too.
+  ASSERT_EQ(live.world().submit(command<Receive>({"s", 3, "", "", live.world().state().tick + 1, false})), "");
+  ASSERT_TRUE(live.steps_until([&] {
+    listen();
+    return heard.size() > 1;
+  }));
+  EXPECT_EQ(heard[1], packet("/led", "f", real(3)));
+}
+
 }  // namespace
 }  // namespace bl

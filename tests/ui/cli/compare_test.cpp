@@ -1,4 +1,6 @@
 // `compare`: what people set differently, what became of it, and scenes that cannot be compared.
+#include <cctype>
+
 #include <gtest/gtest.h>
 
 #include "tests/ui/cli/program.h"
@@ -63,6 +65,27 @@ TEST(Compare, RatiosThatAreNoSharesArePlainNumbers) {
   EXPECT_NE(gsi.find('%'), gsi.rfind('%')) << gsi;
   for (const char* inner : {": error", ": weight", ": radius", ": spherical area"})
     EXPECT_EQ(outcome.out.find(inner), std::string::npos) << outcome.out;
+}
+
+// What was next to nothing has no percentage: a limit that winds a volume down to nothing is told in cubic metres.
+TEST(Compare, PercentagesOfNothingAreNotPrinted) {
+  const Workplace place;
+  const auto scene = [](const std::string& more) {
+    return scene_text(volume_text("west", "[-8, 0, 8]", "1500") +
+                      R"(, {"id": "east", "position": [8, 0, 8], "types": {"smart_volume": {"demand": 2000)" + more + "}}}");
+  };
+  place.write("a.json", scene(R"(, "demand_limit": 1e-9)"));
+  place.write("b.json", scene(""));
+  const Outcome outcome = place.run({"compare", "a.json", "b.json", "--ticks", "60", "--report", "d.html"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (std::string line : {outcome.out, place.text("d.html")})
+    for (std::size_t at = line.find('%'); at != std::string::npos; at = line.find('%', at + 1)) {
+      std::size_t digits = 0, begin = at;
+      while (begin > 0 && std::string("0123456789. +-\xE2\x80\xAF\xC2\xA0\x88\x92").find(line[begin - 1]) != std::string::npos)
+        digits += std::isdigit(static_cast<unsigned char>(line[--begin])) != 0 ? 1 : 0;
+      EXPECT_LE(digits, 7u) << line.substr(begin, at - begin + 1);
+    }
+  EXPECT_NE(outcome.out.find("missing of the volume asked for"), std::string::npos) << outcome.out;
 }
 
 TEST(Compare, BadScenesAreToldWithTheirPlace) {

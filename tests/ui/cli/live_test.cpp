@@ -52,7 +52,8 @@ TEST(Live, RecordingsArePlainFilesBesideTheScene) {
   place.write("inner/scene.json", scene("replay:../t.csv#demand"));
   const Outcome refused = run(place, "run inner/scene.json --ticks 2");
   EXPECT_NE(refused.err.find("does not lie in the folder of the scene"), std::string::npos) << refused.err;
-  EXPECT_NE(run(place, "run inner/scene.json --ticks 2 --recordings-anywhere").out.find("sensor s: 1 message"), std::string::npos);
+  EXPECT_NE(run(place, "run inner/scene.json --ticks 2 --recordings-anywhere").out.find("sensor s: 1 message"),
+            std::string::npos);
   place.write("device.json", scene("replay:/dev/zero#demand"));
   const Outcome device = run(place, "run device.json --ticks 2 --recordings-anywhere");
   EXPECT_NE(device.err.find("is a device or a pipe"), std::string::npos) << device.err;
@@ -82,6 +83,45 @@ TEST(Live, ConnectionsNeedToBeAskedFor) {
   EXPECT_NE(place.text("run.log").find("note_connection"), std::string::npos);
   EXPECT_EQ(run(place, "replay run.log --threads 2").code, 0);
   EXPECT_EQ(run(place, "run scene.json --rate 5").code, 2) << "a rate is for live runs";
+}
+
+// A check has no devices: what waits for one is told, and is no error.
+TEST(Live, ASceneThatWaitsForItsSensorIsSound) {
+  const Workplace place;
+  place.write("scene.json", scene("mqtt://127.0.0.1:1/t"));
+  const Outcome check = run(place, "check scene.json");
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.err.find("warning: the sensor `s` has no good reading: no reading has come yet"), std::string::npos)
+      << check.err;
+  // A reading that cannot be true is a fault of the scene all the same.
+  std::string wrong = scene("mqtt://127.0.0.1:1/t");
+  wrong.replace(wrong.find("\"timeout\""), 0, R"("reading": 5, "reading_tick": 0, "has_range": true, "highest": 1, )");
+  place.write("scene.json", wrong);
+  EXPECT_EQ(run(place, "check scene.json").code, 2);
+}
+
+TEST(Live, UnusableAddressesOfSensorsAreNamed) {
+  const Workplace place;
+  const std::vector<std::string> addresses{"file:///etc/passwd", "http://user:pw@127.0.0.1:9114/", "mqtt://127.0.0.1:99999/t",
+                                           "nonsense"};
+  std::string nodes;
+  for (std::size_t i = 0; i < addresses.size(); ++i)
+    nodes += (i > 0 ? "," : "") + (R"({"id": "s)" + std::to_string(i)) + R"(", "types": {"sensor": {"address": ")" +
+             addresses[i] + R"("}}})";
+  place.write("scene.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [)" + nodes +
+                                R"(, {"id": "fine", "types": {"sensor": {}}}], "links": []})");
+  const Outcome check = run(place, "check scene.json"), live = run(place, "run scene.json --live --ticks 3 --rate 100");
+  EXPECT_EQ(check.code, 2) << check.err;
+  for (const Outcome* outcome : {&check, &live}) {
+    for (std::size_t i = 0; i < addresses.size(); ++i) {
+      const std::string place_of = "nodes/s" + std::to_string(i) + "/sensor/address: the address cannot be used: ";
+      const std::size_t at = outcome->err.find(place_of);
+      EXPECT_NE(at, std::string::npos) << place_of << outcome->err;
+      EXPECT_EQ(outcome->err.find(place_of, at + 1), std::string::npos) << "once: " << outcome->err;
+    }
+    EXPECT_EQ(outcome->err.find("nodes/fine"), std::string::npos) << outcome->err;
+    EXPECT_EQ(outcome->err.find("user:pw"), std::string::npos) << "passwords are not repeated";
+  }
 }
 
 }  // namespace

@@ -77,6 +77,20 @@ TEST(Run, LogIsReplayed) {
   const Outcome cut = place.run({"replay", "cut.log"});
   EXPECT_EQ(cut.code, 0) << cut.err;
   EXPECT_NE(cut.err.find("the last line is incomplete"), std::string::npos) << cut.err;
+  // Cut between two lines, so that every line that is left is whole: what is missing is told, and the rest can be used.
+  const std::string whole = place.text("run.log");
+  place.write("short.log", whole.substr(0, whole.find("{\"end\"")));
+  const Outcome shortened = place.run({"replay", "short.log"});
+  EXPECT_EQ(shortened.code, 0) << shortened.err;
+  EXPECT_NE(shortened.err.find("the log has no end. It was cut off, or what wrote it was stopped: what was done after tick 120"),
+            std::string::npos)
+      << shortened.err;
+  EXPECT_EQ(shortened.last_line(), "agrees with all 2 checks");
+  EXPECT_EQ(replay.err, "");
+  place.write("two.log", whole + whole.substr(whole.find("{\"end\"")));
+  const Outcome two = place.run({"replay", "two.log"});
+  EXPECT_EQ(two.code, 2);
+  EXPECT_NE(two.err.find("line 7: is a second end of the log"), std::string::npos) << two.err;
 }
 
 TEST(Run, WhatCannotBeSetLeavesTheLogOfAnEarlierRun) {
@@ -161,6 +175,34 @@ TEST(Run, AUseWithoutAVolumeIsNamedAndTheRestSettles) {
   const nlohmann::json result = place.json("r.json");
   EXPECT_NE(result["problems"].dump().find("no volume has the use `hotel`, so all of the 900 m"), std::string::npos)
       << result["problems"].dump();
+}
+
+// JSON, table and page say of one volume the same: what was asked for, by hand or brief, what limits leave, what is short.
+TEST(Run, WhatIsShortIsToldAlike) {
+  const Workplace place;
+  place.write(
+      "s.json",
+      scene_text(
+          volume_text("free", "[8, 0, 8]", "2000") +
+          R"(, {"id": "cut", "position": [-8, 0, 8], "types": {"smart_volume": {"demand": 2000, "demand_limit": 1500}}})"));
+  const Outcome outcome = place.run({"run", "s.json", "--json", "r.json", "--report", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json result = place.json("r.json");
+  ASSERT_EQ(result["volumes"][0]["id"], "cut");
+  const nlohmann::json& cut = result["volumes"][0];
+  EXPECT_EQ(cut["asked"], 2000);
+  EXPECT_EQ(cut["demand"], 1500);
+  EXPECT_NEAR(cut["short_share"].get<double>(), 0.25, 0.01);
+  EXPECT_NEAR(cut["short"].get<double>(), 2000 - cut["volume"].get<double>(), 1e-9);
+  EXPECT_NE(cut["why_short"].get<std::string>().find("a limit set by hand leaves 1500"), std::string::npos) << cut["why_short"];
+  EXPECT_EQ(result["volumes"][1]["why_short"], "");
+  EXPECT_EQ(result["worst_short"], "volume cut");
+  EXPECT_NE(outcome.out.find("short %"), std::string::npos);
+  EXPECT_NE(place.text("out/volumes.csv").find("a limit set by hand leaves"), std::string::npos);
+  EXPECT_NE(place.text("out/report.html").find("a limit set by hand leaves"), std::string::npos);
+  // A report of a settled scene says settled.
+  ASSERT_TRUE(result["settled"]);
+  EXPECT_NE(place.text("out/report.html").find("\xE2\x9C\x93 Settled"), std::string::npos);
 }
 
 TEST(Run, ReportIsWritten) {

@@ -35,6 +35,33 @@ TEST(Script, GoesIntoASceneRunsAndComesOutAgain) {
   EXPECT_NE(done.err.find("--out"), std::string::npos);
 }
 
+// What fails whatever it reads never works, and a check says so; what refuses some values and takes others is sound.
+TEST(Script, CheckTriesEvaluate) {
+  const Workplace place;
+  const std::string head =
+      "return {id = 'mine', doc = 'A try.', reads = {volume = {at = 'from', port = 'smart_volume.volume', unit = 'm3'}},\n"
+      "  proposes = {demand = {at = 'to', port = 'smart_volume.demand', unit = 'm3'}},\n  evaluate = function(params, ends)\n";
+  place.write("mine.lua", head + "    return {demand = nothing.here}\n  end}\n");
+  const Outcome fails = place.run({"check", "mine.lua"});
+  EXPECT_EQ(fails.code, 2) << fails.out;
+  EXPECT_NE(fails.err.find("mine.lua:4"), std::string::npos) << fails.err;
+  place.write("scene.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [], "links": []})");
+  EXPECT_EQ(place.run({"script", "scene.json", "mine.lua", "--out", "out.json"}).code, 0);
+  const Outcome unused = place.run({"check", "out.json"});
+  EXPECT_EQ(unused.code, 2) << "no link uses it, and still it is wrong: " << unused.out;
+  EXPECT_NE(unused.err.find("scripts/mine"), std::string::npos) << unused.err;
+  place.write(
+      "mine.lua",
+      head + "    if ends.volume == 0 then error('nothing to read') end\n    return {demand = 1 / ends.volume}\n  end}\n");
+  const Outcome sound = place.run({"check", "mine.lua"});
+  EXPECT_EQ(sound.code, 0) << sound.err;
+  for (const auto& file : std::filesystem::directory_iterator(std::string(BL_SOURCE_DIR) + "/links/scripts"))
+    if (file.path().extension() == ".lua") {
+      const Outcome shipped_one = place.run({"check", file.path().string()});
+      EXPECT_EQ(shipped_one.code, 0) << shipped_one.err;
+    }
+}
+
 TEST(Script, IsTriedForOneRunAndReplayed) {
   const Workplace place;
   place.write("scene.json", kScene);
@@ -76,8 +103,9 @@ TEST(Script, WhatItSaysIsTextOnTheTerminal) {
     EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos) << text;
   }
   EXPECT_NE(done.out.find("\\x1b[31mRED\\x07\\u009b2J\\u202e"), std::string::npos) << done.out;
-  place.write("name.json", "{\"format\": \"behaviourlinks\", \"version\": 1, \"nodes\": [{\"id\": \"a\", \"name\": \"\\u001b]0;x\\u0007\","
-                           " \"types\": {\"smart_volume\": {}}}], \"links\": []}");
+  place.write("name.json",
+              "{\"format\": \"behaviourlinks\", \"version\": 1, \"nodes\": [{\"id\": \"a\", \"name\": \"\\u001b]0;x\\u0007\","
+              " \"types\": {\"smart_volume\": {}}}], \"links\": []}");
   const Outcome named = place.run({"run", "name.json", "--ticks", "1"});
   EXPECT_EQ(named.out.find('\x1b'), std::string::npos) << named.out;
   EXPECT_NE(named.out.find("\\x1b]0;x\\x07"), std::string::npos) << named.out;
@@ -132,7 +160,8 @@ TEST(Script, LinksThatRestAreToldInTheLastLine) {
   scene.replace(scene.find("lean_uphill"), 11, "ratioo");
   place.write("scene.json", scene);
   const Outcome done = place.run({"run", "scene.json"});
-  EXPECT_NE(done.err.find("unknown link kind `ratioo`: kept as it is, not run, did you mean `ratio`?"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("unknown link kind `ratioo`: kept as it is, not run, did you mean `ratio`?"), std::string::npos)
+      << done.err;
   EXPECT_NE(done.last_line().find("(1 link does not run)"), std::string::npos) << done.out;
 }
 

@@ -65,7 +65,7 @@ TEST_F(ReportTest, WhatWasRepairedSaysWhatWasMended) {
   desktop.frames(2);
   ASSERT_EQ(list().shown().size(), 1u);
   const ImportRow& row = *list().shown().front().row;
-  EXPECT_EQ(why_of(row), "1 repeated points dropped");
+  EXPECT_EQ(why_of(row), "repeated points dropped (1)");
   EXPECT_EQ(special_of(row), "taken as building");
   desktop.press_on("import/row/0");
   desktop.frames(2);
@@ -83,7 +83,10 @@ TEST(ImportRows, HeightsOfNeighboursAreTold) {
   }
   const Folder folder("import_heights");
   ImportDesktop desktop;
-  desktop.import({folder.write("five.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" + features + "]}")});
+  desktop.import({folder.write(
+      "five.geojson",
+      R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" + features +
+          "]}")});
   desktop.frames(3);
   ImportList& list = *memory_of(desktop.editor()).imports;
   ASSERT_EQ(list.groups().size(), 2u) << desktop.told();

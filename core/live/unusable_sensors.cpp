@@ -1,0 +1,24 @@
+// Every address is read once, as the connections read it.
+#include "core/live/unusable_sensors.h"
+
+#include <string>
+
+#include "core/base/live_address.h"
+#include "core/live/port_values.h"
+
+namespace bl {
+
+std::vector<Error> unusable_sensors(const Scene& scene) {
+  std::vector<Error> errors;
+  for (const auto& [id, node] : scene.nodes) {
+    const PortValues* values = values_of(node, "sensor");
+    const std::string address = values == nullptr ? "" : value_of<std::string>(*values, "address", "");
+    if (address.empty()) continue;
+    if (const auto parsed = parse_live_address(address); !parsed)
+      errors.push_back({parsed.error().code, "nodes/" + id + "/sensor/address",
+                        "the address cannot be used: " + parsed.error().message + ". No reading will ever come"});
+  }
+  return errors;
+}
+
+}  // namespace bl

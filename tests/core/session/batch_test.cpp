@@ -1,0 +1,80 @@
+// Batches: one step whatever they hold, taken back as one, and no dearer for each command the longer they are.
+#include <gtest/gtest.h>
+
+#include <ctime>
+
+#include "core/base/stop.h"
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+std::string batch_of(std::size_t count, const std::string& last = "") {
+  std::string list = "[";
+  for (std::size_t i = 0; i < count; ++i)
+    list += std::string(i > 0 ? "," : "") + R"({"command": "add_node", "arguments": {"id": "n)" + std::to_string(i) +
+            R"(", "node": {"types": {"junction": {}}}}})";
+  return list + (last.empty() ? "" : "," + last) + "]";
+}
+
+double seconds_for(std::size_t count) {
+  Scene scene;
+  SceneEdit edit(scene, full_registry());
+  const Command batch = command<Batch>({{batch_of(count)}});
+  const std::clock_t start = std::clock();
+  const Inverse inverse = apply(edit, batch);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  EXPECT_TRUE(inverse.ok());
+  EXPECT_EQ(scene.nodes.size(), count);
+  EXPECT_EQ(inverse.ok() ? inverse->size() : 0, count);
+  return seconds;
+}
+
+// Quadratic work shows as four times as much for twice as many; the processor's own time is measured, so that others do not
+// count.
+TEST(Batch, TwiceAsManyCommandsTakeAboutTwiceAsLong) {
+  (void)seconds_for(1000);
+  const double some = seconds_for(20000), many = seconds_for(80000);
+  EXPECT_LT(many, 9 * some + 0.5) << some << " s for 20 000, " << many << " s for 80 000";
+}
+
+TEST(Batch, ItsInversesUndoFromTheLastToTheFirst) {
+  World world = World::from_file("scenes/links/ratio.json");
+  const Scene before = world.session().scene();
+  const std::string list =
+      R"([{"command": "add_node", "arguments": {"id": "a", "node": {"types": {"smart_volume": {}}}}},
+          {"command": "set_port", "arguments": {"node": "a", "port": "smart_volume.demand", "value": 5}},
+          {"command": "set_port", "arguments": {"node": "a", "port": "smart_volume.demand", "value": 7}},
+          {"command": "rename_node", "arguments": {"id": "a", "name": "A"}},
+          {"command": "remove_node", "arguments": {"id": "parking"}}])";
+  ASSERT_EQ(world.submit(command<Batch>({{list}})), "");
+  const Scene after = world.session().scene();
+  EXPECT_FALSE(after.nodes.contains("parking"));
+  ASSERT_TRUE(world.session().undo("person").ok());
+  EXPECT_EQ(world.session().scene(), before);
+  ASSERT_TRUE(world.session().redo("person").ok());
+  EXPECT_EQ(world.session().scene(), after);
+}
+
+TEST(Batch, AFaultAtItsEndLeavesTheSceneAsItWas) {
+  World world = World::from_file("scenes/links/ratio.json");
+  const Scene before = world.session().scene();
+  const std::string twice = R"({"command": "add_node", "arguments": {"id": "n3", "node": {"types": {"junction": {}}}}})";
+  EXPECT_NE(world.submit(command<Batch>({{batch_of(500, twice)}})).find("taken"), std::string::npos);
+  EXPECT_EQ(world.session().scene(), before);
+}
+
+// Whoever waits for a long one can stop it: all of it is taken back.
+TEST(Batch, OneThatNobodyWantsAnyMoreChangesNothing) {
+  Scene scene;
+  SceneEdit edit(scene, full_registry());
+  int asked = 0;
+  const StopScope scope([&asked] { return ++asked > 3; });
+  const Inverse stopped = apply(edit, command<Batch>({{batch_of(5000)}}));
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
+  EXPECT_TRUE(scene.nodes.empty());
+}
+
+}  // namespace
+}  // namespace bl
