@@ -47,10 +47,9 @@ bool State::is_settled() const {
   for (std::size_t a = 0; a < analyses.size(); ++a) {
     const AnalysisPlan& one = plan->analyses[a];
     const double latency = as_number(nodes[one.node].types[one.type].values[one.latency]);
-    // It reads shapes of the tick before. Links answer its result in the next tick, and nodes the links in the one after. Of
-    // later results, of shapes that still move a little, it is enough that they wake nobody.
-    const bool is_answered = tick >= analyses[a].taken + 2 || static_cast<double>(calm) > 2 * latency + 4;
-    if (analyses[a].as_of - 1 <= tick - calm || !is_answered) return false;
+    // It reads shapes of the tick before. One that was running when calm came is waited for, and the next one; links answer the
+    // result in the tick after, and nodes the links in the one after that. Of later results it is enough that they wake nobody.
+    if (analyses[a].as_of - 1 <= tick - calm || static_cast<double>(calm) <= 2 * latency + 4) return false;
   }
   return true;
 }

@@ -97,7 +97,8 @@ std::string why_not_settled(const State& state, const State* before) {
            "` still changes by " + fixed(100 * state.largest_change, 2) + " % per tick, the limit is " +
            shortest(100 * settings.change_limit) + " %" + of_greedy(state);
   for (std::size_t a = 0; a < state.analyses.size(); ++a)
-    if (const AnalysisPlan& plan = state.plan->analyses[a]; state.analyses[a].as_of <= state.tick - state.calm)
+    if (const AnalysisPlan& plan = state.plan->analyses[a];
+        state.analyses[a].as_of <= state.tick - state.calm || state.calm >= settings.calm_ticks)
       return "`" + state.plan->nodes[plan.node].id + "`: the " + state.plan->nodes[plan.node].types[plan.type].definition->label +
              " has not seen the calm state yet";
   return "all demands are met, and " + std::to_string(state.calm) + " of " + std::to_string(settings.calm_ticks) +
