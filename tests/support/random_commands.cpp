@@ -85,9 +85,9 @@ Command random_command(const Scene& scene, Random& random, int number) {
       return command<NoteConnection>(
           {playing_or(scene, "sensor", pick(scene.nodes)), random.below(2) == 0 ? "nobody is there, " + number_text : ""});
     case 22:
-      return command<Batch>({{R"([{"command": "rename_node", "arguments": {"id": ")" + pick(scene.nodes) + R"(", "name": "B)" +
-                              number_text + R"("}}, {"command": "add_node", "arguments": {"id": ")" + fresh +
-                              R"(", "node": {"types": {"sensor": {}}}}}])"}});
+      return command<Batch>(
+          {{R"([{"command": "rename_node", "arguments": {"id": ")" + pick(scene.nodes) + R"(", "name": "B)" + number_text +
+            R"("}}, {"command": "add_node", "arguments": {"id": ")" + fresh + R"(", "node": {"types": {"sensor": {}}}}}])"}});
     default:
       return command<AddNode>(
           {fresh, {R"({"position": [)" + number_text + R"(, 8, 6], "types": {"smart_volume": {"demand": 900}}})"}});
