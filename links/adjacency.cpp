@@ -1,11 +1,13 @@
 // Draws two volumes together until they share a facet of a wanted size.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
+#include "core/geometry/touching_balls.h"
 
 namespace bl {
 
@@ -18,8 +20,8 @@ struct Adjacency {
   struct Ends {
     Shared<Table> neighbours;
     std::string to_id;
-    Point3 from, to;
-    double from_radius = 0, to_radius = 0;
+    Point3 from, to, from_centroid, to_centroid;
+    double from_radius = 0, to_radius = 0, from_wanted = 0, to_wanted = 0;
   };
   struct Out {
     std::optional<Vector3> from, to;
@@ -29,9 +31,9 @@ struct Adjacency {
     l.id("adjacency")
         .label("Adjacency")
         .doc(
-            "Draws two volumes together until the facet that they share has the wanted area. Volumes that share enough are left "
-            "alone; "
-            "other volumes in between have to give way or stay between them.");
+            "Draws two volumes together until the facet that they share has the wanted area, but never nearer than their bodies "
+            "allow. Volumes that share enough are left alone; one that is pressed against others is pulled no further, so that "
+            "others in between have to give way (see `make_room`) or stay between them.");
     l.param(&In::area, "area")
         .unit(Unit::square_metre)
         .min(0)
@@ -46,6 +48,10 @@ struct Adjacency {
     l.reads(&Ends::from, End::from, "node.position", Unit::metre).reads(&Ends::to, End::to, "node.position", Unit::metre);
     l.reads(&Ends::from_radius, End::from, "smart_volume.radius", Unit::metre);
     l.reads(&Ends::to_radius, End::to, "smart_volume.radius", Unit::metre);
+    l.reads(&Ends::from_centroid, End::from, "smart_volume.centroid", Unit::metre);
+    l.reads(&Ends::to_centroid, End::to, "smart_volume.centroid", Unit::metre);
+    l.reads(&Ends::from_wanted, End::from, "smart_volume.wanted", Unit::cubic_metre);
+    l.reads(&Ends::to_wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
     l.proposes(&Out::from, End::from, "node.position", Unit::metre).proposes(&Out::to, End::to, "node.position", Unit::metre);
   }
 
@@ -58,9 +64,31 @@ struct Adjacency {
     // for each metre that the volumes come nearer, so that a small area calls for a short way only.
     const double clear = std::max(0.0, length - ends.from_radius - ends.to_radius);
     const double reach = std::min(std::sqrt(in.area), 0.5 * in.area / (length * std::max(in.stiffness, 0.01)));
-    const double way = std::min(length, clear + reach * (missing / in.area));
-    const Vector3 move = between * (0.5 * in.stiffness * way / length);
-    return Out{move, -move};
+    // Others may cut into the facet, so that it takes a little less distance than two bodies alone would need: that at which
+    // these would share twice the area.
+    const double nearest = touching_distance(ends.from_wanted, ends.to_wanted, 2 * in.area);
+    const double way = std::min(length - nearest, clear + reach * (missing / in.area));
+    if (!(way > 0)) return Out{};
+    const Vector3 direction = between / length;
+    const double pull = 0.5 * in.stiffness * way;
+    const double from_pull = std::min(pull, room_for(dot(ends.from - ends.from_centroid, direction), ends.from_wanted));
+    const double to_pull = std::min(pull, room_for(dot(ends.to_centroid - ends.to, direction), ends.to_wanted));
+    Out out;
+    if (from_pull > 0) out.from = direction * from_pull;
+    if (to_pull > 0) out.to = direction * -to_pull;
+    return out;
+  }
+
+ private:
+  // A body that others keep from following stays behind its position. The pull takes a share of the way that is left until the
+  // middle is so far behind, in radii of the body. That is less than the play of `make_room`: a pull that cannot be satisfied
+  // ends before the others begin to give way to each other for ever. A ball that is cut in half has its middle 3/8 of the radius
+  // off.
+  static constexpr double kPressed = 0.08, kShareOfRoom = 0.5;
+  static double room_for(double ahead, double volume) {
+    // What has no body yet is free.
+    if (!(volume > 0)) return std::numeric_limits<double>::infinity();
+    return kShareOfRoom * (kPressed * ball_radius(volume) - ahead);
   }
 };
 

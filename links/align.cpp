@@ -3,6 +3,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/mathematics.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -58,7 +59,7 @@ struct Align {
       case Mode::grid: break;
     }
     const double turn = in.angle * std::numbers::pi / 180;
-    const Vector3 along{std::cos(turn), std::sin(turn), 0}, across{-along.y, along.x, 0};
+    const Vector3 along{mathematics::cosine(turn), mathematics::sine(turn), 0}, across{-along.y, along.x, 0};
     const Vector3 wanted = along * to_line(dot(error, along), in.module) + across * to_line(dot(error, across), in.module);
     return Out{wanted * in.stiffness};
   }

@@ -14,7 +14,7 @@ namespace {
 
 struct CongestionFeedback {
   struct In {
-    double limit = 0.9, gain = 0.1, least = 0.2;
+    double limit = 0.9, gain = 0.1, tolerance = 0.02, least = 0.2;
   };
   struct Ends {
     Shared<Table> loads;
@@ -30,7 +30,8 @@ struct CongestionFeedback {
     l.id("congestion_feedback").label("Congestion feedback");
     l.doc(
         "Limits what a volume asks for while a street at its access carries more than a share of its capacity, or most of its "
-        "trips find no way, tick by tick, and loosens the limit again when there is room. With `request_traffic` this is a loop: the streets say how large the volume "
+        "trips find no way, tick by tick, and loosens the limit again when there is room. With `request_traffic` this is a loop: "
+        "the streets say how large the volume "
         "may be.");
     l.param(&In::limit, "limit")
         .unit(Unit::ratio)
@@ -42,6 +43,14 @@ struct CongestionFeedback {
         .range(0, 1)
         .soft(0.01, 0.3)
         .doc("How strongly one tick answers. Volumes and streets follow some ticks later, so that large gains swing.");
+    l.param(&In::tolerance, "tolerance")
+        .unit(Unit::ratio)
+        .range(0.0001, 0.5)
+        .soft(0.005, 0.1)
+        .doc(
+            "The volume rests while the most used street carries less than the limit by no more than this share of it: drivers "
+            "try "
+            "other ways for ever, and the volume would answer for ever.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
@@ -64,7 +73,7 @@ struct CongestionFeedback {
     if (!(ends.demand > 0)) return Out{};
     // From the share that the limit leaves now; one tick answers to at most a halving or a doubling. Where most trips find no way
     // at all, the access is as bad as can be.
-    const double room = ends.lost > ends.served ? 0.5 : load > 0 ? std::clamp(in.limit / load, 0.5, 2.0) : 2;
+    const double room = ends.lost > ends.served ? 0.5 : std::max(0.5, answer_within(in.limit, load, in.tolerance));
     const double answer = 1 + in.gain * (room - 1);
     const double share = granted_share(ends.demand, ends.demand_limit) * answer;
     return Out{limit_that_grants(ends.demand, std::max(share, in.least))};

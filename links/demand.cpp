@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/define/link_builder.h"
+#include "core/define/link_remark.h"
 #include "core/define/registry.h"
 
 namespace bl {
@@ -36,8 +37,9 @@ struct Demand {
         .doc("The use whose rows all volumes of this link share. When empty, each volume takes the rows of its own use.");
     l.param(&In::every_row, "every_row")
         .doc(
-            "When on, and no use is given, a row for which this link has no volume is an error, so that no floor area is "
-            "forgotten.");
+            "When on, and no use is given, a row for which this link has no volume is named as a problem, so that no floor area "
+            "is "
+            "forgotten. All other rows are dealt out nevertheless.");
     l.reads(&Ends::rows, End::from, "programme.rows");
     l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::uses, End::to, "smart_volume.use");
     l.proposes(&Out::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
@@ -46,25 +48,20 @@ struct Demand {
     l.proposes(&Out::storey_height, End::to, "smart_volume.storey_height", Unit::metre);
   }
 
-  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     std::map<std::string, Share> shares = shares_of(*ends.rows);
     if (!in.use.empty() && !shares.contains(in.use)) return no_row(in.use, shares);
-    std::string without_row;
+    std::string problem;
     for (std::size_t i = 0; i < ends.uses.values.size(); ++i) {
-      const auto share = shares.find(in.use.empty() ? ends.uses.values[i] : in.use);
-      if (share != shares.end()) ++share->second.volumes;
-      else
-        without_row += (without_row.empty() ? "`" : ", `") + ends.ids.values[i] + "` (use `" + ends.uses.values[i] + "`" +
-                       did_you_mean(ends.uses.values[i], keys_of(shares)) + ")";
+      const std::string& use = in.use.empty() ? ends.uses.values[i] : in.use;
+      if (const auto share = shares.find(use); share != shares.end()) ++share->second.volumes;
+      else add_sentence(problem, without_row(ends.ids.values[i], use, shares));
     }
-    if (!without_row.empty())
-      return Error{ErrorCode::not_found, "to",
-                   "the programme has no row for the use of " + without_row + "; add the rows or change the uses"};
     if (in.use.empty() && in.every_row)
       for (const auto& [use, share] : shares)
-        if (share.volumes == 0 && share.demand > 0)
-          return Error{ErrorCode::missing, "from",
-                       "no volume of this link has the use `" + use + "`; give one that use or turn `every_row` off"};
+        if (share.volumes == 0 && share.demand > 0) add_sentence(problem, without_volume(use, share));
+    // Nobody else has to wait for these.
+    if (!problem.empty()) remark(tick, LinkRemark::short_of, {ErrorCode::missing, "", problem});
     return dealt(in, ends, shares);
   }
 
@@ -80,6 +77,7 @@ struct Demand {
   static std::map<std::string, Share> shares_of(const Table& rows) {
     std::map<std::string, Share> shares;
     for (std::size_t row = 0; row < rows.rows.size(); ++row) {
+      if (rows.text(row, "use").empty()) continue;  // the programme itself says so
       Share& share = shares[rows.text(row, "use")];
       const double count = rows.number(row, "count"), height = rows.number(row, "storey_height");
       const double area = rows.number(row, "floor_area") * count, largest = rows.number(row, "floor_area_max");
@@ -96,7 +94,12 @@ struct Demand {
   static Out dealt(const In& in, const Ends& ends, const std::map<std::string, Share>& shares) {
     Out out;
     for (const std::string& use : ends.uses.values) {
-      const Share& share = shares.at(in.use.empty() ? use : in.use);
+      const auto found = shares.find(in.use.empty() ? use : in.use);
+      if (found == shares.end()) {
+        for (auto* silent : {&out.demand, &out.demand_min, &out.demand_limit, &out.storey_height}) silent->values.emplace_back();
+        continue;
+      }
+      const Share& share = found->second;
       const double part = 1.0 / share.volumes;
       out.demand.values.emplace_back(share.demand * part);
       out.demand_min.values.push_back(wanted(share.minimum * part, share.minimum > 0));
@@ -109,6 +112,19 @@ struct Demand {
   }
 
   static std::optional<double> wanted(double value, bool is_given) { return is_given ? std::optional(value) : std::nullopt; }
+
+  static void add_sentence(std::string& text, const std::string& sentence) { text += (text.empty() ? "" : "; ") + sentence; }
+
+  static std::string without_row(const std::string& id, const std::string& use, const std::map<std::string, Share>& shares) {
+    if (use.empty()) return "`" + id + "` has no use, so the programme asks nothing of it: give it a use of the programme";
+    return "`" + id + "` has the use `" + use + "`, for which the programme has no row: change the use or add the row" +
+           did_you_mean(use, keys_of(shares));
+  }
+
+  static std::string without_volume(const std::string& use, const Share& share) {
+    return "no volume has the use `" + use + "`, so all of the " + fixed(share.floor_area, 0) +
+           " m² that are asked for are missing: give a volume that use, add one, or remove the row";
+  }
 
   static Error no_row(const std::string& use, const std::map<std::string, Share>& shares) {
     return {ErrorCode::not_found, "use",

@@ -1,10 +1,13 @@
 // Holds volumes to the rules of the plot that they stand on, by limiting their demands.
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/demand_limit.h"
+#include "core/base/text.h"
 #include "core/define/link_builder.h"
+#include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/geometry/plan_ring.h"
 
@@ -15,13 +18,14 @@ namespace {
 struct PlotRules {
   struct In {
     bool hold_fsi = true, hold_gsi = true, hold_height = true;
-    double gain = 0.2;
+    double gain = 0.2, tolerance = 0.01, least = 0.2;
   };
   struct Ends {
     std::vector<Point3> polygon;
     double ground = 0, fsi = 0, fsi_max = 0, gsi = 0, gsi_max = 0, height_max = 0;
+    All<std::string> ids;
     All<Point3> centroids;
-    All<double> demands, limits, bottoms, heights;
+    All<double> demands, limits, wanted, volumes, bottoms, heights;
   };
   struct Out {
     All<std::optional<double>> limits;
@@ -32,10 +36,9 @@ struct PlotRules {
         .label("Plot rules")
         .doc(
             "Turns what goes beyond the rules of a plot into tension: the demands of the volumes on it are limited in one "
-            "proportion "
-            "until FSI and GSI fit, and those of volumes that reach too high until they fit below the largest height. When there "
-            "is room again, "
-            "the limits are loosened in the same way, up to what each volume wants.");
+            "proportion until FSI and GSI fit, and those of volumes that reach too high until they fit below the largest height. "
+            "When there is room again, the limits are loosened in the same way, up to what each volume wants. Just below what is "
+            "allowed they rest.");
     l.param(&In::hold_fsi, "hold_fsi").doc("When on, floor area beyond the largest FSI limits all volumes on the plot.");
     l.param(&In::hold_gsi, "hold_gsi").doc("When on, built ground beyond the largest GSI limits all volumes on the plot.");
     l.param(&In::hold_height, "hold_height")
@@ -45,57 +48,85 @@ struct PlotRules {
         .range(0, 1)
         .soft(0.01, 0.5)
         .doc("How strongly one tick answers to an overshoot. Volumes answer some ticks later, so that large gains swing.");
+    l.param(&In::tolerance, "tolerance")
+        .unit(Unit::ratio)
+        .range(0.0001, 0.5)
+        .soft(0.005, 0.05)
+        .doc(
+            "The limits rest while a figure is below what is allowed by no more than this share of it. It has to be wider than "
+            "the errors of volumes (the solver's tolerance), or the answers to these go on for ever.");
+    l.param(&In::least, "least")
+        .unit(Unit::ratio)
+        .range(0.001, 1)
+        .doc("Share of a demand that no rule takes away. Where that is not enough, the rule cannot be met, and says so.");
     l.reads(&Ends::polygon, End::from, "plot.polygon", Unit::metre);
     l.reads(&Ends::ground, End::from, "plot.ground", Unit::metre)
         .reads(&Ends::height_max, End::from, "plot.height_max", Unit::metre);
     l.reads(&Ends::fsi, End::from, "plot.fsi", Unit::ratio).reads(&Ends::fsi_max, End::from, "plot.fsi_max", Unit::ratio);
     l.reads(&Ends::gsi, End::from, "plot.gsi", Unit::ratio).reads(&Ends::gsi_max, End::from, "plot.gsi_max", Unit::ratio);
-    l.reads(&Ends::centroids, End::to, "smart_volume.centroid", Unit::metre);
+    l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::centroids, End::to, "smart_volume.centroid", Unit::metre);
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
+    l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
     l.reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre)
         .reads(&Ends::heights, End::to, "smart_volume.height", Unit::metre);
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
-  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     Out out;
-    const std::size_t count = ends.demands.values.size();
-    out.limits.values.resize(count);
+    out.limits.values.resize(ends.demands.values.size());
     if (ends.polygon.size() < 3) return out;
-    std::vector<bool> is_on_plot;
+    std::vector<std::size_t> on_plot;
     double share = kLeastGranted;
-    for (std::size_t i = 0; i < count; ++i) {
-      is_on_plot.push_back(ring_contains(ends.polygon, ends.centroids.values[i]));
-      if (is_on_plot[i]) share = std::max(share, granted(ends, i));
+    for (std::size_t i = 0; i < ends.demands.values.size(); ++i) {
+      if (!ring_contains(ends.polygon, ends.centroids.values[i])) continue;
+      on_plot.push_back(i);
+      share = std::max(share, granted(ends, i));
     }
     double room = 2;
-    if (in.hold_fsi) room = std::min(room, allowed(ends.fsi_max, ends.fsi));
-    if (in.hold_gsi) room = std::min(room, allowed(ends.gsi_max, ends.gsi, kLittleGround));
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!is_on_plot[i]) continue;
+    if (in.hold_fsi) room = std::min(room, answer_within(ends.fsi_max, ends.fsi, in.tolerance));
+    if (in.hold_gsi) room = std::min(room, answer_within(ends.gsi_max, ends.gsi, in.tolerance, kLittleGround));
+    for (const std::size_t i : on_plot) {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
-      const double top = ends.bottoms.values[i] + ends.heights.values[i] - ends.ground;
       if (in.hold_height)
-        limit = std::min(limit, granted(ends, i) * (1 + in.gain * (allowed(ends.height_max, top) - 1)));
-      out.limits.values[i] = limit_that_grants(ends.demands.values[i], limit);
+        limit =
+            std::min(limit, granted(ends, i) * (1 + in.gain * (answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
+      out.limits.values[i] = limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
     }
+    tell(in, ends, on_plot, tick);
     return out;
   }
 
  private:
-  static double granted(const Ends& ends, std::size_t i) { return granted_share(ends.demands.values[i], ends.limits.values[i]); }
-
   // Of the land. Where less of it is built on, the answer is to what is missing of it rather than to its share of the little that
   // is there: small footprints come and go with the lowest part of a volume, faster than volumes can follow.
   static constexpr double kLittleGround = 0.1;
 
-  // How many times what there is now is allowed, at most twice. Where nothing is allowed and nothing is there, all rests.
-  static double allowed(double most, double now, double little = 0) {
-    if (now >= little && now > 0) return std::min(most / now, 2.0);
-    if (little > 0) return std::min(1 + (most - now) / little, 2.0);
-    return most > 0 ? 2 : 1;
+  static double granted(const Ends& ends, std::size_t i) { return granted_share(ends.demands.values[i], ends.limits.values[i]); }
+  static double top(const Ends& ends, std::size_t i) { return ends.bottoms.values[i] + ends.heights.values[i] - ends.ground; }
+
+  // Every rule that is broken: on its way, or held up by volumes that give way no further.
+  static void tell(const In& in, const Ends& ends, const std::vector<std::size_t>& on_plot, const Tick& tick) {
+    const HeldBack held{ends.ids.values, ends.demands.values, ends.limits.values, ends.wanted.values, ends.volumes.values};
+    std::string unmet, work;
+    const auto judge = [&](const std::string& found, const std::vector<std::size_t>& who) {
+      if (!is_exhausted(held, who, in.least)) work += (work.empty() ? "" : ", ") + found;
+      else unmet += (unmet.empty() ? "" : "; ") + found + ", " + held_by(held, who, in.least);
+    };
+    if (in.hold_fsi && ends.fsi > ends.fsi_max) judge("FSI " + fixed(ends.fsi, 2) + " of " + fixed(ends.fsi_max, 2), on_plot);
+    if (in.hold_gsi && ends.gsi > ends.gsi_max) judge("GSI " + fixed(ends.gsi, 2) + " of " + fixed(ends.gsi_max, 2), on_plot);
+    for (const std::size_t i : on_plot)
+      if (in.hold_height && ends.volumes.values[i] > 0 && top(ends, i) > ends.height_max)
+        judge("height " + fixed(top(ends, i), 1) + " m of " + fixed(ends.height_max, 1) + " m at `" + ends.ids.values[i] + "`",
+              {i});
+    if (!unmet.empty())
+      return remark(tick, LinkRemark::unmet,
+                    {ErrorCode::infeasible, "from",
+                     "cannot be met: " + unmet + "; loosen the rule, or lower what is insisted on or `least`"});
+    if (!work.empty()) remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "from", work + " is still being brought down"});
   }
 };
 

@@ -1,9 +1,14 @@
 // Holds the sum of a statistic under a cap by limiting the demands of a whole set in one proportion.
 #include <algorithm>
+#include <numeric>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/base/demand_limit.h"
+#include "core/base/text.h"
 #include "core/define/link_builder.h"
+#include "core/define/link_remark.h"
 #include "core/define/registry.h"
 
 namespace bl {
@@ -12,11 +17,12 @@ namespace {
 
 struct SetCap {
   struct In {
-    double cap = 10000, gain = 0.2;
+    double cap = 10000, gain = 0.2, tolerance = 0.01, least = 0.2;
   };
   struct Ends {
     double total = 0;
-    All<double> demands, limits;
+    All<std::string> ids;
+    All<double> demands, limits, wanted, volumes;
   };
   struct Out {
     All<std::optional<double>> limits;
@@ -25,17 +31,14 @@ struct SetCap {
   static void declare(LinkBuilder<SetCap>& l) {
     l.id("set_cap").label("Set cap").doc(
         "Holds the sum of a statistic under a cap. When the sum is too large, the demands of all volumes of the set are limited "
-        "in one "
-        "proportion, tick by tick, until it fits; when there is room again, the limit is loosened in the same way, up to what "
-        "each "
-        "volume wants. The statistic should watch the same volumes.");
+        "in one proportion, tick by tick, until it fits; when there is room again, the limit is loosened in the same way, up to "
+        "what each volume wants. Just below the cap the limit rests. The statistic should watch the same volumes.");
     l.param(&In::cap, "cap")
         .min(0.001)
         .soft(100, 100000)
         .doc(
             "The largest sum allowed, in the unit of the statistic: cubic metres where it adds up volumes, square metres where "
-            "it adds up "
-            "floor areas.");
+            "it adds up floor areas.");
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -43,19 +46,35 @@ struct SetCap {
         .doc(
             "How strongly one tick answers to the deviation of the sum. Volumes answer some ticks later, so that large gains "
             "swing.");
+    l.param(&In::tolerance, "tolerance")
+        .unit(Unit::ratio)
+        .range(0.0001, 0.5)
+        .soft(0.005, 0.05)
+        .doc(
+            "The limit rests while the sum is below the cap by no more than this share of it. It has to be wider than the errors "
+            "of volumes (the solver's tolerance), or the answers to these go on for ever.");
+    l.param(&In::least, "least")
+        .unit(Unit::ratio)
+        .range(0.001, 1)
+        .doc("Share of a demand that the cap does not take away. Where that is not enough, the cap cannot be met, and says so.");
     l.reads(&Ends::total, End::from, "statistics.sum");
+    l.reads(&Ends::ids, End::to, "node.id");
     l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
+    l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
-  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     Out out;
     out.limits.values.resize(ends.demands.values.size());
     if (!(ends.total > 0)) return out;
-    const double answer = 1 + in.gain * (std::min(in.cap / ends.total, 2.0) - 1);
-    const double share = share_granted(ends) * answer;
-    for (std::size_t i = 0; i < out.limits.values.size(); ++i) out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
+    const double answer = 1 + in.gain * (answer_within(in.cap, ends.total, in.tolerance) - 1);
+    const double share = std::max(in.least, share_granted(ends) * answer);
+    for (std::size_t i = 0; i < out.limits.values.size(); ++i)
+      out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
+    if (ends.total > in.cap) tell(in, ends, tick);
     return out;
   }
 
@@ -67,6 +86,19 @@ struct SetCap {
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
       share = std::max(share, granted_share(ends.demands.values[i], ends.limits.values[i]));
     return share;
+  }
+
+  static void tell(const In& in, const Ends& ends, const Tick& tick) {
+    const HeldBack held{ends.ids.values, ends.demands.values, ends.limits.values, ends.wanted.values, ends.volumes.values};
+    std::vector<std::size_t> all(ends.ids.values.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::string found = "a sum of " + fixed(ends.total, 0) + " of " + fixed(in.cap, 0);
+    if (!is_exhausted(held, all, in.least))
+      return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "cap", found + " is still being brought down"});
+    remark(tick, LinkRemark::unmet,
+           {ErrorCode::infeasible, "cap",
+            "the cap cannot be met: " + found + ", " + held_by(held, all, in.least) +
+                "; raise the cap, or lower what is insisted on or `least`"});
   }
 };
 

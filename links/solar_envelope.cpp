@@ -20,7 +20,7 @@ struct SolarEnvelope {
   struct In {
     std::vector<Point3> edge = {{-20, 30, 0}, {20, 30, 0}};
     Mode mode = Mode::move;
-    double gain = 0.3, tolerance = 0.02;
+    double gain = 0.3, tolerance = 0.02, least = 0.2;
   };
   struct Ends {
     Shared<Table> moments;
@@ -58,6 +58,10 @@ struct SolarEnvelope {
         .range(0.001, 1)
         .soft(0.005, 0.1)
         .doc("How far a volume may reach through a plane, as a share of its radius.");
+    l.param(&In::least, "least")
+        .unit(Unit::ratio)
+        .range(0.001, 1)
+        .doc("Share of the demand that is not shaved off, whatever stands in the sun.");
     l.reads(&Ends::moments, End::from, "sun_and_sky.moments");
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads(&Ends::radius, End::to, "smart_volume.radius", Unit::metre);
@@ -125,7 +129,7 @@ struct SolarEnvelope {
     // Between half the tolerance and all of it the limit rests; below it the volume may grow again.
     const double room = std::min(0.5, std::max(0.0, -beyond - 0.5 * in.tolerance));
     const double answer = (1 - in.gain * std::clamp(beyond, 0.0, 0.5)) * (1 + in.gain * room);
-    return Out{{}, limit_that_grants(ends.demand, granted_share(ends.demand, ends.limit) * answer)};
+    return Out{{}, limit_that_grants(ends.demand, std::max(in.least, granted_share(ends.demand, ends.limit) * answer))};
   }
 };
 

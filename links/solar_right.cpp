@@ -1,10 +1,13 @@
 // Makes those who take most sun from a receiver give way, for as long as the receiver is short of what it needs.
 #include <algorithm>
 #include <optional>
+#include <string>
 
-#include "core/base/direction.h"
 #include "core/base/demand_limit.h"
+#include "core/base/direction.h"
+#include "core/base/text.h"
 #include "core/define/link_builder.h"
+#include "core/define/link_remark.h"
 #include "core/define/registry.h"
 
 namespace bl {
@@ -15,7 +18,7 @@ struct SolarRight {
   enum class Mode { lower, move, shave };
   struct In {
     Mode mode = Mode::shave;
-    double gain = 0.2, tolerance = 0.02;
+    double gain = 0.2, tolerance = 0.02, least = 0.2;
   };
   struct Ends {
     std::string receiver, caster;
@@ -34,7 +37,8 @@ struct SolarRight {
         .label("Solar right")
         .doc(
             "Defends the sun that a receiver needs. While points of it are short of it, the volumes in the way give way: the "
-            "worst one most, the others in proportion to what they take, and none once the need is met. Who takes next to nothing "
+            "worst one most, the others in proportion to what they take, and none once the need is met. Who takes next to "
+            "nothing "
             "is not held back.");
     l.param(&In::mode, "mode",
             {{Mode::lower, "lower", "The volume's position sinks, no lower than the foot of its shape: it grows wide, not high."},
@@ -51,6 +55,10 @@ struct SolarRight {
         .range(0.001, 1)
         .soft(0.005, 0.1)
         .doc("What may be missing on the mean of all points, as a share of the sun that is required.");
+    l.param(&In::least, "least")
+        .unit(Unit::ratio)
+        .range(0.001, 1)
+        .doc("Share of the demand that is not shaved off, whatever stands in the sun.");
     l.reads(&Ends::receiver, End::from, "node.id").reads(&Ends::place, End::from, "node.position", Unit::metre);
     l.reads(&Ends::deficit, End::from, "shadow_receiver.deficit", Unit::second);
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
@@ -95,7 +103,17 @@ struct SolarRight {
     return length > 0 ? between / length : direction_by_name(ends.receiver, ends.caster);
   }
 
-  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+  // The worst one has given way as far as it has to, and still the sun is not there.
+  static void tell(const In& in, const Ends& ends, const Tick& tick) {
+    const double short_of = ends.deficit / 3600;
+    remark(tick, LinkRemark::unmet,
+           {ErrorCode::infeasible, "from",
+            "cannot be met: `" + ends.receiver + "` is short of " + fixed(short_of, 2) + " h of sun, held by `" + ends.caster +
+                "`, which is down to " + shortest(100 * in.least) +
+                " % of its demand; lower `required_sun` or `least`, or move the volume"});
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     if (!(ends.required > 0)) return Out{};
     const double share = share_of(ends), missing = shortage(in, ends), answer = in.gain * std::max(0.0, missing) * share;
     if (in.mode == Mode::lower) {
@@ -103,11 +121,13 @@ struct SolarRight {
       return fall > 0 ? Out{Vector3{0, 0, -fall}, {}} : Out{};
     }
     if (in.mode == Mode::move) return answer * ends.radius > 0 ? Out{away(ends) * (answer * ends.radius), {}} : Out{};
-    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Below that
-    // it grows with the sun that is left over. Who takes little may grow nevertheless: what others limit, or limited once, is not
-    // ours to hold.
+    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Below
+    // that it grows with the sun that is left over. Who takes little may grow nevertheless: what others limit, or limited once,
+    // is not ours to hold.
     const double room = std::max({0.0, -missing - 0.5 * in.tolerance, surplus(ends), 1 - share / kLittle});
-    return Out{{}, limit_that_grants(ends.demand, granted_share(ends.demand, ends.limit) * (1 - answer) * (1 + in.gain * room))};
+    if (missing > 0 && share >= 1 && granted_share(ends.demand, ends.limit) <= in.least * (1 + 1e-6)) tell(in, ends, tick);
+    const double kept = granted_share(ends.demand, ends.limit) * (1 - answer) * (1 + in.gain * room);
+    return Out{{}, limit_that_grants(ends.demand, std::max(in.least, kept))};
   }
 };
 

@@ -1,6 +1,5 @@
 // Pulls volumes into the catchment of a stop, the weaker the farther away they are.
-#include <cmath>
-
+#include "core/base/mathematics.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 
@@ -49,7 +48,7 @@ struct TransitPull {
     way.z = 0;
     const double outside = norm(way) - ends.radius;
     if (!(outside > 0)) return Out{};
-    return Out{way * (in.gain * std::exp(-outside / in.fade) * outside / norm(way))};
+    return Out{way * (in.gain * mathematics::exponential(-outside / in.fade) * outside / norm(way))};
   }
 };
 

@@ -5,7 +5,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <string>
 
+#include "core/base/mathematics.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/base/unit.h"
@@ -20,6 +23,33 @@ constexpr std::array kBases = {&Dimension::length, &Dimension::time, &Dimension:
 constexpr std::array kBaseNames = {"m", "s", "deg", "EUR"};
 // Rescaling by 64 is exact in binary, also under square and cube roots, so that a sound formula rescales without rounding.
 constexpr int kScaleBits = 6, kSamples = 24, kLargestPower = 9, kLongestFormula = 500;
+
+// Stands for `^` while the parser reads: its own could not be replaced, and calls the C library. No formula can hold it.
+constexpr char kPowerSign = '\x7f';
+
+// The functions of formulas, by those whose bits no processor changes; the parser's own are cleared away.
+void define_functions(mu::Parser& parser) {
+  using namespace mathematics;
+  const auto one = [&](const char* name, double (*function)(double)) { parser.DefineFun(name, function); };
+  const auto many = [&](const char* name, double (*function)(const double*, int)) { parser.DefineFun(name, function); };
+  parser.ClearFun();
+  one("sin", sine), one("cos", cosine), one("tan", tangent), one("asin", arc_sine), one("acos", arc_cosine);
+  one("atan", arc_tangent), one("sinh", hyperbolic_sine), one("cosh", hyperbolic_cosine), one("tanh", hyperbolic_tangent);
+  one("asinh", inverse_hyperbolic_sine), one("acosh", inverse_hyperbolic_cosine), one("atanh", inverse_hyperbolic_tangent);
+  one("exp", exponential), one("ln", logarithm), one("log", logarithm), one("log2", logarithm_of_two);
+  one("log10", logarithm_of_ten);
+  one("sqrt", [](double x) { return std::sqrt(x); });
+  one("abs", [](double x) { return std::abs(x); });
+  one("rint", [](double x) { return std::floor(x + 0.5); });
+  one("sign", [](double x) { return static_cast<double>((x > 0) - (x < 0)); });
+  many("sum", [](const double* x, int count) { return std::accumulate(x, x + count, 0.0); });
+  many("avg", [](const double* x, int count) { return std::accumulate(x, x + count, 0.0) / count; });
+  many("min", [](const double* x, int count) { return *std::min_element(x, x + count); });
+  many("max", [](const double* x, int count) { return *std::max_element(x, x + count); });
+  parser.DefineFun("atan2", static_cast<double (*)(double, double)>(arc_tangent));
+  parser.DefineOprtChars((std::string(parser.ValidOprtChars()) + kPowerSign).c_str());
+  parser.DefineOprt(std::string(1, kPowerSign), power, mu::prPOW, mu::oaRIGHT, true);
+}
 
 struct Expression {
   struct In {
@@ -71,6 +101,7 @@ struct Expression {
   class Formula {
    public:
     explicit Formula(std::span<const Dimension, 4> dimensions) {
+      define_functions(parser_);
       for (std::size_t i = 0; i < kInputs.size(); ++i) quantities_[kInputs[i]].dimension = dimensions[i];
       for (const UnitInfo& row : unit_table()) {
         const std::string symbol(row.symbol);
@@ -95,8 +126,12 @@ struct Expression {
           return refuse("a formula changes nothing, so the `=` at character " + std::to_string(i + 1) +
                         " has no place; compare with `==`");
       }
+      if (const std::size_t at = text.find(kPowerSign); at != std::string::npos)
+        return refuse("the sign at character " + std::to_string(at + 1) + " cannot be seen: take it out");
+      std::string readable = text;
+      std::replace(readable.begin(), readable.end(), '^', kPowerSign);
       try {
-        parser_.SetExpr(text);
+        parser_.SetExpr(readable);
         int results = 0;
         parser_.Eval(results);
         if (results != 1) return refuse("a formula gives one number: take away the comma outside of brackets");
@@ -113,12 +148,14 @@ struct Expression {
 
    private:
     std::string sentence(const mu::ParserError& problem) const {
-      const std::string token = problem.GetToken().substr(0, problem.GetToken().find(' '));
+      std::string token = problem.GetToken().substr(0, problem.GetToken().find(' '));
+      std::replace(token.begin(), token.end(), kPowerSign, '^');
       const std::string where = problem.GetPos() < 0 ? "" : " at character " + std::to_string(problem.GetPos() + 1);
       std::vector<std::string> names = keys_of(quantities_);
       for (const auto& [name, function] : parser_.GetFunDef()) names.push_back(name);
       switch (problem.GetCode()) {
         case mu::ecUNASSIGNABLE_TOKEN:
+          if (token.starts_with('^')) return "the sign `^`" + where + " needs a value before it";
           if (parser_.GetFunDef().contains(token))
             return "the function `" + token + "`" + where + " needs its arguments in brackets";
           return "`" + token + "`" + where + " is no name or sign that is known" + did_you_mean(token, names);

@@ -1,7 +1,7 @@
 // A picture in the scene: on the ground, as a board that faces people, or as a camera saw the place.
-#include <cmath>
 #include <numbers>
 
+#include "core/base/mathematics.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 
@@ -109,7 +109,7 @@ struct Media {
     if (is_known) out.aspect = static_cast<double>(in.pixel_width) / static_cast<double>(in.pixel_height);
     if (in.orientation >= 5) out.aspect = 1 / out.aspect;
     const double half = in.field_of_view * std::numbers::pi / 360;
-    out.width = in.placement == Placement::camera ? 2 * in.distance * std::tan(half) : in.size;
+    out.width = in.placement == Placement::camera ? 2 * in.distance * mathematics::tangent(half) : in.size;
     out.height = out.width / out.aspect;
     out.is_free = in.consent == Consent::given || in.consent == Consent::not_needed;
     if (in.file.empty()) out.message = "no file is given: place a picture, or name one";

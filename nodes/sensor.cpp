@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/live_address.h"
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/base/unit.h"
 #include "core/define/registry.h"
@@ -99,7 +100,7 @@ struct Sensor {
   // With both ends weighted, numbers at the ends of what a double holds cannot overflow.
   static Memory filtered(const In& in, double value) {
     if (!in.last.is_held || !(in.smoothing > 0)) return {value, true};
-    const double share = 1 - std::exp(-in.tick_length / in.smoothing);
+    const double share = 1 - mathematics::exponential(-in.tick_length / in.smoothing);
     return {(1 - share) * in.last.held + share * value, true};
   }
 

@@ -7,10 +7,13 @@ namespace bl {
 namespace {
 
 struct SmartVolume {
+  enum class Standing { ground, stack, bridge };
+
   struct In {
     std::string use;
     double demand = 1000, demand_limit = 1e9, demand_min = 0;
     double storey_height = 3.2;
+    Standing standing = Standing::stack;
   };
 
   struct Out {
@@ -25,6 +28,8 @@ struct SmartVolume {
     double last_step = 0, last_direction = 0;
     Point3 centroid;
     MeshPointer mesh;
+    double hang = 0, drop = 0;
+    std::string stands_on;
   };
 
   static void declare(TypificationBuilder<SmartVolume>& t) {
@@ -63,6 +68,11 @@ struct SmartVolume {
         .soft(2.4, 6)
         .combine(CombineRule::blend)
         .doc("Height from floor to floor, by which the floor area is counted.");
+    t.in(&In::standing, "standing",
+         {{Standing::ground, "ground", "It has to stand on the ground, as a garage or a supermarket does."},
+          {Standing::stack, "stack", "It may also stand on other volumes, as flats do on shops."},
+          {Standing::bridge, "bridge", "It may also hang between two or more volumes that stand and touch it."}})
+        .doc("What the volume may stand on. One that stands on nothing of it is named among the problems.");
   }
 
   static void declare_shape(TypificationBuilder<SmartVolume>& t) {
@@ -90,7 +100,11 @@ struct SmartVolume {
     t.out(&Out::centroid, "centroid")
         .unit(Unit::metre)
         .doc("Centre of gravity of the shape; the node's position where the shape is empty.");
-    t.out(&Out::mesh, "mesh").doc("The shape as a triangle mesh, for the eye and for export.");
+    t.out(&Out::mesh, "mesh")
+        .doc(
+            "The shape as a closed triangle mesh, for the eye and for export. It lies within the shape and is the nearer to it, "
+            "the "
+            "deeper the solver tessellates.");
   }
 
   static void declare_standing(TypificationBuilder<SmartVolume>& t) {
@@ -113,6 +127,13 @@ struct SmartVolume {
     t.out(&Out::last_direction, "last_direction")
         .unit(Unit::cubic_metre)
         .doc("The step that Newton's method is trying, which the next tick judges.");
+    t.out(&Out::stands_on, "stands_on").doc("What carries the volume: `the ground`, the id of a volume below it, or nothing.");
+    t.out(&Out::hang, "hang")
+        .unit(Unit::metre)
+        .doc("Height of the lowest point above the ground where the volume stands on nothing that it may stand on; else 0.");
+    t.out(&Out::drop, "drop")
+        .unit(Unit::metre)
+        .doc("How far the ball can sink until it touches what it may stand on; negative where it has sunk in by so much.");
   }
 };
 

@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
+#include "core/geometry/cell_mesh.h"
 #include "core/sun/moment_table.h"
 #include "core/sun/shadow_shape.h"
 #include "core/sun/study_cache.h"
@@ -67,7 +68,8 @@ struct SunStudyNode {
     t.doc(
         "Follows rays from the points of all receivers to the sun, at the moments of the sun's period, and tells each receiver "
         "what sun it has and who takes it, and each caster what it takes. Receivers for which nothing has changed keep their "
-        "figures; studies of more than 200 million rays are refused.");
+        "figures; studies of more than 200 million rays are refused. SmartVolumes cast "
+        "the shadow of a mesh whose faces are split in four once, however finely a solver shows them.");
     t.in(&In::sun, "sun").doc("The sun whose period is studied. Exactly one node has to result.");
     t.in(&In::volumes, "volumes")
         .doc("The SmartVolumes that cast shadow; nodes without the role of a shadow caster do not count.");
@@ -88,7 +90,10 @@ struct SunStudyNode {
     t.out(&Out::area, "area").unit(Unit::square_metre).doc("Area of all receivers.");
     t.out(&Out::sun_mean, "sun_mean").unit(Unit::second).doc("Direct sun per day, as the mean over that area.");
     t.out(&Out::sun_possible, "sun_possible").unit(Unit::second).doc("The same if there were no casters.");
-    t.out(&Out::share_met, "share_met").unit(Unit::ratio).soft(0, 1).doc("Share of that area that has the sun that is required of it.");
+    t.out(&Out::share_met, "share_met")
+        .unit(Unit::ratio)
+        .soft(0, 1)
+        .doc("Share of that area that has the sun that is required of it.");
     t.out(&Out::message, "message")
         .doc("Who takes most from whom, names that no caster bears, and whether any sun counts; empty where there is nothing.");
     t.set("sun", &Sets::suns)
@@ -150,7 +155,7 @@ struct SunStudyNode {
       const auto [it, is_new] = index.emplace(caster.id, list.size());
       if (is_new) list.push_back({caster.id, nullptr});
       MeshPointer& mesh = list[it->second].mesh;
-      if (has_shape) mesh = mesh ? both(*mesh, *caster.mesh) : caster.mesh;
+      if (has_shape) mesh = mesh ? both(*mesh, *study_mesh(caster.mesh)) : study_mesh(caster.mesh);
       return it->second;
     }
     static MeshPointer both(const Mesh& one, const Mesh& other) {
@@ -251,8 +256,7 @@ struct SunStudyNode {
     std::vector<CasterReply> replies;
     for (const SunCaster& caster : casters.list) {
       out.caster_count += caster.mesh ? 1 : 0;
-      auto outline =
-          caster.mesh ? shadow_outline(*caster.mesh, sets.suns.front().direction, in.ground) : std::vector<Point3>{};
+      auto outline = caster.mesh ? shadow_outline(*caster.mesh, sets.suns.front().direction, in.ground) : std::vector<Point3>{};
       replies.push_back({0.0, 0.0, "", Table{}, std::move(outline)});
     }
     std::vector<SunCase> cases;

@@ -9,12 +9,15 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/stop_check.h"
+
 namespace bl {
 
 struct ThreadPool::Shared {
   std::mutex mutex;
   std::condition_variable work_ready, work_done;
   const std::function<void(std::size_t, std::size_t)>* body = nullptr;
+  const StopWish* wish = nullptr;  // of the caller
   std::size_t count = 0, grain = 1, next = 0, running = 0;
   std::exception_ptr failure;
   bool is_stopping = false;
@@ -27,13 +30,18 @@ struct ThreadPool::Shared {
       next = end;
       ++running;
       const auto* current = body;
+      const StopWish* wished = wish;
       lock.unlock();
       std::exception_ptr caught;
+      bool is_stopped = false;
       try {
-        (*current)(begin, end);
+        const StopLoan loan(wished);
+        is_stopped = is_stop_wished();
+        if (!is_stopped) (*current)(begin, end);
       } catch (...) { caught = std::current_exception(); }
       lock.lock();
       --running;
+      if (is_stopped) next = count;
       if (caught && !failure) failure = caught;
     }
     if (running == 0) work_done.notify_all();
@@ -74,11 +82,12 @@ ThreadPool::~ThreadPool() {
 void ThreadPool::for_each_chunk(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   grain = std::max<std::size_t>(1, grain);
   if (!shared_ || count <= grain) {
-    for (std::size_t begin = 0; begin < count; begin += grain) body(begin, std::min(count, begin + grain));
+    for (std::size_t begin = 0; begin < count && !is_stop_wished(); begin += grain) body(begin, std::min(count, begin + grain));
     return;
   }
   std::unique_lock lock(shared_->mutex);
   shared_->body = &body;
+  shared_->wish = stop_wish();
   shared_->count = count;
   shared_->grain = grain;
   shared_->next = 0;

@@ -1,7 +1,55 @@
-// Names of the error codes and the composition of places.
+// Names of the error codes, the composition of places, and the bounds of what errors say.
 #include "core/base/result.h"
 
+#include <algorithm>
+
 namespace bl {
+
+namespace {
+
+constexpr std::size_t kLongestPlace = 400;
+
+// What is left of a long text: its beginning and its end, cut between characters of UTF-8, and how long it was.
+std::string without_middle(std::string_view text, std::size_t head, std::size_t tail) {
+  const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80; };
+  std::size_t end = head, begin = text.size() - tail;
+  while (end > 0 && is_inside(end)) --end;
+  while (begin < text.size() && is_inside(begin)) ++begin;
+  return std::string(text.substr(0, end)) + " ... (" + std::to_string(text.size()) + " bytes) ... " +
+         std::string(text.substr(begin));
+}
+
+// Sentences quote data between `` or "".
+std::string with_short_quotes(std::string_view message) {
+  std::string out;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::size_t open = std::min(message.find_first_of("`\"", at), message.size());
+    out += message.substr(at, open - at);
+    if (open == message.size()) break;
+    const std::size_t close = std::min(message.find(message[open], open + 1), message.size());
+    const std::string_view quote = message.substr(open + 1, close - open - 1);
+    out += message[open];
+    out += quote.size() > kLongestQuote ? without_middle(quote, kLongestQuote / 2, kLongestQuote / 6) : std::string(quote);
+    if (close < message.size()) out += message[close];
+    at = close + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+Error bounded(Error error) {
+  if (error.message.size() > kLongestQuote) error.message = with_short_quotes(error.message);
+  if (error.message.size() > kLongestMessage) error.message = without_middle(error.message, kLongestMessage - 600, 500);
+  if (error.place.size() > kLongestPlace) error.place = without_middle(error.place, kLongestPlace / 2, kLongestPlace / 4);
+  return error;
+}
+
+std::string Error::text() const {
+  if (message.size() <= kLongestQuote && place.size() <= kLongestPlace) return place.empty() ? message : place + ": " + message;
+  const Error shorter = bounded(*this);
+  return shorter.place.empty() ? shorter.message : shorter.place + ": " + shorter.message;
+}
 
 std::string_view name_of(ErrorCode code) {
   switch (code) {

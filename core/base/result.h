@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cassert>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,19 +40,24 @@ struct Error {
   std::string place;
   std::string message;
 
-  /// "place: message", or the message alone where there is no place.
-  std::string text() const { return place.empty() ? message : place + ": " + message; }
+  /// "place: message", or the message alone where there is no place; bounded.
+  std::string text() const;
   /// The same error with `prefix` put before its place.
   Error within(std::string_view prefix) const;
   bool operator==(const Error&) const = default;
 };
+
+/// The error with what it quotes from data cut where that is long, so that a sentence stays one: at most kLongestQuote bytes of a
+/// quotation, kLongestMessage of a message. Every error that a Result takes passes through here.
+inline constexpr std::size_t kLongestQuote = 240, kLongestMessage = 4000;
+Error bounded(Error error);
 
 /// A T or an Error; must be looked at before use.
 template <class T>
 class [[nodiscard]] Result {
  public:
   Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}      // NOLINT: implicit on purpose
-  Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit on purpose
+  Result(Error error) : content_(std::in_place_index<1>, bounded(std::move(error))) {}  // NOLINT: implicit on purpose
 
   bool ok() const { return content_.index() == 0; }
   explicit operator bool() const { return ok(); }
@@ -86,7 +92,7 @@ template <>
 class [[nodiscard]] Result<void> {
  public:
   Result() = default;
-  Result(Error error) : error_(std::move(error)), ok_(false) {}  // NOLINT: implicit on purpose
+  Result(Error error) : error_(bounded(std::move(error))), ok_(false) {}  // NOLINT: implicit on purpose
 
   bool ok() const { return ok_; }
   explicit operator bool() const { return ok_; }

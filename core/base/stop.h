@@ -22,7 +22,20 @@ class StopScope {
   const StopWish* outer_;
 };
 
-/// The wish of the innermost scope of this thread, or nullptr. Loops that run on several threads fetch it before they begin.
+/// The wish of the innermost scope of this thread, or nullptr. Threads of a ThreadPool have that of the thread whose loop they
+/// help with; other threads fetch it before they begin.
 const StopWish* stop_wish();
+
+/// While it lives, this thread stops by the wish of the thread that it works for (nullptr: by none).
+class StopLoan {
+ public:
+  explicit StopLoan(const StopWish* wish);
+  ~StopLoan();
+  StopLoan(const StopLoan&) = delete;
+  StopLoan& operator=(const StopLoan&) = delete;
+
+ private:
+  const StopWish* own_;
+};
 
 }  // namespace bl

@@ -1,16 +1,15 @@
-// Number formatting by std::to_chars, and the edit distance behind "did you mean".
+// Number formatting by std::to_chars, and identifiers.
 #include "core/base/text.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <vector>
 
 namespace bl {
 
 std::string shortest(double number) {
   char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number == 0 ? 0.0 : number).ptr;
   return {buffer, end};
 }
 
@@ -36,45 +35,6 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
   return number;
-}
-
-namespace {
-
-// Levenshtein distance by one row of dynamic programming.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
-}  // namespace
-
-std::string nearest_name(std::string_view name, std::span<const std::string> names) {
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
-  if (name.size() > 64) return best;
-  for (const std::string& candidate : names) {
-    const std::size_t edits = edit_distance(name, candidate);
-    if (edits < best_distance) {
-      best_distance = edits;
-      best = candidate;
-    }
-  }
-  return best;
-}
-
-std::string did_you_mean(std::string_view name, std::span<const std::string> names) {
-  const std::string near = nearest_name(name, names);
-  return near.empty() ? "" : ", did you mean `" + near + "`?";
 }
 
 namespace {

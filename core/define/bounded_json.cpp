@@ -75,6 +75,10 @@ std::string place_in_text(std::string_view text, std::size_t at) {
 }
 
 Result<void> check_json_bounds(std::string_view text) {
+  // The library's parser takes it for the end of the text, and what follows would be lost in silence.
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+    return Error{ErrorCode::parse, place_in_text(text, zero),
+                 "A zero byte stands here, which no text holds: the file is damaged. Get a whole copy of it."};
   std::size_t depth = 0, values = 1, deep = std::string_view::npos, many = std::string_view::npos;
   scan(text, [&](char c, std::size_t at) {
     if (c == '[' || c == '{') {

@@ -134,7 +134,7 @@ Result<Value> as_value(Result<T> result) {
   return Value(std::move(*result));
 }
 
-Result<Value> decode(const PortDefinition& port, const Json& json, const std::string& place) {
+Result<Value> decode_kind(const PortDefinition& port, const Json& json, const std::string& place) {
   switch (port.kind) {
     case ValueKind::boolean:
       if (!json.is_boolean()) return wrong_kind(port, json, place);
@@ -162,6 +162,12 @@ Result<Value> decode(const PortDefinition& port, const Json& json, const std::st
     case ValueKind::mesh: break;
   }
   return Error{ErrorCode::wrong_kind, place, "meshes cannot be set; they are computed"};
+}
+
+Result<Value> decode(const PortDefinition& port, const Json& json, const std::string& place) {
+  auto value = decode_kind(port, json, place);
+  if (value && !take_in(*value)) return Error{ErrorCode::not_finite, place, "must be a finite number"};
+  return value;
 }
 
 }  // namespace
@@ -314,9 +320,7 @@ Result<Value> running_value_from_json(const PortDefinition& port, const Json& js
   const bool has_range = port.kind == ValueKind::number || port.kind == ValueKind::integer || port.kind == ValueKind::point ||
                          port.kind == ValueKind::points;
   if (!has_range) return value_from_json(port, json, place);
-  auto value = decode(port, json, place);
-  if (value && !is_finite(*value)) return Error{ErrorCode::not_finite, place, "must be a finite number"};
-  return value;
+  return decode(port, json, place);
 }
 
 Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type, const Json& json, const std::string& place) {

@@ -1,7 +1,9 @@
-// JSON text in and out: nlohmann's SAX parser with stricter rules, and a writer of our own layout.
+// JSON text in and out: events of nlohmann's parser to a value under stricter rules, and a writer of our own layout.
 #include "core/define/json_text.h"
 
-#include <set>
+#include <algorithm>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -13,52 +15,99 @@ namespace bl {
 
 namespace {
 
-// Follows the parser's events to find what the DOM would hide: doubled keys.
-class Watcher {
+// Takes the parser's events and builds the value of them. The library's own builder looks through all siblings at each end of an
+// object when it is watched, and through all keys at each field of an ordered object: both cost n².
+class JsonBuilder {
  public:
-  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start) {
-      open_.emplace_back();
-    } else if (event == Json::parse_event_t::object_end || event == Json::parse_event_t::array_end) {
-      open_.pop_back();
-    } else if (event == Json::parse_event_t::key) {
-      const std::string& key = parsed.get_ref<const std::string&>();
-      if (!open_.back().insert(key).second && problem.empty()) problem = "the key \"" + key + "\" stands twice in one object";
-    }
-    return problem.empty();
+  explicit JsonBuilder(std::string_view text) : text_(text) {}
+
+  Json root;
+  std::optional<Error> error;
+
+  bool null() { return take(nullptr); }
+  bool boolean(bool value) { return take(value); }
+  bool number_integer(Json::number_integer_t value) { return take(value); }
+  bool number_unsigned(Json::number_unsigned_t value) { return take(value); }
+  bool number_float(Json::number_float_t value, const std::string& /*text*/) { return take(value); }
+  bool string(std::string& value) { return take(std::move(value)); }
+  bool binary(Json::binary_t& /*value*/) { return false; }  // no JSON text holds any
+  bool start_object(std::size_t /*size*/) { return open(Json::object()); }
+  bool start_array(std::size_t /*size*/) { return open(Json::array()); }
+  bool end_array() { return close(); }
+  bool key(std::string& name) {
+    key_ = std::move(name);
+    return true;
   }
-  std::string problem;
+  bool end_object() {
+    if (const std::string twice = doubled_key(*open_.back()); !twice.empty()) {
+      error = Error{ErrorCode::parse, "", "the key \"" + twice + "\" stands twice in one object; keep one of them"};
+      return false;
+    }
+    return close();
+  }
+
+  bool parse_error(std::size_t position, const std::string& last_token, const Json::exception& what) {
+    if (dynamic_cast<const Json::out_of_range*>(&what) != nullptr) {
+      error = Error{ErrorCode::not_finite, place_in_text(text_, position - std::min(position, last_token.size())),
+                    "a number is too large for a double"};
+    } else if (position > text_.size()) {
+      error = Error{ErrorCode::parse, place_in_text(text_, text_.size()),
+                    "the text ends in the middle of a JSON value; the file is cut off"};
+    } else {
+      error = Error{ErrorCode::parse, place_in_text(text_, position > 0 ? position - 1 : 0),
+                    "this is not JSON (no comments, no trailing commas, no NaN)"};
+    }
+    return false;
+  }
 
  private:
-  std::vector<std::set<std::string>> open_;
+  Json& put(Json&& value) {
+    if (open_.empty()) return root = std::move(value);
+    if (open_.back()->is_object()) return append_field(*open_.back(), std::move(key_)) = std::move(value);
+    open_.back()->push_back(std::move(value));
+    return open_.back()->back();
+  }
+  bool take(Json&& value) {
+    put(std::move(value));
+    return true;
+  }
+  // What holds an open value does not grow before it is closed, so that its address stays.
+  bool open(Json&& value) {
+    open_.push_back(&put(std::move(value)));
+    return true;
+  }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  // The first key that an object has twice; empty where none is.
+  static std::string doubled_key(const Json& object) {
+    std::vector<std::string_view> keys;
+    keys.reserve(object.size());
+    for (const auto& [key, value] : object.get_ref<const Json::object_t&>()) keys.emplace_back(key);
+    std::sort(keys.begin(), keys.end());
+    const auto twice = std::adjacent_find(keys.begin(), keys.end());
+    return twice == keys.end() ? "" : std::string(*twice);
+  }
+
+  std::string_view text_;
+  std::string key_;
+  std::vector<Json*> open_;  // from the outermost in
 };
 
 }  // namespace
 
+Json& append_field(Json& object, std::string key) {
+  return object.get_ref<Json::object_t&>().emplace_back(std::move(key), Json()).second;
+}
+
 Result<Json> parse_json(std::string_view text) {
   // The library's parser recurses nowhere, but its destructor and ours would on a hostile depth: looked at first.
   if (auto bounded = check_json_bounds(text); !bounded) return bounded.error();
-  Watcher watcher;
-  try {
-    Json value = Json::parse(text, std::ref(watcher));
-    if (!watcher.problem.empty()) return Error{ErrorCode::parse, "", watcher.problem + "; keep one of them"};
-    return value;
-  } catch (const Json::parse_error& e) {
-    const std::size_t byte = static_cast<std::size_t>(e.byte);
-    if (byte > text.size())
-      return Error{ErrorCode::parse, place_in_text(text, text.size()),
-                   "the text ends in the middle of a JSON value; the file is cut off"};
-    return Error{ErrorCode::parse, place_in_text(text, byte > 0 ? byte - 1 : 0),
-                 "this is not JSON (no comments, no trailing commas, no NaN)"};
-  } catch (const Json::out_of_range& e) {
-    // The library's message quotes the number; the first place where it stands is where it was met.
-    const std::string_view what = e.what();
-    const std::size_t open = what.find('\''), close = what.rfind('\'');
-    const std::string_view number = close > open ? what.substr(open + 1, close - open - 1) : std::string_view();
-    const std::size_t at = number.empty() ? std::string_view::npos : text.find(number);
-    return Error{ErrorCode::not_finite, at == std::string_view::npos ? "" : place_in_text(text, at),
-                 "a number is too large for a double"};
-  } catch (const std::exception&) { return Error{ErrorCode::parse, "", "this is not JSON text in UTF-8"}; }
+  JsonBuilder builder(text);
+  if (!Json::sax_parse(text, &builder)) return *builder.error;
+  return std::move(builder.root);
 }
 
 namespace {

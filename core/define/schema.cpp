@@ -168,7 +168,15 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
   const Json state = {
       {"type", "object"},
       {"properties",
-       {{"tick", tick}, {"calm", tick}, {"nodes", objects}, {"held", objects}, {"analyses", objects}, {"meshes", objects}}},
+       {{"tick", tick},
+        {"calm", tick},
+        {"nodes", objects},
+        {"voices", objects},
+        {"held", objects},  // of older files
+        {"errors", objects},
+        {"link_errors", objects},
+        {"analyses", objects},
+        {"meshes", objects}}},
       {"additionalProperties", false}};
   const Json properties = {{"format", {{"const", "behaviourlinks"}}},
                            {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},

@@ -51,21 +51,67 @@ std::string_view name_of(ValueKind kind) {
   return "a value";
 }
 
-bool is_proposable(ValueKind kind) {
-  return kind == ValueKind::number || kind == ValueKind::point || kind == ValueKind::texts;
-}
+bool is_proposable(ValueKind kind) { return kind == ValueKind::number || kind == ValueKind::point || kind == ValueKind::texts; }
 
-bool is_finite(const Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return std::isfinite(*number);
-  if (const auto* vector = std::get_if<Vector3>(&value)) return is_finite(*vector);
+namespace {
+
+// Shows `see` every number in a value that a run may keep, until it says no. Meshes are not among them: they follow from the
+// rest.
+template <class See>
+bool all_numbers(const Value& value, const See& see) {
+  const auto see_point = [&](const Vector3& v) { return see(v.x) && see(v.y) && see(v.z); };
+  if (const auto* number = std::get_if<double>(&value)) return see(*number);
+  if (const auto* vector = std::get_if<Vector3>(&value)) return see_point(*vector);
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value))
-    return std::all_of((*points)->begin(), (*points)->end(), [](const Point3& p) { return is_finite(p); });
+    return std::all_of((*points)->begin(), (*points)->end(), see_point);
   if (const auto* table = std::get_if<Shared<Table>>(&value)) {
     for (const auto& row : (*table)->rows)
       for (const Scalar& field : row)
-        if (const double* number = std::get_if<double>(&field); number && !std::isfinite(*number)) return false;
+        if (const double* number = std::get_if<double>(&field); number && !see(*number)) return false;
   }
   return true;
+}
+
+bool is_negative_zero(double number) { return number == 0 && std::signbit(number); }
+
+void take_signs_off(double& number) { number = number == 0 ? 0.0 : number; }
+void take_signs_off(Point3& point) {
+  take_signs_off(point.x);
+  take_signs_off(point.y);
+  take_signs_off(point.z);
+}
+
+// Only what holds such a zero is copied: everything else stays shared.
+void take_signs_off(Value& value) {
+  if (auto* number = std::get_if<double>(&value)) return take_signs_off(*number);
+  if (auto* vector = std::get_if<Vector3>(&value)) return take_signs_off(*vector);
+  if (auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) {
+    std::vector<Point3> plain = **points;
+    for (Point3& point : plain) take_signs_off(point);
+    *points = std::move(plain);
+  } else if (auto* table = std::get_if<Shared<Table>>(&value)) {
+    Table plain = **table;
+    for (auto& row : plain.rows)
+      for (Scalar& field : row)
+        if (double* number = std::get_if<double>(&field)) take_signs_off(*number);
+    *table = std::move(plain);
+  }
+}
+
+}  // namespace
+
+bool is_finite(const Value& value) {
+  return all_numbers(value, [](double number) { return std::isfinite(number); });
+}
+
+bool take_in(Value& value) {
+  bool is_plain = true;
+  const bool is_sound = all_numbers(value, [&](double number) {
+    is_plain = is_plain && !is_negative_zero(number);
+    return std::isfinite(number);
+  });
+  if (is_sound && !is_plain) take_signs_off(value);
+  return is_sound;
 }
 
 namespace {

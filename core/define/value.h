@@ -72,6 +72,9 @@ std::string_view name_of(ValueKind kind);
 bool is_proposable(ValueKind kind);
 /// Are all numbers in it finite?
 bool is_finite(const Value& value);
+/// The door of everything that is kept, whether read, said or worked out: takes the sign off zeros, because -0 equals 0 and would
+/// come back as that from a file, but divides and reads otherwise. False where a number is not finite.
+[[nodiscard]] bool take_in(Value& value);
 /// Folds a value into a hash; meshes count as nothing, because they follow from the rest.
 void add_to(Hash& hash, const Value& value);
 /// The number in a number, integer or boolean; 0 for other kinds.

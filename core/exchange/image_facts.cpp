@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include <libexif/exif-data.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/define/json_text.h"
 
@@ -246,8 +246,9 @@ Result<ImageFacts> read_image_facts(std::string_view bytes) {
   // The focal length on film gives the angle across its diagonal: it is the same for all formats.
   const auto focal = tags.number(EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM);
   if (focal && *focal > 1) {
-    const double diagonal = std::hypot(facts.width, facts.height);
-    facts.field_of_view = 2 * std::atan(0.5 * kFilmDiagonal * facts.seen_width() / diagonal / *focal) * 180 / std::numbers::pi;
+    const double diagonal = mathematics::hypotenuse(facts.width, facts.height);
+    facts.field_of_view =
+        2 * mathematics::arc_tangent(0.5 * kFilmDiagonal * facts.seen_width() / diagonal / *focal) * 180 / std::numbers::pi;
   }
   return facts;
 }

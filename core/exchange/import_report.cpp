@@ -100,7 +100,7 @@ const std::vector<std::string>& csv_header() {
 }
 
 // Millimetres are finer than anybody looks.
-std::string metres(double number) { return shortest(std::round(number * 1000) / 1000 + 0.0); }
+CsvCell metres(double number) { return std::round(number * 1000) / 1000 + 0.0; }
 
 std::vector<std::string> words(std::string_view text) {
   std::vector<std::string> list;
@@ -119,17 +119,17 @@ std::optional<ImportRow> row_of(const CsvRecord& record) {
   if (outcome == "repaired") row.outcome = ImportOutcome::repaired;
   else if (outcome == "skipped") row.outcome = ImportOutcome::skipped;
   else if (outcome != "taken") return std::nullopt;
-  row.kind = record.fields[2];
-  row.id = record.fields[3];
-  row.reason = record.fields[4];
-  row.detail = record.fields[5];
+  row.kind = text_of_harmless(record.fields[2]);
+  row.id = text_of_harmless(record.fields[3]);
+  row.reason = text_of_harmless(record.fields[4]);
+  row.detail = text_of_harmless(record.fields[5]);
   const std::string& count = record.fields[6];
   const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), row.count);
   if (problem != std::errc() || end != count.data() + count.size()) return std::nullopt;
   const auto x = parse_number(record.fields[7]), y = parse_number(record.fields[8]);
   if (x && y) row.place = {*x, *y};
   else if (!record.fields[7].empty() || !record.fields[8].empty()) return std::nullopt;
-  row.made = words(record.fields[9]);
+  row.made = words(text_of_harmless(record.fields[9]));
   return row;
 }
 
@@ -142,7 +142,7 @@ std::string import_csv(const ImportReports& reports) {
       std::string made;
       for (const std::string& id : row.made) made += (made.empty() ? "" : " ") + id;
       cells.push_back({file, name_of(row.outcome), row.kind, row.id, row.reason, row.detail, row.count,
-                       row.place ? metres((*row.place)[0]) : "", row.place ? metres((*row.place)[1]) : "", made});
+                       row.place ? metres((*row.place)[0]) : CsvCell(), row.place ? metres((*row.place)[1]) : CsvCell(), made});
     }
   return write_csv(csv_header(), cells);
 }
@@ -162,7 +162,8 @@ Result<ImportReports> read_import_csv(std::string_view text) {
     if (!row)
       return Error{ErrorCode::parse, "line " + std::to_string(record.line),
                    "This is no row of an import report: it was changed."};
-    if (reports.empty() || reports.back().first != record.fields[0]) reports.emplace_back(record.fields[0], ImportReport());
+    std::string file = text_of_harmless(record.fields[0]);
+    if (reports.empty() || reports.back().first != file) reports.emplace_back(std::move(file), ImportReport());
     reports.back().second.add(std::move(*row));
   }
   return reports;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 
 namespace bl {
@@ -117,7 +118,7 @@ Result<void> LocalFrame::use_own_projection() {
 }
 
 void LocalFrame::keep_crs(const std::string& crs, double x, double y, double north_x, double north_y) {
-  reference_ = {crs, std::round(x), std::round(y), 0, 0, std::atan2(north_x, north_y) / kDegree};
+  reference_ = {crs, std::round(x), std::round(y), 0, 0, mathematics::arc_tangent(north_x, north_y) / kDegree};
   proj_destroy(transforms_->to_metres);
   transforms_->to_metres = nullptr;
   const PJ_COORD origin = transforms_->degrees(reference_.origin_x, reference_.origin_y);

@@ -60,7 +60,7 @@ struct OsmStore {
 /// No more elements than this are read.
 inline constexpr std::size_t kMostOsmElements = 20000000;
 
-/// .osm, .osm.gz and .osm.pbf, told apart by their first bytes; read by libosmium.
+/// Of osm_reading.cpp. .osm, .osm.gz and .osm.pbf, told apart by their first bytes; read by libosmium.
 Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch = nullptr);
 
 }  // namespace bl

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/exchange/context_shape.h"
 #include "core/exchange/geojson_polygons.h"
@@ -32,7 +33,7 @@ double raw_area(const GeoPolygon& polygon, bool degrees) {
   Ring ring;
   for (const auto& p : polygon.rings[0]) ring.push_back({p[0], p[1], 0});
   const double area = std::abs(signed_area(ring));
-  return degrees && !ring.empty() ? area * std::abs(std::cos(ring[0].y * 0.017453292519943295)) : area;
+  return degrees && !ring.empty() ? area * std::abs(mathematics::cosine(ring[0].y * 0.017453292519943295)) : area;
 }
 
 double raw_area(const GeoFeature& feature) {

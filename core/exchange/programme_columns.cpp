@@ -210,6 +210,7 @@ const std::array<ProgrammeColumnInfo, kProgrammeColumns>& programme_columns() {
        Unit::none,
        {"adjacent_to", "adjacent", "adjacency", "adjacencies", "next_to", "near", "neighbours", "neighbors"}},
       {ProgrammeColumn::tags, "tags", Unit::none, {"tags", "tag", "labels", "keywords"}},
+      {ProgrammeColumn::standing, "standing", Unit::none, {"standing", "stands_on", "support"}},
   }};
   return columns;
 }

@@ -15,8 +15,19 @@
 
 namespace bl {
 
-enum class ProgrammeColumn { use, name, floor_area, floor_area_min, floor_area_max, count, storey_height, adjacent_to, tags };
-constexpr std::size_t kProgrammeColumns = 9;
+enum class ProgrammeColumn {
+  use,
+  name,
+  floor_area,
+  floor_area_min,
+  floor_area_max,
+  count,
+  storey_height,
+  adjacent_to,
+  tags,
+  standing
+};
+constexpr std::size_t kProgrammeColumns = 10;
 
 /// What we call a column, and what else it may be called. Names are compared in the form of normal_header.
 struct ProgrammeColumnInfo {

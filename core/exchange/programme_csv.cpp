@@ -47,6 +47,7 @@ class ProgrammeImporter {
   Result<void> check_width(const CsvRecord& record) const;
   Result<ProgrammeRow> read_row(const CsvRecord& record);
   Result<void> settle_area(const CsvRecord& record, ProgrammeRow& row);
+  Result<void> read_standing(const CsvRecord& record, ProgrammeRow& row) const;
   void make_unique();
   Result<void> join_neighbours();
 
@@ -159,6 +160,20 @@ Result<void> ProgrammeImporter::settle_area(const CsvRecord& record, ProgrammeRo
   return {};
 }
 
+// Empty fields leave what rows without this column have.
+Result<void> ProgrammeImporter::read_standing(const CsvRecord& record, ProgrammeRow& row) const {
+  const std::string written = field(record, BriefColumn::standing), word = lower_case(written);
+  if (word.empty()) return {};
+  const std::vector<std::string> words = {"ground", "stack", "bridge"};
+  if (std::find(words.begin(), words.end(), word) == words.end())
+    return Error{ErrorCode::parse, place(record, BriefColumn::standing),
+                 "`" + written + "` is not understood" + (did_you_mean(word, words).empty() ? "." : did_you_mean(word, words)) +
+                     " Write `ground` for what must stand on the ground, `stack` for what may stand on others, or `bridge` for "
+                     "what may also hang between others."};
+  row.standing = word;
+  return {};
+}
+
 Result<ProgrammeRow> ProgrammeImporter::read_row(const CsvRecord& record) {
   if (auto fits = check_width(record); !fits) return fits.error();
   ProgrammeRow row;
@@ -183,6 +198,7 @@ Result<ProgrammeRow> ProgrammeImporter::read_row(const CsvRecord& record) {
                  "The storey height is " + shortest(row.storey_height) + " m. It must be greater than zero and at most 1000 m."};
   row.adjacent_to = split_list(field(record, BriefColumn::adjacent_to), "|;");
   row.tags = split_list(field(record, BriefColumn::tags), "|;,");
+  if (auto standing = read_standing(record, row); !standing) return standing.error();
   return row;
 }
 

@@ -14,7 +14,8 @@ namespace bl {
 
 struct ProgrammeOptions {
   /// Our column → the header in the file, where that is called otherwise: {"use", "Room Name"}. Columns: use, name,
-  /// floor_area_m2, floor_area_min_m2, floor_area_max_m2, count, storey_height_m, adjacent_to, tags.
+  /// floor_area_m2, floor_area_min_m2, floor_area_max_m2, count, storey_height_m, adjacent_to, tags,
+  /// standing.
   std::map<std::string, std::string> columns;
   std::optional<char> separator;  ///< ',', ';' or '\t'; nothing: found out
   std::optional<char> decimal;    ///< '.' or ','; nothing: found out per column
@@ -33,6 +34,7 @@ struct ProgrammeRow {
   int count = 1;
   std::vector<std::string> adjacent_to;  ///< uses of this import
   std::vector<std::string> tags;
+  std::string standing = "stack";  ///< what its volumes may stand on: "ground", "stack" (also on others) or "bridge"
 };
 
 struct ProgrammeImport {

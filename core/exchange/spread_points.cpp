@@ -9,8 +9,8 @@
 
 #include "core/base/random.h"
 #include "core/base/text.h"
-#include "core/exchange/prism_samples.h"
 #include "core/exchange/ball_grid.h"
+#include "core/exchange/prism_samples.h"
 #include "core/geometry/plan_ring.h"
 
 namespace bl {
@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t kSamplesPerPoint = 32, kFewestSamples = 4096;
 constexpr int kRelaxations = 24;            // of which the last third is without attraction
 constexpr double kFill = 0.6;               // equal balls in disorder fill about so much of a room: larger radii never fit
+constexpr double kFooting = 0.2;            // how deep a ball on the ground sinks into it, as a share of its radius
 constexpr std::size_t kSpareSamples = 256;  // candidates for a point that must move away from another one
 
 // Newton's method with the four basic operations only: std::cbrt may differ by a bit between libraries.
@@ -36,7 +37,7 @@ double cube_root(double number) {
 class Spreader {
  public:
   Spreader(std::vector<Ring> rings, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
-           std::span<const std::pair<std::size_t, std::size_t>> pairs);
+           std::span<const std::pair<std::size_t, std::size_t>> pairs, std::span<const std::uint8_t> on_ground);
   std::vector<Point3> run();
 
  private:
@@ -49,7 +50,8 @@ class Spreader {
   void attract(double strength);
   void keep_clear();
   void separate();
-  Point3 at_buildable_height(Point3 point, double radius) const;
+  Point3 at_buildable_height(Point3 point, std::size_t site) const;
+  Point3 at_own_height(Point3 point, std::size_t site) const;
 
   bool is_inside(const Point3& point) const;
   Point3 nearest_side(const Point3& point) const;
@@ -57,6 +59,7 @@ class Spreader {
   std::vector<Ring> rings_;  // the plan, then its holes
   double bottom_, top_, spacing_ = 0;
   std::span<const std::pair<std::size_t, std::size_t>> pairs_;
+  std::span<const std::uint8_t> on_ground_;
   Random random_;
   std::vector<Point3> samples_;
   std::vector<BallSite> sites_;
@@ -66,11 +69,12 @@ class Spreader {
 };
 
 Spreader::Spreader(std::vector<Ring> rings, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
-                   std::span<const std::pair<std::size_t, std::size_t>> pairs)
+                   std::span<const std::pair<std::size_t, std::size_t>> pairs, std::span<const std::uint8_t> on_ground)
     : rings_(std::move(rings)),
       bottom_(bottom),
       top_(top),
       pairs_(pairs),
+      on_ground_(on_ground),
       random_(seed, 0x51),
       sites_(volumes.size()),
       neighbours_(volumes.size()) {
@@ -145,7 +149,7 @@ void Spreader::place_candidates() {
     double best = -std::numeric_limits<double>::infinity();
     Point3 at = samples_[0];
     for (int k = 0; k < (neighbours_[site].empty() ? candidates : 3 * candidates); ++k) {
-      const Point3& candidate = samples_[random_.below(samples_.size())];
+      const Point3 candidate = at_own_height(samples_[random_.below(samples_.size())], site);
       const double value = placed.empty() ? 0 : score(site, candidate, placed);
       if (value > best) {
         best = value;
@@ -202,10 +206,17 @@ void Spreader::move_to_centroids() {
   }
 }
 
-Point3 Spreader::at_buildable_height(Point3 point, double radius) const {
-  const double clear = std::min(radius, (top_ - bottom_) / 2);
-  point.z = std::clamp(point.z, bottom_ + clear, top_ - clear);
+// Where a ball has to stand on the ground, its height is given.
+Point3 Spreader::at_own_height(Point3 point, std::size_t site) const {
+  if (!on_ground_.empty() && on_ground_[site] != 0)
+    point.z = bottom_ + std::min((1 - kFooting) * sites_[site].radius, (top_ - bottom_) / 2);
   return point;
+}
+
+Point3 Spreader::at_buildable_height(Point3 point, std::size_t site) const {
+  const double clear = std::min(sites_[site].radius, (top_ - bottom_) / 2);
+  point.z = std::clamp(point.z, bottom_ + clear, top_ - clear);
+  return at_own_height(point, site);
 }
 
 // Neighbours that do not touch come nearer; each gives way by its share of the pull, the mean over its pairs.
@@ -230,7 +241,7 @@ void Spreader::relax(double attraction) {
   revive_hidden();
   move_to_centroids();
   if (attraction > 0 && !pairs_.empty()) attract(attraction);
-  for (BallSite& site : sites_) site.at = at_buildable_height(site.at, site.radius);
+  for (std::size_t i = 0; i < sites_.size(); ++i) sites_[i].at = at_buildable_height(sites_[i].at, i);
 }
 
 // Moves sites away from the nearest side until their ball fits, or as far as that helps.
@@ -266,12 +277,13 @@ void Spreader::separate() {
     double best = -1;
     Point3 at = sites_[i].at;
     for (std::size_t s = i % stride; s < samples_.size(); s += stride) {
+      const Point3 free = at_own_height(samples_[s], i);
       double nearest = std::numeric_limits<double>::infinity();
       for (std::size_t j = 0; j < sites_.size(); ++j)
-        if (j != i) nearest = std::min(nearest, squared_norm(samples_[s] - sites_[j].at));
+        if (j != i) nearest = std::min(nearest, squared_norm(free - sites_[j].at));
       if (nearest > best) {
         best = nearest;
-        at = samples_[s];
+        at = free;
       }
     }
     sites_[i].at = at;
@@ -303,8 +315,12 @@ Result<void> check(std::span<const Point3> plan, double bottom, double top, std:
 Result<std::vector<Point3>> spread_points(std::span<const Point3> plan, double bottom, double top,
                                           std::span<const double> volumes, std::uint64_t seed,
                                           std::span<const std::pair<std::size_t, std::size_t>> neighbours,
-                                          std::span<const Ring> holes) {
+                                          std::span<const Ring> holes, std::span<const std::uint8_t> on_ground) {
   if (auto sound = check(plan, bottom, top, volumes, neighbours); !sound) return sound.error();
+  if (!on_ground.empty() && on_ground.size() != volumes.size())
+    return Error{ErrorCode::out_of_range, "on_ground",
+                 "There are " + std::to_string(on_ground.size()) + " words on standing for " + std::to_string(volumes.size()) +
+                     " points. Give one for each point, or none."};
   std::vector<Ring> rings{Ring(plan.begin(), plan.end())};
   for (std::size_t h = 0; h < holes.size(); ++h) {
     const std::string place = "holes/" + std::to_string(h);
@@ -317,7 +333,7 @@ Result<std::vector<Point3>> spread_points(std::span<const Point3> plan, double b
     rings.push_back(holes[h]);
   }
   if (volumes.empty()) return std::vector<Point3>();
-  return Spreader(std::move(rings), bottom, top, volumes, seed, neighbours).run();
+  return Spreader(std::move(rings), bottom, top, volumes, seed, neighbours, on_ground).run();
 }
 
 }  // namespace bl

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/mathematics.h"
 #include "core/facade/ball_pieces.h"
 
 namespace bl {
@@ -200,7 +201,9 @@ void survey_round(const Mesh& mesh, const SurveyOptions& options, Surveyor& surv
 double polygon_disc_area(std::span<const std::array<double, 2>> corners, double squared) {
   const auto turned = [](const Plane2& a, const Plane2& b) { return a[0] * b[1] - a[1] * b[0]; };
   const auto level = [](const Plane2& a, const Plane2& b) { return a[0] * b[0] + a[1] * b[1]; };
-  const auto sector = [&](const Plane2& a, const Plane2& b) { return squared * std::atan2(turned(a, b), level(a, b)); };
+  const auto sector = [&](const Plane2& a, const Plane2& b) {
+    return squared * mathematics::arc_tangent(turned(a, b), level(a, b));
+  };
   double doubled = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Plane2 &a = corners[i], &b = corners[(i + 1) % corners.size()];

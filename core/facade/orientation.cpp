@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/mathematics.h"
+
 namespace bl {
 
 namespace {
@@ -24,7 +26,7 @@ std::optional<Orientation> orientation_named(std::string_view name) {
 
 Orientation orientation_of(const Vector3& normal, double true_north) {
   if (normal.x == 0 && normal.y == 0) return Orientation::north;
-  const double bearing = std::atan2(normal.x, normal.y) * 180 / std::numbers::pi - true_north;
+  const double bearing = mathematics::arc_tangent(normal.x, normal.y) * 180 / std::numbers::pi - true_north;
   // A hair of help to the clockwise side, so that walls on a border do not change with their rounding.
   const double turns = (bearing + 22.5 + 1e-9) / 45, sector = std::floor(turns);
   const double rest = sector - 8 * std::floor(sector / 8);
@@ -33,8 +35,8 @@ Orientation orientation_of(const Vector3& normal, double true_north) {
 
 Compass::Compass(double true_north)
     : true_north_(true_north),
-      sine_(std::sin(true_north * std::numbers::pi / 180)),
-      cosine_(std::cos(true_north * std::numbers::pi / 180)) {}
+      sine_(mathematics::sine(true_north * std::numbers::pi / 180)),
+      cosine_(mathematics::cosine(true_north * std::numbers::pi / 180)) {}
 
 Orientation Compass::of(const Vector3& normal) const {
   const auto quick = of_about(normal);

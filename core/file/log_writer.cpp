@@ -4,16 +4,19 @@
 #include <cerrno>
 #include <cstring>
 
+#include "core/file/file_io.h"
+
 namespace bl {
 
 LogWriter::~LogWriter() {
   if (file_ != nullptr) std::fclose(file_);
 }
 
-Result<void> LogWriter::open(const std::string& path) {
+Result<void> LogWriter::open(const std::string& path, bool must_be_new) {
   path_ = path;
-  file_ = std::fopen(path.c_str(), "we");
-  if (file_ == nullptr) return Error{ErrorCode::io, path, std::string("cannot be written: ") + std::strerror(errno)};
+  const auto opened = open_growing_file(path, must_be_new);
+  if (!opened) return opened.error();
+  file_ = *opened;
   return {};
 }
 

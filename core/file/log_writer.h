@@ -16,7 +16,8 @@ class LogWriter {
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  Result<void> open(const std::string& path);
+  /// Empties what is there, or refuses it as `duplicate` where it has to be new.
+  Result<void> open(const std::string& path, bool must_be_new = false);
   bool is_open() const { return file_ != nullptr; }
   /// Writes and hands over to the system at once. The first failure is kept; nothing is written after it.
   void write(std::string_view lines);

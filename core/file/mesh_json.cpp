@@ -15,6 +15,9 @@ bool is_triple(const Json& json, Holds&& holds) {
   return json.is_array() && json.size() == 3 && std::all_of(json.begin(), json.end(), holds);
 }
 
+// Without the sign that a zero may have in a text.
+double coordinate(const Json& json) { return json.get<double>() + 0.0; }
+
 bool is_length(const Json& json) { return json.is_number() && std::isfinite(json.get<double>()); }
 
 }  // namespace
@@ -33,7 +36,7 @@ std::shared_ptr<const Mesh> mesh_from_json(const Json& json) {
   auto mesh = std::make_shared<Mesh>();
   for (const Json& corner : vertices) {
     if (!is_triple(corner, is_length)) return nullptr;
-    mesh->vertices.push_back({corner[0].get<double>(), corner[1].get<double>(), corner[2].get<double>()});
+    mesh->vertices.push_back({coordinate(corner[0]), coordinate(corner[1]), coordinate(corner[2])});
   }
   for (const Json& triangle : triangles) {
     const auto is_corner = [&](const Json& k) { return k.is_number_unsigned() && k.get<std::uint64_t>() < vertices.size(); };

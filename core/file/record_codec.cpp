@@ -1,6 +1,7 @@
 // Nodes and links to JSON and back, ghosts kept to the letter.
 #include <nlohmann/json.hpp>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/file/scene_file.h"
@@ -177,7 +178,7 @@ std::vector<Problem> unfit_links(const Scene& scene, const Registry& registry) {
         if (!scene.nodes.contains(node))
           problems.push_back({true,
                               {ErrorCode::not_found, place + "/" + std::string(name_of(end)),
-                               "there is no node `" + node + "`" + did_you_mean(node, keys_of(scene.nodes))}});
+                               "there is no node `" + node + "`" + did_you_mean_among(node, scene.nodes)}});
   }
   return problems;
 }

@@ -2,13 +2,12 @@
 #include "core/file/scene_file.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
-#include "core/file/mesh_json.h"
+#include "core/file/state_json.h"
 
 namespace bl {
 
@@ -93,7 +92,8 @@ class Reader {
     }
     if (reading_.is_usable())
       for (Problem& problem : check_scene(reading_.scene, program_)) reading_.problems.push_back(std::move(problem));
-    if (const auto it = file.find("state"); it != file.end() && reading_.is_usable()) read_state(*it);
+    if (const auto it = file.find("state"); it != file.end() && reading_.is_usable())
+      reading_.state = state_from_json(*it, reading_.scene, *registry_, reading_.problems);
   }
 
   void read_revisions(const Json& file) {
@@ -203,156 +203,6 @@ class Reader {
     if (auto link = link_from_json(json, *registry_, place); note(link)) reading_.scene.links.emplace(id, std::move(*link));
   }
 
-  Result<Value> state_value(const std::string& node, const std::string& path, const Json& json, const std::string& place) const {
-    const auto parsed = parse_port_path(path);
-    const auto record = reading_.scene.nodes.find(node);
-    if (record == reading_.scene.nodes.end()) return Error{ErrorCode::not_found, place, "there is no node `" + node + "`"};
-    if (!parsed) return Error{ErrorCode::wrong_kind, place, "expects \"typification.port\""};
-    const auto port = registry_->port(*parsed);
-    if (!port) return port.error().within(place);
-    if (!record->second.types.contains(parsed->typification))
-      return Error{ErrorCode::not_found, place, "the node is not a `" + parsed->typification + "`"};
-    return running_value_from_json(**port, json, place);
-  }
-
-  // A known typification had this port once. Running figures follow from the rest, so that a scene is not lost for one of them.
-  bool is_of_older_program(const std::string& path) const {
-    const auto parsed = parse_port_path(path);
-    const TypificationDefinition* type = parsed ? registry_->typification(parsed->typification) : nullptr;
-    return type != nullptr && type->find_port(parsed->port) == nullptr;
-  }
-
-  void read_state(const Json& json) {
-    if (!json.is_object()) return fail({ErrorCode::wrong_kind, "state", "expects an object"});
-    if (!note(check_keys(json, {"tick", "calm", "nodes", "held", "analyses", "meshes"}, "state"))) return;
-    SavedState state;
-    if (!read_tick(json, "tick", "state", state.tick) || !read_tick(json, "calm", "state", state.calm)) return;
-    const Json nodes = json.value("nodes", Json::object());
-    const bool is_read = read_values(nodes, "state/nodes", [&](const std::string& node, const std::string& path, Value&& value) {
-      state.nodes[node][path] = std::move(value);
-    });
-    if (!is_read || !read_held(json.value("held", Json::object()), state)) return;
-    if (!read_analyses(json.value("analyses", Json::object()), state)) return;
-    if (!read_meshes(json.value("meshes", Json::object()), state)) return;
-    reading_.state = std::move(state);
-  }
-
-  bool read_tick(const Json& json, const char* key, const std::string& place, std::int64_t& tick) {
-    const auto it = json.find(key);
-    if (it == json.end()) return true;
-    const bool is_good = it->is_number_integer() && *it >= 0 && *it <= (std::int64_t{1} << 53);
-    if (is_good) tick = it->get<std::int64_t>();
-    else fail({ErrorCode::wrong_kind, place + "/" + key, "expects a whole number from 0"});
-    return is_good;
-  }
-
-  // {"node": {"typification.port": value, ...}, ...}
-  template <class Take>
-  bool read_values(const Json& nodes, const std::string& place, Take&& take) {
-    if (!nodes.is_object()) {
-      fail({ErrorCode::wrong_kind, place, "expects an object"});
-      return false;
-    }
-    for (const auto& [node, values] : nodes.items()) {
-      if (!values.is_object()) {
-        fail({ErrorCode::wrong_kind, place + "/" + node, "expects an object"});
-        return false;
-      }
-      for (const auto& [path, content] : values.items()) {
-        const std::string here = place + "/" + node + "/" + path;
-        if (is_of_older_program(path)) {
-          reading_.problems.push_back(
-              {false,
-               {ErrorCode::not_found, here, "this program keeps no such figure; what follows from it is worked out again"}});
-          continue;
-        }
-        auto value = state_value(node, path, content, here);
-        if (!note(value)) return false;
-        take(node, path, std::move(*value));
-      }
-    }
-    return true;
-  }
-
-  // {"node/typification": {"as_of": ..., "inputs": ..., "begun": ..., "due": ..., "running": ..., "outputs": {...}}, ...}
-  bool read_analyses(const Json& analyses, SavedState& state) {
-    if (!analyses.is_object()) {
-      fail({ErrorCode::wrong_kind, "state/analyses", "expects an object"});
-      return false;
-    }
-    for (const auto& [name, json] : analyses.items()) {
-      const std::string place = "state/analyses/" + name;
-      const std::size_t slash = name.find('/');
-      if (slash == std::string::npos || !json.is_object()) {
-        fail({ErrorCode::wrong_kind, place, "expects the results of `node/typification`"});
-        return false;
-      }
-      if (!note(check_keys(json, {"as_of", "taken", "inputs", "begun", "due", "running", "error", "outputs"}, place)))
-        return false;
-      SavedAnalysis& saved = state.analyses[{name.substr(0, slash), name.substr(slash + 1)}];
-      if (!read_tick(json, "as_of", place, saved.as_of) || !read_tick(json, "taken", place, saved.taken) ||
-          !read_tick(json, "begun", place, saved.begun) || !read_tick(json, "due", place, saved.due) ||
-          !read_digest(json, "inputs", place, saved.inputs) || !read_digest(json, "running", place, saved.running_inputs))
-        return false;
-      if (const auto error = json.find("error"); error != json.end() && error->is_string())
-        saved.result.error = Error{ErrorCode::internal, "", error->get<std::string>()};
-      const bool is_read = read_values(json.value("outputs", Json::object()), place + "/outputs",
-                                       [&](const std::string& node, const std::string& path, Value&& value) {
-                                         saved.result.outputs.push_back({node, path, std::move(value)});
-                                       });
-      if (!is_read) return false;
-    }
-    return true;
-  }
-
-  bool read_digest(const Json& json, const char* key, const std::string& place, std::uint64_t& digest) {
-    const auto it = json.find(key);
-    if (it == json.end()) return true;
-    const std::string text = it->is_string() ? it->get<std::string>() : "";
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), digest, 16);
-    if (code == std::errc() && end == text.data() + text.size() && !text.empty()) return true;
-    fail({ErrorCode::wrong_kind, place + "/" + key, "expects sixteen hexadecimal digits"});
-    return false;
-  }
-
-  bool read_held(const Json& held, SavedState& state) {
-    if (!held.is_object()) {
-      fail({ErrorCode::wrong_kind, "state/held", "expects an object"});
-      return false;
-    }
-    for (const auto& [link, voices] : held.items()) {
-      const std::string place = "state/held/" + link;
-      if (!reading_.scene.links.contains(link) || !voices.is_object()) {
-        fail({ErrorCode::not_found, place, "expects the wanted values of a link of this scene"});
-        return false;
-      }
-      for (const auto& [target, content] : voices.items()) {
-        const std::size_t slash = target.find('/');
-        const std::string node = target.substr(0, slash), path = slash == std::string::npos ? "" : target.substr(slash + 1);
-        auto value = state_value(node, path, content, place + "/" + target);
-        if (!note(value)) return false;
-        state.held[link].push_back({{node, path}, Voice{{}, std::move(*value), 0, reading_.scene.links.at(link).strength}});
-      }
-    }
-    return true;
-  }
-
-  // {"node": {"typification.port": {"vertices": [[x, y, z], ...], "triangles": [[a, b, c], ...]}}, ...}
-  bool read_meshes(const Json& nodes, SavedState& state) {
-    const std::string place = "state/meshes";
-    bool is_good = nodes.is_object();
-    for (auto node = nodes.begin(); is_good && node != nodes.end(); ++node) {
-      is_good = node->is_object();
-      for (auto path = node->begin(); is_good && path != node->end(); ++path) {
-        MeshPointer mesh = mesh_from_json(*path);
-        is_good = mesh != nullptr;
-        state.meshes[{node.key(), path.key()}] = std::move(mesh);
-      }
-    }
-    if (!is_good) fail({ErrorCode::wrong_kind, place, "expects meshes with `vertices` and `triangles` by node and port"});
-    return is_good;
-  }
-
   const Registry& program_;
   const Registry* registry_;  // with the kinds of the scene's scripts
   SceneReading reading_;
@@ -385,35 +235,6 @@ Json revisions_of(const Scene& scene, const Registry& registry) {
     if (link.ghost.empty())
       if (const int revision = registry.link(link.kind)->revision; revision > 1) revisions[link.kind] = revision;
   return revisions.empty() ? Json::object() : Json(revisions);
-}
-
-Json state_to_json(const SavedState& state, const Registry& registry) {
-  auto port_of = [&](const std::string& path) -> const PortDefinition& { return **registry.port(*parse_port_path(path)); };
-  Json json = Json::object();
-  json["tick"] = state.tick;
-  json["calm"] = state.calm;
-  Json& nodes = json["nodes"] = Json::object();
-  for (const auto& [node, values] : state.nodes)
-    for (const auto& [path, value] : values) nodes[node][path] = value_to_json(value, port_of(path));
-  for (const auto& [link, voices] : state.held)
-    for (const auto& [target, voice] : voices)
-      json["held"][link][target.first + "/" + target.second] = value_to_json(voice.value, port_of(target.second));
-  for (const auto& [name, saved] : state.analyses) {
-    Json& analysis = json["analyses"][name.first + "/" + name.second] = Json::object();
-    if (saved.as_of >= 0) analysis["as_of"] = saved.as_of;
-    if (saved.as_of >= 0) analysis["taken"] = saved.taken;
-    if (saved.as_of >= 0) analysis["inputs"] = hex_digits(saved.inputs);
-    if (saved.due < 0) continue;
-    analysis["begun"] = saved.begun;
-    analysis["due"] = saved.due;
-    analysis["running"] = hex_digits(saved.running_inputs);
-    if (saved.result.error) analysis["error"] = saved.result.error->text();
-    for (const AnalysisOutput& output : saved.result.outputs)
-      if (port_of(output.path).kind != ValueKind::mesh)
-        analysis["outputs"][output.node][output.path] = value_to_json(output.value, port_of(output.path));
-  }
-  for (const auto& [target, mesh] : state.meshes) json["meshes"][target.first][target.second] = mesh_to_json(*mesh);
-  return json;
 }
 
 }  // namespace

@@ -1,87 +1,82 @@
-// Wraps whole cells with one centre, and cells in several pieces so that no gap opens between them.
+// Wraps whole cells with one centre, and the parts of cells in several pieces each with its own, put together where they are
+// open.
 #include "core/geometry/cell_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
+#include "core/geometry/cell_seams.h"
+#include "core/geometry/none.h"
 #include "core/geometry/tessellate.h"
 
 namespace bl {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
 constexpr double kInsideShare = 1e-6;
+// Of the ball's radius: places of two parts that are no farther apart are one.
+constexpr double kStudyWeld = 1e-7;
+constexpr double kUnwrapped = std::numeric_limits<double>::infinity();
 
-Mesh mesh_of(const Polyhedron& part, double radius, int depth, const Point3& wrap_centre, const Point3& at) {
+Mesh mesh_of_one(const Polyhedron& part, double radius, int depth, const Point3& centre, const Point3& at) {
   std::vector<FaceLoop> loops;
-  for (const PolyhedronFace& face : part.faces) {
-    if (face.kind != FaceKind::inner) loops.push_back(part.loop(face));
+  for (const PolyhedronFace& face : part.faces) loops.push_back(part.loop(face));
+  return tessellate(part.vertices, loops, depth, radius, {centre}, at);
+}
+
+Point3 centre_of(const Polyhedron& part, double squared_radius, double margin, const Point3& other) {
+  return holds(part, squared_radius, {}, margin) ? Point3{} : other;
+}
+
+void append_mesh(const Mesh& part, Mesh& whole) {
+  const auto first = static_cast<std::uint32_t>(whole.vertices.size());
+  whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const auto& t : part.triangles) whole.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
+// Vertices of the parts' borders that are one place become one vertex, so that those who follow edges find no gap.
+void weld_borders(Mesh& mesh, const std::vector<std::uint32_t>& border, double tolerance) {
+  if (border.empty()) return;
+  std::vector<std::uint32_t> order = border, twin(mesh.vertices.size());
+  std::iota(twin.begin(), twin.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const double a = mesh.vertices[i].x, b = mesh.vertices[j].x;
+    return a != b ? a < b : i < j;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (twin[order[i]] != order[i]) continue;
+    const Point3& place = mesh.vertices[order[i]];
+    for (std::size_t j = i + 1; j < order.size() && mesh.vertices[order[j]].x - place.x <= tolerance; ++j)
+      if (twin[order[j]] == order[j] && distance(mesh.vertices[order[j]], place) <= tolerance) twin[order[j]] = order[i];
   }
-  return tessellate(part.vertices, loops, depth, {}, radius, wrap_centre, at);
-}
-
-// Nearest point of a face to the middle of its ball: where the ball reaches the face at all, it is in the ball and in the face.
-Point3 nearest_on_face(const Polyhedron& part, const PolyhedronFace& face) {
-  const Point3 foot = face.offset * face.normal;
-  const FaceLoop loop = part.loop(face);
-  Point3 best = foot;
-  double least = kInfinity;
-  bool is_inside = true;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Point3 a = part.vertices[loop[i]], along = part.vertices[loop[(i + 1) % loop.size()]] - a;
-    is_inside = is_inside && dot(face.normal, cross(along, foot - a)) >= 0;
-    const Point3 on_edge = a + std::clamp(dot(foot - a, along) / std::max(1e-300, squared_norm(along)), 0.0, 1.0) * along;
-    if (squared_norm(foot - on_edge) >= least) continue;
-    least = squared_norm(foot - on_edge);
-    best = on_edge;
-  }
-  return is_inside ? foot : best;
-}
-
-// The place on the ball, on the way from a point in it to one beyond it.
-Point3 place_on_ball(double squared_radius, const Point3& inside, const Point3& beyond) {
-  const Vector3 way = beyond - inside;
-  const double a = squared_norm(way), b = dot(way, inside), rest = std::max(0.0, squared_radius - squared_norm(inside));
-  const double root = std::sqrt(b * b + a * rest), t = b > 0 ? rest / (b + root) : (root - b) / a;
-  return inside + std::min(1.0, t) * way;
-}
-
-// A face between two parts that the ball reaches, and the point of it that both of them see.
-struct Seam {
-  Vector3 normal;
-  double offset, rounding;
-  Point3 centre;
-  bool holds(const Point3& point) const { return std::abs(dot(normal, point) - offset) <= rounding; }
-};
-
-std::vector<Seam> seams_of(const Polyhedron& part, double squared_radius) {
-  std::vector<Seam> seams;
-  const double rounding = 1e-9 * std::sqrt(part.reach_squared);
-  for (const PolyhedronFace& face : part.faces) {
-    if (face.kind != FaceKind::inner || face.offset * face.offset >= squared_radius) continue;
-    const Point3 nearest = nearest_on_face(part, face);
-    if (squared_norm(nearest) < squared_radius) seams.push_back({face.normal, face.offset, rounding, nearest});
-  }
-  return seams;
-}
-
-// One of several parts. Each moves its vertices towards a point of its own, because the way to one in another part may lead out
-// of the domain. What lies on a face between two parts stays there and moves to a point that both of them see, so that no gap
-// opens.
-Mesh mesh_of_part(const Polyhedron& part, const PowerSite& site, int depth, const Point3& centre) {
-  const std::vector<Seam> seams = seams_of(part, site.weight);
-  Mesh mesh = mesh_of(part, kInfinity, depth, {}, {});
-  for (Point3& vertex : mesh.vertices) {
-    const auto seam = std::find_if(seams.begin(), seams.end(), [&](const Seam& s) { return s.holds(vertex); });
-    if (squared_norm(vertex) > site.weight) {
-      vertex = place_on_ball(site.weight, seam == seams.end() ? centre : seam->centre, vertex);
+  std::vector<std::uint32_t> number(mesh.vertices.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+    if (twin[v] == v) {
+      number[v] = count;
+      mesh.vertices[count++] = mesh.vertices[v];
     }
-    vertex += site.position;
-  }
-  return mesh;
+  mesh.vertices.resize(count);
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle) corner = number[twin[corner]];
+}
+
+void drop_unused(Mesh& mesh) {
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kNone);
+  std::vector<Point3> used;
+  for (auto& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle) {
+      if (number[corner] == kNone) {
+        number[corner] = static_cast<std::uint32_t>(used.size());
+        used.push_back(mesh.vertices[corner]);
+      }
+      corner = number[corner];
+    }
+  mesh.vertices = std::move(used);
 }
 
 }  // namespace
@@ -96,21 +91,23 @@ bool holds(const Polyhedron& part, double squared_radius, const Point3& point, d
 Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
                const Point3& centroid) {
   // Towards the site, or where it is not inside its own cell, towards the centroid.
-  const double margin = kInsideShare * std::sqrt(site.weight);
-  const bool is_inside =
-      std::any_of(parts.begin(), parts.end(), [&](const Polyhedron& part) { return holds(part, site.weight, {}, margin); });
-  if (parts.size() == 1) {
-    return mesh_of(parts[0], std::sqrt(site.weight), depth, is_inside ? Point3{} : centroid, site.position);
-  }
+  const double radius = std::sqrt(site.weight), margin = kInsideShare * radius;
+  if (parts.size() == 1)
+    return mesh_of_one(parts[0], radius, depth, centre_of(parts[0], site.weight, margin, centroid), site.position);
+  // Each part has a point of its own, because the way to one in another part may lead out of the domain.
+  const std::vector<OpenPart> open = open_parts(parts, shapes, site.weight);
   Mesh whole;
+  std::vector<std::uint32_t> border, own;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (shapes[k].is_empty) continue;
-    const Point3 centre = holds(parts[k], site.weight, {}, margin) ? Point3{} : shapes[k].centroid;
-    const Mesh mesh = mesh_of_part(parts[k], site, depth, centre);
-    const std::uint32_t first = static_cast<std::uint32_t>(whole.vertices.size());
-    whole.vertices.insert(whole.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const auto& t : mesh.triangles) whole.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    const WrapTargets targets{centre_of(parts[k], site.weight, margin, shapes[k].centroid), open[k].marks, open[k].seams};
+    const auto first = static_cast<std::uint32_t>(whole.vertices.size());
+    append_mesh(tessellate(open[k].corners, open[k].faces(), depth, radius, targets, site.position, &own), whole);
+    for (const std::uint32_t vertex : own) border.push_back(first + vertex);
   }
+  // Both sides of an opening have found its corners within the tolerance; wrapping and adding up may have moved them a little
+  // more.
+  weld_borders(whole, border, 8 * seam_tolerance(parts));
   return whole;
 }
 
@@ -119,26 +116,60 @@ MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const 
   const double margin = kInsideShare * std::sqrt(site.weight);
   Mesh whole;
   MeshWrap wrap{site.position, std::sqrt(site.weight), {}, {}};
+  const std::vector<OpenPart> open = parts.size() == 1 ? std::vector<OpenPart>(1) : open_parts(parts, shapes, site.weight);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts.size() > 1 && shapes[k].is_empty) continue;
-    const Point3 other = parts.size() == 1 ? centroid : shapes[k].centroid;
-    const Point3 centre = holds(parts[k], site.weight, {}, margin) ? Point3{} : other;
-    const Mesh mesh = mesh_of(parts[k], kInfinity, 0, {}, site.position);
-    const auto first = static_cast<std::uint32_t>(whole.vertices.size());
+    const Point3 centre = centre_of(parts[k], site.weight, margin, parts.size() == 1 ? centroid : shapes[k].centroid);
+    const Mesh mesh = parts.size() == 1 ? mesh_of_one(parts[k], kUnwrapped, 0, {}, site.position)
+                                        : tessellate(open[k].corners, open[k].faces(), 0, kUnwrapped, {}, site.position);
     MeshWrap::Part part{static_cast<std::uint32_t>(mesh.triangles.size()), site.position + centre, {}};
-    wrap.seams.resize(first + mesh.vertices.size(), 0);
-    const std::vector<Seam> seams = parts.size() == 1 ? std::vector<Seam>() : seams_of(parts[k], site.weight);
-    for (std::size_t s = 0; s < std::min<std::size_t>(seams.size(), MeshWrap::kMostSeams); ++s) {
-      part.seams.push_back(site.position + seams[s].centre);
-      // Corners only: the centre of a face that counts lies on no face between parts.
-      for (std::size_t v = 0; v < parts[k].vertices.size(); ++v)
-        if (seams[s].holds(parts[k].vertices[v])) wrap.seams[first + v] |= 1u << s;
-    }
-    whole.vertices.insert(whole.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const auto& t : mesh.triangles) whole.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (const Point3& seam : open[k].seams) part.seams.push_back(site.position + seam);
+    const std::size_t first = whole.vertices.size();
+    append_mesh(mesh, whole);
+    wrap.seams.resize(whole.vertices.size(), 0);
+    std::copy(open[k].marks.begin(), open[k].marks.end(), wrap.seams.begin() + static_cast<std::ptrdiff_t>(first));
     wrap.parts.push_back(std::move(part));
   }
   whole.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
+  return std::make_shared<const Mesh>(std::move(whole));
+}
+
+MeshPointer study_mesh(const MeshPointer& mesh) {
+  if (!mesh || !mesh->coarse || !mesh->coarse->wrap) return mesh;
+  const Mesh& coarse = *mesh->coarse;
+  const MeshWrap& wrap = *coarse.wrap;
+  if (mesh->triangles.size() == coarse.triangles.size() << (2 * kStudyDepth)) return mesh;
+  Mesh whole;
+  std::vector<std::uint32_t> border, own;
+  std::size_t at = 0;
+  for (const MeshWrap::Part& part : wrap.parts) {
+    const auto triangles = std::span(coarse.triangles).subspan(at, part.triangles);
+    at += part.triangles;
+    std::uint32_t lowest = kNone, end = 0;
+    for (const auto& [a, b, c] : triangles) {
+      lowest = std::min({lowest, a, b, c});
+      end = std::max({end, a + 1, b + 1, c + 1});
+    }
+    if (triangles.empty()) continue;
+    // The triangles of a face share their first corner, and the second ones go round it.
+    std::vector<std::vector<std::uint32_t>> loops;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (t == 0 || triangles[t][0] != triangles[t - 1][0]) loops.emplace_back();
+      loops.back().push_back(triangles[t][1] - lowest);
+    }
+    std::vector<Point3> corners;
+    for (std::uint32_t v = lowest; v < end; ++v) corners.push_back(coarse.vertices[v] - wrap.ball_centre);
+    std::vector<Point3> seams;
+    for (const Point3& seam : part.seams) seams.push_back(seam - wrap.ball_centre);
+    const std::vector<FaceLoop> faces(loops.begin(), loops.end());
+    const WrapTargets targets{part.centre - wrap.ball_centre, std::span(wrap.seams).subspan(lowest, end - lowest), seams};
+    const auto first = static_cast<std::uint32_t>(whole.vertices.size());
+    append_mesh(tessellate(corners, faces, kStudyDepth, wrap.radius, targets, wrap.ball_centre, &own), whole);
+    for (const std::uint32_t vertex : own) border.push_back(first + vertex);
+  }
+  weld_borders(whole, border, kStudyWeld * wrap.radius);
+  // The centres of the coarse faces among them.
+  drop_unused(whole);
   return std::make_shared<const Mesh>(std::move(whole));
 }
 

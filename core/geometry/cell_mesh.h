@@ -1,6 +1,7 @@
 // The meshes of one cell in all pieces of its domain: finely divided and wrapped, or coarse for a graphics processor to wrap.
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "core/base/mesh.h"
@@ -12,13 +13,20 @@ namespace bl {
 /// Is the point in the ball, and behind all faces by at least `margin` [m]? Relative to the site, as the part is.
 bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin);
 
-/// The parts in the pieces of the domain become one mesh without the faces between the pieces. `centroid` of the shape,
-/// relative to the site.
+/// The parts in the pieces of the domain become one closed mesh that is open from part to part where the ball is. `centroid` of
+/// the shape, relative to the site.
 Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
                const Point3& centroid);
 /// The same parts as fans of triangles, a face's centre first, not wrapped; `wrap` says how make_mesh would go on. The
 /// triangles come in the order in which make_mesh divides them.
 MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site,
                              const Point3& centroid);
+
+/// Faces of shapes that studies measure with are split in four so many times.
+inline constexpr int kStudyDepth = 1;
+
+/// The mesh of a cell as studies see it, however finely it is shown: of kStudyDepth, made from its coarse one. A mesh without a
+/// coarse one is what it is; nullptr stays nullptr.
+MeshPointer study_mesh(const MeshPointer& mesh);
 
 }  // namespace bl

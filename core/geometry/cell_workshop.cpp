@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "core/base/mathematics.h"
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/geometry/cell_mesh.h"
 #include "core/geometry/coincidence.h"
@@ -121,6 +123,9 @@ void measure_parts(const CellGround& ground, std::uint32_t index, const CellOpti
 // Farther from the domain than so many times its size, the ball that reaches it is so large that rounding moves it by a share of
 // the domain that shows.
 constexpr double kFarthest = 3000;
+
+// Cells between two looks at whether anybody still wants them: some tenths of a millisecond.
+constexpr std::size_t kCellsPerLook = 32;
 
 template <class Record>
 void fetch_ahead(const Record& record) {
@@ -277,6 +282,7 @@ void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run,
   auto bench = take_bench();
   if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
   for (std::size_t k = begin; k < end; ++k) {
+    if (k % kCellsPerLook == 0 && is_stop_wished()) break;
     // Records lie in the order of the sites, not in that of the work: the next one is fetched while this one is made.
     if (k + 1 < end) {
       fetch_ahead(cells[which[k + 1]]);
@@ -310,7 +316,7 @@ std::size_t CellWorkshop::runs_per_thread(std::size_t threads, const CellOptions
   const auto whole = std::count_if(sites_.begin(), sites_.end(),
                                    [&](const PowerSite& site) { return limit_of(site.weight, options) == kNoLimit; });
   if (2 * static_cast<std::size_t>(whole) < sites_.size()) return kRunsPerThread;
-  const double layers = std::cbrt(static_cast<double>(sites_.size()) / SiteGrid::kSitesPerBlock);
+  const double layers = mathematics::cube_root(static_cast<double>(sites_.size()) / SiteGrid::kSitesPerBlock);
   const double most = layers / (kThickness * static_cast<double>(threads));
   return std::clamp<std::size_t>(static_cast<std::size_t>(most), 1, kRunsPerThread);
 }

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/base/stop_check.h"
+
 namespace bl {
 
 /// What the loop works on; kept between two solutions it saves the memory's making.
@@ -36,6 +38,7 @@ void conjugate_gradients(const Rows& rows, GradientVectors& v, int most_iteratio
     v.direction[u] = v.scaled[u];
   }
   for (int i = 0; i < most_iterations && !is_enough(rest, first); ++i) {
+    if (i % 8 == 7 && is_stop_wished()) break;
     multiply(v.direction, v.image);
     double curvature = 0;
     for (const auto u : rows) curvature += v.direction[u] * v.image[u];

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
+#include "core/base/mathematics.h"
 #include "core/geometry/none.h"
 
 namespace bl {
@@ -24,8 +26,8 @@ std::tuple<long long, long long, double> plane_key(const Plane& plane) {
   const double horizontal = std::sqrt(plane.normal.x * plane.normal.x + plane.normal.y * plane.normal.y);
   const long long east = std::llround(plane.normal.x * kSteps), north = std::llround(plane.normal.y * kSteps);
   if (horizontal < 1e-9 || (east == 0 && north == 0)) return {level, 0, plane.offset};
-  double angle = std::atan2(static_cast<double>(north), static_cast<double>(east));
-  if (angle < 0) angle += 2 * std::acos(-1.0);
+  double angle = mathematics::arc_tangent(static_cast<double>(north), static_cast<double>(east));
+  if (angle < 0) angle += 2 * std::numbers::pi;
   return {level, std::llround(angle * kSteps), plane.offset};
 }
 

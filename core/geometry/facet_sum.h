@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/mathematics.h"
 #include "core/base/vector.h"
 
 namespace bl {
@@ -27,7 +28,7 @@ class AngleSum {
       im_ /= size;
     }
   }
-  double value() const { return std::atan2(im_, re_) + 2 * std::numbers::pi * turns_; }
+  double value() const { return mathematics::arc_tangent(im_, re_) + 2 * std::numbers::pi * turns_; }
   int turns() const { return turns_; }
 
  private:

@@ -73,17 +73,6 @@ double had(const VolumeDemand& demand, std::span<const CellMeasure> cells) {
   return sum;
 }
 
-bool is_held_up(const FitProblem& problem, std::span<const CellMeasure> cells) {
-  std::size_t demanded = 0;
-  for (const VolumeDemand& demand : problem.demands) demanded += demand.sites.size();
-  const bool has_fixed = problem.sites.size() > demanded;
-  return std::any_of(problem.demands.begin(), problem.demands.end(), [&](const VolumeDemand& demand) {
-    if (demand.kind != VolumeDemand::Kind::volume) return false;
-    const double has = had(demand, cells);
-    return demand.least > 0 && has < 0.5 * demand.least && (has_fixed || has == 0);
-  });
-}
-
 std::string sites_text(const VolumeDemand& demand) {
   if (demand.sites.size() == 1) return "site " + std::to_string(demand.sites.front());
   const std::size_t count = demand.sites.size();

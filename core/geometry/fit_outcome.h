@@ -22,9 +22,6 @@ bool correct_floors(const FitProblem& asked, std::span<const CellMeasure> cells,
 /// What the sites of a demand have together, in its own unit.
 double had(const VolumeDemand& demand, std::span<const CellMeasure> cells);
 
-/// Does a demand fail because its sites have no cell, or because sites of fixed weight leave it no room?
-bool is_held_up(const FitProblem& problem, std::span<const CellMeasure> cells);
-
 /// "site 3", or "the group of sites 3, 4, 5".
 std::string sites_text(const VolumeDemand& demand);
 

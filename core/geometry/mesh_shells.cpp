@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/geometry/domain_parts.h"
 
@@ -88,7 +89,7 @@ double winding_number(const Mesh& mesh, const Point3& point) {
     const Vector3 a = mesh.vertices[t[0]] - point, b = mesh.vertices[t[1]] - point, c = mesh.vertices[t[2]] - point;
     const double u = norm(a), v = norm(b), w = norm(c);
     // Half of the solid angle of a triangle (van Oosterom and Strackee, 1983).
-    angle += std::atan2(dot(a, cross(b, c)), u * v * w + dot(a, b) * w + dot(b, c) * u + dot(c, a) * v);
+    angle += mathematics::arc_tangent(dot(a, cross(b, c)), u * v * w + dot(a, b) * w + dot(b, c) * u + dot(c, a) * v);
   }
   return angle / (2 * std::numbers::pi);
 }

@@ -102,8 +102,7 @@ class SampledAttempt {
       fit_.max_relative_error = error;
       fit_.worst_demand = k;
     }
-    const bool cannot =
-        !newton_->targets().infeasible().empty() || !newton_->targets().losses().empty() || is_held_up(asked_, cells);
+    const bool cannot = !newton_->targets().infeasible().empty() || !newton_->targets().losses().empty();
     // Of a fit that was stopped with its volumes met, the floors may not have been.
     const bool is_cancelled = is_stopped_ && (!newton_->is_met() || (has_floors_ && !fit_.losses.empty() && !cannot));
     fit_.status = is_cancelled          ? FitStatus::cancelled

@@ -2,6 +2,7 @@
 #include "core/geometry/tessellate.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -11,7 +12,8 @@ namespace {
 
 class Tessellator {
  public:
-  Tessellator(std::span<const Point3> corners, std::span<const FaceLoop> faces, int depth)
+  Tessellator(std::span<const Point3> corners, std::span<const std::uint32_t> corner_marks, std::span<const FaceLoop> faces,
+              int depth)
       : parts_(1u << static_cast<unsigned>(std::clamp(depth, 0, kDeepestTessellation))) {
     std::size_t edges = 0;
     for (const FaceLoop& face : faces) edges += face.size();
@@ -19,10 +21,22 @@ class Tessellator {
     mesh.vertices.reserve(corners.size() + faces.size() + edges * (parts_ * parts_) / 2 + edges * parts_);
     mesh.triangles.reserve(edges * parts_ * parts_);
     edges_.reserve(edges / 2);
+    if (!corner_marks.empty()) marks.assign(corner_marks.begin(), corner_marks.end());
     for (const FaceLoop& face : faces) add_face(face);
   }
 
   Mesh mesh;
+  std::vector<std::uint32_t> marks;  // of the vertices so far; none at all where no corner lies on a seam
+
+  // The vertices on edges that only one face has.
+  std::vector<std::uint32_t> border() const {
+    std::vector<std::uint32_t> found;
+    for (const Line& line : edges_)
+      for (std::uint32_t i = 0; i <= parts_; ++i) found.push_back(line.at(i, parts_));
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
 
  private:
   // The points of a divided line from a to b: end points named by index, inner points consecutive, in one of two directions.
@@ -53,8 +67,15 @@ class Tessellator {
       return found;
     }
     edges_.push_back(make_line(from, to));
+    // Only edges between corners lie on seams: what is made inside a face has no mark.
+    if (const std::uint32_t both = mark_of(from) & mark_of(to); both != 0) {
+      marks.resize(mesh.vertices.size(), 0);
+      std::fill(marks.begin() + edges_.back().inner, marks.end(), both);
+    }
     return edges_.back();
   }
+
+  std::uint32_t mark_of(std::uint32_t vertex) const { return vertex < marks.size() ? marks[vertex] : 0; }
 
   void add_face(const FaceLoop& face) {
     const std::uint32_t count = static_cast<std::uint32_t>(face.size());
@@ -104,20 +125,26 @@ class Tessellator {
 
 }  // namespace
 
-Mesh tessellate(std::span<const Point3> corners, std::span<const FaceLoop> faces, int depth, const Point3& ball_centre,
-                double radius, const Point3& wrap_centre, const Vector3& offset) {
-  Mesh mesh = std::move(Tessellator(corners, faces, depth).mesh);
-  const Vector3 inside = wrap_centre - ball_centre;
-  const double squared = radius * radius, rest = std::max(0.0, squared - squared_norm(inside));
-  for (Point3& vertex : mesh.vertices) {
-    const Vector3 outward = vertex - ball_centre;
-    if (squared_norm(outward) > squared) {
-      // inside + t (outward - inside) on the sphere; t in (0, 1] because `inside` is in the ball and `outward` is not.
-      const Vector3 ray = outward - inside;
-      const double a = squared_norm(ray), b = dot(ray, inside);
-      const double root = std::sqrt(b * b + a * rest);
-      const double t = b > 0 ? rest / (b + root) : (root - b) / a;
-      vertex = wrap_centre + std::min(1.0, t) * ray;
+Point3 place_on_ball(double squared_radius, const Point3& inside, const Point3& beyond) {
+  // inside + t (beyond - inside) on the sphere; t in (0, 1] because `inside` is in the ball and `beyond` is not.
+  const Vector3 way = beyond - inside;
+  const double a = squared_norm(way), b = dot(way, inside), rest = std::max(0.0, squared_radius - squared_norm(inside));
+  const double root = std::sqrt(b * b + a * rest), t = b > 0 ? rest / (b + root) : (root - b) / a;
+  return inside + std::min(1.0, t) * way;
+}
+
+Mesh tessellate(std::span<const Point3> corners, std::span<const FaceLoop> faces, int depth, double radius,
+                const WrapTargets& targets, const Vector3& offset, std::vector<std::uint32_t>* border) {
+  Tessellator work(corners, targets.marks, faces, depth);
+  if (border != nullptr) *border = work.border();
+  Mesh mesh = std::move(work.mesh);
+  const double squared = radius * radius;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    Point3& vertex = mesh.vertices[v];
+    if (squared_norm(vertex) > squared) {
+      const std::uint32_t marks = v < work.marks.size() ? work.marks[v] : 0;
+      const auto seam = static_cast<std::size_t>(std::countr_zero(marks));
+      vertex = place_on_ball(squared, marks == 0 ? targets.centre : targets.seams[seam], vertex);
     }
     vertex += offset;
   }

@@ -14,16 +14,26 @@ namespace bl {
 /// Depth beyond which a mesh would have more triangles than any screen has pixels.
 inline constexpr int kDeepestTessellation = 4;
 
-/// One polygonal face of a closed convex polyhedron: indices of corners, counter-clockwise seen from outside.
+/// One polygonal face of a polyhedron: indices of corners, counter-clockwise seen from outside.
 using FaceLoop = std::span<const std::uint32_t>;
 
+/// What vertices beyond the ball move towards. A vertex on an edge whose two corners lie on one seam moves towards that seam's
+/// point, every other one towards the centre.
+struct WrapTargets {
+  Point3 centre;
+  std::span<const std::uint32_t> marks = {};  ///< per corner: bit s is set where it lies on seam s; empty: there is no seam
+  std::span<const Point3> seams = {};
+};
+
+/// The place on the ball around the origin, on the way from a point in it to one beyond it.
+Point3 place_on_ball(double squared_radius, const Point3& inside, const Point3& beyond);
+
 /// Each face becomes a fan of triangles around the mean of its corners, each triangle 4^depth equal ones; corners and edge
-/// points are shared, so the mesh of a closed polyhedron is closed. Then every vertex x farther than `radius` from
-/// `ball_centre` moves along the line to `wrap_centre` until it lies on the ball. `wrap_centre` has to lie in both the
-/// polyhedron and the ball: the result is then star-shaped around it, hence free of folds. With wrap_centre equal to
-/// ball_centre this is the shrink-wrap of 2007.
-/// Positions are relative to any origin; `offset` [m] is added to every vertex at the end.
-Mesh tessellate(std::span<const Point3> corners, std::span<const FaceLoop> faces, int depth, const Point3& ball_centre,
-                double radius, const Point3& wrap_centre, const Vector3& offset = {});
+/// points are shared, so the mesh of a closed polyhedron is closed. Then every vertex farther than `radius` from the origin
+/// moves along the line to its target until it lies on the ball. The centre has to lie in both the polyhedron and the ball:
+/// the result is then star-shaped around it, hence free of folds. With the origin as centre this is the shrink-wrap of 2007.
+/// `offset` [m] is added to every vertex at the end. `border`, where given, gets the vertices on edges that only one face has.
+Mesh tessellate(std::span<const Point3> corners, std::span<const FaceLoop> faces, int depth, double radius,
+                const WrapTargets& targets, const Vector3& offset = {}, std::vector<std::uint32_t>* border = nullptr);
 
 }  // namespace bl

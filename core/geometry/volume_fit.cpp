@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/geometry/cell_workshop.h"
 #include "core/geometry/fit_outcome.h"
@@ -27,8 +28,16 @@ constexpr double kNoNumber = std::numeric_limits<double>::infinity();
 // Beyond so many, a start with rays has brought nothing that one without would not.
 constexpr int kMostWithRays = 40;
 
-// What a fit starts from: one after the other, until it gets somewhere.
-enum class Start : std::uint8_t { given, rays, even };
+// Demands that differ by less than this are not brought apart by and by; each stage does so by the square root of it.
+constexpr double kWideDemands = 1e4;
+constexpr double kStageFactor = 1e2;
+// A stage need only come near, and has so many evaluations for it.
+constexpr double kStageTolerance = 0.2;
+constexpr int kStageSteps = 25, kMostHalvings = 4;
+
+// What a fit starts from: one after the other, until it gets somewhere. `eased`: from the weights of demands that lie nearer
+// together.
+enum class Start : std::uint8_t { given, rays, even, eased };
 
 class Attempt {
  public:
@@ -41,7 +50,7 @@ class Attempt {
     const double tolerance = has_floors_ ? 0.3 * options_.tolerance : options_.tolerance;
     if (auto done = fit(tolerance); !done) return done.error();
     for (int k = 0; has_floors_ && k < kMostCorrections && result_.last.is_met && result_.last.infeasible.empty(); ++k) {
-      if (result_.is_stopped || result_.evaluations >= options_.most_steps) break;
+      if (result_.is_stopped || result_.evaluations >= options_.most_steps || is_stop_wished()) break;
       const auto cells = measure();
       if (!cells) return cells.error();
       if (correct_floors(asked_, *cells, options_.tolerance, problem_)) break;
@@ -62,7 +71,7 @@ class Attempt {
     Start start = Start::given;
     double best = kNoNumber, error = kNoNumber, residual = kNoNumber;  // of all starts; of this one
     int evaluations = 0, since = 0;                                    // since the start, and since it last came much nearer
-    std::vector<double> best_weights;
+    std::vector<double> best_weights, best_volumes;
 
     void begin(Start with) {
       start = with;
@@ -85,6 +94,7 @@ class Attempt {
       if (best_weights.empty() || last.error < best) {
         best = last.error;
         best_weights = last.evaluated;
+        best_volumes = last.volumes;
       }
     }
   };
@@ -104,6 +114,7 @@ class Attempt {
     while (true) {
       step.with_rays = search.start != Start::even;
       auto report = adapt_weights(domain_, problem_, state, step);
+      if (is_stop_wished()) return end_at_once(search);
       if (!report) return report.error();
       ++result_.evaluations;
       result_.iterations += report->iterations;
@@ -116,13 +127,17 @@ class Attempt {
       if (last.is_met || !goes_on || result_.evaluations >= options_.most_steps || search.since > kStalled) {
         result_.is_stopped = !goes_on;
         // A step that went too far is no result: the best one is.
-        if (!last.is_met) result_.last.evaluated = search.best_weights;
+        if (!last.is_met) {
+          result_.last.evaluated = search.best_weights;
+          result_.last.volumes = search.best_volumes;
+        }
         return {};
       }
       if (is_time_for_another(search)) {
-        search.begin(search.start == Start::given ? Start::rays : Start::even);
+        search.begin(search.start == Start::given ? Start::rays : search.start == Start::rays ? Start::even : Start::eased);
         state = {};
         forget_weights();
+        if (search.start == Start::eased && !ease(step)) return end_at_once(search);
       } else {
         state = last.state;
         use(last.weights);
@@ -130,11 +145,86 @@ class Attempt {
     }
   }
 
+  // What an evaluation has left that was stopped on the way is nothing to go by: the best one before it counts.
+  Result<void> end_at_once(const Search& search) {
+    result_.is_stopped = is_cut_short_ = true;
+    result_.last.is_met = false;
+    result_.last.evaluated = search.best_weights;
+    result_.last.volumes = search.best_volumes;
+    return {};
+  }
+
   // Weights to start from may be a place that no step leads out of, and so may those that rays have found.
   bool is_time_for_another(const Search& search) const {
-    if (search.start == Start::even) return false;
+    if (search.start == Start::eased) return false;
+    if (search.start == Start::even) return search.since > kStalledEarly && spread_of_demands() > kWideDemands;
     const bool is_late = search.start == Start::rays && search.evaluations >= kMostWithRays;
     return search.since > kStalledEarly || is_late;
+  }
+
+  // The largest demand as a multiple of the smallest one.
+  double spread_of_demands() const {
+    double least = kNoNumber, most = 0;
+    for (const VolumeDemand& demand : problem_.demands) {
+      if (!(demand.least > 0)) continue;
+      least = std::min(least, demand.least);
+      most = std::max(most, demand.least);
+    }
+    return most > 0 ? most / least : 1;
+  }
+
+  // The same sum, with demands nearer together: each raised to a power below one, which the stages bring up to it. A small cell
+  // then never has to be found beside one that is millions of times larger, but only kept. False where the work was stopped.
+  bool ease(FitOptions step) {
+    const std::vector<VolumeDemand> wanted = problem_.demands;
+    int halvings = 0;
+    for (double reach = kStageFactor; reach < spread_of_demands() && halvings < kMostHalvings; reach *= reach) ++halvings;
+    const unsigned stages = 1u << static_cast<unsigned>(halvings);
+    step.with_rays = false;
+    step.tolerance = kStageTolerance;
+    for (unsigned stage = 1; stage < stages && result_.evaluations < options_.most_steps; ++stage) {
+      ease_demands(wanted, stage, halvings);
+      FitState state;
+      for (int k = 0; k < kStageSteps && result_.evaluations < options_.most_steps; ++k) {
+        auto report = adapt_weights(domain_, problem_, state, step);
+        if (is_stop_wished() || !report) break;
+        ++result_.evaluations;
+        result_.iterations += report->iterations;
+        use(report->weights);
+        state = std::move(report->state);
+        if (options_.progress && !options_.progress(result_.evaluations, report->error)) {
+          problem_.demands = wanted;
+          return false;
+        }
+        if (report->is_met) break;
+      }
+    }
+    problem_.demands = wanted;
+    return !is_stop_wished();
+  }
+
+  // x to the power numerator / 2^halvings, by square roots, which are the same everywhere.
+  static double dyadic_power(double x, unsigned numerator, int halvings) {
+    double power = 1;
+    for (int bit = halvings - 1; bit >= 0; --bit) {
+      x = std::sqrt(x);
+      if ((numerator >> static_cast<unsigned>(bit) & 1u) != 0) power *= x;
+    }
+    return power;
+  }
+
+  void ease_demands(const std::vector<VolumeDemand>& wanted, unsigned numerator, int halvings) {
+    double sum = 0, eased = 0;
+    for (const VolumeDemand& demand : wanted) {
+      sum += demand.least;
+      eased += dyadic_power(demand.least, numerator, halvings);
+    }
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      if (!(wanted[k].least > 0)) continue;
+      const double factor = sum / eased * dyadic_power(wanted[k].least, numerator, halvings) / wanted[k].least;
+      problem_.demands[k].least = factor * wanted[k].least;
+      problem_.demands[k].most = factor * wanted[k].most;
+    }
   }
 
   bool has_weights() const {
@@ -172,7 +262,32 @@ class Attempt {
     return with_floors_.update(evaluated(), cells);
   }
 
+  // Without measuring once more.
+  VolumeFit finish_at_once() const {
+    VolumeFit fit;
+    fit.status = FitStatus::cancelled;
+    fit.iterations = result_.iterations;
+    fit.evaluations = result_.evaluations;
+    fit.weights = result_.last.evaluated;
+    fit.volumes = result_.last.volumes;
+    for (std::size_t i = fit.weights.size(); i < asked_.sites.size(); ++i) fit.weights.push_back(asked_.sites[i].weight);
+    fit.max_relative_error = std::numeric_limits<double>::quiet_NaN();  // floors and stopped evaluations have none
+    for (std::uint32_t k = 0; k < asked_.demands.size() && !fit.volumes.empty() && !has_floors_; ++k) {
+      const VolumeDemand& demand = asked_.demands[k];
+      double has = 0;
+      for (const std::uint32_t i : demand.sites) has += fit.volumes[i];
+      const double bound = std::clamp(has, demand.least, demand.most);
+      const double error = bound > 0 ? std::abs(has - bound) / bound : has > 0 ? 1.0 : 0.0;
+      if (error > options_.tolerance) fit.losses.push_back({k, bound, has});
+      if (error <= fit.max_relative_error) continue;
+      fit.max_relative_error = error;
+      fit.worst_demand = k;
+    }
+    return fit;
+  }
+
   Result<VolumeFit> finish() {
+    if (is_cut_short_ || is_stop_wished()) return finish_at_once();
     VolumeFit fit;
     const auto cells = measure();
     if (!cells) return cells.error();
@@ -189,7 +304,8 @@ class Attempt {
       fit.max_relative_error = error;
       fit.worst_demand = k;
     }
-    const bool cannot = !result_.last.infeasible.empty() || !result_.last.losses.empty() || is_held_up(asked_, *cells);
+    // Whoever has nothing may only not have been found yet: that is no proof.
+    const bool cannot = !result_.last.infeasible.empty() || !result_.last.losses.empty();
     // Of a fit that was stopped with its volumes met, the floors may not have been.
     const bool is_cancelled = result_.is_stopped && (!result_.last.is_met || (has_floors_ && !fit.losses.empty() && !cannot));
     fit.status = is_cancelled         ? FitStatus::cancelled
@@ -216,7 +332,7 @@ class Attempt {
   const VolumeFitOptions& options_;
   PowerDiagram diagram_, with_floors_;
   Outcome result_;
-  bool has_floors_ = false;
+  bool has_floors_ = false, is_cut_short_ = false;
 };
 
 }  // namespace

@@ -1,13 +1,20 @@
 // Working analyses out on a thread of their own.
 #include "core/graph/analysis.h"
 
+#include <chrono>
 #include <exception>
 #include <new>
+#include <optional>
 #include <system_error>
+
+#include "core/base/stop_check.h"
 
 namespace bl {
 
 namespace {
+
+// A waiting thread looks so often whether it is to stop.
+constexpr std::chrono::milliseconds kBetweenLooks{50};
 
 // Meshes count as nothing in a state's hash, because they follow from the rest; the rest need not be among an analysis' inputs.
 void add_input(Hash& hash, const Value& value) {
@@ -28,6 +35,8 @@ AnalysisResult worked_out(AnalysisInput& input) {
   if (input.memo) lock = std::unique_lock(input.memo->mutex, std::try_to_lock);
   Memo& memo = lock ? input.memo->memo : none;
   const auto done = definition.evaluate(input.values, input.sets, Tick{.index = input.tick, .memo = &memo});
+  // Who says that it was stopped has kept what is right; what others have kept for the next time may have gaps.
+  if (is_stop_wished() && (done || done.error().code != ErrorCode::cancelled)) memo = Memo();
   AnalysisResult result;
   if (!done) {
     result.error = done.error();
@@ -69,13 +78,10 @@ void Analysis::run(const StopWish& is_unwanted) {
   // catch an exception: this may be a thread of its own, and others wait for the result.
   AnalysisResult result;
   try {
-    if (is_unwanted) {
-      AnalysisInput input = input_;
-      const StopScope scope(is_unwanted);
-      result = worked_out(input);
-    } else {
-      result = worked_out(input_);
-    }
+    AnalysisInput input = input_;
+    std::optional<StopScope> scope;
+    if (is_unwanted) scope.emplace(is_unwanted);
+    result = worked_out(input);
   } catch (const std::bad_alloc&) {
     result = {
         {}, Error{ErrorCode::out_of_range, "", "memory ran out in this analysis: ask for less, such as fewer or coarser points"}};
@@ -84,7 +90,7 @@ void Analysis::run(const StopWish& is_unwanted) {
   }
   {
     const std::lock_guard lock(mutex_);
-    is_done_ = !(is_unwanted && is_unwanted());
+    is_done_ = !(is_unwanted && is_unwanted()) && !is_stop_wished();
     is_claimed_ = is_done_;
     if (is_done_) {
       result_ = std::move(result);
@@ -94,12 +100,14 @@ void Analysis::run(const StopWish& is_unwanted) {
   done_.notify_all();
 }
 
-const AnalysisResult& Analysis::result() {
+const AnalysisResult* Analysis::result() {
   for (;;) {
     run();
     std::unique_lock lock(mutex_);
-    done_.wait(lock, [this] { return is_done_ || !is_claimed_; });
-    if (is_done_) return result_;
+    // Another thread that works on it knows nothing of a wish of this one.
+    while (!done_.wait_for(lock, kBetweenLooks, [this] { return is_done_ || !is_claimed_; }) && !is_stop_wished()) {}
+    if (is_done_) return &result_;
+    if (is_stop_wished()) return nullptr;
   }
 }
 

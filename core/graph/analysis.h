@@ -58,11 +58,11 @@ class Analysis {
   /// One that was done before the scene was saved.
   explicit Analysis(AnalysisResult result) : is_claimed_(true), is_done_(true), result_(std::move(result)) {}
 
-  /// Works it out unless somebody has begun to. Where `is_unwanted` comes true meanwhile the work is dropped, and left to whoever
-  /// wants the result after all.
+  /// Works it out unless somebody has begun to. Where `is_unwanted` comes true meanwhile, or a wish of this thread to stop, the
+  /// work is dropped, and left to whoever wants the result after all.
   void run(const StopWish& is_unwanted = {});
-  /// Waits until it is done, or does it.
-  const AnalysisResult& result();
+  /// Waits until it is done, or does it. Nothing where this thread is to stop before it is done.
+  const AnalysisResult* result();
 
  private:
   std::mutex mutex_;
@@ -72,8 +72,8 @@ class Analysis {
   AnalysisResult result_;
 };
 
-/// One thread that works analyses off in the order in which they were begun. Those that nobody waits for any more are left out, or
-/// stopped on the way.
+/// One thread that works analyses off in the order in which they were begun. Those that nobody waits for any more are left out,
+/// or stopped on the way.
 class AnalysisRunner {
  public:
   AnalysisRunner() = default;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/graph/plan.h"
 
@@ -14,7 +15,7 @@ void check_selection(const Scene& scene, const Selection& selection, const std::
   for (const std::string& id : selection.ids)
     if (!scene.nodes.contains(id))
       problems.push_back(
-          {true, {ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene.nodes))}});
+          {true, {ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean_among(id, scene.nodes)}});
   if (!selection.typification.empty() && registry.typification(selection.typification) == nullptr)
     problems.push_back({false,
                         {ErrorCode::unknown_type, place,

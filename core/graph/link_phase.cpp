@@ -56,6 +56,13 @@ struct Collected {
   }
 };
 
+// What a link goes on to want, as loud as people want it now.
+Voice still_said(const Voice& voice, const LinkPlan& plan) {
+  Voice held = voice;
+  held.strength = plan.strength;
+  return held;
+}
+
 class LinkRun {
  public:
   LinkRun(const State& frozen, const LinkPlan& plan) : frozen_(frozen), plan_(plan), definition_(*plan.definition) {
@@ -95,11 +102,13 @@ class LinkRun {
       const PortRef target = plan_.targets[i];
       const PortDefinition& port = frozen_.plan->port(target);
       if (collected_[i].count > 0) {
-        voices.push_back(collected_[i].voice(target, port, plan_.strength));
+        // Means of numbers that are finite may be none, and zeros may get a sign.
+        if (Voice voice = collected_[i].voice(target, port, plan_.strength); take_in(voice.value))
+          voices.push_back(std::move(voice));
       } else if (has_failed_[i] && port.rule != CombineRule::sum) {
         const auto held = std::lower_bound(last.begin(), last.end(), target,
                                            [](const Voice& voice, const PortRef& ref) { return voice.target < ref; });
-        if (held != last.end() && held->target == target) voices.push_back(*held);
+        if (held != last.end() && held->target == target) voices.push_back(still_said(*held, plan_));
       }
     }
     return voices;
@@ -136,7 +145,8 @@ class LinkRun {
       if (!read.is_whole && is_of_the_past(plan_.reads[r][first]))
         return Error{ErrorCode::missing, "",
                      "`" + frozen_.plan->nodes[plan_.reads[r][first].node].id + "` has an error, so that its `" +
-                         frozen_.plan->path_text(plan_.reads[r][first]) + "` is of the past. What was proposed last stays in force"};
+                         frozen_.plan->path_text(plan_.reads[r][first]) +
+                         "` is of the past. What was proposed last stays in force"};
     }
     for (auto& values : writes_.values) std::fill(values.begin(), values.end(), std::nullopt);
     if (auto done = definition_.evaluate(plan_.parameters.get(), reads_, writes_, tick); !done) return done;
@@ -144,7 +154,7 @@ class LinkRun {
       const LinkWrite& write = definition_.proposes[w];
       const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
       for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
-        if (const auto& value = writes_.values[w][i]; value && !is_finite(*value))
+        if (auto& value = writes_.values[w][i]; value && !take_in(*value))
           return Error{ErrorCode::not_finite, "",
                        "proposed a value that is not a finite number for `" +
                            frozen_.plan->nodes[plan_.targets[plan_.writes[w][first + i]].node].id + "`"};
@@ -166,8 +176,8 @@ class LinkRun {
   const LinkDefinition& definition_;
   LinkReads reads_;
   LinkWrites writes_;
-  std::vector<Collected> collected_;   // by target
-  std::vector<bool> has_failed_;       // by target: a pair that would have spoken to it
+  std::vector<Collected> collected_;  // by target
+  std::vector<bool> has_failed_;      // by target: a pair that would have spoken to it
   std::optional<Error> first_error_;
   std::size_t failures_ = 0;
   bool is_stopped_ = false;
@@ -181,14 +191,26 @@ void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
   if (plan.error) {
     next.error = plan.error;
     for (const Voice& voice : last)
-      if (frozen.plan->port(voice.target).rule != CombineRule::sum) next.voices.push_back(voice);
+      if (is_lasting(frozen, voice)) next.voices.push_back(still_said(voice, plan));
     return;
   }
   LinkRun run(frozen, plan);
   Memo memo;
   run.run(Tick{.index = frozen.tick, .memo = &memo});
   next.voices = run.voices(last);
-  if (const auto error = run.error()) next.error = error->within("links/" + plan.id);
+  if (const auto error = run.error()) {
+    next.error = error->within("links/" + plan.id);
+    return;
+  }
+  const LinkRemarks& remarks = memo.of<LinkRemarks>();
+  if (!remarks.said) return;
+  const Error said = remarks.said->within("links/" + plan.id);
+  if (remarks.kind == LinkRemark::at_work) {
+    next.work = said;
+  } else {
+    next.error = said;
+    next.remark = remarks.kind;
+  }
 }
 
 }  // namespace

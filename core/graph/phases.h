@@ -16,6 +16,9 @@ void evaluate_links(const State& frozen, State& next, ThreadPool& pool);
 void resolve_proposals(const State& frozen, State& next, ThreadPool& pool);
 /// Phase 5: typifications without sets, where an input changed. Parallel over nodes.
 void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool);
+/// What typifications without sets make of their settings where no tick has asked them yet, as far as they keep no memory;
+/// whether there were any. For the eye: in a tick, phase 5 does it.
+bool evaluate_unasked(State& state, ThreadPool& pool);
 /// What typifications with sets keep from tick to tick, by node and type id; no state.
 using SetMemos = std::map<std::pair<std::string, std::string>, Memo>;
 /// Phase 6: typifications with sets; all read what phase 5 left, then all replies are written, in ascending node id. Analyses
@@ -27,6 +30,9 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos);
 void commit(State& next);
 
 // What the phases share.
+
+/// How many times the move limit a push has to be to wake a scene that rests.
+inline constexpr double kWakingPush = 2;
 
 /// Where errors of a typification of a node stand: "nodes/tower/smart_volume".
 std::string place_of(const State& state, std::size_t n, std::size_t t);

@@ -16,9 +16,29 @@ struct Heard {
 
 double clamped(const PortDefinition& port, double value) { return std::clamp(value, port.hard_minimum, port.hard_maximum); }
 
+// The hysteresis of a scene at rest: what is left of moves dies away, and values do not follow the last little. Whoever wants
+// much more than what counts as calm wakes it, and so does whoever edits it.
+struct Stillness {
+  bool is_on = false;
+  double wakes_at = 0;   // a push [m] beyond which rest is over
+  double move = 0;       // how far a push moves at most while it is not [m]
+  double held_back = 0;  // a change, as a share of a value, that is not made
+};
+
+Stillness stillness_of(const State& frozen) {
+  // A city that comes to its place by shares of what is missing has to arrive, and one that swings has to stop: after some
+  // hundred ticks the moves are too short for anybody, and end.
+  constexpr double kDyingAway = 0.99, kShortestMove = 1e-6, kHeldShare = 0.5;
+  const Settings& settings = frozen.plan->settings;
+  if (!is_at_rest(frozen)) return {};
+  double move = settings.move_limit;
+  for (std::int64_t k = settings.calm_ticks; k < frozen.calm && move > kShortestMove; ++k) move *= kDyingAway;
+  return {true, kWakingPush * settings.move_limit, move > kShortestMove ? move : 0, kHeldShare * settings.change_limit};
+}
+
 // Changes add up: next = now + sum of strength · change, no longer than the step limit.
-void resolve_sum(const PortDefinition& port, bool is_locked, std::span<const Heard> heard, Value& value, double& tension,
-                 double& move) {
+void resolve_sum(const PortDefinition& port, bool is_locked, const Stillness& rest, std::span<const Heard> heard, Value& value,
+                 double& tension, double& move) {
   Vector3 sum;
   double number = 0, loudness = 0;
   for (const Heard& h : heard) {
@@ -27,7 +47,9 @@ void resolve_sum(const PortDefinition& port, bool is_locked, std::span<const Hea
     else number += as_number(h.voice->value) * h.voice->strength;
   }
   const double length = port.kind == ValueKind::point ? norm(sum) : std::abs(number);
-  const double share = is_locked ? 0 : (length > port.step_limit ? port.step_limit / length : 1);
+  const bool is_resting = rest.is_on && port.unit == Unit::metre && length <= rest.wakes_at;
+  const double most = is_resting ? std::min(port.step_limit, rest.move) : port.step_limit;
+  const double share = is_locked ? 0 : (length > most ? most / length : 1);
   if (auto* position = std::get_if<Vector3>(&value)) *position += sum * share;
   else value = clamped(port, as_number(value) + number * share);
   move = length * share;
@@ -65,7 +87,16 @@ Vector3 blended(const Value& set, bool is_set, std::span<const Heard> heard) {
   return weight > 0 ? sum / weight : base;
 }
 
-void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t p, const Value& before,
+// By what share of itself a number has changed; 1 for a list of texts that changed, 0 for what is neither.
+double relative_change(const Value& before, const Value& after) {
+  if (before == after) return 0;
+  if (std::holds_alternative<Shared<std::vector<std::string>>>(after)) return 1;
+  if (!std::holds_alternative<double>(after)) return 0;
+  const double a = as_number(before), b = as_number(after);
+  return std::abs(b - a) / std::max(std::abs(a), std::abs(b));
+}
+
+void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t p, const Value& before, const Stillness& rest,
                    std::span<const Heard> heard, Value& value, double& tension) {
   const bool is_set = type.is_set[p];
   if (port.kind == ValueKind::point) {
@@ -81,6 +112,7 @@ void resolve_value(const PortDefinition& port, const TypePlan& type, std::size_t
   double wanted = combined(port, type.set_values[p], is_set, heard);
   wanted = std::clamp(wanted, old - port.step_limit, old + port.step_limit);
   value = type.is_locked[p] ? type.set_values[p] : Value(clamped(port, wanted));
+  if (rest.is_on && !type.is_locked[p] && !heard.empty() && relative_change(before, value) <= rest.held_back) value = before;
   for (const Heard& h : heard) tension += h.voice->strength * std::abs(as_number(h.voice->value) - as_number(value));
   if (is_set && port.rule == CombineRule::blend) tension += std::abs(as_number(type.set_values[p]) - as_number(value));
 }
@@ -130,16 +162,13 @@ struct Unrest {
   PortRef restless;
 };
 
-// By what share of itself a number has changed; 1 for a list of texts that changed, 0 for what is neither.
-double relative_change(const Value& before, const Value& after) {
-  if (before == after) return 0;
-  if (std::holds_alternative<Shared<std::vector<std::string>>>(after)) return 1;
-  if (!std::holds_alternative<double>(after)) return 0;
-  const double a = as_number(before), b = as_number(after);
-  return std::abs(b - a) / std::max(std::abs(a), std::abs(b));
+// What huge voices add up to may lie beyond all numbers: then the port stays as it is.
+void keep_sound(const Value& before, Value& value) {
+  if (!take_in(value)) value = before;
 }
 
-void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<const Heard> heard, Unrest& unrest) {
+void resolve_node(const State& frozen, State& next, std::uint32_t n, const Stillness& rest, std::span<const Heard> heard,
+                  Unrest& unrest) {
   std::size_t at = 0;
   for (std::uint16_t t = 0; t < next.nodes[n].types.size(); ++t) {
     const TypePlan& type = next.plan->nodes[n].types[t];
@@ -151,14 +180,16 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, std::span<c
       while (at < heard.size() && heard[at].target == PortRef{n, t, p}) ++at;
       const auto voices = heard.subspan(first, at - first);
       double tension = 0, move = 0;
+      const Value& before = frozen.nodes[n].types[t].values[p];
       if (port.rule == CombineRule::sum) {
-        if (!voices.empty()) resolve_sum(port, type.is_locked[p], voices, state.values[p], tension, move);
+        if (!voices.empty()) resolve_sum(port, type.is_locked[p], rest, voices, state.values[p], tension, move);
+        keep_sound(before, state.values[p]);
         if (port.unit == Unit::metre) unrest.move = std::max(unrest.move, move);
       } else if (port.rule != CombineRule::none) {
-        const Value& before = frozen.nodes[n].types[t].values[p];
         if (port.rule == CombineRule::collect)
           resolve_texts(type.set_values[p], type.is_locked[p], voices, state.values[p], tension);
-        else resolve_value(port, type, p, before, voices, state.values[p], tension);
+        else resolve_value(port, type, p, before, rest, voices, state.values[p], tension);
+        keep_sound(before, state.values[p]);
         if (const double change = relative_change(before, state.values[p]); change > unrest.change) {
           unrest.change = change;
           unrest.restless = {n, t, p};
@@ -179,9 +210,10 @@ void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
   for (std::size_t i = heard.size(); i-- > 0;) start[heard[i].target.node] = i;
   for (std::size_t n = next.nodes.size(); n-- > 0;) start[n] = std::min(start[n], start[n + 1]);
   std::vector<Unrest> unrest(next.nodes.size());
+  const Stillness rest = stillness_of(frozen);
   pool.for_each_chunk(next.nodes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      resolve_node(frozen, next, static_cast<std::uint32_t>(n), std::span(heard).subspan(start[n], start[n + 1] - start[n]),
+      resolve_node(frozen, next, static_cast<std::uint32_t>(n), rest, std::span(heard).subspan(start[n], start[n + 1] - start[n]),
                    unrest[n]);
   });
   next.largest_move = next.largest_change = 0;

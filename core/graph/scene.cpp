@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/define/port_builder.h"
 
@@ -27,12 +28,17 @@ TypeDefinition declare_settings() {
       .unit(Unit::metre)
       .min(0)
       .soft(0, 1)
-      .doc("Settled means that no link moves a node by more than this in a tick.");
+      .doc(
+          "Settled means that no link moves a node by more than this in a tick. From then on it stands still until one wants "
+          "more.");
   port(&Settings::change_limit, "change_limit")
       .unit(Unit::ratio)
       .min(0)
       .soft(0.0001, 0.1)
-      .doc("Settled means that no link changes a value by more than this share of it in a tick.");
+      .doc(
+          "Settled means that no link changes a value by more than this share of it in a tick. From then on it stays as it is "
+          "until "
+          "one wants more.");
   port(&Settings::calm_ticks, "calm_ticks").range(1, 1000).soft(1, 50).doc("Settled means calm for this many ticks in a row.");
   port(&Settings::coordinate_system, "coordinate_system")
       .doc("Where the plan came from: a CRS such as EPSG:28992; empty for a free place.");
@@ -184,13 +190,13 @@ Unit unit_of(const Registry& registry, const NodeRecord& node, const Typificatio
 Result<NodeRecord*> SceneEdit::node(const std::string& id) {
   const auto it = scene_->nodes.find(id);
   if (it != scene_->nodes.end()) return &it->second;
-  return Error{ErrorCode::not_found, "nodes/" + id, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene_->nodes))};
+  return Error{ErrorCode::not_found, "nodes/" + id, "there is no node `" + id + "`" + did_you_mean_among(id, scene_->nodes)};
 }
 
 Result<LinkRecord*> SceneEdit::link(const std::string& id) {
   const auto it = scene_->links.find(id);
   if (it != scene_->links.end()) return &it->second;
-  return Error{ErrorCode::not_found, "links/" + id, "there is no link `" + id + "`" + did_you_mean(id, keys_of(scene_->links))};
+  return Error{ErrorCode::not_found, "links/" + id, "there is no link `" + id + "`" + did_you_mean_among(id, scene_->links)};
 }
 
 }  // namespace bl

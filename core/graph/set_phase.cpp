@@ -68,7 +68,7 @@ void evaluate_now(State& next, SetCase& one, ThreadPool& pool, SetMemos& memos, 
     for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w) {
       auto& value = one.sets[s].writes[w];
       if (!value) continue;
-      if (is_finite(*value)) replies.push_back({one.plans[s].writes[w], std::move(*value), one.node(), one.type()});
+      if (take_in(*value)) replies.push_back({one.plans[s].writes[w], std::move(*value), one.node(), one.type()});
       else
         state.error =
             Error{ErrorCode::not_finite, place, "wrote a number that is not finite to a member; it keeps its last good value"};
@@ -90,25 +90,26 @@ void take_result(State& next, const SetCase& one, const AnalysisResult& result, 
     if (node == next.plan->nodes.size() || !path) continue;
     const auto ref = next.plan->find(node, *path);
     if (!ref || (!members.contains(*ref) && (ref->node != one.node() || ref->type != one.type()))) continue;
-    if (!is_finite(output.value)) {
+    Value value = output.value;
+    if (!take_in(value)) {
       state.error = Error{ErrorCode::not_finite, place_of(next, one.node(), one.type()),
                           "`" + output.path + "` of `" + output.node + "` came out as a number that is not finite"};
       continue;
     }
-    replies.push_back({*ref, output.value, one.node(), one.type()});
+    replies.push_back({*ref, std::move(value), one.node(), one.type()});
   }
 }
 
 AnalysisInput input_of(const State& state, SetCase& one) {
-  AnalysisInput input{state.plan,
-                      &one.definition(state),
-                      state.plan->nodes[one.node()].id,
-                      state.tick,
-                      std::move(one.values),
-                      std::move(one.sets),
-                      {},
-                      {},
-                      nullptr};
+  AnalysisInput input{.plan = state.plan,
+                      .definition = &one.definition(state),
+                      .node = state.plan->nodes[one.node()].id,
+                      .tick = state.tick,
+                      .values = std::move(one.values),
+                      .sets = std::move(one.sets),
+                      .members = {},
+                      .write_paths = {},
+                      .memo = nullptr};
   for (std::size_t s = 0; s < one.plans.size(); ++s) {
     std::vector<std::string>& members = input.members.emplace_back();
     std::vector<std::string>& paths = input.write_paths.emplace_back();
@@ -127,12 +128,22 @@ std::shared_ptr<AnalysisMemo> memo_of(Memo& memo) {
   return shared;
 }
 
+AnalysisState done_at(std::int64_t begun, std::int64_t taken, std::uint64_t inputs) {
+  AnalysisState done;
+  done.as_of = begun;
+  done.taken = taken;
+  done.inputs = inputs;
+  return done;
+}
+
 void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& memo, std::vector<Reply>& replies) {
   AnalysisState& analysis = next.analyses[one.analysis];
   std::vector<Reply> own;
   if (analysis.running && next.tick >= analysis.due) {
-    take_result(next, one, analysis.running->result(), own);
-    analysis = {analysis.begun, next.tick, analysis.running_inputs, -1, -1, 0, nullptr};
+    const AnalysisResult* result = analysis.running->result();
+    if (result == nullptr) return;  // stopped: so is the tick
+    take_result(next, one, *result, own);
+    analysis = done_at(analysis.begun, next.tick, analysis.running_inputs);
   }
   const auto hand_on = [&] { std::move(own.begin(), own.end(), std::back_inserter(replies)); };
   if (analysis.running) return hand_on();
@@ -153,8 +164,10 @@ void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& m
     runner.begin(begun);
   } else {
     own.clear();  // of an older one that was due in the same tick
-    take_result(next, one, begun->result(), own);
-    analysis = {next.tick, next.tick, inputs, -1, -1, 0, nullptr};
+    const AnalysisResult* result = begun->result();
+    if (result == nullptr) return;
+    take_result(next, one, *result, own);
+    analysis = done_at(next.tick, next.tick, inputs);
   }
   hand_on();
 }
@@ -186,6 +199,24 @@ void write_replies(State& next, std::vector<Reply>& replies) {
   }
 }
 
+bool is_negative_zero(double number) { return number == 0 && std::signbit(number); }
+
+// Shapes that a failing solver leaves standing are state like any value, and saved: their zeros have no sign, either.
+void keep_shapes(State& next, const SetCase& one) {
+  for (const SetPlan& plan : one.plans)
+    for (const PortRef& ref : plan.writes) {
+      auto* mesh = std::get_if<MeshPointer>(&next.nodes[ref.node].types[ref.type].values[ref.port]);
+      if (mesh == nullptr || !*mesh) continue;
+      const bool is_plain = std::none_of((*mesh)->vertices.begin(), (*mesh)->vertices.end(), [](const Point3& p) {
+        return is_negative_zero(p.x) || is_negative_zero(p.y) || is_negative_zero(p.z);
+      });
+      if (is_plain) continue;
+      auto plain = std::make_shared<Mesh>(**mesh);
+      for (Point3& vertex : plain->vertices) vertex += Point3{0, 0, 0};  // -0 + 0 is 0
+      *mesh = std::move(plain);
+    }
+}
+
 }  // namespace
 
 void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunner& runner) {
@@ -203,6 +234,8 @@ void evaluate_sets(State& next, ThreadPool& pool, SetMemos& memos, AnalysisRunne
     }
   }
   write_replies(next, replies);
+  for (const SetCase& one : cases)
+    if (next.nodes[one.node()].types[one.type()].error) keep_shapes(next, one);
 }
 
 void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {

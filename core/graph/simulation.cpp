@@ -1,9 +1,23 @@
 // Runs the phases of a tick in their order.
 #include "core/graph/simulation.h"
 
+#include <algorithm>
+
+#include "core/base/stop_check.h"
 #include "core/graph/amend.h"
 
 namespace bl {
+
+namespace {
+
+bool plays_role(const Plan& plan, const std::pair<std::string, std::string>& node_and_type) {
+  const std::uint32_t node = plan.node_index(node_and_type.first);
+  if (node == plan.nodes.size()) return false;
+  const std::vector<TypePlan>& types = plan.nodes[node].types;
+  return std::any_of(types.begin(), types.end(), [&](const TypePlan& t) { return t.definition->id == node_and_type.second; });
+}
+
+}  // namespace
 
 Simulation::Simulation(const Registry& registry, int threads, double (*now)()) : registry_(&registry), pool_(threads), now_(now) {
   set_scene({});
@@ -18,6 +32,8 @@ std::shared_ptr<const State> Simulation::with_scene(const Scene& scene,
 
 void Simulation::set_scene(const Scene& scene, const std::set<std::pair<std::string, std::string>>& placed) {
   state_ = with_scene(scene, placed);
+  // What was kept for evaluations of nodes that are gone, or that play the role no more, is for nobody.
+  std::erase_if(memos_, [&](const auto& memo) { return !plays_role(*state_->plan, memo.first); });
 }
 
 Result<void> Simulation::restore_state(const SavedState& saved) {
@@ -33,7 +49,12 @@ void Simulation::return_to(std::shared_ptr<const State> earlier) {
   else state_ = std::make_shared<State>(carry(*earlier, state_->plan, {}));
 }
 
-void Simulation::step() {
+std::shared_ptr<const State> Simulation::shown(std::shared_ptr<const State> state) {
+  auto seen = std::make_shared<State>(*state);
+  return evaluate_unasked(*seen, pool_) ? seen : state;
+}
+
+bool Simulation::step() {
   double last = now_ ? now_() : 0;
   auto lap = [&](double& share) {
     if (!now_) return;
@@ -46,15 +67,25 @@ void Simulation::step() {
   ++next->tick;
   evaluate_links(frozen, *next, pool_);
   lap(times_.links);
+  // A phase that was stopped has left gaps, which the next one must not meet.
+  if (is_stop_wished()) return false;
   resolve_proposals(frozen, *next, pool_);
   lap(times_.resolve);
+  if (is_stop_wished()) return false;
   evaluate_nodes(frozen, *next, pool_);
   lap(times_.nodes);
+  if (is_stop_wished()) return false;
   evaluate_sets(*next, pool_, memos_, runner_);
   lap(times_.solve);
+  if (is_stop_wished()) {
+    // What evaluations keep for the next tick may have gaps as well.
+    memos_.clear();
+    return false;
+  }
   commit(*next);
   lap(times_.commit);
   state_ = std::move(next);
+  return true;
 }
 
 }  // namespace bl

@@ -8,34 +8,51 @@ namespace bl {
 
 namespace {
 
-bool is_held(const State& state, const LinkState& link, const Voice& voice) {
-  return link.error.has_value() && state.plan->port(voice.target).rule != CombineRule::sum;
+using TypeName = std::pair<std::string, std::string>;  // node, typification
+
+TypeName type_name(const Plan& plan, std::size_t node, std::size_t type) {
+  return {plan.nodes[node].id, plan.nodes[node].types[type].definition->id};
 }
 
-std::pair<std::string, std::string> analysis_name(const Plan& plan, std::size_t a) {
-  const NodePlan& node = plan.nodes[plan.analyses[a].node];
-  return {node.id, node.types[plan.analyses[a].type].definition->id};
-}
+TypeName analysis_name(const Plan& plan, std::size_t a) { return type_name(plan, plan.analyses[a].node, plan.analyses[a].type); }
+
+bool link_counts(const LinkPlan& link) { return link.definition != nullptr && link.is_enabled && !link.is_muted; }
 
 }  // namespace
 
-bool has_failure(const State& state) {
-  for (const NodeState& node : state.nodes)
-    for (const TypeState& type : node.types)
-      if (type.error) return true;
-  for (std::size_t l = 0; l < state.links.size(); ++l) {
-    const LinkPlan& plan = state.plan->links[l];
-    if (state.links[l].error && plan.definition != nullptr && plan.is_enabled && !plan.is_muted) return true;
-  }
-  return false;
+bool is_lasting(const State& state, const Voice& voice) { return state.plan->port(voice.target).rule != CombineRule::sum; }
+
+std::optional<Error> first_failure(const State& state) {
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
+    for (const TypeState& type : state.nodes[n].types)
+      if (type.error) return type.error;
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    if (state.links[l].error && state.links[l].remark != LinkRemark::short_of && link_counts(state.plan->links[l]))
+      return state.links[l].error;
+  return std::nullopt;
 }
 
+bool has_failure(const State& state) { return first_failure(state).has_value(); }
+
+std::optional<Error> first_work(const State& state) {
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    if (state.links[l].work && link_counts(state.plan->links[l]) && state.plan->links[l].strength > 0) return state.links[l].work;
+  return std::nullopt;
+}
+
+bool is_at_rest(const State& state) { return state.calm >= state.plan->settings.calm_ticks; }
+
 bool State::is_settled() const {
-  if (calm < plan->settings.calm_ticks) return false;
-  return std::all_of(analyses.begin(), analyses.end(), [&](const AnalysisState& a) {
-    // It reads shapes of the tick before. Links answer its result in the next tick, and nodes the links in the one after.
-    return a.as_of - 1 > tick - calm && tick >= a.taken + 2;
-  });
+  if (!is_at_rest(*this)) return false;
+  for (std::size_t a = 0; a < analyses.size(); ++a) {
+    const AnalysisPlan& one = plan->analyses[a];
+    const double latency = as_number(nodes[one.node].types[one.type].values[one.latency]);
+    // It reads shapes of the tick before. Links answer its result in the next tick, and nodes the links in the one after. Of
+    // later results, of shapes that still move a little, it is enough that they wake nobody.
+    const bool is_answered = tick >= analyses[a].taken + 2 || static_cast<double>(calm) > 2 * latency + 4;
+    if (analyses[a].as_of - 1 <= tick - calm || !is_answered) return false;
+  }
+  return true;
 }
 
 double largest_residual_of(const State& state) {
@@ -57,13 +74,17 @@ std::uint64_t hash_of(const State& state) {
     hash.add(std::string_view(state.plan->nodes[n].id));
     for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t) {
       hash.add(std::string_view(state.plan->nodes[n].types[t].definition->id));
+      // That it fails is asked for by the links that read it, why is for people.
+      if (state.nodes[n].types[t].error) hash.add(std::string_view("fails"));
       for (const Value& value : state.nodes[n].types[t].values) add_to(hash, value);
     }
   }
   for (std::size_t l = 0; l < state.links.size(); ++l)
     for (const Voice& voice : state.links[l].voices)
-      if (is_held(state, state.links[l], voice)) {
+      if (is_lasting(state, voice)) {
         hash.add(std::string_view(state.plan->links[l].id));
+        hash.add(std::string_view(state.plan->nodes[voice.target.node].id));
+        hash.add(std::uint64_t{voice.target.type} << 16 | voice.target.port);
         add_to(hash, voice.value);
       }
   for (const AnalysisState& analysis : state.analyses) {
@@ -76,40 +97,54 @@ std::uint64_t hash_of(const State& state) {
 }
 
 SavedState save(const State& state) {
-  SavedState saved{state.tick, state.calm, {}, {}, {}, {}};
+  SavedState saved{.tick = state.tick,
+                   .calm = state.calm,
+                   .nodes = {},
+                   .voices = {},
+                   .errors = {},
+                   .link_errors = {},
+                   .analyses = {},
+                   .meshes = {}};
+  const Plan& plan = *state.plan;
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
-    auto& values = saved.nodes[state.plan->nodes[n].id];
+    std::map<std::string, Value> values;
     for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t) {
-      const TypePlan& type = state.plan->nodes[n].types[t];
+      const TypePlan& type = plan.nodes[n].types[t];
       for (std::uint16_t p = 0; p < type.definition->ports.size(); ++p)
         if (const Value& value = state.nodes[n].types[t].values[p];
             type.definition->ports[p].kind != ValueKind::mesh && value != type.set_values[p])
-          values[state.plan->path_text({n, t, p})] = value;
+          values[plan.path_text({n, t, p})] = value;
+      if (const auto& error = state.nodes[n].types[t].error) saved.errors[type_name(plan, n, t)] = *error;
     }
-    if (values.empty()) saved.nodes.erase(state.plan->nodes[n].id);
+    if (!values.empty()) saved.nodes[plan.nodes[n].id] = std::move(values);
   }
-  for (std::size_t l = 0; l < state.links.size(); ++l)
+  for (std::size_t l = 0; l < state.links.size(); ++l) {
+    const std::string& id = plan.links[l].id;
     for (const Voice& voice : state.links[l].voices)
-      if (is_held(state, state.links[l], voice))
-        saved.held[state.plan->links[l].id].push_back(
-            {{state.plan->nodes[voice.target.node].id, state.plan->path_text(voice.target)}, voice});
+      if (is_lasting(state, voice))
+        saved.voices[id].push_back({plan.nodes[voice.target.node].id, plan.path_text(voice.target), voice.value});
+    if (const auto& error = state.links[l].error; error && !plan.links[l].error) saved.link_errors[id] = *error;
+  }
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const AnalysisState& now = state.analyses[a];
     if (now.as_of < 0 && now.due < 0) continue;
-    saved.analyses[analysis_name(*state.plan, a)] = {now.as_of,
-                                                     now.taken,
-                                                     now.begun,
-                                                     now.due,
-                                                     now.inputs,
-                                                     now.running_inputs,
-                                                     now.running ? now.running->result() : AnalysisResult{}};
+    const AnalysisResult* result = now.running ? now.running->result() : nullptr;
+    // Of a run that is to end at once, one that is under way is left out: the next tick begins it again.
+    const bool is_kept = !now.running || result != nullptr;
+    saved.analyses[analysis_name(plan, a)] = {.as_of = now.as_of,
+                                              .taken = now.taken,
+                                              .begun = is_kept ? now.begun : -1,
+                                              .due = is_kept ? now.due : -1,
+                                              .inputs = now.inputs,
+                                              .running_inputs = is_kept ? now.running_inputs : 0,
+                                              .result = result ? *result : AnalysisResult{}};
   }
   // What a failing solver leaves standing cannot be made again from inputs that it refuses.
-  for (const SetPlan& set : state.plan->sets)
+  for (const SetPlan& set : plan.sets)
     if (state.nodes[set.node].types[set.type].error)
       for (const PortRef& ref : set.writes)
         if (const auto* mesh = std::get_if<MeshPointer>(&state.value(ref)); mesh != nullptr && *mesh)
-          saved.meshes[{state.plan->nodes[ref.node].id, state.plan->path_text(ref)}] = *mesh;
+          saved.meshes[{plan.nodes[ref.node].id, plan.path_text(ref)}] = *mesh;
   return saved;
 }
 
@@ -121,7 +156,10 @@ State fresh_state(std::shared_ptr<const Plan> plan) {
   for (const NodePlan& node : plan->nodes) {
     NodeState& fresh = state.nodes.emplace_back();
     for (const TypePlan& type : node.types)
-      fresh.types.push_back({type.set_values, std::vector<double>(type.set_values.size(), 0), std::nullopt, false});
+      fresh.types.push_back({.values = type.set_values,
+                             .tension = std::vector<double>(type.set_values.size(), 0),
+                             .error = {},
+                             .is_evaluated = false});
   }
   state.links.resize(plan->links.size());
   state.analyses.resize(plan->analyses.size());
@@ -147,12 +185,26 @@ void carry_type(const TypePlan& before, const TypeState& old, const TypePlan& af
 
 void carry_link(const State& old, std::size_t from, const Plan& plan, LinkState& fresh) {
   fresh.error = old.links[from].error;
+  fresh.remark = old.links[from].remark;
+  fresh.work = old.links[from].work;
   for (const Voice& voice : old.links[from].voices) {
     const std::uint32_t node = plan.node_index(old.plan->nodes[voice.target.node].id);
     if (node == plan.nodes.size()) continue;
     const auto path = parse_port_path(old.plan->path_text(voice.target));
     if (const auto ref = plan.find(node, *path)) fresh.voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
   }
+}
+
+// Do two scenes ask for the same? Names, titles and what stands on the canvas move nobody.
+bool asks_the_same(const Scene& a, const Scene& b) {
+  const auto asked = [](PortValues settings) {
+    for (const char* told : {"title", "about"}) settings.erase(told);
+    return settings;
+  };
+  if (a.nodes.size() != b.nodes.size() || a.links != b.links || !(a.scripts == b.scripts)) return false;
+  for (auto x = a.nodes.begin(), y = b.nodes.begin(); x != a.nodes.end(); ++x, ++y)
+    if (x->first != y->first || x->second.types != y->second.types || x->second.locked != y->second.locked) return false;
+  return asked(a.settings) == asked(b.settings);
 }
 
 }  // namespace
@@ -166,6 +218,8 @@ State initial_state(std::shared_ptr<const Plan> plan) {
 State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<std::pair<std::string, std::string>>& placed) {
   State state = fresh_state(std::move(plan));
   state.tick = old.tick;
+  // What rests goes on resting, unless somebody asks for something else.
+  if (old.calm > 0 && placed.empty() && asks_the_same(old.plan->scene, state.plan->scene)) state.calm = old.calm;
   for (std::size_t n = 0; n < state.nodes.size(); ++n) {
     const NodePlan& node = state.plan->nodes[n];
     const std::uint32_t before = old.plan->node_index(node.id);
@@ -198,6 +252,32 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<s
   return state;
 }
 
+namespace {
+
+Result<void> restore_errors(const SavedState& saved, State& state) {
+  const Plan& plan = *state.plan;
+  for (const auto& [name, error] : saved.errors) {
+    const std::uint32_t node = plan.node_index(name.first);
+    bool is_known = false;
+    for (std::size_t t = 0; node < plan.nodes.size() && t < plan.nodes[node].types.size(); ++t) {
+      if (plan.nodes[node].types[t].definition->id != name.second) continue;
+      state.nodes[node].types[t].error = error;
+      is_known = true;
+    }
+    if (!is_known) return Error{ErrorCode::not_found, "state/errors/" + name.first, "the node is not a `" + name.second + "`"};
+  }
+  for (std::size_t l = 0; l < plan.links.size(); ++l) {
+    const LinkPlan& link = plan.links[l];
+    if (!link.is_enabled) continue;
+    if (link.error) state.links[l].error = link.error;
+    else if (const auto said = saved.link_errors.find(link.id); said != saved.link_errors.end())
+      state.links[l].error = said->second;
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan) {
   State state = initial_state(std::move(plan));
   state.tick = saved.tick;
@@ -224,14 +304,15 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
       return Error{ErrorCode::wrong_kind, "state/meshes/" + target.first, "`" + target.second + "` is no mesh"};
     state.nodes[ref->node].types[ref->type].values[ref->port] = mesh;
   }
+  if (auto done = restore_errors(saved, state); !done) return done.error();
   for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
-    const auto held = saved.held.find(state.plan->links[l].id);
-    if (held == saved.held.end()) continue;
-    state.links[l].error = Error{ErrorCode::internal, "links/" + held->first, "held since before the scene was saved"};
-    for (const auto& [target, voice] : held->second) {
-      const auto ref = find(target.first, target.second);
+    const LinkPlan& link = state.plan->links[l];
+    const auto said = saved.voices.find(link.id);
+    if (said == saved.voices.end()) continue;
+    for (const SavedVoice& voice : said->second) {
+      const auto ref = find(voice.node, voice.path);
       if (!ref) return ref.error();
-      state.links[l].voices.push_back({*ref, voice.value, voice.magnitude, voice.strength});
+      state.links[l].voices.push_back({.target = *ref, .value = voice.value, .magnitude = 0, .strength = link.strength});
     }
     std::sort(state.links[l].voices.begin(), state.links[l].voices.end(),
               [](const Voice& a, const Voice& b) { return a.target < b.target; });
@@ -240,13 +321,13 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
     const auto kept = saved.analyses.find(analysis_name(*state.plan, a));
     if (kept == saved.analyses.end()) continue;
     const SavedAnalysis& now = kept->second;
-    state.analyses[a] = {now.as_of,
-                         now.taken,
-                         now.inputs,
-                         now.begun,
-                         now.due,
-                         now.running_inputs,
-                         now.due < 0 ? nullptr : std::make_shared<Analysis>(now.result)};
+    state.analyses[a] = {.as_of = now.as_of,
+                         .taken = now.taken,
+                         .inputs = now.inputs,
+                         .begun = now.begun,
+                         .due = now.due,
+                         .running_inputs = now.running_inputs,
+                         .running = now.due < 0 ? nullptr : std::make_shared<Analysis>(now.result)};
   }
   state.largest_residual = largest_residual_of(state);
   state.hash = hash_of(state);

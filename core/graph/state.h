@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/define/link_remark.h"
 #include "core/graph/analysis.h"
 #include "core/graph/plan.h"
 
@@ -34,7 +35,12 @@ struct Voice {
 
 struct LinkState {
   std::vector<Voice> voices;   ///< ascending target
-  std::optional<Error> error;  ///< why it did not run; value proposals of the last good tick are kept
+  std::optional<Error> error;  ///< why it did not run: value proposals of the last good tick are kept; or what it says of a rule
+                               ///< or of somebody who goes without, although it ran
+  std::optional<LinkRemark> remark;  ///< set where `error` is a remark: the voices are of this tick
+  std::optional<Error> work;         ///< a rule that it is still bringing about
+
+  bool has_failed() const { return error.has_value() && !remark; }
 };
 
 /// How far an analysis beside the loop has come.
@@ -53,7 +59,7 @@ struct State {
   std::vector<NodeState> nodes;         ///< as plan->nodes
   std::vector<LinkState> links;         ///< as plan->links
   std::vector<AnalysisState> analyses;  ///< as plan->analyses
-  std::int64_t calm = 0;                ///< ticks in a row in which nothing much moved and all demands were met
+  std::int64_t calm = 0;                ///< ticks in a row in which nothing much moved, and all demands and rules were met
   double largest_move = 0;              ///< [m] of this tick
   double largest_change = 0;            ///< of this tick, of any number that links choose, as a share of itself
   PortRef restless;                     ///< who has that change
@@ -69,13 +75,22 @@ struct State {
 
 /// The largest value of all ports that are residuals.
 double largest_residual_of(const State& state);
-/// Does a node fail, or a link that should run? Links of unknown kinds are kept and hinder nobody.
+/// What hinders settling: a node that fails, a link that should run and does not, or a rule that cannot be kept. Links of unknown
+/// kinds are kept and hinder nobody; nor does a remark that somebody goes without.
+std::optional<Error> first_failure(const State& state);
 bool has_failure(const State& state);
+/// A rule that a link is still bringing about.
+std::optional<Error> first_work(const State& state);
+/// Calm for long enough, so that what is left of moves dies away and links have to want more than what counts as calm to wake it:
+/// a city that has settled comes to a standstill.
+bool is_at_rest(const State& state);
 
-/// The hash of everything that the next tick depends on: values, held proposals, the calm count, the tick.
+/// Would it stay in force if its link failed in the next tick? A push must not go on for ever.
+bool is_lasting(const State& state, const Voice& voice);
+
+/// The hash of everything that the next tick depends on: values, who fails, what links want, the calm count, the tick.
 std::uint64_t hash_of(const State& state);
 
-/// Values of a running state as a scene file keeps them, by node and "typification.port"; meshes are not among them.
 /// An analysis as files keep it. One that was running is finished first: its result follows from what it was given.
 struct SavedAnalysis {
   std::int64_t as_of = -1, taken = -1, begun = -1, due = -1;  ///< due is -1 where none was running
@@ -83,13 +98,21 @@ struct SavedAnalysis {
   AnalysisResult result;  ///< of the one that was running
 };
 
+/// What a link wants of a port, named.
+struct SavedVoice {
+  std::string node, path;  ///< "typification.port"
+  Value value;
+};
+
+/// A running state as a scene file keeps it; ports are named "typification.port".
 struct SavedState {
   std::int64_t tick = 0, calm = 0;
-  std::map<std::string, std::map<std::string, Value>> nodes;
-  std::map<std::string, std::vector<std::pair<std::pair<std::string, std::string>, Voice>>>
-      held;                                                               ///< by link: (node, path), voice
+  std::map<std::string, std::map<std::string, Value>> nodes;              ///< by node and port; meshes are not among them
+  std::map<std::string, std::vector<SavedVoice>> voices;                  ///< by link: what would stay in force if it failed
+  std::map<std::pair<std::string, std::string>, Error> errors;            ///< by node and typification: links ask who fails
+  std::map<std::string, Error> link_errors;                               ///< by link, beside those that the plan tells
   std::map<std::pair<std::string, std::string>, SavedAnalysis> analyses;  ///< by node and typification
-  /// By node and path: those that a solver which fails now has made before. All others follow from the values.
+  /// By node and port: those that a solver which fails now has made before. All others follow from the values.
   std::map<std::pair<std::string, std::string>, MeshPointer> meshes;
 };
 SavedState save(const State& state);

@@ -27,7 +27,7 @@ struct Page {
   bool is_too_long = false;
   static std::size_t take(char* bytes, std::size_t size, std::size_t count, void* self) {
     Page& page = *static_cast<Page*>(self);
-    page.is_too_long = page.is_too_long || page.text.size() + size * count > kLongestMessage;
+    page.is_too_long = page.is_too_long || page.text.size() + size * count > kLongestPayload;
     if (page.is_too_long) return 0;
     page.text.append(bytes, size * count);
     return size * count;
@@ -103,7 +103,7 @@ void run_http(Endpoint& endpoint) {
     }
     endpoint.succeed();
     if (page->is_too_long)
-      subscriber.station->problem("the page is longer than the " + std::to_string(kLongestMessage) + " bytes that are read");
+      subscriber.station->problem("the page is longer than the " + std::to_string(kLongestPayload) + " bytes that are read");
     else subscriber.station->message(page->text);
     endpoint.wait_for_work(subscriber.period);
   }

@@ -14,7 +14,7 @@ namespace bl {
 
 namespace {
 
-constexpr std::size_t kLongestQuote = 40;
+constexpr std::size_t kLongestShown = 40;
 
 Error refused(std::string message) { return {ErrorCode::parse, "", std::move(message)}; }
 
@@ -84,17 +84,17 @@ Result<double> number_at(const Json& whole, std::string_view field) {
 
 std::string in_quotes(std::string_view text) {
   std::string shown;
-  for (const char c : text.substr(0, kLongestQuote)) {
+  for (const char c : text.substr(0, kLongestShown)) {
     const auto byte = static_cast<unsigned char>(c);
     shown += byte >= 0x20 && byte < 0x7f && c != '`' ? c : '?';
   }
-  return "`" + shown + (text.size() > kLongestQuote ? "..." : "") + "`";
+  return "`" + shown + (text.size() > kLongestShown ? "..." : "") + "`";
 }
 
 Result<double> number_in(std::string_view payload, std::string_view field) {
-  if (payload.size() > kLongestMessage)
+  if (payload.size() > kLongestPayload)
     return refused("the message has " + std::to_string(payload.size()) + " bytes, and at most " +
-                   std::to_string(kLongestMessage) + " are read");
+                   std::to_string(kLongestPayload) + " are read");
   if (is_binary(payload)) return refused("the message is binary, no text");
   if (field.empty()) return number_of_text(payload);
   const auto whole = parse_json(payload);

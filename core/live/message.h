@@ -10,7 +10,7 @@
 namespace bl {
 
 /// Longer messages are refused: what a number needs is far less, and whoever sends more may mean harm [bytes].
-inline constexpr std::size_t kLongestMessage = 65536;
+inline constexpr std::size_t kLongestPayload = 65536;
 
 /// The number that a message holds: its whole text, or of a JSON text the part that `field` names (a key, or a JSON pointer
 /// with its slash). Truth values count as 1 and 0. Else the sentence why there is none, without a place.

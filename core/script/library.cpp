@@ -11,6 +11,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/random.h"
+#include "core/script/lua_mathematics.h"
 #include "core/script/machine.h"
 
 namespace bl {
@@ -321,6 +322,7 @@ int open_library(lua_State* lua) {
   take(lua, 4, 8,
        {"abs", "acos", "asin",       "atan",       "ceil", "cos", "deg", "exp",  "floor",     "fmod", "huge", "log", "max",
         "min", "modf", "maxinteger", "mininteger", "pi",   "rad", "sin", "sqrt", "tointeger", "tan",  "type", "ult"});
+  put_mathematics(lua, 8, 5);
   count_all(lua, 5, {"select", "tonumber"});
   count_all(lua, 6, {"char", "len", "lower", "reverse", "sub", "upper"});
   wrap(lua, 6, "byte", byte_of);

@@ -11,8 +11,10 @@
 
 #include <lua.hpp>
 
+#include "core/base/stop_check.h"
 #include "core/script/library.h"
 #include "core/script/link_script.h"
+#include "core/script/lua_mathematics.h"
 #include "core/script/utf8.h"
 
 namespace bl {
@@ -27,7 +29,7 @@ constexpr std::size_t kGarbage = std::size_t{512} << 10;
 // A place for a name in a table of Lua: value, key, and the next place with the same remainder [byte].
 constexpr std::size_t kNameBytes = 24;
 
-enum class Stop { none, instructions, memory, piece, text };
+enum class Stop { none, instructions, memory, piece, text, wish };
 
 // The order of texts, the decimal point and the letters of upper() are those of C, whatever the rest of the program has set.
 class PlainLocale {
@@ -121,8 +123,8 @@ struct Machine::Box {
     if (moved != nullptr) self.held += new_size - old_size;
     return moved;
   }
-  // The stack gets its size here: grown by and by, its last size, and so the depth at which a script is stopped, would follow from
-  // the runs before. It doubles when it grows, which is beyond kPiece.
+  // The stack gets its size here: grown by and by, its last size, and so the depth at which a script is stopped, would follow
+  // from the runs before. It doubles when it grows, which is beyond kPiece.
   void fix_stack() { lua_checkstack(lua, ScriptLimits::kStack); }
   // Numbers can be chosen such that all names of a table lie in one chain, which an instruction then walks from end to end. So
   // large tables of names make instructions dearer. Their pieces are powers of two of places; lists are moved when they grow.
@@ -133,8 +135,8 @@ struct Machine::Box {
   }
   void pay(lua_State* on, std::int64_t count) {
     instructions -= count * price;
-    if (instructions > 0) return;
-    note(Stop::instructions);
+    if (instructions > 0 && !is_stop_wished()) return;
+    note(instructions > 0 ? Stop::wish : Stop::instructions);
     lua_pushliteral(on, "stopped");
     lua_error(on);
   }
@@ -276,6 +278,9 @@ Result<std::unique_ptr<Machine>> Machine::compile(const std::string& name, std::
   if (box->lua == nullptr) return Error{ErrorCode::io, "", "no memory for a Lua machine"};
   std::unique_ptr<Machine> machine(new Machine(std::move(box)));
   Box& self = *machine->box_;
+  // Some editors put a byte order mark before everything; Lua would take it for a name.
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   if (text.size() > ScriptLimits::kSource)
     return Error{ErrorCode::out_of_range, "",
                  self.file + ": the script is longer than " + std::to_string(ScriptLimits::kSource >> 10) + " KiB"};
@@ -283,6 +288,10 @@ Result<std::unique_ptr<Machine>> Machine::compile(const std::string& name, std::
     return Error{ErrorCode::parse, "",
                  self.file + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(zero), '\n')) +
                      ": a text of a script cannot hold a zero byte; write no `\\0`"};
+  if (const std::size_t taken = text.find(kPowerName); taken != std::string_view::npos)
+    return Error{ErrorCode::parse, "",
+                 self.file + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<long>(taken), '\n')) +
+                     ": the name `" + std::string(kPowerName) + "` is taken by the library; take another"};
   const PlainLocale locale;
   lua_gc(self.lua, LUA_GCSTOP);
   lua_pushcfunction(self.lua, open_library);
@@ -290,7 +299,8 @@ Result<std::unique_ptr<Machine>> Machine::compile(const std::string& name, std::
   self.is_limited = true;
   self.left = ScriptLimits::kMemory;
   // "t": text only; a precompiled chunk can break the machine.
-  const int status = luaL_loadbufferx(self.lua, text.data(), text.size(), ("@" + self.file).c_str(), "t");
+  const std::string own = with_own_power(text);
+  const int status = luaL_loadbufferx(self.lua, own.data(), own.size(), ("@" + self.file).c_str(), "t");
   self.is_limited = false;
   if (status != LUA_OK) {
     Error error = machine->failure(status);
@@ -327,6 +337,7 @@ Error Machine::failure(int status) {
     case Stop::text:
       return {ErrorCode::cancelled, "",
               place + "stopped when a text grew beyond " + std::to_string(ScriptLimits::kText >> 10) + " KiB"};
+    case Stop::wish: return {ErrorCode::cancelled, "", place + "stopped, because the work was"};
     case Stop::none: break;
   }
   const char* text = lua_type(self.lua, -1) == LUA_TSTRING ? lua_tostring(self.lua, -1) : nullptr;

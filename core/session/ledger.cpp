@@ -20,59 +20,39 @@ Inverse apply(SceneEdit& edit, const Command& command) {
     if (it == command.arguments.end() && port.is_required)
       return Error{ErrorCode::missing, command.id, "the argument `" + port.id + "` is missing"};
     values.push_back(it == command.arguments.end() ? port.default_value : it->second);
+    if (!take_in(values.back())) return Error{ErrorCode::not_finite, command.id + "/" + port.id, "must be a finite number"};
   }
   if (!definition->keeps_logic) edit.touch_logic();
   return definition->apply(edit, values);
 }
 
 Result<void> Ledger::apply_entry(LogEntry entry) {
-  // A gesture is one author's, and goes on only while it is that author's last; others may act in between.
-  if (const auto owner = gesture_authors_.find(entry.gesture); owner != gesture_authors_.end()) {
-    const auto& stack = entry.undoes != 0 ? redo_[entry.author] : undo_[entry.author];
-    if (owner->second != entry.author || stack.empty() || stack.back() != entry.gesture)
-      return Error{ErrorCode::conflict, "gesture",
-                   "the gesture " + std::to_string(entry.gesture) + " is closed or somebody else's"};
-  }
+  if (auto fits = gestures_.check(entry); !fits) return fits;
   SceneEdit edit(scene_, *registry_);
   auto inverse = bl::apply(edit, entry.command);
   if (!inverse) return inverse.error();
   placed_.insert(edit.placed().begin(), edit.placed().end());
   is_changed_ = is_changed_ || edit.is_logic_touched();
-  gesture_authors_[entry.gesture] = entry.author;
   auto& commands = inverses_[entry.gesture];
   commands.insert(commands.begin(), inverse->begin(), inverse->end());
   last_gesture_ = std::max(last_gesture_, entry.gesture);
   entry.seq = log_.empty() ? 1 : log_.back().seq + 1;
-  stack_up(entry);
+  gestures_.take(entry);
   log_.push_back(std::move(entry));
   if (listener_) listener_(log_.back());
   return {};
-}
-
-// Keeps the stacks of gestures: an undo moves one from the author's undo stack to the redo stack, and the other way round.
-void Ledger::stack_up(const LogEntry& entry) {
-  auto& undo = undo_[entry.author];
-  auto& redo = redo_[entry.author];
-  if (entry.undoes != 0) {
-    std::erase(undo, entry.undoes);
-    if (redo.empty() || redo.back() != entry.gesture) redo.push_back(entry.gesture);
-    return;
-  }
-  if (entry.redoes != 0) std::erase(redo, entry.redoes);
-  else redo.clear();
-  if (undo.empty() || undo.back() != entry.gesture) undo.push_back(entry.gesture);
 }
 
 Result<void> Ledger::submit(const Command& command, const std::string& author, std::int64_t tick, std::int64_t gesture) {
   return apply_entry({0, tick, gesture == 0 ? last_gesture_ + 1 : gesture, author, command, 0, 0});
 }
 
-Result<void> Ledger::take_back(const std::string& author, std::int64_t tick,
-                               std::map<std::string, std::vector<std::int64_t>>& stack, bool is_undo) {
-  if (stack[author].empty())
+Result<void> Ledger::take_back(const std::string& author, std::int64_t tick, bool is_undo) {
+  const auto last = gestures_.last(author, is_undo);
+  if (!last)
     return Error{ErrorCode::not_found, "",
                  is_undo ? "there is nothing to undo for " + author : "there is nothing to redo for " + author};
-  const std::int64_t gesture = stack[author].back();
+  const std::int64_t gesture = *last;
   const std::vector<Command> commands = inverses_[gesture];
   // Tried first and taken back: what somebody else removed meanwhile must not leave half of an undo behind.
   SceneEdit edit(scene_, *registry_);
@@ -98,8 +78,8 @@ Result<void> Ledger::take_back(const std::string& author, std::int64_t tick,
   return {};
 }
 
-Result<void> Ledger::undo(const std::string& author, std::int64_t tick) { return take_back(author, tick, undo_, true); }
-Result<void> Ledger::redo(const std::string& author, std::int64_t tick) { return take_back(author, tick, redo_, false); }
+Result<void> Ledger::undo(const std::string& author, std::int64_t tick) { return take_back(author, tick, true); }
+Result<void> Ledger::redo(const std::string& author, std::int64_t tick) { return take_back(author, tick, false); }
 
 Result<void> Ledger::replay(const LogEntry& entry) { return apply_entry(entry); }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/session/commands.h"
+#include "core/session/gestures.h"
 #include "core/session/log.h"
 
 namespace bl {
@@ -45,9 +46,7 @@ class Ledger {
 
  private:
   Result<void> apply_entry(LogEntry entry);
-  Result<void> take_back(const std::string& author, std::int64_t tick, std::map<std::string, std::vector<std::int64_t>>& stack,
-                         bool is_undo);
-  void stack_up(const LogEntry& entry);
+  Result<void> take_back(const std::string& author, std::int64_t tick, bool is_undo);
 
   const Registry* registry_;
   Scene scene_;
@@ -55,8 +54,7 @@ class Ledger {
   bool is_changed_ = false;
   std::vector<LogEntry> log_;
   std::map<std::int64_t, std::vector<Command>> inverses_;  ///< by gesture, in the order to apply
-  std::map<std::int64_t, std::string> gesture_authors_;
-  std::map<std::string, std::vector<std::int64_t>> undo_, redo_;  ///< gestures by author
+  Gestures gestures_;
   std::int64_t last_gesture_ = 0;
   std::function<void(const LogEntry&)> listener_;
 };

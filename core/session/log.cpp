@@ -1,9 +1,12 @@
 // JSON lines of the log, out and in.
 #include "core/session/log.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
+#include "core/session/gestures.h"
 
 namespace bl {
 
@@ -48,27 +51,93 @@ Result<LogCheck> check_from_json(const Json& json, bool is_end) {
   auto tick = json.is_object() ? number_in(json, "tick", true)
                                : Result<std::int64_t>(Error{ErrorCode::parse, "", "expects {\"tick\", \"hash\"}"});
   if (!tick) return tick.error();
-  if (!json.contains("hash") || !json["hash"].is_string())
+  const std::string hash = json.contains("hash") && json["hash"].is_string() ? json["hash"].get<std::string>() : "";
+  if (hash.size() != 16 || hash.find_first_not_of("0123456789abcdef") != std::string::npos)
     return Error{ErrorCode::missing, "hash", "expects 16 hexadecimal digits"};
-  return LogCheck{*tick, json["hash"].get<std::string>(), is_end};
+  return LogCheck{*tick, hash, is_end};
 }
 
-Result<void> read_line(const Json& line, const Registry& registry, LogFile& log) {
-  if (!line.is_object()) return Error{ErrorCode::parse, "", "expects an object"};
-  for (const bool is_end : {false, true})
-    if (const auto it = line.find(is_end ? "end" : "check"); it != line.end()) {
-      auto check = check_from_json(*it, is_end);
-      if (!check) return check.error();
-      log.checks.push_back(std::move(*check));
-      return {};
-    }
-  auto entry = entry_from_json(line, registry);
-  if (!entry) return entry.error();
-  if (!log.entries.empty() && (entry->seq <= log.entries.back().seq || entry->tick < log.entries.back().tick))
-    return Error{ErrorCode::conflict, "seq", "the entries are not in order"};
-  log.entries.push_back(std::move(*entry));
-  return {};
-}
+// Line by line, so that whatever is wrong has its number.
+class LogReader {
+ public:
+  LogReader(const Registry& registry, LogUse use) : registry_(registry), use_(use) {}
+
+  Result<void> read_header(const Json& line) {
+    const Json format = line.is_object() ? line.value("format", Json()) : Json();
+    if (format != "behaviourlinks-log" || !line.contains("scene")) return no_log();
+    if (line.value("version", Json()) != kLogVersion)
+      return Error{ErrorCode::version, "", "this program reads logs of version " + std::to_string(kLogVersion)};
+    const Json& scene = line["scene"];
+    log.scene = write_json(scene) + "\n";
+    // What the scene itself gets wrong is told when it is read.
+    if (const auto state = scene.find("state"); scene.is_object() && state != scene.end() && state->is_object())
+      if (const auto tick = number_in(*state, "tick", false); tick) log.last_tick = *tick;
+    return {};
+  }
+
+  Result<void> read_line(const Json& line) {
+    if (!line.is_object()) return Error{ErrorCode::parse, "", "expects an object"};
+    if (log.has_end)
+      return Error{ErrorCode::conflict, "",
+                   line.contains("end") ? "is a second end of the log; were two logs put together?"
+                                        : "stands after the end of the log; were two logs put together?"};
+    for (const bool is_end : {false, true})
+      if (const auto it = line.find(is_end ? "end" : "check"); it != line.end()) {
+        auto check = check_from_json(*it, is_end);
+        return check ? take(std::move(*check)) : check.error();
+      }
+    auto entry = entry_from_json(line, registry_);
+    return entry ? take(std::move(*entry)) : entry.error();
+  }
+
+  static Error no_log() {
+    return {ErrorCode::parse, "",
+            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
+  }
+
+  LogFile log;
+
+ private:
+  Result<void> take(LogCheck check) {
+    if (!log.checks.empty() && check.tick < log.checks.back().tick)
+      return Error{ErrorCode::conflict, "tick",
+                   "the checks are not in order: tick " + std::to_string(check.tick) + " comes after tick " +
+                       std::to_string(log.checks.back().tick)};
+    if (auto near = reach(check.tick); !near) return near;
+    log.has_end = check.is_end;
+    log.checks.push_back(std::move(check));
+    return {};
+  }
+
+  Result<void> take(LogEntry entry) {
+    if (!log.entries.empty() && (entry.seq <= log.entries.back().seq || entry.tick < log.entries.back().tick))
+      return Error{ErrorCode::conflict, "seq", "the entries are not in order"};
+    if (auto near = reach(entry.tick); !near) return near;
+    if (use_ == LogUse::recovery) entry = gestures_.fitted(entry);
+    else if (auto fits = gestures_.check(entry); !fits) return fits;
+    gestures_.take(entry);
+    log.entries.push_back(std::move(entry));
+    return {};
+  }
+
+  // A replay runs up to the tick of each line.
+  Result<void> reach(std::int64_t tick) {
+    if (use_ == LogUse::replay && log.entries.empty() && log.checks.empty() && tick < log.last_tick)
+      return Error{ErrorCode::out_of_range, "tick",
+                   "tick " + std::to_string(tick) + " lies before the scene of the log, which is at tick " +
+                       std::to_string(log.last_tick)};
+    if (use_ == LogUse::replay && tick - log.last_tick > kMostTicksBetweenLines)
+      return Error{ErrorCode::out_of_range, "tick",
+                   "tick " + std::to_string(tick) + " lies more than " + std::to_string(kMostTicksBetweenLines) +
+                       " ticks after the line before; no session runs that long"};
+    log.last_tick = std::max(log.last_tick, tick);
+    return {};
+  }
+
+  const Registry& registry_;
+  LogUse use_;
+  Gestures gestures_;
+};
 
 }  // namespace
 
@@ -98,37 +167,27 @@ std::string log_line(const LogCheck& check) {
   return write_json_line(line) + "\n";
 }
 
-Result<LogFile> read_log(std::string_view text, const Registry& registry) {
-  LogFile log;
+Result<LogFile> read_log(std::string_view text, const Registry& registry, LogUse use) {
+  LogReader reader(registry, use);
   int number = 0;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view content = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     const std::string place = "line " + std::to_string(++number);
-    if (number == 1 && content.find("behaviourlinks-log") == std::string_view::npos)
-      return Error{ErrorCode::parse, place,
-                   "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
+    if (number == 1 && content.find("behaviourlinks-log") == std::string_view::npos) return LogReader::no_log().within(place);
     if (content.empty()) continue;
-    auto line = parse_json(content);
+    const auto line = parse_json(content);
     if (!line && end == std::string_view::npos && number > 1) {
-      log.is_cut_off = true;
+      reader.log.is_cut_off = true;
       break;
     }
     if (!line) return Error{line.error().code, place, line.error().message};
-    if (number == 1) {
-      if (!line->is_object() || line->value("format", Json()) != "behaviourlinks-log" || !line->contains("scene"))
-        return Error{ErrorCode::parse, place,
-                     "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
-      if (line->value("version", Json()) != kLogVersion)
-        return Error{ErrorCode::version, place, "this program reads logs of version " + std::to_string(kLogVersion)};
-      log.scene = write_json((*line)["scene"]) + "\n";
-      continue;
-    }
-    if (auto done = read_line(*line, registry, log); !done) return done.error().within(place);
+    const auto done = number == 1 ? reader.read_header(*line) : reader.read_line(*line);
+    if (!done) return done.error().within(place);
   }
   if (number == 0) return Error{ErrorCode::parse, "", "the log is empty"};
-  return log;
+  return std::move(reader.log);
 }
 
 }  // namespace bl

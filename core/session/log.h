@@ -32,12 +32,22 @@ struct LogFile {
   std::string scene;  ///< text of the scene file
   std::vector<LogEntry> entries;
   std::vector<LogCheck> checks;
-  bool is_cut_off = false;  ///< the last line was incomplete, as after a crash; it is left out
+  std::int64_t last_tick = 0;  ///< of the scene and all lines
+  bool is_cut_off = false;     ///< the last line was incomplete, as after a crash; it is left out
+  bool has_end = false;        ///< whoever wrote it came to the end; without it lines may be missing
 };
+
+/// No line of a log may lie farther than this after the line before it [ticks]: 58 days at twenty a second.
+inline constexpr std::int64_t kMostTicksBetweenLines = 100000000;
+
+/// A replay has to come to what the log says. A recovery wants what people did, whatever the ticks, also from logs of older
+/// programs: undos of what the log does not hold are steps like any other for it.
+enum class LogUse { replay, recovery };
 
 std::string log_header(std::string_view scene_text);
 std::string log_line(const LogEntry& entry, const Registry& registry);
 std::string log_line(const LogCheck& check);
-Result<LogFile> read_log(std::string_view text, const Registry& registry);
+/// Refuses lines out of order, beyond the end, far away in time, or that take back what is not there, each with its number.
+Result<LogFile> read_log(std::string_view text, const Registry& registry, LogUse use = LogUse::replay);
 
 }  // namespace bl

@@ -20,22 +20,32 @@ Result<std::unique_ptr<Session>> Session::start(const Registry& registry, const 
   return session;
 }
 
-void Session::tick() {
+bool Session::tick() {
   if (const Ledger::Changes changes = ledger_.take_changes(); changes.is_logic_changed)
     simulation_.set_scene(ledger_.scene(), changes.placed);
-  simulation_.step();
+  return simulation_.step();
 }
 
 namespace {
 
-// Compares all checks that stand at the tick now reached.
-void compare(const LogFile& log, const State& state, ReplayReport& report) {
-  for (const LogCheck& check : log.checks) {
-    if (check.tick != state.tick) continue;
-    ++report.checks;
-    if (check.hash != hex_digits(state.hash) && !report.first_mismatch) report.first_mismatch = check;
+// Compares the checks of a log as the run comes to them; they ascend.
+class Comparison {
+ public:
+  Comparison(const LogFile& log, ReplayReport& report) : checks_(log.checks), report_(report) {}
+
+  void at(const State& state) {
+    for (; next_ < checks_.size() && checks_[next_].tick <= state.tick; ++next_) {
+      if (checks_[next_].tick < state.tick) continue;
+      ++report_.checks;
+      if (checks_[next_].hash != hex_digits(state.hash) && !report_.first_mismatch) report_.first_mismatch = checks_[next_];
+    }
   }
-}
+
+ private:
+  const std::vector<LogCheck>& checks_;
+  ReplayReport& report_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
@@ -45,21 +55,19 @@ Result<ReplayReport> replay(const LogFile& log, const Registry& registry, int th
   auto session = Session::start(registry, reading.scene, reading.state ? &*reading.state : nullptr, threads);
   if (!session) return session.error();
   ReplayReport report;
-  compare(log, *(*session)->state(), report);
-  std::int64_t last = (*session)->state()->tick;
-  for (const LogEntry& entry : log.entries) last = std::max(last, entry.tick);
-  for (const LogCheck& check : log.checks) last = std::max(last, check.tick);
+  Comparison comparison(log, report);
+  comparison.at(*(*session)->state());
   for (const LogEntry& entry : log.entries) {
     while ((*session)->state()->tick < entry.tick) {
       (*session)->tick();
-      compare(log, *(*session)->state(), report);
+      comparison.at(*(*session)->state());
     }
     if (auto done = (*session)->replay(entry); !done) return done.error().within("entry " + std::to_string(entry.seq));
     ++report.entries;
   }
-  while ((*session)->state()->tick < last) {
+  while ((*session)->state()->tick < log.last_tick) {
     (*session)->tick();
-    compare(log, *(*session)->state(), report);
+    comparison.at(*(*session)->state());
   }
   report.ticks = (*session)->state()->tick;
   report.hash = hex_digits((*session)->state()->hash);

@@ -28,8 +28,9 @@ class Session {
   Result<void> redo(const std::string& author) { return ledger_.redo(author, state()->tick); }
   Result<void> replay(const LogEntry& entry) { return ledger_.replay(entry); }
 
-  /// One tick; the commands since the last one take part.
-  void tick();
+  /// One tick; the commands since the last one take part. False where the work was stopped on the way (core/base/stop): the state
+  /// is the one before.
+  bool tick();
 
   const Scene& scene() const { return ledger_.scene(); }
   std::shared_ptr<const State> state() const { return simulation_.state(); }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 
@@ -33,7 +34,7 @@ Result<void> check_references(const SceneEdit& edit, const TypeDefinition& type,
       for (const std::string& node : (*selection)->ids)
         if (node != self && !edit.scene().nodes.contains(node))
           return Error{ErrorCode::not_found, place + "/" + id,
-                       "there is no node `" + node + "`" + did_you_mean(node, keys_of(edit.scene().nodes))};
+                       "there is no node `" + node + "`" + did_you_mean_among(node, edit.scene().nodes)};
     if (port == nullptr || port->kind != ValueKind::port) continue;
     const auto path = parse_port_path(std::get<std::string>(value));
     if (!path || (path->typification == kBaseNode && path->port == "id")) continue;
@@ -73,7 +74,7 @@ Result<void> check_selection(const Scene& scene, const Selection& selection, con
   if (selection.is_empty()) return Error{ErrorCode::missing, place, "names no node"};
   for (const std::string& id : selection.ids)
     if (!scene.nodes.contains(id))
-      return Error{ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean(id, keys_of(scene.nodes))};
+      return Error{ErrorCode::not_found, place, "there is no node `" + id + "`" + did_you_mean_among(id, scene.nodes)};
   return {};
 }
 

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <tuple>
+
+#include "core/base/mathematics.h"
 
 namespace bl {
 
@@ -50,7 +51,7 @@ bool has_shape(const Mesh& mesh, const Vector3& toward, double ground) {
   if (!(toward.z > kLeastRise)) return false;
   double highest = ground;
   for (const Point3& vertex : mesh.vertices) highest = std::max(highest, vertex.z);
-  return (highest - ground) * std::hypot(toward.x, toward.y) <= kLongest * toward.z;
+  return (highest - ground) * mathematics::hypotenuse(toward.x, toward.y) <= kLongest * toward.z;
 }
 
 double turn(const Point3& a, const Point3& b, const Point3& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }

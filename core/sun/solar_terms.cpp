@@ -2,8 +2,9 @@
 #include "core/sun/solar_terms.h"
 
 #include <array>
-#include <cmath>
 #include <span>
+
+#include "core/base/mathematics.h"
 
 namespace bl {
 
@@ -228,7 +229,7 @@ double series(std::initializer_list<std::span<const Wave>> orders, double millen
   double sum = 0, power = 1;
   for (const std::span<const Wave> waves : orders) {
     double order = 0;
-    for (const Wave& wave : waves) order += wave.amplitude * std::cos(wave.phase + wave.rate * millennia);
+    for (const Wave& wave : waves) order += wave.amplitude * mathematics::cosine(wave.phase + wave.rate * millennia);
     sum += order * power;
     power *= millennia;
   }
@@ -252,8 +253,8 @@ Nutation nutation(double centuries) {
   Nutation sum;
   for (const Swing& s : kNutation) {
     const double angle = s.elongation * elongation + s.sun * sun + s.moon * moon + s.latitude * latitude + s.node * node;
-    sum.longitude += (s.a + s.b * centuries) * std::sin(angle);
-    sum.obliquity += (s.c + s.d * centuries) * std::cos(angle);
+    sum.longitude += (s.a + s.b * centuries) * mathematics::sine(angle);
+    sum.obliquity += (s.c + s.d * centuries) * mathematics::cosine(angle);
   }
   constexpr double kToDegrees = 1.0 / 36000000;
   return {sum.longitude * kToDegrees, sum.obliquity * kToDegrees};

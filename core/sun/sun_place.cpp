@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/mathematics.h"
+
 namespace bl {
 
 namespace {
@@ -112,9 +114,10 @@ double clock_at(const SunPlace& place, DayNumber day, double moment) {
 Vector3 scene_direction(const SunPlace& place, double azimuth, double altitude) {
   constexpr double kRadian = 0.017453292519943295;
   const double turn = (azimuth + place.true_north) * kRadian, up = altitude * kRadian;
-  // Rounded to 2^-40, far below any angle that matters: the last bits of sine and cosine differ between machines.
+  // Rounded to 2^-40, far below any angle that matters: the sun in the south stands exactly there.
   const auto steady = [](double x) { return std::round(x * 0x1p40) * 0x1p-40; };
-  return {steady(std::cos(up) * std::sin(turn)), steady(std::cos(up) * std::cos(turn)), steady(std::sin(up))};
+  return {steady(mathematics::cosine(up) * mathematics::sine(turn)), steady(mathematics::cosine(up) * mathematics::cosine(turn)),
+          steady(mathematics::sine(up))};
 }
 
 }  // namespace bl

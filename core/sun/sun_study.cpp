@@ -2,8 +2,8 @@
 #include "core/sun/sun_study.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/base/mathematics.h"
 #include "core/base/stop.h"
 #include "core/base/text.h"
 
@@ -38,13 +38,13 @@ void SunRecord::judge(double required) {
 
 void level_axes(double width, double depth, double rotation, SunReceiver& receiver) {
   const double turn = rotation * kRadianOfStudy;
-  receiver.half_across = Vector3{std::cos(turn), std::sin(turn), 0} * (0.5 * width);
-  receiver.half_up = Vector3{-std::sin(turn), std::cos(turn), 0} * (0.5 * depth);
+  receiver.half_across = Vector3{mathematics::cosine(turn), mathematics::sine(turn), 0} * (0.5 * width);
+  receiver.half_up = Vector3{-mathematics::sine(turn), mathematics::cosine(turn), 0} * (0.5 * depth);
 }
 
 void upright_axes(double width, double height, double azimuth, SunReceiver& receiver) {
   const double turn = azimuth * kRadianOfStudy;
-  receiver.half_across = Vector3{-std::cos(turn), std::sin(turn), 0} * (0.5 * width);
+  receiver.half_across = Vector3{-mathematics::cosine(turn), mathematics::sine(turn), 0} * (0.5 * width);
   receiver.half_up = {0, 0, 0.5 * height};
 }
 

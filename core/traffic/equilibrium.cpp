@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stop_check.h"
+
 namespace bl {
 
 namespace {
@@ -113,13 +115,18 @@ void Equilibrium::add_up() {
 }
 
 void Equilibrium::iterate(int sweeps, double enough) {
+  // Whatever has been shifted by then, all trips are on the streets: a stop between two origins leaves a state like any other.
   for (Bush& bush : bushes_) {
+    if (is_stop_wished()) break;
     worker_.improve(bush, loads_);
     worker_.shift(bush, loads_);
   }
-  for (int sweep = 1; sweep < sweeps; ++sweep) {
+  for (int sweep = 1; sweep < sweeps && !is_stop_wished(); ++sweep) {
     double largest = 0;
-    for (Bush& bush : bushes_) largest = std::max(largest, worker_.shift(bush, loads_));
+    for (Bush& bush : bushes_) {
+      if (is_stop_wished()) break;
+      largest = std::max(largest, worker_.shift(bush, loads_));
+    }
     if (largest <= enough) break;
   }
   add_up();
@@ -129,7 +136,7 @@ void Equilibrium::iterate(int sweeps, double enough) {
 bool Equilibrium::run(double gap, int most_iterations, int sweeps) {
   const int end = iterations_ + most_iterations;
   while (figures().gap > gap) {
-    if (iterations_ >= end) return false;
+    if (iterations_ >= end || is_stop_wished()) return false;
     iterate(sweeps);
   }
   return true;
@@ -182,6 +189,7 @@ EquilibriumFigures Equilibrium::totals(double excess) const {
     if (!(loads_.flows[l] > 0)) continue;
     figures.total_cost += loads_.flows[l] * loads_.costs[l];
     figures.objective += network_.integral(l, loads_.flows[l]);
+    figures.cut += network_.is_cut(l, loads_.flows[l]) ? 1 : 0;
   }
   figures.shortest_cost = figures.total_cost - excess;
   figures.gap = figures.total_cost > 0 ? excess / figures.total_cost : 0;

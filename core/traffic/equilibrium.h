@@ -28,6 +28,7 @@ struct EquilibriumFigures {
   double trips = 0;          ///< on the streets
   double lost = 0;           ///< trips that cannot reach their destination
   double within = 0;         ///< trips that begin and end in one zone and need no street
+  std::size_t cut = 0;       ///< links whose cost is not that of the formula (`TrafficNetwork::is_cut`)
 };
 
 /// One way that trips of a pair use, or could use.

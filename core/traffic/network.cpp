@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/base/mathematics.h"
 
 namespace bl {
 
@@ -36,8 +39,10 @@ void order_by_end(const std::vector<std::uint32_t>& ends, std::size_t nodes, std
   for (std::uint32_t l = 0; l < ends.size(); ++l) links[next[ends[l]]++] = l;
 }
 
-// Beyond this factor a delay goes on along its tangent.
-constexpr double kSteepest = 1e9;
+// From this delay on [times of the data] it goes on along its tangent, so that costs and their sums stay finite.
+constexpr double kLongest = 1e100;
+// The power itself, without the numbers it is multiplied by, stays finite as well.
+constexpr double kSteepest = 1e200;
 // Where the slope of a root is taken for less: at no flow it rises upright, and no step would ever lead away from there
 // [capacity].
 constexpr double kRootFoot = 1e-6;
@@ -65,19 +70,19 @@ double power_of(double base, double power) {
     for (int i = 0; i < static_cast<int>(power); ++i) result *= base;
     return result;
   }
-  return std::pow(base, power);
+  return mathematics::power(base, power);
 }
 
-// load^power, its slope and the area under it, with the tangent beyond `kSteepest`.
+// load^power, its slope and the area under it, with the tangent beyond the load `edge`.
 struct Rise {
   double value = 0, slope = 0, area = 0;
 };
-Rise rise_of(double load, double power) {
-  const double value = power_of(load, power);
-  if (value <= kSteepest)
-    return {value, power * power_of(power < 1 ? std::max(load, kRootFoot) : load, power - 1), value * load / (power + 1)};
-  const double edge = std::pow(kSteepest, 1 / power), slope = power * kSteepest / edge, beyond = load - edge;
-  return {kSteepest + slope * beyond, slope, kSteepest * edge / (power + 1) + (kSteepest + 0.5 * slope * beyond) * beyond};
+Rise rise_of(double load, double power, double edge) {
+  const double at = std::min(load, edge), beyond = load - at;
+  const double value = power_of(at, power), slope = power * power_of(power < 1 ? std::max(at, kRootFoot) : at, power - 1);
+  const Rise rise{value, slope, value * at / (power + 1)};
+  if (!(beyond > 0)) return rise;
+  return {value + slope * beyond, slope, rise.area + (value + 0.5 * slope * beyond) * beyond};
 }
 
 }  // namespace
@@ -133,6 +138,20 @@ Result<void> TrafficNetwork::set_free_time(std::uint32_t link, double free_time)
   return {};
 }
 
+// What is cut is the delay, not the power of the load: a network that writes capacity 1, and the real one within the factor, has
+// huge loads and common delays.
+TrafficNetwork::Delay TrafficNetwork::delay_of(const TrafficLink& link) {
+  const double scale = link.free_time * link.alpha;
+  double edge = std::numeric_limits<double>::infinity();
+  if (scale > 0 && link.power > 0) edge = mathematics::power(std::min(kLongest / scale, kSteepest), 1 / link.power);
+  return {link.free_time + link.wait, scale, link.capacity, link.power, edge};
+}
+
+bool TrafficNetwork::is_cut(std::uint32_t index, double flow) const {
+  const Delay& delay = delays_[index];
+  return delay.scale > 0 && delay.power != 1 && flow / delay.capacity > delay.edge;
+}
+
 bool TrafficNetwork::has_other_costs() const {
   return std::any_of(fixed_.begin(), fixed_.end(), [](double cost) { return cost != 0; });
 }
@@ -140,7 +159,7 @@ bool TrafficNetwork::has_other_costs() const {
 // Nothing is added where the time does not depend on the flow; there capacities may be 0.
 double TrafficNetwork::time(std::uint32_t index, double flow) const {
   const Delay& delay = delays_[index];
-  return delay.least + (delay.scale > 0 ? delay.scale * rise_of(flow / delay.capacity, delay.power).value : 0);
+  return delay.least + (delay.scale > 0 ? delay.scale * rise_of(flow / delay.capacity, delay.power, delay.edge).value : 0);
 }
 
 double TrafficNetwork::slope(std::uint32_t index, double flow) const { return cost_and_slope(index, flow).slope; }
@@ -148,7 +167,7 @@ double TrafficNetwork::slope(std::uint32_t index, double flow) const { return co
 TrafficNetwork::CostAndSlope TrafficNetwork::cost_and_slope(std::uint32_t index, double flow) const {
   const Delay& delay = delays_[index];
   if (!(delay.scale > 0)) return {delay.least + fixed_[index], 0};
-  const Rise rise = rise_of(flow / delay.capacity, delay.power);
+  const Rise rise = rise_of(flow / delay.capacity, delay.power, delay.edge);
   return {delay.least + delay.scale * rise.value + fixed_[index],
           delay.power > 0 ? delay.scale * rise.slope / delay.capacity : 0};
 }
@@ -156,7 +175,7 @@ TrafficNetwork::CostAndSlope TrafficNetwork::cost_and_slope(std::uint32_t index,
 double TrafficNetwork::integral(std::uint32_t index, double flow) const {
   const Delay& delay = delays_[index];
   return (delay.least + fixed_[index]) * flow +
-         (delay.scale > 0 ? delay.scale * delay.capacity * rise_of(flow / delay.capacity, delay.power).area : 0);
+         (delay.scale > 0 ? delay.scale * delay.capacity * rise_of(flow / delay.capacity, delay.power, delay.edge).area : 0);
 }
 
 }  // namespace bl

@@ -38,8 +38,9 @@ struct CostFactors {
 
 /// Nodes and links in ascending id, whatever the order they came in: the same network gives the same bits.
 /// The cost of a link at flow v is free_time · (1 + alpha · (v / capacity)^power) + toll part + distance part
-/// (Bureau of Public Roads 1964, with generalised cost as the TNTP test networks define it). Where the power exceeds 1e9, far
-/// beyond what the formula was made for, the time goes on along its tangent, so that costs stay finite and slopes true.
+/// (Bureau of Public Roads 1964, with generalised cost as the TNTP test networks define it). Where the delay exceeds 1e100, or the
+/// power itself 1e200, it goes on along its tangent, so that costs stay finite; `is_cut` tells. How a network divides one delay
+/// among free time, alpha and capacity makes no difference.
 class TrafficNetwork {
  public:
   TrafficNetwork() = default;
@@ -92,6 +93,8 @@ class TrafficNetwork {
   CostAndSlope cost_and_slope(std::uint32_t link, double flow) const;
   /// The area under the cost from no flow to this one: the link's part of Beckmann's objective.
   double integral(std::uint32_t link, double flow) const;
+  /// Is the cost at this flow less than the formula says, because no number could hold the sums of such costs?
+  bool is_cut(std::uint32_t link, double flow) const;
 
  private:
   // What the delay formula needs of a link, without its texts: costs are asked for more often than anything else.
@@ -99,10 +102,9 @@ class TrafficNetwork {
     double least = 0;  // time and wait at no flow
     double scale = 0;  // how much the formula adds at capacity
     double capacity = 0, power = 0;
+    double edge = 0;  // the load beyond which the delay goes on along its tangent [capacity]
   };
-  static Delay delay_of(const TrafficLink& link) {
-    return {link.free_time + link.wait, link.free_time * link.alpha, link.capacity, link.power};
-  }
+  static Delay delay_of(const TrafficLink& link);
 
   std::vector<TrafficNode> nodes_;
   std::vector<TrafficLink> links_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/mathematics.h"
 #include "core/traffic/shortest_paths.h"
 
 namespace bl {
@@ -56,7 +57,7 @@ std::vector<ReachedLink> reached_links(const TrafficNetwork& network, std::uint3
 double accessibility(std::span<const double> costs, std::span<const double> amounts, double fade) {
   double sum = 0;
   for (std::size_t i = 0; i < costs.size(); ++i)
-    if (std::isfinite(costs[i])) sum += amounts[i] * std::exp(-costs[i] / fade);
+    if (std::isfinite(costs[i])) sum += amounts[i] * mathematics::exponential(-costs[i] / fade);
   return sum;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/mathematics.h"
+
 namespace bl {
 
 namespace {
@@ -67,7 +69,7 @@ TripDistribution distribute_trips(std::span<const double> times, std::span<const
       if (i != j && arriving[j] > 0) nearest = std::min(nearest, times[i * n + j]);
     for (std::size_t j = 0; j < n; ++j)
       if (const double time = times[i * n + j]; i != j && std::isfinite(time) && leaving[i] > 0 && std::isfinite(nearest))
-        out.trips[i * n + j] = arriving[j] * std::exp(-(time - nearest) / fade);
+        out.trips[i * n + j] = arriving[j] * mathematics::exponential(-(time - nearest) / fade);
   }
   scale_rows(out.trips, leaving, out.lost);
   if (constraint == TripConstraint::origins) return out;

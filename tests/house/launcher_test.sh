@@ -223,6 +223,13 @@ preset=${2##*/} bad=0
 ! grep -qx "empty-$preset" "$FAKES/breaks" || exit 8
 ! grep -qx "test-$preset" "$FAKES/breaks" || bad=2
 printf '<testsuite name="x"\n\ttests="7"\n\tfailures="%s"\n\tdisabled="0"\n\tskipped="1"\n<testcase tests="9"/>\n' $bad >"$2/junit.xml"
+# Two of the seven are shards of a program with eighty tests, two of which fail.
+if [ "$preset" = fuzz ] && [ -e "$FAKES/shards" ]; then
+  mkdir -p "$2/Testing/Temporary"
+  printf '<testcase name="base_tests/shard_%s"/>\n' 0 1 >>"$2/junit.xml"
+  printf 'Command: "/x/base_tests"\n[  PASSED  ] %s\n' '40 tests.' '38 tests.' >"$2/Testing/Temporary/LastTest.log"
+  printf '[  FAILED  ] %s\n' '2 tests, listed below:' 'Suite.One' 'Suite.Two' >>"$2/Testing/Temporary/LastTest.log"
+fi
 [ $bad -eq 0 ] || exit 8
 SCRIPT
 
@@ -246,6 +253,9 @@ suite_gives '12 passed, 1 failed' 1 empty-tsan
 suite_gives '18 passed, 1 failed' 1 find
 suite_gives '4 passed, 5 failed' 1 test-fuzz empty-release build-tsan find
 : >"$place/breaks"
+touch "$place/shards"
+suite_gives '94 passed, 2 failed' 1 test-fuzz
+rm "$place/shards"
 deep=''
 suite_gives '6 passed, 0 failed' 0
 : >"$place/calls"

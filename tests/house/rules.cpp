@@ -49,6 +49,7 @@ constexpr std::array kLibraries = {
     Library{"CGAL/", "core/geometry/", true, "CGAL"},
     Library{"nlohmann/json.hpp", "", true, "nlohmann/json.hpp (headers take nlohmann/json_fwd.hpp)"},
     Library{"muParser", "", true, "muParser"},
+    Library{"sleef.h", "core/base/", true, "SLEEF"},
     Library{"proj.h", "core/exchange/", true, "PROJ"},
     Library{"csv.h", "core/exchange/", true, "libcsv"},
     Library{"embree3/", "core/sun/", true, "Embree"},
@@ -75,7 +76,19 @@ constexpr std::array<std::string_view, 5> kOrdered = {"core/graph/", "core/defin
 // Connections need pauses and rates; what they bring reaches the result through the log only.
 constexpr std::array<std::string_view, 4> kClocks = {"ui/", "tests/", "core/base/", "core/live/"};
 constexpr std::string_view kUnordered = "the order of a hash table must not reach the state: take std::map, std::set or a vector";
+// The bench writes to a switch of the kernel, which is no file.
+constexpr std::array<std::string_view, 3> kWriters = {"core/file/", "tests/", "ui/cli/bench_tools.cpp"};
+constexpr std::string_view kOneWriter = "files are written in one place: take write_file or LogWriter of core/file";
 constexpr std::string_view kOwnRandom = "its output is not fixed by the standard: take core/base/random.h";
+
+// Functions of the C library's mathematics whose last bits follow the processor; those that round exactly are free.
+constexpr std::array<std::string_view, 29> kInexact = {"sin",    "cos",    "tan",   "asin",  "acos",  "atan", "atan2", "sinh",
+                                                       "cosh",   "tanh",   "asinh", "acosh", "atanh", "exp",  "exp2",  "exp10",
+                                                       "expm1",  "log",    "log2",  "log10", "log1p", "pow",  "cbrt",  "hypot",
+                                                       "lgamma", "tgamma", "erf",   "erfc",  "sincos"};
+// What reaches the state, or is written into scenes. Pictures and charts may be drawn as the processor likes.
+constexpr std::array<std::string_view, 5> kExact = {"core/", "nodes/", "links/", "ui/cli/new_", "ui/cli/media_"};
+constexpr std::string_view kOwnMathematics = "its last bits follow the processor: take core/base/mathematics.h";
 
 constexpr std::array kWords = {
     Word{"std::hash", {}, {}, "its output is not fixed by the standard: take core/base/hash.h"},
@@ -85,6 +98,10 @@ constexpr std::array kWords = {
     Word{"unordered_set", kOrdered, {}, kUnordered},
     Word{"unordered_multimap", kOrdered, {}, kUnordered},
     Word{"unordered_multiset", kOrdered, {}, kUnordered},
+    Word{"fopen", {}, kWriters, kOneWriter},
+    Word{"ofstream", {}, kWriters, kOneWriter},
+    Word{"O_CREAT", {}, kWriters, kOneWriter},
+    Word{"mkstemp", {}, kWriters, kOneWriter},
     Word{"chrono", {}, kClocks, "the wall clock must not reach the result: only ui, tests, core/base and core/live may read it"},
 };
 
@@ -127,6 +144,34 @@ bool holds_word(std::string_view line, std::string_view word) {
     return true;
   }
   return false;
+}
+
+// The function of the C library's mathematics that the line of code calls, with its f or l for other widths; or nothing.
+// A call is a name before a bracket that is not empty; with another scope than std or none, or an object before it, it is
+// another's.
+std::string_view inexact_call(std::string_view line) {
+  for (std::size_t at = 0; at < line.size();) {
+    const auto begin = std::find_if(line.begin() + static_cast<std::ptrdiff_t>(at), line.end(), is_word_character);
+    const auto end = std::find_if_not(begin, line.end(), is_word_character);
+    const std::string_view name(begin, end), after = trimmed(std::string_view(end, line.end()));
+    std::string_view before(line.begin(), begin);
+    at = static_cast<std::size_t>(end - line.begin());
+    std::string_view plain = name;
+    if (plain.starts_with("__builtin_")) plain.remove_prefix(10);
+    const auto is_inexact = [&](std::string_view word) {
+      return std::find(kInexact.begin(), kInexact.end(), word) != kInexact.end();
+    };
+    const bool is_wide = plain.size() > 1 && (plain.back() == 'f' || plain.back() == 'l');
+    if (!is_inexact(plain) && !(is_wide && is_inexact(plain.substr(0, plain.size() - 1)))) continue;
+    const bool is_std = before.ends_with("std::"),
+               is_global = before.ends_with("::") && (before.size() == 2 || !is_word_character(before[before.size() - 3]));
+    if (is_std) return name;  // also where it is named without being called
+    if (!after.starts_with("(") || trimmed(after.substr(1)).starts_with(")")) continue;
+    if (is_global) return name;
+    if (before.ends_with("::") || before.ends_with(".") || before.ends_with("->")) continue;
+    return name;
+  }
+  return {};
 }
 
 // Does the line of code name one of the distributions of the standard library?
@@ -228,6 +273,8 @@ std::vector<Finding> check_words(std::string_view path, std::string_view text) {
       if (starts_with_any(path, row.except) || !holds_word(line, row.word)) continue;
       findings.push_back({place(path, number), joined({"`", row.word, "`: ", row.why})});
     }
+    if (const std::string_view name = inexact_call(line); !name.empty() && starts_with_any(path, kExact))
+      findings.push_back({place(path, number), joined({"`", name, "`: ", kOwnMathematics})});
     if (holds_distribution(line)) findings.push_back({place(path, number), joined({"a standard distribution: ", kOwnRandom})});
   });
   return findings;
@@ -252,8 +299,8 @@ int line_limit(std::string_view path) {
   if (path == "nodes/smart_volumes_solver.cpp") return 260;
   // So does the traffic network, with five sets of ports: its own, and those of streets, junctions, turn rules and zones.
   if (path == "nodes/traffic_network.cpp") return 325;
-  // The expression holds the parser's adapter and the check of units, until a second type needs them.
-  if (path == "nodes/expression.cpp") return 220;
+  // The expression holds the parser's adapter, the functions of formulas and the check of units, until a second type needs them.
+  if (path == "nodes/expression.cpp") return 250;
   // The sun study binds thirty ports of the sun, of casters and of receivers.
   if (path == "nodes/sun_study.cpp") return 295;
   // The façade style binds its rules, and the twelve ports that it writes to façades.

@@ -1,8 +1,11 @@
 // Law of commands: a command and then its inverse give the same scene, for every registered command.
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "core/base/random.h"
+#include "tests/support/random_commands.h"
 #include "tests/support/world.h"
 
 namespace bl {
@@ -71,6 +74,29 @@ TEST(UndoLaws, EveryCommandIsTaken) {
   std::set<std::string> taken;
   for (const Command& command : every_command()) taken.insert(command.id);
   for (const auto& [id, command] : full_registry().commands()) EXPECT_TRUE(taken.contains(id)) << id;
+}
+
+// The laws of whole scenes are as wide as what is drawn for them.
+TEST(UndoLaws, EveryCommandIsDrawnAtRandomAndMostlyFits) {
+  Scene scene = read_scene(kScene, full_registry()).scene;
+  Random random(4);
+  std::map<std::string, int> drawn, taken;
+  for (int k = 0; k < 2000; ++k) {
+    const Command command = random_command(scene, random, k);
+    ++drawn[command.id];
+    SceneEdit edit(scene, full_registry());
+    const auto inverse = apply(edit, command);
+    if (!inverse) continue;
+    ++taken[command.id];
+    for (const Command& back : *inverse) ASSERT_TRUE(apply(edit, back).ok()) << command.id;
+    // On from here now and then, so that there are locks to open and scripts to remove.
+    if (k % 3 == 0) { ASSERT_TRUE(apply(edit, command).ok()) << command.id; }
+    if (scene.nodes.size() < 3 || scene.links.size() < 2) scene = read_scene(kScene, full_registry()).scene;
+  }
+  for (const auto& [id, command] : full_registry().commands()) {
+    EXPECT_GT(drawn[id], 0) << id;
+    EXPECT_GT(taken[id], 0) << id << " was drawn " << drawn[id] << " times and never fitted";
+  }
 }
 
 TEST(UndoLaws, ACommandAndItsInverseGiveTheSameBytes) {

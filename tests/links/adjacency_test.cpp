@@ -16,17 +16,20 @@ LinkCase rooms(double length, double shared) {
       .to("node.id", std::string("b"));
   link.from("node.position", Point3{0, 0, 0}).to("node.position", Point3{length, 0, 0});
   link.from("smart_volume.radius", 10.0).to("smart_volume.radius", 8.0);
+  // Round bodies of these radii, in the middle of which their positions are.
+  link.from("smart_volume.wanted", 4188.79).to("smart_volume.wanted", 2144.66);
+  link.from("smart_volume.centroid", Point3{0, 0, 0}).to("smart_volume.centroid", Point3{length, 0, 0});
   return link;
 }
 
 TEST(Adjacency, PullsByTheClearDistanceAndTheMissingArea) {
-  auto apart = rooms(20, 0);  // 2 m clear and 6 m for the whole area: a tenth of 8 m, half by each
+  auto apart = rooms(18.5, 0);  // half a metre clear; the bodies allow 3.18 m, less than 6 m for the whole area
   ASSERT_EQ(apart.run(), "");
-  expect_near(apart.move(End::from), {0.4, 0, 0});
-  expect_near(apart.move(End::to), {-0.4, 0, 0});
-  auto touching = rooms(15, 18);  // half of the area is missing
+  expect_near(apart.move(End::from), {0.05 * (18.5 - 15.31946), 0, 0}, 1e-5);
+  expect_near(apart.move(End::to), {-0.05 * (18.5 - 15.31946), 0, 0}, 1e-5);
+  auto touching = rooms(17, 30);  // a sixth of the area is missing
   ASSERT_EQ(touching.run(), "");
-  expect_near(touching.move(End::from), {0.15, 0, 0});
+  expect_near(touching.move(End::from), {0.05, 0, 0});
 }
 
 TEST(Adjacency, IsContentWithEnoughAndOnOnePoint) {
@@ -38,6 +41,33 @@ TEST(Adjacency, IsContentWithEnoughAndOnOnePoint) {
   EXPECT_FALSE(enough.moves(End::from));
   EXPECT_FALSE(together.moves(End::from));
   EXPECT_FALSE(nothing.moves(End::from));
+}
+
+// Alone they would share 36 m² some 16.7 m apart, and twice that 15.3 m apart: nearer they are not pulled, whatever is between.
+TEST(Adjacency, NeverPullsNearerThanTheBodiesAllow) {
+  auto near = rooms(16, 0), nearest = rooms(15.3, 0), far = rooms(30, 0);
+  ASSERT_EQ(near.run(), "");
+  ASSERT_EQ(nearest.run(), "");
+  EXPECT_NEAR(near.move(End::from).x, 0.05 * (16 - 15.3195), 1e-4);  // no more than the way to there
+  EXPECT_FALSE(nearest.moves(End::from));
+  EXPECT_FALSE(nearest.moves(End::to));
+  // A wish that no two bodies of that size can fulfil brings them no nearer than half of the smaller radius.
+  ASSERT_EQ(far.set("area", 1e6).set("stiffness", 1.0).run(), "");
+  EXPECT_LT(norm(far.move(End::from) - far.move(End::to)), 30 - 10);
+}
+
+// A body of radius 10 is pressed where its middle is 0.8 m behind its position; its end goes half of what is left until there.
+TEST(Adjacency, LeavesThoseThatArePressed) {
+  auto free = rooms(20, 0), eased = rooms(20, 0), pressed = rooms(20, 0);
+  eased.from("smart_volume.centroid", Point3{-0.5, 0, 0});
+  pressed.from("smart_volume.centroid", Point3{-0.9, 0, 0}).to("smart_volume.centroid", Point3{20, 7, 0});
+  ASSERT_EQ(free.run(), "");
+  ASSERT_EQ(eased.run(), "");
+  ASSERT_EQ(pressed.run(), "");
+  EXPECT_NEAR(eased.move(End::from).x, 0.15, 1e-5);
+  EXPECT_NEAR(eased.move(End::to).x, free.move(End::to).x, 1e-12);
+  EXPECT_FALSE(pressed.moves(End::from));
+  EXPECT_NEAR(pressed.move(End::to).x, free.move(End::to).x, 1e-12);  // aside is not behind
 }
 
 TEST(Adjacency, SceneGivesTheDiningHallItsWalls) {

@@ -6,7 +6,7 @@ namespace {
 
 LinkCase feedback(double load, double demand, double limit) {
   LinkCase link("congestion_feedback");
-  link.set("limit", 0.8).set("gain", 0.5).set("least", 0.2);
+  link.set("limit", 0.8).set("gain", 0.5).set("least", 0.2).set("tolerance", 0.0);
   link.from("traffic_network.loads",
             Shared(Table{{"junction", "volume_over_capacity"},
                          {{std::string("far"), 9.0}, {std::string("gate"), load}, {std::string("it"), 0.1}}}));
@@ -36,6 +36,17 @@ TEST(CongestionFeedback, LoosensLeavesTheLeastAndIsSilentWithoutTraffic) {
   auto calm = feedback(0, 1000, 1e9);
   ASSERT_EQ(calm.run(), "");
   EXPECT_FALSE(calm.proposed(End::to, "smart_volume.demand_limit").has_value());
+}
+
+TEST(CongestionFeedback, JustBelowTheLimitTheVolumeRests) {
+  for (const double load : {0.785, 0.8}) {
+    auto link = feedback(load, 1000, 600);
+    ASSERT_EQ(link.set("tolerance", 0.02).run(), "");
+    EXPECT_NEAR(link.number(End::to, "smart_volume.demand_limit"), 600, 1e-9) << load;
+  }
+  auto over = feedback(0.81, 1000, 600);  // aims at 0.792
+  ASSERT_EQ(over.set("tolerance", 0.02).run(), "");
+  EXPECT_NEAR(over.number(End::to, "smart_volume.demand_limit"), 600 * (1 + 0.5 * (0.792 / 0.81 - 1)), 1e-9);
 }
 
 TEST(CongestionFeedback, WithoutAWayTheAccessIsAsBadAsCanBe) {

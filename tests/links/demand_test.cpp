@@ -43,18 +43,72 @@ TEST(Demand, AGivenUseIsSharedWhateverTheVolumesSay) {
             "use: the programme has no row of the use `scool`, did you mean `school`?");
 }
 
-TEST(Demand, NothingIsLeftOutSilently) {
+TEST(Demand, AVolumeWithoutARowTakesPartInNothingAndIsNamed) {
+  auto link = dealt({kA, kB, kC}, {kHousing, kSchool, std::string("housin")});
+  ASSERT_EQ(link.run(), "");
   EXPECT_EQ(
-      dealt({kA, kB, kC}, {kHousing, kSchool, std::string("housin")}).run(),
-      "to: the programme has no row for the use of `c` (use `housin`, did you mean `housing`?); add the rows or change the uses");
+      link.remarked(LinkRemark::short_of),
+      "`c` has the use `housin`, for which the programme has no row: change the use or add the row, did you mean `housing`?");
+  EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 0), 7200, 1e-9) << "all of the housing, as `c` is none";
+  EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 1), 3240, 1e-9);
+  for (const char* port : {"demand", "demand_min", "demand_limit", "storey_height"})
+    EXPECT_FALSE(link.proposed(End::to, std::string("smart_volume.") + port, 2).has_value()) << port;
+  auto empty = dealt({kA, kB, kC}, {kHousing, kSchool, std::string()});
+  ASSERT_EQ(empty.run(), "");
+  EXPECT_EQ(empty.remarked(LinkRemark::short_of),
+            "`c` has no use, so the programme asks nothing of it: give it a use of the programme");
+  EXPECT_NEAR(empty.number(End::to, "smart_volume.demand", 0), 7200, 1e-9);
+}
+
+TEST(Demand, AUseWithoutAVolumeIsShortAndAllOthersGoOn) {
   auto link = dealt({kA}, {kHousing});
-  EXPECT_EQ(link.run(), "from: no volume of this link has the use `school`; give one that use or turn `every_row` off");
-  EXPECT_EQ(link.set("every_row", false).run(), "");
+  ASSERT_EQ(link.run(), "");
+  EXPECT_EQ(
+      link.remarked(LinkRemark::short_of),
+      "no volume has the use `school`, so all of the 900 m² that are asked for are missing: give a volume that use, add one, "
+      "or remove the row");
+  EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 0), 7200, 1e-9);
+  ASSERT_EQ(link.set("every_row", false).run(), "");
+  EXPECT_EQ(link.remarked(LinkRemark::short_of), "");
 }
 
 TEST(Demand, AnEmptyProgrammeNamesTheVolumes) {
   auto link = dealt({kA}, {kHousing});
-  EXPECT_NE(link.from("programme.rows", Shared<Table>(Table{})).run().find("`a`"), std::string::npos);
+  ASSERT_EQ(link.from("programme.rows", Shared<Table>(Table{})).run(), "");
+  EXPECT_NE(link.remarked(LinkRemark::short_of).find("`a`"), std::string::npos);
+}
+
+// The programme says itself that the row has no use; nobody's volumes are meant by it.
+TEST(Demand, ARowWithoutAUseIsForNobody) {
+  Table rows{{"use", "floor_area", "floor_area_min", "floor_area_max", "storey_height", "count", "note"}, {}};
+  rows.rows = {{std::string(), 500.0, 0.0, 0.0, 3.0, 1.0, std::string()},
+               {std::string("housing"), 100.0, 0.0, 0.0, 3.0, 1.0, std::string()}};
+  auto link = dealt({kA, kB}, {std::string(), kHousing});
+  ASSERT_EQ(link.from("programme.rows", Shared<Table>(rows)).run(), "");
+  EXPECT_FALSE(link.proposed(End::to, "smart_volume.demand", 0).has_value());
+  EXPECT_NEAR(link.number(End::to, "smart_volume.demand", 1), 300, 1e-9);
+}
+
+// One deletion or one new volume must not unplug the programme from all others.
+TEST(Demand, AQuarterWithoutItsHotelAndWithANewVolumeStillFollowsItsBrief) {
+  World world = World::from_file("scenes/start/quarter.json");
+  world.tick(30);
+  ASSERT_EQ(world.submit(command<RemoveNode>({.id = "hotel"})), "");
+  ASSERT_EQ(world.submit(command<AddNode>({.id = "new", .node = {R"({"position": [30, 45, 8]})"}})), "");
+  ASSERT_EQ(world.submit(command<Typify>({.node = "new", .typification = "smart_volume", .values = {"{}"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "programme", .port = {"programme.rows"}, .value = {R"([
+      {"use": "housing", "floor_area": 4200, "storey_height": 3, "count": 4},
+      {"use": "office", "floor_area": 9000, "storey_height": 3.6, "count": 2},
+      {"use": "hotel", "floor_area": 4400}])"}})),
+            "");
+  world.tick(3);
+  EXPECT_EQ(world.number("office-1", "smart_volume.demand"), 9000 * 3.6) << "what is edited in the brief arrives";
+  const std::string said = world.link_error("brief");
+  EXPECT_NE(said.find("no volume has the use `hotel`, so all of the 4400 m² that are asked for are missing"), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("`new` has no use"), std::string::npos) << said;
+  EXPECT_NE(said.find("`cafe` has the use `cafe`, for which the programme has no row"), std::string::npos) << said;
+  EXPECT_FALSE(has_failure(world.state())) << "who goes without keeps nobody from settling";
 }
 
 TEST(Demand, SceneDealsTheBriefOut) {

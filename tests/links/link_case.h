@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/define/link_remark.h"
 #include "tests/support/world.h"
 
 namespace bl {
@@ -47,8 +48,15 @@ class LinkCase {
     }
     writes_.values.clear();
     for (const LinkWrite& write : link_->proposes) writes_.values.emplace_back(write.is_whole ? nodes : 1);
-    const auto done = link_->evaluate(link_->instantiate(values).get(), reads, writes_, Tick{});
+    memo_ = {};
+    const auto done = link_->evaluate(link_->instantiate(values).get(), reads, writes_, Tick{.memo = &memo_});
     return done ? "" : done.error().text();
+  }
+
+  /// "" or what it remarked of one kind beside its proposals, place and all.
+  std::string remarked(LinkRemark kind) {
+    const LinkRemarks& remarks = memo_.of<LinkRemarks>();
+    return remarks.said && remarks.kind == kind ? remarks.said->text() : "";
   }
 
   std::optional<Value> proposed(End end, const std::string& path, std::size_t node = 0) const {
@@ -71,6 +79,7 @@ class LinkCase {
   std::map<std::string, Value> parameters_;
   std::map<std::pair<End, std::string>, std::vector<Value>> readings_;
   LinkWrites writes_;
+  Memo memo_;
 };
 
 inline void expect_near(const Vector3& found, const Vector3& wanted, double tolerance = 1e-9) {

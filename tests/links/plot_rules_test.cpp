@@ -15,9 +15,13 @@ LinkCase rules(double fsi, double gsi, double height) {
   link.read(End::to, "smart_volume.centroid", {Vector3{5, 5, 5}, Vector3{50, 5, 5}});
   link.read(End::to, "smart_volume.demand", {1000.0, 1000.0}).read(End::to, "smart_volume.demand_limit", {1e9, 1e9});
   link.read(End::to, "smart_volume.bottom", {0.0, 0.0}).read(End::to, "smart_volume.height", {height, height});
-  link.set("gain", 0.5);
+  link.read(End::to, "node.id", {std::string("here"), std::string("beside")});
+  link.read(End::to, "smart_volume.wanted", {1000.0, 1000.0}).read(End::to, "smart_volume.volume", {1000.0, 1000.0});
+  link.set("gain", 0.5).set("tolerance", 0.0).set("least", 0.001);
   return link;
 }
+
+std::string why(const World& world) { return " " + world.link_error("l1_rules"); }
 
 TEST(PlotRules, TheTightestRuleLimits) {
   // FSI 4 where 2 is allowed: half the way to a half.
@@ -34,6 +38,44 @@ TEST(PlotRules, TheTightestRuleLimits) {
   LinkCase let = rules(4, 2, 40);
   ASSERT_EQ(let.set("hold_fsi", false).set("hold_gsi", false).set("hold_height", false).run(), "");
   EXPECT_FALSE(let.proposed(End::to, "smart_volume.demand_limit", 0).has_value());
+}
+
+TEST(PlotRules, JustBelowWhatIsAllowedTheLimitsRest) {
+  LinkCase held = rules(1.99, 0.498, 19.9);
+  held.set("tolerance", 0.01).read(End::to, "smart_volume.demand_limit", {600.0, 1e9});
+  ASSERT_EQ(held.run(), "");
+  EXPECT_DOUBLE_EQ(held.number(End::to, "smart_volume.demand_limit", 0), 600);
+  EXPECT_EQ(held.remarked(LinkRemark::at_work), "");
+  LinkCase high = rules(1, 0.1, 20.2);
+  ASSERT_EQ(high.set("tolerance", 0.01).run(), "");
+  EXPECT_DOUBLE_EQ(high.number(End::to, "smart_volume.demand_limit", 0), 1000 * (1 + 0.5 * (19.9 / 20.2 - 1)));
+  EXPECT_EQ(high.remarked(LinkRemark::at_work), "from: height 20.2 m of 20.0 m at `here` is still being brought down");
+}
+
+TEST(PlotRules, LeaveTheLeastShareAndSayWhoHoldsTheRule) {
+  LinkCase link = rules(1, 0.62, 5);
+  link.from("plot.gsi_max", 0.4).read(End::to, "smart_volume.demand_limit", {200.0, 1e9});
+  link.read(End::to, "smart_volume.wanted", {900.0, 1000.0}).read(End::to, "smart_volume.volume", {899.0, 1000.0});
+  ASSERT_EQ(link.set("least", 0.2).run(), "");
+  EXPECT_DOUBLE_EQ(link.number(End::to, "smart_volume.demand_limit", 0), 200);
+  EXPECT_EQ(link.remarked(LinkRemark::unmet),
+            "from: cannot be met: GSI 0.62 of 0.40, held by `here` (900 m³ are insisted on); loosen the rule, or lower what is "
+            "insisted on or `least`");
+  link.read(End::to, "smart_volume.wanted", {200.0, 1000.0}).read(End::to, "smart_volume.volume", {200.0, 1000.0});
+  ASSERT_EQ(link.run(), "");
+  EXPECT_NE(link.remarked(LinkRemark::unmet).find("GSI 0.62 of 0.40, all are down to 20 % of their demands"), std::string::npos);
+}
+
+// One volume is insisted on and breaks the rule by itself: the other is left its share, and the scene is not called settled.
+TEST(PlotRules, ARuleThatCannotBeMetKeepsASceneFromSettling) {
+  World world = World::from_file("scenes/links/plot_rules.json");
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "west", .port = {"smart_volume.demand_min"}, .value = {"6000"}})), "");
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.fsi_max"}, .value = {"0.8"}})), "");
+  EXPECT_FALSE(world.settle(300));
+  const std::string said = world.link_error("l1_rules");
+  EXPECT_NE(said.find("cannot be met: FSI "), std::string::npos) << said;
+  EXPECT_NE(said.find("held by `west` (6000 m³ are insisted on)"), std::string::npos) << said;
+  EXPECT_NEAR(world.number("east", "smart_volume.volume"), 0.2 * 6000, 0.02 * 1200) << "never wound to nothing";
 }
 
 TEST(PlotRules, SceneComesDownToWhatIsAllowed) {
@@ -62,7 +104,8 @@ TEST(PlotRules, ComesToRestWithSmallGroundSpaceIndices) {
   for (const char* most : {"0.1", "0.03", "0"}) {
     World world = World::from_file("scenes/links/plot_rules.json");
     ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.gsi_max"}, .value = {most}})), "");
-    EXPECT_TRUE(world.settle(1500)) << most;
+    ASSERT_EQ(world.submit(command<SetLinkParameter>({.id = "l1_rules", .parameter = "least", .value = {"0.01"}})), "");
+    EXPECT_TRUE(world.settle(1500)) << most << why(world);
     EXPECT_LE(world.number("plot", "plot.gsi"), std::stod(most) + 0.01) << most;
   }
 }
@@ -73,8 +116,9 @@ TEST(PlotRules, SaysWhichVolumeNoSmallerDemandBringsBelowTheHeight) {
   EXPECT_EQ(world.text("plot", "plot.message"), "");
   ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.height_max"}, .value = {"3"}})), "");
   world.tick(20);
-  EXPECT_NE(world.text("plot", "plot.message").find("m above the ground, so that however small it becomes it stands above the "
-                                                    "largest height of 3.0 m"),
+  EXPECT_NE(world.text("plot", "plot.message")
+                .find("m above the ground, so that however small it becomes it stands above the "
+                      "largest height of 3.0 m"),
             std::string::npos)
       << world.text("plot", "plot.message");
 }

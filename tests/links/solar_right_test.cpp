@@ -72,6 +72,21 @@ TEST(SolarRight, WhatNoCasterTakesIsAskedOfNone) {
   EXPECT_FALSE(none.moves(End::to));
 }
 
+TEST(SolarRight, LeavesTheLeastShareAndSaysSo) {
+  auto link = right("shave", "tower");
+  link.to("smart_volume.demand_limit", 1600.0);
+  ASSERT_EQ(link.run(), "");
+  EXPECT_NEAR(limit(link), 1600, 1e-9) << "a fifth of the demand is not taken";
+  EXPECT_EQ(
+      link.remarked(LinkRemark::unmet),
+      "from: cannot be met: `garden` is short of 0.50 h of sun, held by `tower`, which is down to 20 % of its demand; lower "
+      "`required_sun` or `least`, or move the volume");
+  auto other = right("shave", "house");
+  other.to("smart_volume.demand_limit", 1600.0);
+  ASSERT_EQ(other.run(), "");
+  EXPECT_EQ(other.remarked(LinkRemark::unmet), "") << "who takes less is not the one to be named";
+}
+
 TEST(SolarRight, SceneTheGardenGetsItsSun) {
   World world = World::from_file("scenes/links/solar_right.json");
   ASSERT_TRUE(world.settle(400));

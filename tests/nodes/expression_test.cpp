@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "core/base/mathematics.h"
+#include "core/base/random.h"
+#include "core/base/text.h"
 #include "tests/nodes/scene_text.h"
 #include "tests/support/world.h"
 
@@ -35,6 +39,47 @@ TEST(Expression, ComputesPlainNumbers) {
   EXPECT_EQ(result_of("a == 2 && b != 2 && c >= 0 && d <= 0", R"("a": 2, "b": 3)"), 1);
   EXPECT_DOUBLE_EQ(result_of("sqrt(a) + 2^3", R"("a": 9)"), 11);
   EXPECT_EQ(result_of("(a+b)-a", R"("a": 1e6, "b": 0.5)"), 0.5);
+}
+
+// `^` binds to the right, closer than a sign before it, and takes a sign after it; functions are those of core/base.
+TEST(Expression, PowersAndFunctionsAreThoseOfTheDoor) {
+  EXPECT_EQ(result_of("2^3^2"), 512);
+  EXPECT_EQ(result_of("-2^2"), -4);
+  EXPECT_EQ(result_of("2^-2"), 0.25);
+  EXPECT_EQ(result_of("2*3^2*2"), 36);
+  EXPECT_EQ(result_of("(1+1)^(1+1)"), 4);
+  EXPECT_EQ(result_of("min(2^2, 3) + max(1, 2^1)"), 5);
+  Random random(5);
+  using namespace mathematics;
+  for (int i = 0; i < 20; ++i) {
+    const double a = random.uniform(0.1, 0.9), b = random.uniform(-3, 3);
+    const std::string ports = "\"a\": " + shortest(a) + ", \"b\": " + shortest(b);
+    EXPECT_EQ(result_of("a^b", ports), power(a, b)) << ports;
+    const std::pair<const char*, double (*)(double)> functions[] = {{"sin", sine},
+                                                                    {"cos", cosine},
+                                                                    {"tan", tangent},
+                                                                    {"asin", arc_sine},
+                                                                    {"acos", arc_cosine},
+                                                                    {"atan", arc_tangent},
+                                                                    {"exp", exponential},
+                                                                    {"ln", logarithm},
+                                                                    {"log", logarithm},
+                                                                    {"log10", logarithm_of_ten},
+                                                                    {"log2", logarithm_of_two},
+                                                                    {"sinh", hyperbolic_sine},
+                                                                    {"cosh", hyperbolic_cosine},
+                                                                    {"tanh", hyperbolic_tangent},
+                                                                    {"asinh", inverse_hyperbolic_sine},
+                                                                    {"atanh", inverse_hyperbolic_tangent}};
+    for (const auto& [name, function] : functions) EXPECT_EQ(result_of(std::string(name) + "(a)", ports), function(a)) << name;
+    EXPECT_EQ(result_of("acosh(1 + a)", ports), inverse_hyperbolic_cosine(1 + a));
+    EXPECT_EQ(result_of("atan2(b, a)", ports), arc_tangent(b, a));
+  }
+  EXPECT_EQ(error_of("a ^* b"), std::string(kPlace) + "the sign `*` at character 4 needs a value before it");
+  EXPECT_EQ(error_of("^ b"), std::string(kPlace) + "the sign `^` at character 1 needs a value before it");
+  EXPECT_EQ(error_of("a\\u007fb"), std::string(kPlace) + "the sign at character 2 cannot be seen: take it out");
+  EXPECT_NE(error_of("min()"), "");
+  EXPECT_NE(error_of("sum()"), "");
 }
 
 TEST(Expression, UnitsThatFit) {

@@ -35,6 +35,22 @@ TEST(ShadowCaster, TheOutlineReachesAsFarAsTheSunIsLow) {
   EXPECT_TRUE(outline(world, "tower").empty());
 }
 
+// How finely a scene is shown is for the eye.
+TEST(ShadowCaster, TheSunDoesNotFollowTheTessellation) {
+  World world = World::from_file("scenes/nodes/shadow_caster.json");
+  ASSERT_TRUE(world.settle());
+  const double lost = world.number("tower", "shadow_caster.sun_lost");
+  const std::size_t corners = outline(world, "tower").size();
+  for (const char* depth : {"0", "3", "4"}) {
+    ASSERT_EQ(
+        world.submit(command<SetPort>({.node = "solver", .port = {"smart_volumes_solver.tessellation_depth"}, .value = {depth}})),
+        "");
+    world.tick(8);
+    EXPECT_NEAR(world.number("tower", "shadow_caster.sun_lost"), lost, 1e-6) << "depth " << depth;
+    EXPECT_NEAR(static_cast<double>(outline(world, "tower").size()), static_cast<double>(corners), 2) << "depth " << depth;
+  }
+}
+
 TEST(ShadowCaster, WhoDoesNotCastTakesNothing) {
   World world = World::from_file("scenes/nodes/shadow_caster.json");
   ASSERT_TRUE(world.settle());

@@ -282,5 +282,22 @@ TEST(SmartVolumesSolver, SceneSettles) {
   EXPECT_EQ(world.number("solver", "smart_volumes_solver.count"), 12);
 }
 
+// A limit that leaves nothing is no demand that is met.
+TEST(SmartVolumesSolver, AVolumeThatIsLimitedToNothingHasNotWhatItAsksFor) {
+  World world = World::from_text(
+      with_solver(kPlan, node_text("wound", "[10, 10, 8]", "smart_volume", R"("demand": 2000, "demand_limit": 0.01)") + "," +
+                             node_text("free", "[30, 20, 8]", "smart_volume", R"("demand": 2000)") + "," +
+                             node_text("idle", "[20, 5, 8]", "smart_volume", R"("demand": 0)")));
+  EXPECT_FALSE(world.settle(60));
+  EXPECT_EQ(world.number("wound", "smart_volume.error"), 1);
+  EXPECT_EQ(world.text("wound", "smart_volume.state"), "starved");
+  EXPECT_EQ(world.text("wound", "smart_volume.reason"),
+            "its limit of 0.0 m³ leaves it next to nothing of the 2000 m³ that it asks for: raise what limits it, or lower its "
+            "demand");
+  EXPECT_LT(world.number("free", "smart_volume.error"), 0.01);
+  EXPECT_EQ(world.number("idle", "smart_volume.error"), 0) << "it asks for nothing";
+  EXPECT_EQ(world.text("solver", "smart_volumes_solver.worst"), "wound");
+}
+
 }  // namespace
 }  // namespace bl

@@ -4,7 +4,29 @@
 #include <iterator>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
+#include "core/define/codec.h"
+#include "tests/support/random_values.h"
+
 namespace bl {
+
+namespace {
+
+// The first node that plays the role, or `other`.
+std::string playing_or(const Scene& scene, const std::string& type, const std::string& other) {
+  for (const auto& [id, node] : scene.nodes)
+    if (node.types.contains(type)) return id;
+  return other;
+}
+
+std::string locked_or(const Scene& scene, const std::string& other) {
+  for (const auto& [id, node] : scene.nodes)
+    if (node.locked.contains("node.position")) return id;
+  return other;
+}
+
+}  // namespace
 
 Command random_command(const Scene& scene, Random& random, int number) {
   auto pick = [&](const auto& map) {
@@ -13,7 +35,7 @@ Command random_command(const Scene& scene, Random& random, int number) {
     return it->first;
   };
   const std::string fresh = "fresh" + std::to_string(number);
-  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 17);
+  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 23);
   const std::string number_text = std::to_string(random.below(40));
   switch (kind) {
     case 1: return command<SetPort>({pick(scene.nodes), {"node.position"}, {"[" + number_text + ", 12, 5]"}});
@@ -44,6 +66,28 @@ Command random_command(const Scene& scene, Random& random, int number) {
       if (scene.scripts.texts().contains("walker") && random.below(3) == 0) return command<RemoveScript>({"walker"});
       return command<AddLink>(
           {fresh, {R"({"kind": "walker", "from": ")" + pick(scene.nodes) + R"(", "to": ")" + pick(scene.nodes) + R"("})"}});
+    case 17: return command<UnlockPort>({locked_or(scene, pick(scene.nodes)), {"node.position"}});
+    case 18: return command<SetLinkEnds>({pick(scene.links), {{pick(scene.nodes)}, "", ""}, {{pick(scene.nodes)}, "", ""}});
+    case 19: {
+      const std::string id = pick(scene.links);
+      const LinkDefinition* type = full_registry().link(scene.links.at(id).kind);
+      if (type == nullptr || type->ports.empty()) return command<SetLinkParameter>({id, "distance", {number_text}});
+      const PortDefinition& port = type->ports[random.below(type->ports.size())];
+      return command<SetLinkParameter>({id, port.id, {write_json_line(value_to_json(random_value(port, random), port))}});
+    }
+    case 20:
+      return command<Receive>({.node = playing_or(scene, "sensor", pick(scene.nodes)),
+                               .value = random.uniform(-50, 50),
+                               .time = "noon",
+                               .problem = random.below(4) == 0 ? "`x` is no number" : "",
+                               .tick = static_cast<std::int64_t>(random.below(20))});
+    case 21:
+      return command<NoteConnection>(
+          {playing_or(scene, "sensor", pick(scene.nodes)), random.below(2) == 0 ? "nobody is there, " + number_text : ""});
+    case 22:
+      return command<Batch>({{R"([{"command": "rename_node", "arguments": {"id": ")" + pick(scene.nodes) + R"(", "name": "B)" +
+                              number_text + R"("}}, {"command": "add_node", "arguments": {"id": ")" + fresh +
+                              R"(", "node": {"types": {"sensor": {}}}}}])"}});
     default:
       return command<AddNode>(
           {fresh, {R"({"position": [)" + number_text + R"(, 8, 6], "types": {"smart_volume": {"demand": 900}}})"}});

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/define/json_text.h"
 #include "core/exchange/tntp.h"
@@ -55,17 +56,19 @@ class AssignRun {
   int execute() {
     if (!read() || !read_edits() || !read_questions()) return kBadInput;
     catch_interrupts();
+    // After an interrupt everything is told and written as far as it has come: the gap says how far.
+    const StopScope scope(is_interrupted);
     bool is_met = false;
     const auto found = settle("equilibrium", *network_, is_met);
     Equilibrium& equilibrium = *found;
-    if (is_interrupted()) return interrupt_exit_code();
     tell_lost(equilibrium);
     Json json = {{"equilibrium", figures_json(equilibrium)}};
     if (flows_) json["comparison"] = compare(equilibrium);
     bool is_met_again = true;
-    if (!edits_.empty()) {
+    if (is_interrupted() && !edits_.empty()) {
+      print_line("stopped before the edit: it is not made", Colour::red);
+    } else if (!edits_.empty()) {
       is_met_again = settle_edited(equilibrium);
-      if (is_interrupted()) return interrupt_exit_code();
       tell_lost(equilibrium);
       json["after_edit"] = figures_json(equilibrium);
     }
@@ -79,6 +82,10 @@ class AssignRun {
         print_error(o_.json, written.error());
         return kBadInput;
       }
+    if (is_interrupted()) {
+      print_line(o_.json.empty() ? "stopped" : "stopped; written as far as it has come: " + o_.json, Colour::red);
+      return interrupt_exit_code();
+    }
     return is_met && is_met_again ? kDone : kNotMet;
   }
 
@@ -222,7 +229,7 @@ class AssignRun {
   std::unique_ptr<Equilibrium> settle(const std::string& label, const TrafficNetwork& network, bool& is_met) const {
     std::unique_ptr<Equilibrium> equilibrium;
     std::vector<double> gaps, seconds;
-    for (int r = 0; r < o_.repeat && !is_interrupted(); ++r) {
+    for (int r = 0; r < o_.repeat && (r == 0 || !is_interrupted()); ++r) {
       gaps.clear();
       const double began = now();
       equilibrium = std::make_unique<Equilibrium>(network, demands_);
@@ -257,6 +264,7 @@ class AssignRun {
     const bool is_met = iterate(equilibrium, gaps);
     seconds.push_back(now() - began);
     print_row(equilibrium, "after the edit, warm", gaps, median(seconds), is_met);
+    if (is_interrupted()) return is_met;
     bool is_cold_met = false;
     (void)settle("the same, cold", equilibrium.network(), is_cold_met);
     return is_met;
@@ -274,6 +282,9 @@ class AssignRun {
     print_line("  seconds     " + fixed(seconds, 6) + (o_.repeat > 1 ? "  (median of " + std::to_string(o_.repeat) + ")" : ""));
     if (figures.within > 0)
       print_line("  within      " + fixed(figures.within, 1) + " trips stay in their zone and need no street");
+    if (figures.cut > 0)
+      print_line("  cut         " + counted(figures.cut, "link") +
+                 " would cost more than 1e100: gap, objective and total are those of smaller costs, not of the formula");
   }
 
   void tell_lost(const Equilibrium& equilibrium) const {
@@ -323,7 +334,7 @@ class AssignRun {
                       {"trips", l.trips},
                       {"reason", l.reason}});
     return {{"iterations", f.iterations}, {"gap", f.gap},       {"objective", f.objective}, {"total_cost", f.total_cost},
-            {"trips", f.trips},           {"within", f.within}, {"lost", std::move(lost)}};
+            {"trips", f.trips},           {"within", f.within}, {"cut", f.cut}, {"lost", std::move(lost)}};
   }
 
   static Json links_json(const Equilibrium& equilibrium) {

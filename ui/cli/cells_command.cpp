@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/stop.h"
 #include "core/define/json_text.h"
 #include "core/file/file_io.h"
 #include "core/geometry/power_cells.h"
@@ -72,8 +73,10 @@ std::optional<Json> all_cases(const SiteCases& input, const CellsOptions& option
   bool is_all_well = true;
   Progress progress;
   Json results = Json::array();
+  const StopScope scope(is_interrupted);
   for (std::size_t i = 0; i < input.cases.size() && !is_interrupted(); ++i) {
     auto result = solved(input.cases[i], options.with_complex, pool);
+    if (is_interrupted()) break;  // in the middle of it: what came of it are no cells
     if (!result) {
       progress.clear();
       print_error(options.input, result.error());
@@ -95,6 +98,10 @@ int cells_command(const CellsOptions& options) {
   ThreadPool pool(options.threads);
   const auto output = all_cases(*input, options, pool);
   if (!output) return kBadInput;
+  if (is_interrupted() && !input->is_list) {
+    print_line("stopped before the cells were there; nothing is written", Colour::red);
+    return interrupt_exit_code();
+  }
   if (auto written = write_file(options.json, write_json(*output) + "\n"); !written) {
     print_error(options.json, written.error());
     return kBadInput;

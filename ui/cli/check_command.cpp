@@ -114,12 +114,14 @@ Checked check_file(const std::string& file, bool is_writing) {
 Json checked_json(const std::string& file, const Checked& checked) {
   Json problems = Json::array();
   for (const bool is_error : {true, false})
-    for (const Problem& problem : checked.problems)
-      if (problem.is_error == is_error)
-        problems.push_back({{"severity", is_error ? "error" : "warning"},
-                            {"code", std::string(name_of(problem.error.code))},
-                            {"place", problem.error.place},
-                            {"message", problem.error.message}});
+    for (const Problem& problem : checked.problems) {
+      if (problem.is_error != is_error) continue;
+      const Error error = bounded(problem.error);
+      problems.push_back({{"severity", is_error ? "error" : "warning"},
+                          {"code", std::string(name_of(error.code))},
+                          {"place", error.place},
+                          {"message", error.message}});
+    }
   return {{"file", file},
           {"ok", checked.errors() == 0},
           {"nodes", checked.nodes},

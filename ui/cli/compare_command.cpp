@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "core/session/session.h"
@@ -29,6 +30,7 @@ std::shared_ptr<const State> outcome_of(const std::string& file, const SceneRead
   }
   const long long most = options.ticks >= 0 ? options.ticks : options.max_ticks;
   SettleWatch watch;
+  const StopScope scope(is_interrupted);
   LiveRun recordings(file, false, 0);
   Progress progress;
   std::shared_ptr<const State> before;
@@ -36,7 +38,7 @@ std::shared_ptr<const State> outcome_of(const std::string& file, const SceneRead
     if (options.ticks < 0 && (*session)->state()->is_settled()) break;
     before = (*session)->state();
     recordings.before_tick(**session);
-    (*session)->tick();
+    if (!(*session)->tick()) break;
     if (progress.is_due()) progress.show(file + ": tick " + std::to_string((*session)->state()->tick));
     if (options.ticks < 0 && watch.is_hopeless(*(*session)->state())) break;
   }
@@ -86,10 +88,10 @@ int compare_command(const CompareOptions& options) {
   if (!before) return kBadInput;
   const auto after = outcome_of(options.second, *second, options);
   if (!after) return kBadInput;
-  if (is_interrupted()) return interrupt_exit_code();
+  if (is_interrupted()) print_line("stopped: both are compared as they stand, settled or not", Colour::red);
   const report::Comparison comparison = report::compare(*before, *after, kLeastShare);
   print_comparison(comparison);
-  if (options.report.empty()) return kDone;
+  if (options.report.empty()) return is_interrupted() ? interrupt_exit_code() : kDone;
   const auto name = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
   const std::string page = report::comparison_page(*before, *after, comparison, name(options.first), name(options.second));
   if (auto written = write_file(options.report, page); !written) {
@@ -97,7 +99,7 @@ int compare_command(const CompareOptions& options) {
     return kBadInput;
   }
   print_line("written: " + options.report);
-  return kDone;
+  return is_interrupted() ? interrupt_exit_code() : kDone;
 }
 
 }  // namespace bl::cli

@@ -1,5 +1,6 @@
 // The words of the commands that work on files without scenes: cells, fit and assign.
 #include "ui/cli/declarations.h"
+#include "ui/cli/file_rule.h"
 
 namespace bl::cli {
 
@@ -22,6 +23,7 @@ void declare_cells(CLI::App& app, CellsOptions& o) {
       ->required();
   c.add_option("--json", o.json, "Where the cells are written, in m2 and m3.")->type_name("OUT")->required();
   c.add_option("--boundary", o.boundary, kBoundaryHelp)->type_name("FILE");
+  files_of(c).reads({"input", "--boundary"}).writes("--json", FileKind::figures);
   c.add_flag("--complex", o.with_complex, "Writes the facets, edges and vertices between the unshrunk cells as well.");
   add_threads(c, o.threads);
   c.footer(
@@ -54,6 +56,7 @@ void declare_fit(CLI::App& app, FitFileOptions& o) {
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   c.add_option("--boundary", o.boundary, kBoundaryHelp)->type_name("FILE");
+  files_of(c).reads({"input", "--boundary"}).writes("--json", FileKind::figures);
   add_threads(c, o.threads);
   c.footer(
       "Input:  {\"boundary\": ..., \"sites\": [[x, y, z], ...], \"demands\": [demand, ...]} and, where wanted,\n"
@@ -115,6 +118,7 @@ void declare_assign(CLI::App& app, AssignOptions& o) {
   c.add_option("--nodes", o.nodes, "Adds the places of the nodes to --json, for maps: `..._node.tntp`.")
       ->type_name("FILE")
       ->needs(json);
+  files_of(c).reads({"net", "trips", "--flows", "--nodes"}).writes("--json", FileKind::figures);
   c.footer(
       "A link is named by its nodes, 3-12; others between the same two are 3-12#2 and so on. Times, flows and lengths have the\n"
       "units of the files. The gap is the share of the total cost that vanished if all took today's shortest way.\n\n"

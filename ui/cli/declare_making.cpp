@@ -1,5 +1,6 @@
 // The words of the commands that make scenes: new, import, place and script.
 #include "ui/cli/declarations.h"
+#include "ui/cli/file_rule.h"
 
 namespace bl::cli {
 
@@ -13,7 +14,9 @@ void declare_script(CLI::App& app, ScriptOptions& o) {
       ->take_all();
   c.add_option("--extract", o.extract, "Writes all scripts of the scene as files into a folder.")->type_name("DIR");
   c.add_option("--out", o.out, "Where the changed scene is written; may be the scene itself.")->type_name("SCENE");
-  c.add_flag("--force", o.is_forced, "Replaces --out where it exists and is another file than the scene.");
+  c.add_flag("--force", o.is_forced,
+             "Replaces --out where it exists and is another file than the scene, and extracted files that were changed since.");
+  files_of(c).reads({"scene", "files"}).writes("--out", FileKind::scene, "scene").fills("--extract", {".lua"});
   c.footer("Example:\n  behaviourlinks script scene.json lean_uphill.lua --out scene.json");
 }
 
@@ -28,6 +31,7 @@ void declare_new(CLI::App& app, NewOptions& o) {
       ->required();
   c.add_option("--out", o.out, "The scene file to write.")->type_name("FILE")->required();
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
+  files_of(c).reads({"--boundary", "--programme"}).writes("--out", FileKind::scene);
   c.add_option("--title", o.title, "Name of the project. Default: the name of the programme's file.")->type_name("TEXT");
   c.add_option("--feature", o.feature, "Which polygon: its index from 0, or PROPERTY=VALUE. Default: the only or largest one.")
       ->type_name("WHICH");
@@ -105,6 +109,7 @@ void declare_import(CLI::App& app, ImportOptions& o) {
       "--clear", o.clears,
       "Of buildings inside a site of the scene: leaves them out. What is inside with less than half of its ground is kept.");
   c.add_option("--report", o.report, "Writes what became of every single element as CSV.")->type_name("FILE");
+  files_of(c).reads({"files", "--into"}).writes("--out", FileKind::scene, "--into").writes("--report", FileKind::table);
   c.footer(
       "Example:\n  behaviourlinks import quarter.osm.gz heights.asc --into scene.json --out scene_in_context.json --radius 400 "
       "--report import.csv\n\nHeights that are not in the file are assumed, and marked as such. Exit codes: 0 imported; 2 bad "
@@ -118,6 +123,7 @@ void declare_place(CLI::App& app, PlaceOptions& o) {
   c.add_option("--into", o.into, "The scene.")->type_name("SCENE")->required();
   c.add_option("--out", o.out, "Where the scene is written. Default: the same file.")->type_name("SCENE");
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists and is another file than the scene.");
+  files_of(c).reads({"pictures", "--into"}).writes("--out", FileKind::scene, "--into");
   c.add_option("--at", o.at, "Position in m. Default: by the coordinates in the picture.")->type_name("X Y Z")->expected(3);
   c.add_option("--placement", o.media.placement, "Default: camera where the picture says where it looked, else billboard.")
       ->check(CLI::IsMember({"ground", "billboard", "camera"}));

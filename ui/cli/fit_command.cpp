@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/define/json_text.h"
 #include "core/file/file_io.h"
@@ -125,6 +126,7 @@ class FitRun {
         progress.show(label + "step " + std::to_string(steps) + ", largest error " + fixed(100 * error, 4) + " %");
       return !is_interrupted();
     };
+    const StopScope scope(is_interrupted);
     return fit_volumes(c.boundary.domain, c.problem, how);
   }
 
@@ -158,6 +160,7 @@ class FitRun {
   }
 
   std::string own_reason(const SiteCase& c, const VolumeFit& fit) const {
+    if (!std::isfinite(fit.max_relative_error)) return "stopped before it was known how near the demands are";
     std::string state = "the largest relative error is " + rough(fit.max_relative_error);
     if (fit.worst_demand < c.problem.demands.size()) {
       const VolumeDemand& demand = c.problem.demands[fit.worst_demand];

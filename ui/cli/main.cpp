@@ -10,6 +10,7 @@
 
 #include "core/base/text.h"
 #include "ui/cli/declarations.h"
+#include "ui/cli/file_rule.h"
 #include "ui/cli/plugin_choice.h"
 #include "ui/cli/scarcity.h"
 #include "ui/cli/terminal.h"
@@ -71,7 +72,10 @@ void declare_run(CLI::App& app, RunOptions& o) {
                "Writes report.html, volumes.csv, volumes.obj and, of dressed volumes, facades.csv into a folder.")
       ->type_name("DIR");
   c.add_option("--json", o.json, "Writes all figures as JSON, lengths in m, areas in m2, volumes in m3.")->type_name("FILE");
-  c.add_option("--save", o.save, "Saves the scene with its running state, to continue later.")->type_name("FILE");
+  c.add_option("--save", o.save, "Saves the scene with its running state, to continue later; may be the scene itself.")
+      ->type_name("FILE");
+  files_of(c).reads({"scene", "--script"}).writes("--log", FileKind::log).writes("--json", FileKind::figures);
+  files_of(c).writes("--save", FileKind::scene, "scene").fills("--report", {".html", ".csv", ".obj"});
   c.footer(
       "Example:\n  behaviourlinks run scenes/start/quarter.json --set site/boundary.height=\"60 m\" --report proposal\n\n"
       "Exit codes: 0 settled, or all ticks done; 2 bad input; 3 not settled; 130 stopped by Ctrl-C, with everything written.");
@@ -97,6 +101,7 @@ void declare_compare(CLI::App& app, CompareOptions& o) {
       ->check(CLI::Range(1ll, 1000000000ll));
   add_threads(c, o.threads);
   c.add_option("--report", o.report, "Writes a page with both drawings, bars and every number.")->type_name("FILE");
+  files_of(c).reads({"first", "second"}).writes("--report", FileKind::page);
   c.footer(
       "What one scene has and the other has not is told too. Amounts are added up over all nodes, shares and rates averaged.\n\n"
       "Example:\n  behaviourlinks compare scenes/start/quarter.json other.json --report difference.html\n\n"
@@ -108,12 +113,14 @@ void declare_check(CLI::App& app, CheckOptions& o) {
   c.add_option("scenes", o.scenes, "The scene files, and link scripts (.lua).")->type_name("FILE")->required();
   c.add_flag("--write", o.is_writing, "Rewrites each sound file in the one canonical form.");
   c.add_option("--json", o.json, "Writes the problems as JSON.")->type_name("FILE");
+  files_of(c).reads({"scenes"}).writes("--json", FileKind::figures);
   c.footer("Example:\n  behaviourlinks check scenes/start/*.json\n\nExit codes: 0 no errors; 2 errors.");
 }
 
 void declare_replay(CLI::App& app, ReplayOptions& o) {
   CLI::App& c = *app.add_subcommand("replay", "Runs a log again and compares every hash in it.");
   c.add_option("log", o.log, "The log, as `run --log` wrote it.")->type_name("LOG")->required();
+  files_of(c).reads({"log"});
   add_threads(c, o.threads);
   c.footer(
       "Example:\n  behaviourlinks run scene.json --log run.log && behaviourlinks replay run.log --threads 2\n\n"
@@ -130,12 +137,14 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
       ->type_name("DIR")
       ->excludes(type)
       ->excludes(list);
+  files_of(d).reads({"--from"}).fills("--out", {".md"});
   d.footer(
       "TYPE may be such a file itself: then the pages of all that it declares are shown. Types of plugins are known with\n"
       "`behaviourlinks --plugins DIR docs`.\n\nExample:\n  behaviourlinks docs keep_distance\n"
       "  behaviourlinks docs fair_share --from scene.json\n  behaviourlinks docs links/scripts/fair_share.lua");
   CLI::App& s = *app.add_subcommand("schema", "Prints the JSON Schema (2020-12) of scene files.");
   s.add_option("--out", schema.out, "Writes it to a file.")->type_name("FILE");
+  files_of(s).writes("--out", FileKind::figures);
   s.footer("Example:\n  behaviourlinks schema --out scene.schema.json");
 }
 
@@ -171,6 +180,7 @@ void declare_bench(CLI::App& app, BenchOptions& o) {
   c.add_option("--chart", o.chart, "Of the solver: writes growth.svg and feedback_newton.svg into a folder.")
       ->type_name("DIR")
       ->needs(solver);
+  files_of(c).reads({"scenes", "--tntp"}).writes("--json", FileKind::figures).fills("--chart", {".svg"});
   c.footer(
       "Without scenes and --sites: 100 and 1000 random volumes; of the solver the sizes that suit each row, threads 1 and 2, "
       "and\n"
@@ -236,6 +246,11 @@ int run_program(int count, char** arguments) {
     complain("`behaviourlinks " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help` explains.");
     return kBadInput;
   }
+  for (const CLI::App* chosen : app.get_subcommands())
+    if (const std::string sentence = wrong_files(*chosen); !sentence.empty()) {
+      complain(sentence);
+      return kBadInput;
+    }
   if (const CLI::App* open = app.get_subcommand("open"); !open->parsed()) load_chosen_plugins(plugins);
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("script")) return script_command(script);

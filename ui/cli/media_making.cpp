@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/exchange/image_facts.h"
@@ -36,12 +37,13 @@ std::string relative_to_scene(const std::string& file, const std::string& scene)
 // East and north of the scene's origin on the ellipsoid, turned into the scene. Good to a decimetre within some kilometres, far
 // finer than what cameras know of their place.
 Vector3 local_place(double latitude, double longitude, const Settings& settings) {
-  const double s = std::sin(settings.latitude * kDegree), w = 1 - kEccentricity * s * s;
+  const double s = mathematics::sine(settings.latitude * kDegree), w = 1 - kEccentricity * s * s;
   const double north = (latitude - settings.latitude) * kDegree * kHalfAxis * (1 - kEccentricity) / (w * std::sqrt(w));
   const double east =
-      (longitude - settings.longitude) * kDegree * kHalfAxis / std::sqrt(w) * std::cos(settings.latitude * kDegree);
+      (longitude - settings.longitude) * kDegree * kHalfAxis / std::sqrt(w) * mathematics::cosine(settings.latitude * kDegree);
   const double turn = settings.true_north * kDegree;
-  return {east * std::cos(turn) + north * std::sin(turn), north * std::cos(turn) - east * std::sin(turn), 0};
+  return {east * mathematics::cosine(turn) + north * mathematics::sine(turn),
+          north * mathematics::cosine(turn) - east * mathematics::sine(turn), 0};
 }
 
 // How high the scene's zero lies above the sea [m]: heights of terrains count from the sea, and a sun knows the height of its site.

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/exchange/spread_points.h"
@@ -86,24 +87,28 @@ class Builder {
     Json tags = Json::array({row.use});
     for (const std::string& tag : row.tags)
       if (tag != row.use) tags.push_back(tag);
-    node(volume.id, {{"name", volume.name},
-                     {"position", {volume.position.x, volume.position.y, volume.position.z}},
-                     {"tags", tags},
-                     {"types", {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}}}}}});
+    node(volume.id,
+         {{"name", volume.name},
+          {"position", {volume.position.x, volume.position.y, volume.position.z}},
+          {"tags", tags},
+          {"types", {{"smart_volume", {{"use", row.use}, {"storey_height", row.storey_height}, {"standing", row.standing}}}}}});
   }
 
   void general_links() {
     const Json all = {{"typification", "smart_volume"}};
     link("demands", {{"kind", "demand"}, {"from", kProgramme}, {"to", all}});
     link("inside", {{"kind", "inside_boundary"}, {"from", kSite}, {"to", all}, {"parameters", {{"margin", parts_.margin}}}});
+    // Wishes to touch pull volumes together and down; these keep each of them a body of its own that stands on something.
+    link("room", {{"kind", "make_room"}, {"from", kSolver}, {"to", all}});
+    link("standing", {{"kind", "stand"}, {"from", kSolver}, {"to", all}});
   }
 
   void contact(const WantedContact& contact, const std::vector<NewVolume>& volumes) {
     const NewVolume& hub = volumes[contact.hub];
-    double area = kSurfaceShare * std::pow(hub.demand, 2.0 / 3) / static_cast<double>(contact.partners.size());
+    double area = kSurfaceShare * mathematics::power(hub.demand, 2.0 / 3) / static_cast<double>(contact.partners.size());
     Json partners = Json::array();
     for (const std::size_t partner : contact.partners) {
-      area = std::min(area, kFacetShare * std::pow(std::min(hub.demand, volumes[partner].demand), 2.0 / 3));
+      area = std::min(area, kFacetShare * mathematics::power(std::min(hub.demand, volumes[partner].demand), 2.0 / 3));
       partners.push_back(volumes[partner].id);
     }
     // The one item of a use and all of another are named by their use, so that later items of that use take part too.
@@ -127,7 +132,7 @@ class Builder {
   const SceneParts& parts_;
   const Registry& registry_;
   Json commands_ = Json::array();
-  std::set<std::string> link_ids_{"demands", "inside"};
+  std::set<std::string> link_ids_{"demands", "inside", "room", "standing"};
 };
 
 }  // namespace
@@ -177,11 +182,15 @@ Result<Command> new_scene_command(const SceneParts& parts, const Registry& regis
   std::vector<NewVolume> volumes = volumes_of(parts.programme);
   const std::vector<WantedContact> contacts = contacts_of(parts.programme, volumes);
   std::vector<double> demands;
-  for (const NewVolume& volume : volumes) demands.push_back(volume.demand);
+  std::vector<std::uint8_t> on_ground;
+  for (const NewVolume& volume : volumes) {
+    demands.push_back(volume.demand);
+    on_ground.push_back(parts.programme.rows[volume.row].standing == "ground" ? 1 : 0);
+  }
   std::vector<std::pair<std::size_t, std::size_t>> neighbours;
   for (const WantedContact& contact : contacts)
     for (const std::size_t partner : contact.partners) neighbours.emplace_back(contact.hub, partner);
-  const auto points = spread_points(parts.plan, 0, parts.height, demands, parts.seed, neighbours, parts.holes);
+  const auto points = spread_points(parts.plan, 0, parts.height, demands, parts.seed, neighbours, parts.holes, on_ground);
   if (!points) return points.error();
   // Millimetres are enough for a first position, and keep the file readable.
   const auto millimetres = [](double x) { return std::round(x * 1000) / 1000; };

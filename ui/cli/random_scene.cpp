@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/mathematics.h"
 #include "core/base/random.h"
 #include "core/define/codec.h"
 #include "core/session/session.h"
@@ -26,7 +27,7 @@ std::string padded(int number, int count) {
 Result<Scene> random_scene(int count, const Registry& registry) {
   Random random(2007);
   // The cube root is rounded to millimetres, so that the box does not depend on the machine's library.
-  const double side = std::round(kSpacing * std::cbrt(static_cast<double>(count)) * 1000) / 1000;
+  const double side = std::round(kSpacing * mathematics::cube_root(static_cast<double>(count)) * 1000) / 1000;
   std::vector<double> shares;
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += shares.emplace_back(random.uniform(0.25, 1.75));

@@ -20,6 +20,10 @@ int replay_command(const ReplayOptions& options) {
   }
   if (log->is_cut_off)
     print_error(options.log, {ErrorCode::parse, "", "warning: the last line is incomplete, as after a crash; it is left out"});
+  if (!log->has_end)
+    print_error(options.log, {ErrorCode::parse, "",
+                              "warning: the log has no end. It was cut off, or what wrote it was stopped: what was done after tick " +
+                                  std::to_string(log->last_tick) + " is not in it"});
   const auto report = replay(*log, full_registry(), options.threads);
   if (!report) {
     print_error(options.log, report.error());

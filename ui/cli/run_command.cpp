@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "core/file/log_writer.h"
@@ -29,7 +30,8 @@ constexpr long long kTicksPerCheck = 60;
 
 class Run {
  public:
-  explicit Run(const RunOptions& options) : options_(options), live_(options.scene, options.is_live, options.rate, options.reads_anywhere) {}
+  explicit Run(const RunOptions& options)
+      : options_(options), live_(options.scene, options.is_live, options.rate, options.reads_anywhere) {}
 
   int execute() {
     if (!start()) return kBadInput;
@@ -117,7 +119,9 @@ class Run {
     history_.push_back(sample);
   }
 
+  // What an interrupt meets in mid-tick is dropped: the tick before it is the last one.
   void tick_until_done() {
+    const StopScope scope(is_interrupted);
     const bool is_settling = options_.ticks < 0 && !options_.is_live;
     const long long most = is_settling           ? options_.max_ticks
                            : options_.ticks >= 0 ? options_.ticks
@@ -128,7 +132,7 @@ class Run {
     for (long long done = 0; done < most && !is_interrupted(); ++done) {
       before_ = session_->state();
       live_.before_tick(*session_);
-      session_->tick();
+      if (!session_->tick()) return;
       live_.after_tick(*session_);
       const std::shared_ptr<const State> state = session_->state();
       record(*state);
@@ -145,11 +149,13 @@ class Run {
   std::string outcome(const Survey& survey) const {
     const State& state = *session_->state();
     const auto idle = static_cast<std::size_t>(
-        std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.error.has_value(); }));
-    const std::string without = idle == 0 ? "" : idle == 1 ? " (1 link does not run)" : " (" + std::to_string(idle) + " links do not run)";
+        std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.has_failed(); }));
+    const std::string without = idle == 0   ? ""
+                                : idle == 1 ? " (1 link does not run)"
+                                            : " (" + std::to_string(idle) + " links do not run)";
     if (state.is_settled())
-      return "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " + fixed(100 * survey.worst_error, 3) +
-             " %, hash " + hex_digits(state.hash);
+      return "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " +
+             fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash);
     const std::string stopped = is_interrupted() ? "stopped at tick " + std::to_string(state.tick) + "; " : "";
     return "not settled: " + stopped + why_not_settled(state, before_.get());
   }
@@ -167,6 +173,8 @@ class Run {
       is_saved &= write(options_.log, log_.close());
     }
     if (!options_.save.empty()) {
+      // An analysis that is under way would be waited for.
+      const StopScope scope(is_interrupted);
       const SavedState saved = save(*state);
       is_saved &= write(options_.save, write_file(options_.save, write_scene(session_->scene(), full_registry(), &saved)));
     }
@@ -176,7 +184,8 @@ class Run {
       is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, *state);
     live_.sum_up(*state);
-    const bool is_whole = std::none_of(state->links.begin(), state->links.end(), [](const LinkState& l) { return l.error.has_value(); });
+    const bool is_whole =
+        std::none_of(state->links.begin(), state->links.end(), [](const LinkState& l) { return l.error.has_value(); });
     print_line(last_line, !state->is_settled() ? Colour::red : is_whole ? Colour::green : Colour::yellow);
     return is_saved;
   }

@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "ui/cli/report/figure_tables.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/terminal.h"
 
@@ -16,23 +17,33 @@ namespace {
 
 constexpr std::size_t kShownTensions = 10, kShownPulls = 4;
 
-std::string percent(double share, int decimals = 2) { return fixed(100 * share, decimals); }
+std::string hundredths(double share, int decimals = 2) { return fixed(100 * share, decimals); }
+
+// A percentage of nothing says nothing; who is not short has no figure.
+std::string short_text(const report::Account& account, double tolerance) {
+  return account.is_short(tolerance) ? hundredths(account.short_share(), 1) : "";
+}
 
 void print_volumes(const Survey& survey, double tolerance) {
   if (survey.volumes.empty()) return print_line("There are no SmartVolumes in this scene.");
   TextTable table({{"volume"},
                    {"use"},
-                   {"demand m³", true},
+                   {"asked m³", true},
+                   {"limited to m³", true},
                    {"volume m³", true},
                    {"error %", true},
+                   {"short %", true},
                    {"floor m²", true},
                    {"surface m²", true},
                    {"state"}});
   for (const VolumeRow& row : survey.volumes) {
     const std::string name = row.name.empty() || row.name == row.id ? row.id : row.id + " (" + row.name + ")";
     const std::string state = row.reason.empty() ? row.state : row.state + ": " + row.reason;
-    const Colour colour = row.state != "alive" ? Colour::red : row.error > tolerance ? Colour::yellow : Colour::plain;
-    table.add({name, row.use, fixed(row.demand, 1), fixed(row.volume, 1), percent(row.error), fixed(row.floor_area, 1),
+    const Colour colour = row.state != "alive"                                      ? Colour::red
+                          : row.error > tolerance || row.is_short(survey.tolerance) ? Colour::yellow
+                                                                                    : Colour::plain;
+    table.add({name, row.use, fixed(row.asked, 1), fixed(row.limited, 1), fixed(row.volume, 1),
+               row.limited > 1e-3 ? hundredths(row.error) : "", short_text(row, survey.tolerance), fixed(row.floor_area, 1),
                fixed(row.surface_area, 1), state},
               colour);
   }
@@ -44,16 +55,19 @@ void print_totals(const Survey& survey) {
   print_line();
   TextTable table({{"use"},
                    {"volumes", true},
-                   {"wanted floor m²", true},
+                   {"asked floor m²", true},
                    {"floor m²", true},
-                   {"difference %", true},
-                   {"demand m³", true},
-                   {"volume m³", true}});
-  const auto add = [&](const UseRow& use) {
-    const std::string difference = use.wanted_floor_area > 0 ? percent(use.floor_area / use.wanted_floor_area - 1, 1) : "";
+                   {"asked m³", true},
+                   {"limited to m³", true},
+                   {"volume m³", true},
+                   {"short %", true},
+                   {"why"}});
+  const auto add = [&](const UseRow& row) {
+    const report::UseAccount& use = row.account;
     table.add({use.use.empty() ? "(none)" : use.use, std::to_string(use.volumes),
-               use.is_in_programme ? fixed(use.wanted_floor_area, 1) : "no row", fixed(use.floor_area, 1), difference,
-               fixed(use.demand, 1), fixed(use.volume, 1)});
+               use.is_in_programme ? fixed(use.asked_area, 1) : "no row", fixed(use.floor_area, 1), fixed(use.asked, 1),
+               fixed(use.limited, 1), fixed(use.volume, 1), short_text(use, survey.tolerance), row.why_short},
+              use.is_short(survey.tolerance) ? Colour::yellow : Colour::plain);
   };
   for (const UseRow& use : survey.uses) add(use);
   if (survey.uses.size() > 1) {
@@ -65,7 +79,7 @@ void print_totals(const Survey& survey) {
     if (solver.boundary_volume > 0)
       print_line(solver.id + ": " + fixed(solver.total_volume, 1) + " of " + fixed(solver.total_demand, 1) +
                  " m³ in a boundary of " + fixed(solver.boundary_volume, 1) + " m³ (" +
-                 percent(solver.total_volume / solver.boundary_volume, 1) + " % full)");
+                 hundredths(solver.total_volume / solver.boundary_volume, 1) + " % full)");
   for (const SolverRow& solver : survey.solvers)
     if (!solver.message.empty()) print_line(solver.id + ": " + solver.message, Colour::red);
 }
@@ -85,7 +99,9 @@ void print_tensions(const Survey& survey) {
     const TensionRow& row = survey.tensions[i];
     std::string pulls;
     for (std::size_t p = 0; p < std::min(kShownPulls, row.pulls.size()); ++p)
-      pulls += (p > 0 ? ", " : "") + row.pulls[p].link + " " + amount(row.pulls[p].value, row.unit);
+      pulls += (p > 0 ? ", " : "") +
+               (row.pulls[p].link.empty() ? (row.pulls[p].is_locked ? "locked by hand" : "set by hand") : row.pulls[p].link) +
+               " " + amount(row.pulls[p].value, row.unit);
     if (row.pulls.size() > kShownPulls) pulls += " and " + std::to_string(row.pulls.size() - kShownPulls) + " more";
     table.add({row.node, row.port, fixed(row.tension, 3) + (row.unit.empty() ? "" : " " + row.unit),
                pulls.empty() ? "the value that is set" : pulls});
@@ -117,10 +133,15 @@ Json volume_json(const VolumeRow& row) {
           {"use", row.use},
           {"position", point_json(row.position)},
           {"weight", row.weight},
-          {"demand", row.demand},
+          {"asked", row.asked},
+          {"demand", row.limited},
           {"volume", row.volume},
+          {"short", row.missing()},
+          {"short_share", row.short_share()},
+          {"why_short", row.why_short},
           {"error", row.error},
           {"cell_volume", row.cell_volume},
+          {"asked_floor_area", row.asked_area},
           {"floor_area", row.floor_area},
           {"surface_area", row.surface_area},
           {"spherical_area", row.spherical_area},
@@ -132,25 +153,38 @@ Json volume_json(const VolumeRow& row) {
           {"reason", row.reason}};
 }
 
-Json use_json(const UseRow& use) {
+Json use_json(const UseRow& row) {
+  const report::UseAccount& use = row.account;
   return {{"use", use.use},
           {"in_programme", use.is_in_programme},
           {"volumes", use.volumes},
-          {"alive", use.alive},
-          {"wanted_floor_area", use.wanted_floor_area},
+          {"alive", row.alive},
+          {"short_volumes", use.short_volumes},
+          {"wanted_floor_area", use.asked_area},
+          {"limited_floor_area", use.limited_area},
           {"floor_area", use.floor_area},
-          {"wanted_volume", use.wanted_volume},
-          {"demand", use.demand},
-          {"volume", use.volume}};
+          {"wanted_volume", use.brief_volume},
+          {"asked", use.asked},
+          {"demand", use.limited},
+          {"volume", use.volume},
+          {"short", use.missing()},
+          {"short_floor_area", use.missing_area()},
+          {"short_share", use.short_share()},
+          {"why_short", row.why_short}};
 }
 
 Json tension_json(const TensionRow& row, const State& state) {
   Json pulls = Json::array();
   const auto path = parse_port_path(row.port);
   const auto ref = state.plan->find(state.plan->node_index(row.node), *path);
-  for (const Pull& pull : row.pulls)
-    pulls.push_back(
-        {{"link", pull.link}, {"value", value_to_json(pull.value, state.plan->port(*ref))}, {"strength", pull.strength}});
+  for (const Pull& pull : row.pulls) {
+    Json voice = Json::object();
+    if (pull.link.empty()) voice["by_hand"] = pull.is_locked ? "locked" : "set";
+    else voice["link"] = pull.link;
+    voice["value"] = value_to_json(pull.value, state.plan->port(*ref));
+    voice["strength"] = pull.strength;
+    pulls.push_back(std::move(voice));
+  }
   return {{"node", row.node}, {"port", row.port}, {"tension", row.tension}, {"unit", row.unit}, {"links", std::move(pulls)}};
 }
 
@@ -164,6 +198,8 @@ Json survey_json(const Survey& survey, const State& state, const std::string& ou
   json["outcome"] = outcome;
   json["worst_error"] = survey.worst_error;
   json["worst"] = survey.worst;
+  json["worst_short_share"] = survey.worst_short;
+  json["worst_short"] = survey.worst_short_of;
   json["largest_move"] = state.largest_move;
   json["volumes"] = Json::array();
   for (const VolumeRow& row : survey.volumes) json["volumes"].push_back(volume_json(row));
@@ -180,6 +216,12 @@ Json survey_json(const Survey& survey, const State& state, const std::string& ou
                                  {"total_volume", solver.total_volume}});
   json["tensions"] = Json::array();
   for (const TensionRow& row : survey.tensions) json["tensions"].push_back(tension_json(row, state));
+  json["conflicts_by"] = Json::array();
+  for (const report::PullerRow& row : survey.pullers)
+    json["conflicts_by"].push_back({{"link", row.link}, {"kind", row.kind}, {"conflicts", row.conflicts}, {"share", row.share}});
+  // Streets, sun, plots, surroundings: whatever the scene has of them.
+  const Json figures = report::figure_json(state);
+  for (const auto& [name, rows] : figures.items()) json[name] = rows;
   json["problems"] = Json::array();
   for (const Error& problem : survey.problems)
     json["problems"].push_back(

@@ -20,11 +20,31 @@ void list(const Scripts& scripts) {
   if (scripts.texts().empty()) print_line("the scene has no scripts");
 }
 
+std::string extracted(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / (name + ".lua")).string();
+}
+
+// What somebody has changed in a file that was extracted before would be lost.
+bool may_extract(const Scripts& scripts, const std::string& folder) {
+  bool may = true;
+  for (const auto& [name, text] : scripts.texts()) {
+    const std::string file = extracted(folder, name);
+    std::error_code none;
+    if (!std::filesystem::exists(file, none)) continue;
+    if (const auto there = read_file(file); there && *there == text) continue;
+    print_error(file,
+                {ErrorCode::conflict, "",
+                 "is there and is not what the scene holds: put it into the scene first, name another folder, or say --force"});
+    may = false;
+  }
+  return may;
+}
+
 bool extract(const Scripts& scripts, const std::string& folder) {
   std::error_code none;
   std::filesystem::create_directories(folder, none);
   for (const auto& [name, text] : scripts.texts()) {
-    const std::string file = (std::filesystem::path(folder) / (name + ".lua")).string();
+    const std::string file = extracted(folder, name);
     if (auto written = write_file(file, text); !written) {
       print_error(file, written.error());
       return false;
@@ -61,6 +81,8 @@ int script_command(const ScriptOptions& options) {
     print_problems(options.scene, unfit.empty() ? check_scene(reading->scene, full_registry()) : unfit);
     if (!unfit.empty()) return kBadInput;
   }
+  const bool is_safe = options.extract.empty() || options.is_forced || may_extract(reading->scene.scripts, options.extract);
+  if (!is_safe) return kBadInput;
   if (!options.extract.empty() && !extract(reading->scene.scripts, options.extract)) return kBadInput;
   if (!options.out.empty()) {
     if (!may_write(options.out, options.scene, options.is_forced)) return kBadInput;

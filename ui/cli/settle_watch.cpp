@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/text.h"
+#include "ui/cli/report/place_problems.h"
 #include "ui/cli/survey.h"
 
 namespace bl::cli {
@@ -30,8 +31,9 @@ Mover fastest(const State& state, const State* before) {
 }
 
 std::string of_worst(const VolumeRow& worst) {
-  std::string text = "`" + worst.id + "` has " + fixed(worst.volume, 1) + " of " + fixed(worst.demand, 1) + " m³ (" +
-                     fixed(100 * worst.error, 2) + " %)";
+  std::string text = "`" + worst.id + "` has " + fixed(worst.volume, 1) + " of " + fixed(worst.demand, 1) + " m³";
+  // A percentage of nothing says nothing.
+  if (worst.demand > 1e-3) text += " (" + fixed(100 * worst.error, 2) + " %)";
   if (worst.state != "alive") text += ", it is " + worst.state;
   if (!worst.reason.empty()) text += ": " + worst.reason;
   return text;
@@ -71,16 +73,18 @@ bool SettleWatch::is_hopeless(const State& state) {
 }
 
 std::string why_not_settled(const State& state, const State* before) {
+  // A collapse comes before what follows from it.
+  if (const auto collapsed = report::collapsed_volumes(state); !collapsed.empty()) return collapsed.front().sentence();
   if (const std::string message = solver_message(state); !message.empty()) return "the demands cannot be met: " + message;
   const std::vector<VolumeRow> volumes = volumes_of(state);
   const auto worst =
       std::max_element(volumes.begin(), volumes.end(), [](const VolumeRow& a, const VolumeRow& b) { return a.error < b.error; });
   const Settings& settings = state.plan->settings;
-  if (has_failure(state)) {
-    const Error problem = problems_of(state).front();
-    return problem.text() + (worst != volumes.end() && worst->error > settings.tolerance ? "; " + of_worst(*worst) : "");
+  if (const auto problem = first_failure(state)) {
+    return problem->text() + (worst != volumes.end() && worst->error > settings.tolerance ? "; " + of_worst(*worst) : "");
   }
   if (worst != volumes.end() && worst->error > settings.tolerance) return of_worst(*worst) + of_greedy(state);
+  if (const auto work = first_work(state)) return work->text();
   if (state.largest_residual > settings.tolerance) return "an error of " + fixed(100 * state.largest_residual, 2) + " % is left";
   if (state.largest_move > settings.move_limit) {
     const Mover mover = fastest(state, before);

@@ -39,7 +39,7 @@ int solver_bench(const BenchOptions& options) {
   catch_interrupts();
   const std::string machine = machine_line();
   print_line(machine);
-  print_line(kMethod);
+  print_page(kMethod);
   Json rows = Json::array();
   for (const Kind& kind : kKinds) {
     if (!is_wanted(options, kind.name) || is_interrupted()) continue;

@@ -1,9 +1,11 @@
-// Volumes and uses are read by the report, so that table, JSON and page cannot disagree; conflicts and faults are added for programs.
+// Volumes and uses are read by the report, so that table, JSON and page cannot disagree; conflicts and faults are added for
+// programs.
 #include "ui/cli/survey.h"
 
 #include <algorithm>
 #include <map>
 
+#include "ui/cli/report/place_problems.h"
 #include "ui/cli/report/report_model.h"
 
 namespace bl::cli {
@@ -25,12 +27,10 @@ VolumeRow volume_row(const State& state, const report::VolumeRow& read) {
   row.reason = read.reason;
   row.position = report::point_at(state, read.node, "node", "position");
   row.weight = number("weight");
-  // Before a solver has seen the volume it has no wanted volume yet; the demand is the next best word.
-  row.demand = read.state == "idle" ? read.demand : read.wanted;
-  row.volume = read.volume;
+  static_cast<report::Account&>(row) = read;
+  row.demand = read.limited;
   row.cell_volume = number("cell_volume");
   row.error = number("error");
-  row.floor_area = read.floor_area;
   row.surface_area = number("surface_area");
   row.footprint = number("footprint");
   row.spherical_area = number("spherical_area");
@@ -40,45 +40,19 @@ VolumeRow volume_row(const State& state, const report::VolumeRow& read) {
   return row;
 }
 
-std::map<std::string, double> wanted_volumes(const State& state) {
-  std::map<std::string, double> wanted;
-  for (std::uint32_t n = 0; n < count_of(state); ++n)
-    if (const Table* rows = report::table_at(state, n, "programme", "rows"))
-      for (std::size_t r = 0; r < rows->rows.size(); ++r)
-        wanted[rows->text(r, "use")] += rows->number(r, "floor_area") * rows->number(r, "count") * rows->number(r, "storey_height");
-  return wanted;
-}
-
 void add_totals(const State& state, const report::ReportModel& model, Survey& survey) {
-  const std::map<std::string, double> wanted = wanted_volumes(state);
   std::map<std::string, UseRow> uses;
-  for (const report::UseRow& read : model.uses) {
-    UseRow& use = uses[read.use];
-    use.use = read.use;
-    use.is_in_programme = read.is_in_programme;
-    use.volumes = read.count;
-    use.floor_area = read.floor_area;
-    use.volume = read.volume;
-    if (!read.is_in_programme) continue;
-    use.wanted_floor_area = read.wanted_floor_area;
-    use.wanted_volume = wanted.at(read.use);
-  }
-  for (const VolumeRow& volume : survey.volumes) {
-    uses[volume.use].alive += volume.state == "alive" ? 1 : 0;
-    uses[volume.use].demand += volume.demand;
-  }
+  for (const report::UseAccount& read : model.accounts.uses)
+    uses[read.use] = {read, 0, report::why_short(state, model.accounts, read)};
+  for (const VolumeRow& volume : survey.volumes) uses[volume.use].alive += volume.state == "alive" ? 1 : 0;
+  survey.all.account = model.accounts.all;
   for (const auto& [name, use] : uses) {
-    survey.all.is_in_programme |= use.is_in_programme;
-    survey.all.volumes += use.volumes;
     survey.all.alive += use.alive;
-    survey.all.wanted_floor_area += use.wanted_floor_area;
-    survey.all.floor_area += use.floor_area;
-    survey.all.wanted_volume += use.wanted_volume;
-    survey.all.demand += use.demand;
-    survey.all.volume += use.volume;
     survey.uses.push_back(use);
   }
-  survey.all.use = "all";
+  survey.tolerance = model.accounts.tolerance;
+  survey.worst_short = model.accounts.worst_short;
+  survey.worst_short_of = model.accounts.worst;
 }
 
 std::vector<VolumeRow> volume_rows(const State& state, const report::ReportModel& model) {
@@ -92,8 +66,12 @@ std::vector<Pull> pulls_on(const State& state, PortRef target) {
   for (std::size_t l = 0; l < state.links.size(); ++l) {
     if (state.plan->links[l].is_muted) continue;
     for (const Voice& voice : state.links[l].voices)
-      if (voice.target == target) pulls.push_back({state.plan->links[l].id, voice.value, voice.strength});
+      if (voice.target == target) pulls.push_back({state.plan->links[l].id, voice.value, voice.strength, false});
   }
+  const TypePlan& type = state.plan->nodes[target.node].types[target.type];
+  const bool has_voice = type.is_set[target.port] && type.definition->ports[target.port].rule == CombineRule::blend;
+  if (type.is_locked[target.port] || has_voice)
+    pulls.push_back({"", type.set_values[target.port], 1, type.is_locked[target.port]});
   return pulls;
 }
 
@@ -150,9 +128,15 @@ Survey survey_of(const State& state) {
   report::ReportModel model;
   report::read_figures(state, model);
   survey.volumes = volume_rows(state, model);
+  for (std::size_t k = 0; k < survey.volumes.size(); ++k)
+    survey.volumes[k].why_short = report::why_short(state, model.accounts, model.volumes[k]);
   add_totals(state, model, survey);
   survey.tensions = tensions_of(state);
+  report::read_conflicts(state, model);
+  survey.pullers = std::move(model.pullers);
   survey.problems = problems_of(state);
+  for (const report::PlaceProblem& problem : report::place_problems(state))
+    survey.problems.push_back({ErrorCode::infeasible, "nodes/" + problem.nodes.front(), problem.sentence()});
   for (std::uint32_t n = 0; n < count_of(state); ++n)
     if (report::has_type(state, n, kSolver)) {
       const auto number = [&](const char* port) { return report::number_at(state, n, kSolver, port); };

@@ -7,36 +7,37 @@
 #include <vector>
 
 #include "core/graph/state.h"
+#include "ui/cli/report/account.h"
+#include "ui/cli/report/report_model.h"
 
 namespace bl::cli {
 
-/// The record of one SmartVolume, whatever became of it.
-struct VolumeRow {
+/// The record of one SmartVolume, whatever became of it, with what was asked for and what there is.
+struct VolumeRow : report::Account {
   std::string id, name, use, state, reason;
-  Point3 position;                                                             ///< [m]
-  double weight = 0;                                                           ///< [m²]
-  double demand = 0;                                                           ///< what the solver aims at [m³]
-  double volume = 0, cell_volume = 0;                                          ///< [m³]
-  double error = 0;                                                            ///< share of the demand
-  double floor_area = 0, surface_area = 0, footprint = 0, spherical_area = 0;  ///< [m²]
-  double storey_height = 0, height = 0, bottom = 0;                            ///< [m]
+  Point3 position;                                             ///< [m]
+  double weight = 0;                                           ///< [m²]
+  double demand = 0;                                           ///< what the solver aims at: `limited` [m³]
+  std::string why_short;                                       ///< empty where it is not short
+  double cell_volume = 0;                                      ///< [m³]
+  double error = 0;                                            ///< share of what the solver aims at
+  double surface_area = 0, footprint = 0, spherical_area = 0;  ///< [m²]
+  double storey_height = 0, height = 0, bottom = 0;            ///< [m]
 };
 
-/// One use: what programmes want of it, and what its volumes have.
+/// One use: what is asked for, and what its volumes have.
 struct UseRow {
-  std::string use;
-  bool is_in_programme = false;
-  std::size_t volumes = 0, alive = 0;
-  double wanted_floor_area = 0, floor_area = 0;  ///< [m²]
-  double wanted_volume = 0;                      ///< of the programme [m³]
-  double demand = 0;                             ///< of its volumes [m³]
-  double volume = 0;                             ///< [m³]
+  report::UseAccount account;
+  std::size_t alive = 0;
+  std::string why_short;
 };
 
+/// A voice in a conflict: of a link, or of people, who have set or locked the value; then there is no link.
 struct Pull {
   std::string link;
   Value value;  ///< a change for moves, a wanted value elsewhere
   double strength = 1;
+  bool is_locked = false;
 };
 
 /// One port on which proposals disagree.
@@ -58,9 +59,13 @@ struct Survey {
   UseRow all;
   std::vector<TensionRow> tensions;  ///< greatest first, ties in ascending node and port
   std::vector<SolverRow> solvers;
-  std::vector<Error> problems;  ///< errors of nodes and links, with their places
-  double worst_error = 0;       ///< share of a demand
-  std::string worst;            ///< id of the node that has it; empty where all is exact
+  std::vector<Error> problems;             ///< errors of nodes and links, with their places
+  double tolerance = 0;                    ///< below this share nobody is short
+  double worst_short = 0;                  ///< the largest share that a volume or a use is short of
+  std::string worst_short_of;              ///< who that is, in words
+  std::vector<report::PullerRow> pullers;  ///< who stands in the conflicts, links and people
+  double worst_error = 0;                  ///< share of a demand
+  std::string worst;                       ///< id of the node that has it; empty where all is exact
 };
 
 Survey survey_of(const State& state);

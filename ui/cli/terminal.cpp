@@ -157,7 +157,7 @@ void TextTable::print() const {
 }
 
 void complain(std::string_view sentence) {
-  to_errors("behaviourlinks: " + std::string(sentence));
+  to_errors("behaviourlinks: " + bounded({ErrorCode::parse, "", std::string(sentence)}).message);
 }
 
 namespace {

@@ -1,5 +1,7 @@
 // Changes how the scene is laid out and looked at: boxes on the canvas, frames, comments, cameras. The tick never reads it.
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -10,37 +12,46 @@ namespace bl {
 
 namespace {
 
-// Puts a key where it stands in ascending order, so that the same view always has the same text, whatever the way to it.
-void insert_sorted(Json& object, const std::string& key, Json value) {
-  Json sorted = Json::object();
-  bool is_placed = false;
-  for (auto& [known, content] : object.items()) {
-    if (!is_placed && key < known) {
-      sorted[key] = std::move(value);
-      is_placed = true;
-    }
-    sorted[known] = std::move(content);
-  }
-  if (!is_placed) sorted[key] = std::move(value);
-  object = std::move(sorted);
+void merge(Json& target, const Json& changes);
+
+// What a change makes of a value; nothing where nothing is left of it.
+Json merged_value(Json value, const Json& change) {
+  if (!change.is_object()) return change;
+  merge(value, change);
+  return value.empty() ? Json() : value;
 }
 
-// The merge patch of RFC 7396: objects merge, null removes, everything else replaces. Objects that become empty go as well.
+// The merge patch of RFC 7396: objects merge, null removes, everything else replaces. Objects that become empty go as well. What
+// is new stands before the first key that is greater, so that the same view always has the same text, whatever the way to it. In
+// one walk along both: a patch may speak of thousands of boxes.
 void merge(Json& target, const Json& changes) {
   if (!target.is_object()) target = Json::object();
-  for (const auto& [key, change] : changes.items()) {
-    if (change.is_null()) {
-      target.erase(key);
+  std::map<std::string, const Json*> waiting;
+  for (const auto& [key, change] : changes.items()) waiting.emplace(key, &change);
+  std::vector<std::pair<std::string, Json>> kept;
+  for (auto& [key, content] : target.items()) {
+    const auto change = waiting.find(key);
+    if (change == waiting.end()) {
+      kept.emplace_back(key, std::move(content));
       continue;
     }
-    Json value = target.contains(key) ? target[key] : Json();
-    if (change.is_object()) merge(value, change);
-    else value = change;
-    const bool is_gone = change.is_object() && value.empty();
-    if (is_gone) target.erase(key);
-    else if (target.contains(key)) target[key] = std::move(value);
-    else insert_sorted(target, key, std::move(value));
+    if (Json value = merged_value(std::move(content), *change->second); !value.is_null())
+      kept.emplace_back(key, std::move(value));
+    waiting.erase(change);
   }
+  Json merged = Json::object();
+  auto& members = merged.get_ref<Json::object_t&>();  // at its end no key has to be looked for
+  auto next = waiting.begin();
+  const auto add_before = [&](const std::string* key) {
+    for (; next != waiting.end() && (key == nullptr || next->first < *key); ++next)
+      if (Json value = merged_value(Json(), *next->second); !value.is_null()) members.emplace_back(next->first, std::move(value));
+  };
+  for (auto& [key, content] : kept) {
+    add_before(&key);
+    members.emplace_back(key, std::move(content));
+  }
+  add_before(nullptr);
+  target = std::move(merged);
 }
 
 // The patch that leads back from what `changes` make of `before`.

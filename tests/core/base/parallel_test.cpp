@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/hash.h"
+#include "tests/support/deadline.h"
 
 namespace bl {
 namespace {
@@ -138,9 +139,15 @@ TEST(Parallel, ManyShortLoops) {
 }
 
 TEST(Parallel, PoolsCanBeMadeAndDroppedWithoutWork) {
+  const Deadline deadline(120, "pools are made and dropped");
   for (int round = 0; round < 200; ++round) {
-    ThreadPool idle(1 + round % 8);
-    if (round % 2 == 0) idle.for_each_chunk(3, 1, [](std::size_t, std::size_t) {});
+    std::atomic<int> done = 0;
+    {
+      ThreadPool idle(1 + round % 8);
+      EXPECT_EQ(idle.threads(), 1 + round % 8);
+      if (round % 2 == 0) idle.for_each_chunk(3, 1, [&](std::size_t, std::size_t) { ++done; });
+    }
+    EXPECT_EQ(done, round % 2 == 0 ? 3 : 0);
   }
 }
 

@@ -31,6 +31,32 @@ TEST(Result, HoldsAValueOrAnError) {
   EXPECT_EQ(bad.error(), (Error{ErrorCode::wrong_kind, "number", "is odd"}));
 }
 
+// What is quoted comes from data, and data can be 20 MB long.
+TEST(Error, QuotationsAreCut) {
+  const std::string name(20'000'000, 'x'), accents = [] {
+    std::string text;
+    for (int i = 0; i < 1000; ++i) text += "é";
+    return text;
+  }();
+  const Result<int> bad =
+      Error{ErrorCode::not_found, "nodes/" + name, "there is no `" + name + "`, did you mean \"" + name + "\"?"};
+  EXPECT_LT(bad.error().text().size(), 1200u);
+  EXPECT_TRUE(bad.error().message.starts_with("there is no `xxx"));
+  EXPECT_TRUE(bad.error().message.ends_with("xxx\"?"));
+  EXPECT_NE(bad.error().message.find(" ... (20000000 bytes) ... "), std::string::npos);
+  EXPECT_TRUE(bad.error().place.starts_with("nodes/xxx"));
+  const std::string sentence(1000, 'y');
+  EXPECT_EQ(bounded({ErrorCode::parse, "", sentence}).message, sentence) << "only quotations are cut at that length";
+  EXPECT_LT(bounded({ErrorCode::parse, "", name}).message.size(), kLongestMessage);
+  EXPECT_EQ((Error{ErrorCode::parse, "a", "`b` is no c"}).text(), "a: `b` is no c");
+  const std::string cut = bounded({ErrorCode::parse, "", "`" + accents + "` is long"}).message;
+  for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
+    const bool begins = static_cast<unsigned char>(cut[i]) == 0xc3, ends = static_cast<unsigned char>(cut[i + 1]) == 0xa9;
+    EXPECT_EQ(begins, ends) << "whole characters";
+  }
+  EXPECT_EQ(bounded(bounded(bad.error())), bounded(bad.error())) << "once is enough";
+}
+
 TEST(Result, OfNothingIsSuccessOrAnError) {
   EXPECT_TRUE(positive(1).ok());
   EXPECT_TRUE(static_cast<bool>(positive(1)));

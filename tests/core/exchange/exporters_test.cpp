@@ -1,8 +1,13 @@
 // OBJ and CSV texts, byte by byte.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
+#include "core/base/random.h"
 #include "core/exchange/csv_reader.h"
 #include "core/exchange/csv_table.h"
+#include "core/exchange/import_report.h"
 #include "core/exchange/wavefront_obj.h"
 
 namespace bl {
@@ -36,6 +41,66 @@ TEST(CsvTable, ReadsBack) {
   EXPECT_EQ(csv->records[1].fields, (std::vector<std::string>{"x;\"y\"", "1\n2"}));
   EXPECT_EQ(csv->records[2].line, 4u);
   EXPECT_EQ(write_csv(std::vector<std::string>{"only"}, std::vector<std::vector<CsvCell>>{{""}}), "only\r\n\"\"\r\n");
+}
+
+TEST(CsvTable, NoTextIsAFormulaAndNumbersStayNumbers) {
+  const std::vector<std::string> header = {"=evil()", "b"};
+  const std::vector<std::vector<CsvCell>> rows = {{"=cmd|'/c calc'!A0", -12.5},
+                                                  {"+1", -3},
+                                                  {"-1+1", 1e-7},
+                                                  {"@SUM(A1)", 0.0},
+                                                  {"\t=1", ""},
+                                                  {"\r=1", ""},
+                                                  {"\xEF\xBC\x9D"
+                                                   "1",
+                                                   ""},
+                                                  {"'=1", "a-b"},
+                                                  {"a\x01\x1B[2J\xC2\x9B"
+                                                   "b\x7F",
+                                                   "'plain"}};
+  EXPECT_EQ(write_csv(header, rows),
+            "'=evil(),b\r\n'=cmd|'/c calc'!A0,-12.5\r\n'+1,-3\r\n'-1+1,1e-07\r\n'@SUM(A1),0\r\n' =1,\r\n' =1,\r\n"
+            "'\xEF\xBC\x9D"
+            "1,\r\n''=1,a-b\r\n\"a  [2J b \",'plain\r\n");
+}
+
+// The law: whatever people write, no text cell begins with a sign of a formula or holds a control character but a line end, and
+// the text comes back.
+TEST(CsvTable, EveryTextIsHarmlessAndComesBack) {
+  Random random(14);
+  const std::string letters = "=+-@' \"\t\r\n,;a1|\x01\x7F";
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::string text;
+    for (std::uint64_t k = 0; k < 1 + random.below(6); ++k) text += letters[random.below(letters.size())];
+    const auto read =
+        read_csv(write_csv(std::vector<std::string>{"name", "count"}, std::vector<std::vector<CsvCell>>{{text, 1}}), ',');
+    ASSERT_TRUE(read) << read.error().text();
+    ASSERT_EQ(read->records.size(), 2u);
+    const std::string& cell = read->records[1].fields[0];
+    const std::size_t first = cell.find_first_not_of(" \n");
+    EXPECT_TRUE(first == std::string::npos || std::string("=+-@").find(cell[first]) == std::string::npos) << cell;
+    EXPECT_TRUE(std::none_of(cell.begin(), cell.end(), [](char c) {
+      return (static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7F;
+    })) << cell;
+    EXPECT_EQ(harmless_text(text_of_harmless(cell)), cell);
+    const bool is_plain =
+        std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+    if (is_plain && trimmed(text) == text) { EXPECT_EQ(text_of_harmless(cell), text); }
+  }
+}
+
+TEST(CsvTable, ImportReportsComeBackWithEveryName) {
+  ImportReport report;
+  report.take("building", "=cmd|'/c calc'!A0", "-1", "'=1");
+  const ImportReports reports{{"+site.json", report}};
+  const std::string text = import_csv(reports);
+  EXPECT_EQ(text.find(",=cmd"), std::string::npos) << text;
+  const auto read = read_import_csv(text);
+  ASSERT_TRUE(read) << read.error().text();
+  EXPECT_EQ(read->front().first, "+site.json");
+  EXPECT_EQ(read->front().second.rows().front().id, "=cmd|'/c calc'!A0");
+  EXPECT_EQ(read->front().second.rows().front().detail, "'=1");
+  EXPECT_EQ(import_csv(*read), text);
 }
 
 }  // namespace

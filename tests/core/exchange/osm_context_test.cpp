@@ -369,6 +369,13 @@ TEST(OsmContext, DeletedElementsAreRowsAndNothingElse) {
   EXPECT_EQ(context->report.total("node"), 5u);
 }
 
+TEST(OsmContext, ErrorsWithoutAPlaceNameNoLine) {
+  const auto context =
+      read_osm_context("<?xml version=\"1.0\"?><!DOCTYPE osm [<!ENTITY a \"b\">]><osm version=\"0.6\"><node id=\"1\"/></osm>");
+  ASSERT_FALSE(context.ok());
+  EXPECT_EQ(context.error().text(), "XML: This is not what OpenStreetMap files hold: XML entities are not supported.");
+}
+
 TEST(OsmContext, AWayThatIsListedTwiceIsOneOutline) {
   const auto context =
       read_osm_context(osm(way(1, {1, 2, 5, 4, 1}, "") +

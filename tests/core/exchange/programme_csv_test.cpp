@@ -48,6 +48,19 @@ double first_area(const std::string& text) {
   return import ? import->rows.at(0).floor_area : -1;
 }
 
+TEST(ProgrammeCsv, SaysWhatMayStandOnWhat) {
+  const auto import =
+      read_programme_csv("use,area,standing\ngarage,900,Ground\nflats,400,\nfoot bridge,60,bridge\nshop,200,stack\n");
+  ASSERT_TRUE(import) << import.error().text();
+  EXPECT_EQ(import->rows[0].standing, "ground");
+  EXPECT_EQ(import->rows[1].standing, "stack");
+  EXPECT_EQ(import->rows[2].standing, "bridge");
+  EXPECT_EQ(import->rows[3].standing, "stack");
+  EXPECT_EQ(read_programme_csv("use,area\nshop,200\n")->rows[0].standing, "stack");
+  const std::string wrong = error_of("use,area,standing\ngarage,900,grond\n");
+  EXPECT_TRUE(wrong.starts_with("line 2, column 3 `standing`: `grond` is not understood, did you mean `ground`?")) << wrong;
+}
+
 TEST(ProgrammeCsv, FullTable) {
   const auto import = read_programme_csv(
       "use,floor_area_m2,floor_area_min_m2,floor_area_max_m2,count,storey_height_m,adjacent_to,tags\n"

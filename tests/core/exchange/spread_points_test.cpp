@@ -90,6 +90,23 @@ TEST(SpreadPoints, BallsStayOffGroundRoofAndSides) {
   }
 }
 
+// Balls that have to stand on the ground sink a fifth of their radius into it; they keep apart like all others.
+TEST(SpreadPoints, StandsOnTheGroundWhereAsked) {
+  const auto volumes = mixed_volumes(30, 0.3 * 100 * 80 * 30);
+  std::vector<std::uint8_t> on_ground(30, 0);
+  for (std::size_t i = 0; i < 30; i += 3) on_ground[i] = 1;
+  const auto points = spread_points(kSquare, 4, 34, volumes, 5, {}, {}, on_ground);
+  ASSERT_TRUE(points);
+  for (std::size_t i = 0; i < 30; ++i) {
+    const double radius = std::cbrt(volumes[i] / 4.18879020478639);
+    if (on_ground[i] != 0) EXPECT_NEAR((*points)[i].z, 4 + std::min(0.8 * radius, 15.0), 1e-9) << i;
+    else EXPECT_GE((*points)[i].z, 4 + std::min(radius, 15.0) - 1e-9) << i;
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT(distance((*points)[i], (*points)[j]), kSpreadSeparation * std::cbrt(100.0 * 80 * 30 / 30)) << i << " " << j;
+  }
+  EXPECT_EQ(spread_points(kSquare, 4, 34, volumes, 5, {}, {}, std::vector<std::uint8_t>(29, 0)).error().place, "on_ground");
+}
+
 TEST(SpreadPoints, SeedAloneDecides) {
   const auto volumes = mixed_volumes(50, 1e5);
   const auto first = spread_points(kComb, 0, 30, volumes, 11), again = spread_points(kComb, 0, 30, volumes, 11),

@@ -96,6 +96,34 @@ TEST(HardFits, AllOfThemAreMet) {
   expect_met("plan with a hole, 70 %", plan);
 }
 
+// One among many, or every other one, is millions of times as large as the rest. There is room for all of them.
+TEST(HardFits, DemandsThatLieFarApartAreMetOrSaidNotToBe) {
+  std::size_t met = 0, tried = 0;
+  for (const double ratio : {1e6, 1e7, 1e9})
+    for (const double fill : {0.3, 0.9})
+      for (const std::uint32_t count : {3u, 10u, 100u})
+        for (const bool is_one : {true, false}) {
+          FitScene scene = fit_scene(count, fill, 900);
+          double sum = 0;
+          for (std::uint32_t i = 0; i < count; ++i) sum += (is_one ? i == 0 : i % 2 != 0) ? 1 : 1 / ratio;
+          for (std::uint32_t i = 0; i < count; ++i) {
+            VolumeDemand& demand = scene.problem.demands[i];
+            demand.least = demand.most = fill / sum * ((is_one ? i == 0 : i % 2 != 0) ? 1 : 1 / ratio);
+          }
+          const VolumeFit fit = fit_of(scene);
+          const std::string name = std::to_string(count) + " over a factor " + std::to_string(ratio);
+          EXPECT_NE(fit.status, FitStatus::infeasible) << name << ": that is not so";
+          if (ratio == 1e6) { EXPECT_EQ(fit.status, FitStatus::met) << name << ", fill " << fill; }
+          if (fit.status == FitStatus::step_limit) {
+            ASSERT_FALSE(fit.reasons.empty());
+            EXPECT_EQ(fit.reasons[0].find("not met after "), 0u) << fit.reasons[0];
+          }
+          ++tried;
+          met += fit.status == FitStatus::met ? 1 : 0;
+        }
+  EXPECT_GE(met, tried - 2);
+}
+
 TEST(HardFits, CoincidentPairsAreRefusedByName) {
   for (const double gap : {0.0, 1e-10, 1e-8, 1e-6}) {
     FitScene scene = fit_scene(many(), 0.7, 32);

@@ -7,6 +7,7 @@
 #include "core/define/typification_builder.h"
 #include "core/file/scene_file.h"
 #include "core/graph/simulation.h"
+#include "tests/support/deadline.h"
 #include "tests/support/world.h"
 
 namespace bl {
@@ -231,6 +232,7 @@ struct Endless {
 };
 
 TEST(Analysis, IsStoppedWhenNobodyWantsItAnyMore) {
+  const Deadline deadline(60, "an analysis that nobody wants any more is stopped");
   Endless endless;
   AnalysisRunner runner;
   auto unwanted = endless.analysis();
@@ -239,9 +241,11 @@ TEST(Analysis, IsStoppedWhenNobodyWantsItAnyMore) {
   const std::weak_ptr<Analysis> watched = unwanted;
   unwanted.reset();
   while (!watched.expired()) std::this_thread::yield();
+  EXPECT_EQ(endless.begun, 1) << "nobody began it again";
 }
 
 TEST(Analysis, StoppedByTheEndOfTheRunnerItIsLeftToWhoeverHoldsIt) {
+  const Deadline deadline(60, "the end of a runner stops what it runs");
   Endless endless;
   const auto held = endless.analysis();
   {
@@ -249,8 +253,8 @@ TEST(Analysis, StoppedByTheEndOfTheRunnerItIsLeftToWhoeverHoldsIt) {
     runner.begin(held);
     endless.wait_until_begun();
   }
-  ASSERT_TRUE(held->result().error.has_value());
-  EXPECT_EQ(held->result().error->message, "came to its end");
+  ASSERT_TRUE(held->result()->error.has_value());
+  EXPECT_EQ(held->result()->error->message, "came to its end");
   EXPECT_EQ(endless.begun, 2);
 }
 

@@ -6,8 +6,12 @@
 #include <cstdlib>
 #include <iostream>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "core/base/mathematics.h"
+#include "core/base/random.h"
+#include "core/base/text.h"
 #include "core/define/typification_builder.h"
 #include "core/script/link_script.h"
 #include "tests/links/link_case.h"
@@ -64,6 +68,60 @@ double number_of(const std::string& expression) {
   const std::string error = run_mover("return {move = point(" + expression + ", 0, 0)}", &x);
   EXPECT_EQ(error, "") << expression;
   return x;
+}
+
+// Lua's own `^` and functions call the C library, whose last bits follow the processor.
+TEST(LinkScript, MathematicsAreThoseOfTheDoor) {
+  using namespace mathematics;
+  EXPECT_EQ(number_of("2^3^2"), 512);
+  EXPECT_EQ(number_of("-2^2"), -4);
+  EXPECT_EQ(number_of("2^-2^2"), 0.0625);
+  EXPECT_EQ(number_of("(#'a' + 2) ^ (#\"bc\") + 2^#{1, 2, 3}"), 17);
+  EXPECT_EQ(number_of("3 ^ math.floor(2.5) ^ 1"), 9);
+  EXPECT_EQ(number_of("(function() return 3 end)() ^ 2"), 9);
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    const double a = random.uniform(0.1, 0.9), b = random.uniform(-3, 3);
+    const std::string x = shortest(a), y = "(" + shortest(b) + ")";
+    EXPECT_EQ(number_of(x + "^" + y), power(a, b)) << "constants, which Lua computes while it reads";
+    EXPECT_EQ(number_of("(" + x + " * params.p)^" + y), power(2 * a, b));
+    EXPECT_EQ(number_of("params.p^" + y + "^params.p"), power(2, b * b));
+    const std::pair<const char*, double (*)(double)> functions[] = {
+        {"sin", sine},        {"cos", cosine},       {"tan", tangent},     {"asin", arc_sine},
+        {"acos", arc_cosine}, {"atan", arc_tangent}, {"exp", exponential}, {"log", logarithm}};
+    for (const auto& [name, function] : functions)
+      EXPECT_EQ(number_of("math." + std::string(name) + "(" + x + ")"), function(a)) << name;
+    EXPECT_EQ(number_of("math.atan(" + y + ", " + x + ")"), arc_tangent(b, a));
+    EXPECT_EQ(number_of("math.log(" + x + ", 2)"), logarithm_of_two(a));
+    EXPECT_EQ(number_of("math.log(" + x + ", 10)"), logarithm_of_ten(a));
+    EXPECT_EQ(number_of("math.log(" + x + ", 3)"), logarithm(a) / logarithm(3));
+  }
+}
+
+TEST(LinkScript, PowersOfWhatIsNoNumberSayTheirLine) {
+  EXPECT_EQ(run_mover("local x = 1\nreturn {move = point(x ^ missing, 0, 0)}"),
+            "case.lua:6: `^` needs numbers on both sides; one is nil, a name that holds nothing");
+  EXPECT_EQ(run_mover("return {move = point(ends.here ^ 2, 0, 0)}"),
+            "case.lua:5: `^` needs numbers on both sides; one is a table");
+  EXPECT_EQ(run_mover("return {move = point('2' ^ 2, 0, 0)}"), "case.lua:5: `^` needs numbers on both sides; one is a string");
+}
+
+// Only the sign itself is touched: not in texts and comments of any kind, whatever stands in them.
+TEST(LinkScript, PowersAreFoundOutsideOfTextsAndComments) {
+  EXPECT_EQ(number_of("#'a^b'"), 3);
+  EXPECT_EQ(number_of("#'\\'^' + (#\"\\\\\") ^ 2"), 3);
+  EXPECT_EQ(number_of("#'\\z\n  ^' + 2^1"), 3);
+  EXPECT_EQ(number_of("#'a\\\n^' + 2^1"), 5);
+  EXPECT_EQ(number_of("#[[a^]] + #[==[^]]^]==] --[[ 2^'\n]] + 2^2"), 10);
+  EXPECT_EQ(number_of("1 --^ 'a\n + 2 ^ 3 --[==[ ^]] ^\n]==] + 1"), 10);
+  const std::string taken = run_mover("local power__of__numbers = 1 return {}");
+  EXPECT_EQ(taken, "case.lua:5: the name `power__of__numbers` is taken by the library; take another");
+}
+
+TEST(LinkScript, AByteOrderMarkIsPassedOver) {
+  const auto kind = read_link_script("case", std::string("\xEF\xBB\xBF") + kRatio, full_registry());
+  ASSERT_TRUE(kind.ok()) << kind.error().text();
+  EXPECT_EQ(kind->id, "my_ratio");
 }
 
 TEST(LinkScript, DeclaresAsTheSameKindInCode) {

@@ -45,6 +45,36 @@ TEST(TrafficNetwork, SlopeAndIntegralFitTheCostForManyPowers) {
   }
 }
 
+// Published networks write capacity 1 and put the real one into the factor, or a free time of nearly nothing: the same delay.
+TEST(TrafficNetwork, CostDoesNotDependOnHowADelayIsWritten) {
+  for (const double power : {0.5, 1.0, 4.0, 7.5, 12.0})
+    for (const double flow : {0.0, 3.0, 900.0, 40000.0, 3e6}) {
+      const auto plain = one_link({"s", "a", "b", 30, 500, 0.15, power});
+      const auto by_factor = one_link({"s", "a", "b", 30, 1, 0.15 / std::pow(500, power), power});
+      const auto by_delay = one_link({"s", "a", "b", 3e-8, 500, 0.15e9, power, 0, 0, true, 30 - 3e-8});
+      const double cost = 30 * (1 + 0.15 * std::pow(flow / 500, power));
+      const double area = 30 * flow + 30 * 0.15 * flow * std::pow(flow / 500, power) / (power + 1);
+      for (const auto* network : {&plain, &by_factor, &by_delay}) {
+        EXPECT_NEAR(network->cost(0, flow), cost, 1e-13 * cost) << power << " at " << flow;
+        EXPECT_NEAR(network->integral(0, flow), area, 1e-13 * area) << power << " at " << flow;
+        EXPECT_FALSE(network->is_cut(0, flow));
+      }
+      EXPECT_NEAR(by_factor.slope(0, flow + 1), plain.slope(0, flow + 1), 1e-12 * plain.slope(0, flow + 1));
+    }
+}
+
+TEST(TrafficNetwork, WhatNoNumberHoldsIsCutAndSaysSo) {
+  const auto network = one_link({"s", "a", "b", 60, 1e-6, 0.15, 20});
+  EXPECT_FALSE(network.is_cut(0, 0.01));
+  for (const double flow : {1.0, 1e6, 1e12}) {
+    EXPECT_TRUE(network.is_cut(0, flow)) << flow;
+    EXPECT_TRUE(std::isfinite(network.cost(0, flow)) && std::isfinite(network.slope(0, flow)) &&
+                std::isfinite(network.integral(0, flow)))
+        << flow;
+    EXPECT_GE(network.cost(0, flow), 1e100);
+  }
+}
+
 TEST(TrafficNetwork, WhatMakesNoSenseIsAnErrorWithItsPlace) {
   auto place_of = [](std::vector<TrafficNode> nodes, std::vector<TrafficLink> links) {
     const auto made = TrafficNetwork::make(std::move(nodes), std::move(links));

@@ -1,7 +1,10 @@
 // `compare`: what people set differently, what became of it, and scenes that cannot be compared.
+#include <cctype>
+
 #include <gtest/gtest.h>
 
 #include "tests/ui/cli/program.h"
+#include "ui/cli/report/comparison.h"
 
 namespace bl::test {
 
@@ -43,7 +46,8 @@ TEST(Compare, ASceneWithItselfDiffersInNothing) {
 // An FSI of 1.2 is no 120 per cent; the share of the ground that is built is one. What solvers still miss is no outcome.
 TEST(Compare, RatiosThatAreNoSharesArePlainNumbers) {
   const Workplace place;
-  const std::string plot = R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]}}})";
+  const std::string plot =
+      R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]}}})";
   place.write("a.json", scene_text(volume_text("east", "[8, 0, 8]", "2000") + "," + plot));
   place.write("b.json", scene_text(volume_text("east", "[8, 0, 8]", "6000") + "," + plot));
   const Outcome outcome = place.run({"compare", "a.json", "b.json"});
@@ -63,6 +67,27 @@ TEST(Compare, RatiosThatAreNoSharesArePlainNumbers) {
     EXPECT_EQ(outcome.out.find(inner), std::string::npos) << outcome.out;
 }
 
+// What was next to nothing has no percentage: a limit that winds a volume down to nothing is told in cubic metres.
+TEST(Compare, PercentagesOfNothingAreNotPrinted) {
+  const Workplace place;
+  const auto scene = [](const std::string& more) {
+    return scene_text(volume_text("west", "[-8, 0, 8]", "1500") +
+                      R"(, {"id": "east", "position": [8, 0, 8], "types": {"smart_volume": {"demand": 2000)" + more + "}}}");
+  };
+  place.write("a.json", scene(R"(, "demand_limit": 1e-9)"));
+  place.write("b.json", scene(""));
+  const Outcome outcome = place.run({"compare", "a.json", "b.json", "--ticks", "60", "--report", "d.html"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (std::string line : {outcome.out, place.text("d.html")})
+    for (std::size_t at = line.find('%'); at != std::string::npos; at = line.find('%', at + 1)) {
+      std::size_t digits = 0, begin = at;
+      while (begin > 0 && std::string("0123456789. +-\xE2\x80\xAF\xC2\xA0\x88\x92").find(line[begin - 1]) != std::string::npos)
+        digits += std::isdigit(static_cast<unsigned char>(line[--begin])) != 0 ? 1 : 0;
+      EXPECT_LE(digits, 7u) << line.substr(begin, at - begin + 1);
+    }
+  EXPECT_NE(outcome.out.find("missing of the volume asked for"), std::string::npos) << outcome.out;
+}
+
 TEST(Compare, BadScenesAreToldWithTheirPlace) {
   const Workplace place;
   place.write("a.json", moving_scene());
@@ -71,6 +96,19 @@ TEST(Compare, BadScenesAreToldWithTheirPlace) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("b.json: nodes/0"), std::string::npos) << outcome.err;
   EXPECT_EQ(place.run({"compare", "a.json", "nowhere.json"}).code, 2);
+}
+
+// A volume that had next to nothing: 5 000 m² more are no percentage of it.
+TEST(Compare, NoPercentageOfNothingIsTold) {
+  const auto difference = [](double before, double after) {
+    return report::IndicatorRow{"", "", "", "", Unit::square_metre, before, after}.difference();
+  };
+  for (const double nothing : {0.0, 8.3e-13, 1e-300, -1e-9, 0.004}) {
+    EXPECT_EQ(difference(nothing, 5000).find('%'), std::string::npos) << difference(nothing, 5000);
+    EXPECT_NE(difference(nothing, 5000).find("5"), std::string::npos) << difference(nothing, 5000);
+  }
+  EXPECT_NE(difference(2500, 5000).find("100"), std::string::npos) << difference(2500, 5000);
+  EXPECT_NE(difference(5000, 0).find('%'), std::string::npos) << "all of it has gone";
 }
 
 }  // namespace

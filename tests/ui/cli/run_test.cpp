@@ -77,6 +77,20 @@ TEST(Run, LogIsReplayed) {
   const Outcome cut = place.run({"replay", "cut.log"});
   EXPECT_EQ(cut.code, 0) << cut.err;
   EXPECT_NE(cut.err.find("the last line is incomplete"), std::string::npos) << cut.err;
+  // Cut between two lines, so that every line that is left is whole: what is missing is told, and the rest can be used.
+  const std::string whole = place.text("run.log");
+  place.write("short.log", whole.substr(0, whole.find("{\"end\"")));
+  const Outcome shortened = place.run({"replay", "short.log"});
+  EXPECT_EQ(shortened.code, 0) << shortened.err;
+  EXPECT_NE(shortened.err.find("the log has no end. It was cut off, or what wrote it was stopped: what was done after tick 120"),
+            std::string::npos)
+      << shortened.err;
+  EXPECT_EQ(shortened.last_line(), "agrees with all 2 checks");
+  EXPECT_EQ(replay.err, "");
+  place.write("two.log", whole + whole.substr(whole.find("{\"end\"")));
+  const Outcome two = place.run({"replay", "two.log"});
+  EXPECT_EQ(two.code, 2);
+  EXPECT_NE(two.err.find("line 7: is a second end of the log"), std::string::npos) << two.err;
 }
 
 TEST(Run, WhatCannotBeSetLeavesTheLogOfAnEarlierRun) {
@@ -119,6 +133,76 @@ TEST(Run, DemandsThatDoNotFitAreNamedEarly) {
   EXPECT_TRUE(outcome.last_line().starts_with("not settled: the demands cannot be met: ")) << outcome.last_line();
   EXPECT_NE(outcome.last_line().find("`greedy`"), std::string::npos) << outcome.last_line();
   EXPECT_LT(place.json("r.json")["ticks"].get<int>(), 1000) << "nobody waits for what cannot come";
+}
+
+// One volume is insisted on and breaks the rule by itself. The other is not wound to nothing for it, and nobody calls it settled.
+TEST(Run, ARuleThatCannotBeMetIsSaidAndEndsWithCodeThree) {
+  const Workplace place;
+  const std::string plot =
+      R"({"id": "plot", "types": {"plot": {"polygon": [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]], "fsi_max": 0.3}}})";
+  const std::string insisted =
+      R"({"id": "fixed", "position": [-8, 0, 8], "types": {"smart_volume": {"use": "hotel", "demand": 4000,
+      "demand_min": 4000}}})";
+  place.write("s.json",
+              scene_text(volume_text("free", "[8, 0, 8]", "2000") + "," + insisted + "," + plot,
+                         R"({"id": "rules", "kind": "plot_rules", "from": "plot", "to": {"typification": "smart_volume"}})"));
+  const Outcome outcome = place.run({"run", "s.json", "--settle", "--json", "r.json"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_TRUE(outcome.last_line().starts_with("not settled: links/rules/from: cannot be met: FSI ")) << outcome.last_line();
+  EXPECT_NE(outcome.last_line().find("of 0.30, held by `fixed` (4000 m³ are insisted on)"), std::string::npos)
+      << outcome.last_line();
+  const nlohmann::json result = place.json("r.json");
+  EXPECT_FALSE(result["settled"]);
+  EXPECT_LT(result["ticks"].get<int>(), 400) << "nobody waits for what cannot come";
+  EXPECT_NE(result["problems"].dump().find("cannot be met: FSI"), std::string::npos);
+  ASSERT_EQ(result["volumes"].size(), 2u);
+  EXPECT_EQ(result["volumes"][1]["id"], "free");
+  EXPECT_NEAR(result["volumes"][1]["volume"].get<double>(), 400, 8) << "a fifth of its demand";
+}
+
+// A brief of which one use has no volume: the rest is negotiated to its end, and who is missing is named.
+TEST(Run, AUseWithoutAVolumeIsNamedAndTheRestSettles) {
+  const Workplace place;
+  const std::string brief = R"({"id": "brief", "types": {"programme": {"rows": [{"use": "housing", "floor_area": 600,
+      "storey_height": 3}, {"use": "hotel", "floor_area": 900}]}}})";
+  place.write("s.json",
+              scene_text(volume_text("house", "[8, 0, 8]", "1000") + "," + brief,
+                         R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}})"));
+  const Outcome outcome = place.run({"run", "s.json", "--settle", "--json", "r.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.last_line();
+  EXPECT_TRUE(outcome.last_line().starts_with("settled after ")) << outcome.last_line();
+  EXPECT_EQ(outcome.last_line().find("does not run"), std::string::npos) << outcome.last_line();
+  const nlohmann::json result = place.json("r.json");
+  EXPECT_NE(result["problems"].dump().find("no volume has the use `hotel`, so all of the 900 m"), std::string::npos)
+      << result["problems"].dump();
+}
+
+// JSON, table and page say of one volume the same: what was asked for, by hand or brief, what limits leave, what is short.
+TEST(Run, WhatIsShortIsToldAlike) {
+  const Workplace place;
+  place.write(
+      "s.json",
+      scene_text(
+          volume_text("free", "[8, 0, 8]", "2000") +
+          R"(, {"id": "cut", "position": [-8, 0, 8], "types": {"smart_volume": {"demand": 2000, "demand_limit": 1500}}})"));
+  const Outcome outcome = place.run({"run", "s.json", "--json", "r.json", "--report", "out"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json result = place.json("r.json");
+  ASSERT_EQ(result["volumes"][0]["id"], "cut");
+  const nlohmann::json& cut = result["volumes"][0];
+  EXPECT_EQ(cut["asked"], 2000);
+  EXPECT_EQ(cut["demand"], 1500);
+  EXPECT_NEAR(cut["short_share"].get<double>(), 0.25, 0.01);
+  EXPECT_NEAR(cut["short"].get<double>(), 2000 - cut["volume"].get<double>(), 1e-9);
+  EXPECT_NE(cut["why_short"].get<std::string>().find("a limit set by hand leaves 1500"), std::string::npos) << cut["why_short"];
+  EXPECT_EQ(result["volumes"][1]["why_short"], "");
+  EXPECT_EQ(result["worst_short"], "volume cut");
+  EXPECT_NE(outcome.out.find("short %"), std::string::npos);
+  EXPECT_NE(place.text("out/volumes.csv").find("a limit set by hand leaves"), std::string::npos);
+  EXPECT_NE(place.text("out/report.html").find("a limit set by hand leaves"), std::string::npos);
+  // A report of a settled scene says settled.
+  ASSERT_TRUE(result["settled"]);
+  EXPECT_NE(place.text("out/report.html").find("\xE2\x9C\x93 Settled"), std::string::npos);
 }
 
 TEST(Run, ReportIsWritten) {

@@ -133,7 +133,7 @@ TEST_F(CanvasEditTest, MuteAndSolo) {
   EXPECT_FALSE(scene().links.at("hotel_market").is_muted);
   EXPECT_TRUE(scene().links.at("air").is_muted);
   desktop.key(GLFW_KEY_Q);
-  EXPECT_EQ(desktop.scene_text(), before);
+  EXPECT_EQ(desktop.logic_text(), before);
   expect_undone(4);
 }
 
@@ -153,7 +153,9 @@ TEST_F(CanvasEditTest, CollapseIsOneStep) {
   desktop.frames(1);
   EXPECT_TRUE(board().model.boxes[board().model.find_box("library")].is_collapsed);
   desktop.key(GLFW_KEY_H);
-  EXPECT_EQ(desktop.scene_text(), before);
+  desktop.frames(1);
+  EXPECT_EQ(desktop.logic_text(), before);
+  EXPECT_TRUE(board().model.view.collapsed.empty());
   expect_undone(2);
 }
 

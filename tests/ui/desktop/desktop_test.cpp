@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/ui/desktop/null_desktop.h"
+#include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 
 namespace bl::desktop {
@@ -74,6 +75,39 @@ TEST(Desktop, PanesTakeTurnsWithTheKeys) {
   desktop.key(GLFW_KEY_F6);
   desktop.move_to({220, 480});
   EXPECT_EQ(editor.area, Area::canvas);
+}
+
+TEST(Desktop, AWindowOpensNoLargerThanItsScreen) {
+  const auto opens = [](Extent wished, Extent room) {
+    const Extent size = fitting_window(wished, room);
+    return std::pair(size.width, size.height);
+  };
+  EXPECT_EQ(opens({1440, 900}, {2560, 1440}), std::pair(1440, 900));
+  EXPECT_EQ(opens({1440, 900}, {1440, 900}), std::pair(1440, 900));
+  EXPECT_EQ(opens({1440, 900}, {0, 0}), std::pair(1440, 900)) << "nothing is known of the screen";
+  const auto [width, height] = opens({1440, 900}, {1280, 720});
+  EXPECT_LT(width, 1280);
+  EXPECT_LT(height, 720);
+  EXPECT_GT(width * height, 1200 * 600);
+  EXPECT_EQ(opens({1000, 2000}, {1280, 720}).first, 1000) << "the other length stays as it was wished";
+}
+
+// The lines' colours are the theme's, also where nothing is edited in between.
+TEST(Desktop, LinesTakeTheColoursOfTheThemeAtOnce) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  Editor& editor = desktop.editor();
+  const auto colours = [&] {
+    desktop.frames(2);
+    std::vector<ImU32> all;
+    for (const canvas::Line& line : editor.canvas->board().model.lines) all.push_back(line.family.colour);
+    return all;
+  };
+  const auto dark = colours();
+  editor.theme.apply(false, 1);
+  const auto light = colours();
+  editor.theme.apply(true, 1);
+  EXPECT_NE(light, dark);
+  EXPECT_EQ(colours(), dark);
 }
 
 TEST(Desktop, PanesWithoutRoomHarmNobody) {

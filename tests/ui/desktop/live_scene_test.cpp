@@ -67,6 +67,25 @@ TEST_F(Recorded, LosesNoRowWhenTheClockRunsFasterThanTheFrames) {
   EXPECT_GE(rows, kTicks);
 }
 
+TEST_F(Recorded, WhatDevicesSayIsNoUnsavedChange) {
+  LiveScene live(false);
+  window.editor().open(folder.path("scene.json"), false);
+  Document& document = *window.editor().document;
+  EXPECT_FALSE(document.is_unsaved()) << "an opened scene counts as saved";
+  document.session().step(kTicks);
+  frames_until(live, kTicks);
+  ASSERT_GT(document.session().log().size(), 0u);
+  EXPECT_FALSE(document.is_unsaved());
+  EXPECT_EQ(window.desktop().title(), "scene.json - BehaviourLinks");
+  ASSERT_TRUE(window.editor().submit(command<RenameNode>({"s", "Counter"})));
+  EXPECT_TRUE(document.is_unsaved());
+  document.session().step(3);
+  frames_until(live, kTicks + 3);
+  window.editor().undo();
+  window.frames(2);
+  EXPECT_FALSE(document.is_unsaved()) << "what a person has changed is undone, what devices have said since is not";
+}
+
 TEST_F(Recorded, GoesBackWithTheClock) {
   LiveScene live(false);
   window.editor().open(folder.path("scene.json"), false);

@@ -148,6 +148,12 @@ void NullDesktop::type(std::string_view text) {
   }
 }
 
+std::string NullDesktop::logic_text() {
+  Scene scene = editor().scene();
+  scene.view.clear();
+  return write_scene(scene, full_registry());
+}
+
 std::string NullDesktop::scene_text() { return write_scene(editor().scene(), full_registry()); }
 
 }  // namespace bl::desktop

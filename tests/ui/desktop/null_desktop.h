@@ -42,6 +42,8 @@ class NullDesktop {
 
   /// The scene's text, as it would be saved.
   std::string scene_text();
+  /// The same without the view: where boxes lie, and what else nothing that is computed depends on.
+  std::string logic_text();
 
  private:
   PersonSettings person_;

@@ -261,11 +261,11 @@ TEST(Inspector, ResetAndLock) {
   const std::string before = desktop.scene_text();
   desktop.type_into("smart_volume.demand", "2500");
   desktop.press_on("smart_volume.demand/reset");
-  EXPECT_EQ(desktop.scene_text(), before);
+  EXPECT_EQ(desktop.logic_text(), before);
   desktop.press_on("smart_volume.demand/lock");
   EXPECT_TRUE(desktop.editor().scene().nodes.at("library").locked.contains("smart_volume.demand"));
   desktop.press_on("smart_volume.demand/lock");
-  EXPECT_EQ(desktop.scene_text(), before);
+  EXPECT_EQ(desktop.logic_text(), before);
 }
 
 TEST(Inspector, TheTableOfTheBriefIsEditedByCell) {

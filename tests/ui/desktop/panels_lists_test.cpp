@@ -1,9 +1,12 @@
 // Problems, history and statistics, on the null renderer.
+#include <algorithm>
+
 #include "core/file/file_io.h"
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/problems_list.h"
 #include "ui/desktop/panels/statistics_record.h"
+#include "ui/desktop/view/colouring.h"
 
 namespace bl::desktop {
 namespace {
@@ -72,6 +75,62 @@ TEST(Problems, ABoundaryThatIsTooSmallNamesTheLosers) {
   EXPECT_TRUE(names_a_use);
   EXPECT_TRUE(names_the_solver);
   EXPECT_TRUE(names_a_volume);
+}
+
+// What people have set by hand counts as what a brief asks: a cap over a thousand volumes leaves none of them "everybody has
+// room".
+TEST(Problems, WhatPeopleAskForByHandAndACapTakesIsShort) {
+  ListDesktop desktop("scenes/studies/thousand_volumes.json");
+  desktop.ticks(25);
+  const auto short_of = desktop.of(ProblemKind::shortage);
+  ASSERT_FALSE(short_of.empty());
+  const auto housing =
+      std::find_if(short_of.begin(), short_of.end(), [](const ProblemItem& i) { return i.key == "use/housing"; });
+  ASSERT_NE(housing, short_of.end());
+  EXPECT_NE(housing->text.find("asked for are"), std::string::npos) << housing->text;
+  EXPECT_NE(housing->text.find("link `cap` leaves"), std::string::npos) << housing->text;
+  EXPECT_NE(std::find(housing->nodes.begin(), housing->nodes.end(), "v0567"), housing->nodes.end());
+  const report::Accounts& accounts = desktop.problems().accounts();
+  EXPECT_GT(accounts.worst_short, 0.1);
+  EXPECT_EQ(all_is_well(accounts, true).find("everybody has room"), std::string::npos);
+  EXPECT_NE(all_is_well({}, true).find("everybody has room"), std::string::npos);
+}
+
+// The law: list, colours, statistics and report agree on who is short, whatever was set, in every tick.
+TEST(ProblemsLaw, ListColoursStatisticsAndReportAgreeOnWhoIsShort) {
+  for (const char* scene : {kListedQuarter, "scenes/studies/thousand_volumes.json", "scenes/studies/urban_mode.json"}) {
+    ListDesktop desktop(scene);
+    for (int round = 0; round < 3; ++round) {
+      desktop.ticks(9);
+      const State& state = desktop.editor().state();
+      const auto facts = read_facts(desktop.editor().moment->state, nullptr);
+      const Colouring fill = colour_volumes(*facts, "fill", desktop.editor().theme);
+      const auto items = desktop.of(ProblemKind::shortage);
+      report::ReportModel page;
+      report::read_model(state, page);
+      const auto& rows = desktop.record().figures(desktop.editor()).volumes;
+      ASSERT_EQ(rows.size(), facts->volumes.size());
+      ASSERT_EQ(rows.size(), page.volumes.size());
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        const bool is_short = rows[k].is_short(page.accounts.tolerance);
+        EXPECT_EQ(facts->volumes[k].is_short(facts->tolerance), is_short) << rows[k].id;
+        EXPECT_EQ(facts->volumes[k].standing(), page.volumes[k].standing()) << rows[k].id;
+        if (!is_short) continue;
+        EXPECT_NE(fill.colours[k], Theme::ramp(1)) << rows[k].id << " is short, and its colour says that it is full";
+        const bool is_told = rows[k].state != "alive" || std::any_of(items.begin(), items.end(), [&](const ProblemItem& item) {
+                               return item.key == "volume/" + rows[k].id ||
+                                      std::find(item.nodes.begin(), item.nodes.end(), rows[k].id) != item.nodes.end();
+                             });
+        EXPECT_TRUE(is_told) << rows[k].id << " is short by " << rows[k].short_share() << " and the list does not say so";
+      }
+      for (const report::UseAccount& use : page.accounts.uses) {
+        if (!use.is_short(page.accounts.tolerance)) continue;
+        EXPECT_TRUE(std::any_of(items.begin(), items.end(), [&](const ProblemItem& item) {
+          return item.key == "use/" + use.use;
+        })) << use.use;
+      }
+    }
+  }
 }
 
 TEST(Problems, FailuresAndSwitchedOffLinksAreListedAndFiltered) {

@@ -71,6 +71,18 @@ TEST_F(UsesTest, EveryPanelShowsTheSameColour) {
   for (const std::size_t number : drawn) EXPECT_TRUE(seen.contains(number));
 }
 
+TEST(Pictures, StreetsAreDrawnWhereThereIsNothingElse) {
+  NullDesktop desktop("scenes/studies/braess.json");
+  desktop.ticks(2);
+  const ScenePicture picture = picture_of(desktop.editor().state());
+  EXPECT_EQ(picture.volumes, 0u);
+  ASSERT_GE(picture.streets.size(), 5u);
+  for (const auto& street : picture.streets) {
+    ASSERT_GE(street.size(), 2u);
+    for (const auto& [x, y] : street) EXPECT_TRUE(x >= 0 && x <= 1 && y >= 0 && y <= 1) << x << " " << y;
+  }
+}
+
 TEST(Pictures, BallsAreDrawnWhereNoShapeIsKnown) {
   NullDesktop desktop("scenes/studies/other_metrics.json");
   desktop.ticks(24);

@@ -10,12 +10,15 @@
 #include "ui/cli/report/furniture.h"
 #include "ui/cli/report/pictures.h"
 #include "ui/cli/report/solid_drawing.h"
+#include "ui/cli/report/surroundings.h"
 
 namespace bl::report {
 
 namespace {
 
 constexpr double kAxonometryWidth = 1000, kMostAxonometryHeight = 760;
+// So much of what stands around is shown, as a share of the site's larger side: more would make the proposal small.
+constexpr double kAroundAside = 0.35;
 constexpr double kAzimuth = 150, kElevation = 33;
 
 // Light from the left, behind the eye's shoulder: the convention of architectural drawings, not the sun of a day.
@@ -244,20 +247,30 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   const Scenery scenery = scenery_of(model, view);
   if (scenery.content.empty())
     return {empty_picture("axonometry", "Axonometry", "Nothing to draw: there is no boundary, and no volume has a shape."), ""};
-  const Sheet sheet(view, scenery.content, kAxonometryWidth, kMostAxonometryHeight, {40, 34, 40, 52});
+  const std::vector<Point3> frame = framed(scenery.content, model.surroundings, kAroundAside);
+  std::vector<Point3> content = scenery.content;
+  Point3 middle;
+  for (const Point3& corner : frame) middle += corner / static_cast<double>(frame.size());
+  if (frame.size() == 2)
+    for (const double x : {frame[0].x, frame[1].x})
+      for (const double y : {frame[0].y, frame[1].y}) content.push_back({x, y, scenery.ground});
+  const Sheet sheet(view, content, kAxonometryWidth, kMostAxonometryHeight, {40, 34, 40, 52});
   const std::vector<const VolumeRow*> order = back_to_front(model, view);
   Markup svg;
   open_picture(svg, sheet.width(), sheet.height(), "axonometry", "Axonometry",
                "The proposal seen from above and aside: " + counted(order.size(), "volume") +
                    " on the site, coloured and lettered by use.");
+  draw_ground_aside(svg, sheet, model.surroundings, frame, scenery.ground);
   const double grid = draw_ground(svg, sheet, model);
+  draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, false);
   draw_shadows(svg, sheet, model, scenery);
   draw_envelope(svg, sheet, model, false);
-  for (const UseRow& use : model.uses)
+  for (const UseAccount& use : model.accounts.uses)
     define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, "shade-" + palette.letter(use.use));
   const bool has_storeys = order.size() <= kMostStoreys;
   for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys);
   draw_envelope(svg, sheet, model, true);
+  draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, true);
   const std::string missing = write_labels(svg, sheet, order, palette);
   draw_scale_bar(svg, sheet.scale(), {24, sheet.height() - 18}, 170);
   draw_north(svg, view, model.true_north, {sheet.width() - 44, 40}, 26);
@@ -267,6 +280,10 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
       "the sheet.";
   if (grid > 0) caption += " Ground grid " + shortest(grid) + " m; dash-dotted, the boundary.";
   if (has_storeys && !order.empty()) caption += " Fine lines on the volumes are storey levels.";
+  if (!model.surroundings.is_empty())
+    caption +=
+        " Around the site: streets with their load, sun on flat receivers, and existing buildings, pale where they stand before "
+        "it.";
   caption += " Light and shadow are a drawing convention, not a sun study.";
   return {svg.str(), caption + missing};
 }

@@ -55,6 +55,9 @@ std::string subject_of(const State& state, PortRef ref) {
   return "";
 }
 
+// "0", "0.000": figures without a digit that says anything.
+bool reads_as_zero(double value) { return readable(value).find_first_of("123456789") == std::string::npos; }
+
 struct Sum {
   Unit unit = Unit::none;
   bool is_share = false;
@@ -77,8 +80,14 @@ class Walk {
       const auto figure = [&](double total, std::size_t count) {
         return is_sum || count == 0 ? total : total / static_cast<double>(count);
       };
-      result_.totals.push_back({"", "", path, sum.label + (is_sum ? ", sum" : ", mean"), sum.unit,
-                                figure(sum.before, sum.count_before), figure(sum.after, sum.count_after), sum.is_share});
+      IndicatorRow total;
+      total.path = path;
+      total.label = sum.label + (is_sum ? ", sum" : ", mean");
+      total.unit = sum.unit;
+      total.before = figure(sum.before, sum.count_before);
+      total.after = figure(sum.after, sum.count_after);
+      total.is_share = sum.is_share;
+      result_.totals.push_back(std::move(total));
     }
     // A street that had two cars and has one is no news beside one that had two thousand.
     const auto rank = [this](const IndicatorRow& row) { return std::abs(row.after - row.before) / largest_.at(row.path); };
@@ -98,6 +107,21 @@ class Walk {
         for (std::uint16_t p = 0; p < type.ports.size(); ++p)
           if (is_indicator(type.ports[p])) take(state, {n, t, p}, is_after);
       }
+    // What is missing of what was asked for is no port: it follows from several, by the account that all displays share.
+    for (const VolumeAccount& volume : accounts_of(state).volumes) {
+      const NodePlan& node = plan.nodes[volume.node];
+      take_figure(node, "account.missing", "SmartVolume: missing of the volume asked for", Unit::cubic_metre, volume.missing(),
+                  is_after);
+      if (volume.is_by_area)
+        take_figure(node, "account.missing_area", "SmartVolume: missing of the floor area asked for", Unit::square_metre,
+                    volume.missing_area(), is_after);
+    }
+  }
+
+  void take_figure(const NodePlan& node, const std::string& path, const std::string& label, Unit unit, double value,
+                   bool is_after) {
+    note(node, {path, label, unit, false}, value, is_after);
+    add_up({path, label, unit, false}, value, is_after);
   }
 
   void take(const State& state, PortRef ref, bool is_after) {
@@ -109,18 +133,38 @@ class Walk {
     const std::string path = type.id + "." + port.id;
     const std::string label = type.label + ": " + spoken(port.id) + subject_of(state, ref);
     const double value = as_number(state.value(ref));
-    IndicatorRow& row =
-        rows_.emplace(Key{node.id, path}, IndicatorRow{node.id, node.name, path, label, unit, 0, 0, is_share(port)}).first->second;
+    const Indicator indicator{path, label, unit, is_share(port)};
+    note(node, indicator, value, is_after);
+    // What means something else at every node has no total; a node alone of its kind is its own.
+    if (port.unit_from.empty()) add_up(indicator, value, is_after);
+  }
+
+  struct Indicator {
+    std::string path, label;
+    Unit unit = Unit::none;
+    bool is_share = false;
+  };
+
+  void note(const NodePlan& node, const Indicator& indicator, double value, bool is_after) {
+    IndicatorRow fresh;
+    fresh.node = node.id;
+    fresh.name = node.name;
+    fresh.path = indicator.path;
+    fresh.label = indicator.label;
+    fresh.unit = indicator.unit;
+    fresh.is_share = indicator.is_share;
+    IndicatorRow& row = rows_.emplace(Key{node.id, indicator.path}, fresh).first->second;
     (is_after ? row.after : row.before) = value;
-    (is_after ? in_after_ : in_before_).insert({node.id, path});
-    double& largest = largest_[path];
+    (is_after ? in_after_ : in_before_).insert({node.id, indicator.path});
+    double& largest = largest_[indicator.path];
     largest = std::max(largest, std::abs(value));
-    if (!port.unit_from.empty()) return;  // means something else at every node
-    // A node alone of its kind is its own total.
-    Sum& sum = sums_[path];
-    sum.unit = unit;
-    sum.is_share = is_share(port);
-    sum.label = label;
+  }
+
+  void add_up(const Indicator& indicator, double value, bool is_after) {
+    Sum& sum = sums_[indicator.path];
+    sum.unit = indicator.unit;
+    sum.is_share = indicator.is_share;
+    sum.label = indicator.label;
     (is_after ? sum.after : sum.before) += value;
     ++(is_after ? sum.count_after : sum.count_before);
   }
@@ -224,13 +268,19 @@ double IndicatorRow::share() const {
   return most > 0 ? std::abs(after - before) / most : 0;
 }
 
-std::string IndicatorRow::figure(double value) const { return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit); }
-
-std::string IndicatorRow::difference() const {
-  return before != 0 ? signed_percent((after - before) / std::abs(before)) : figure(after - before);
+std::string IndicatorRow::figure(double value) const {
+  return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit);
 }
 
-bool IndicatorRow::is_seen(double least_share) const { return share() > least_share && figure(before) != figure(after); }
+std::string IndicatorRow::difference() const {
+  // A percentage of what people read as zero says nothing, nor does one of dust beside what there is now.
+  const bool is_nothing = reads_as_zero(before) || std::abs(before) < 1e-3 * std::abs(after);
+  return is_nothing ? figure(after - before) : signed_percent((after - before) / std::abs(before));
+}
+
+bool IndicatorRow::is_seen(double least_share) const {
+  return share() > least_share && figure(before) != figure(after) && !(reads_as_zero(before) && reads_as_zero(after));
+}
 
 Comparison compare(const State& before, const State& after, double least_share) { return Walk(before, after, least_share).run(); }
 

@@ -20,7 +20,7 @@ struct IndicatorRow {
   double share() const;
   /// "1 240 m²", "0.42 %" or "3.78": a value of this row as people read it.
   std::string figure(double value) const;
-  /// The difference in percent, or as a figure where nothing was there before.
+  /// The difference in percent, or as a figure where next to nothing was there before.
   std::string difference() const;
   /// Do people see a difference? Roundings of runs that end a little differently are no news.
   bool is_seen(double least_share) const;

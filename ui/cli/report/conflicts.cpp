@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "core/base/text.h"
 #include "ui/cli/report/figures.h"
+#include "ui/cli/report/place_problems.h"
 #include "ui/cli/report/report_model.h"
 
 namespace bl::report {
@@ -84,14 +86,14 @@ std::vector<TensePort> tense_ports(const State& state) {
 ConflictRow conflict_row(const State& state, const TensePort& tense) {
   const PortRef ref = tense.ref;
   const PortDefinition& port = state.plan->port(ref);
-  ConflictRow row{name_at(state, ref.node),
-                  state.plan->path_text(ref),
-                  quantity(tense.tension, port.unit),
-                  {},
-                  tense.severity,
-                  ref,
-                  state.plan->nodes[ref.node].id,
-                  {}};
+  ConflictRow row;
+  row.node = name_at(state, ref.node);
+  row.node_id = state.plan->nodes[ref.node].id;
+  row.port = state.plan->path_text(ref);
+  row.tension = quantity(tense.tension, port.unit);
+  row.amount = tense.tension;
+  row.severity = tense.severity;
+  row.ref = ref;
   for (std::size_t l = 0; l < state.links.size(); ++l) {
     const LinkPlan& link = state.plan->links[l];
     if (!link.is_enabled || link.is_muted) continue;
@@ -118,6 +120,33 @@ void read_conflicts(const State& state, ReportModel& model) {
   }
   std::stable_sort(model.conflicts.begin(), model.conflicts.end(),
                    [](const ConflictRow& a, const ConflictRow& b) { return a.severity > b.severity; });
+  model.pullers = pullers_of(state, model.conflicts);
+}
+
+std::vector<PullerRow> pullers_of(const State& state, const std::vector<ConflictRow>& conflicts) {
+  std::map<std::string, PullerRow> by_link;
+  double all = 0;
+  for (const ConflictRow& conflict : conflicts) {
+    const std::set<std::string> who(conflict.links.begin(), conflict.links.end());
+    for (const std::string& link : who) {
+      PullerRow& row = by_link[link];
+      row.link = link;
+      ++row.conflicts;
+      row.share += conflict.severity / static_cast<double>(who.size());
+      all += conflict.severity / static_cast<double>(who.size());
+    }
+  }
+  std::vector<PullerRow> rows;
+  for (auto& [link, row] : by_link) {
+    const std::size_t index = link_index(*state.plan, link);
+    if (link.empty()) row.kind = "set or locked by hand";
+    else if (index < state.plan->links.size() && state.plan->links[index].definition != nullptr)
+      row.kind = state.plan->links[index].definition->label;
+    if (all > 0) row.share /= all;
+    rows.push_back(std::move(row));
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const PullerRow& a, const PullerRow& b) { return a.share > b.share; });
+  return rows;
 }
 
 void read_problems(const State& state, ReportModel& model) {
@@ -142,6 +171,8 @@ void read_problems(const State& state, ReportModel& model) {
   for (const SetPlan& set : plan.sets)
     if (set.error && !state.nodes[set.node].types[set.type].error)
       add({"node " + name_at(state, set.node), set.error->text(), plan.nodes[set.node].id, "", false});
+  for (const PlaceProblem& problem : place_problems(state))
+    add({"node " + name_at(state, plan.node_index(problem.nodes.front())), problem.sentence(), problem.nodes.front(), "", false, true});
 }
 
 }  // namespace bl::report

@@ -11,6 +11,8 @@ namespace {
 
 constexpr const char* kNarrowSpace = "\xE2\x80\xAF";
 constexpr const char* kMinus = "\xE2\x88\x92";
+constexpr const char* kDash = "\xE2\x80\x93";
+constexpr double kNothingSeen = 1e-3;
 
 }  // namespace
 
@@ -60,6 +62,12 @@ std::string signed_percent(double share) {
   const std::string text = grouped(hundred, std::abs(hundred) >= 100 ? 0 : 2);
   const bool is_zero = text.find_first_not_of("0.") == std::string::npos;
   return (hundred > 0 && !is_zero ? "+" : "") + text + "\xC2\xA0%";
+}
+
+std::string share_of(double part, double whole) { return whole > kNothingSeen ? percent(part / whole) : kDash; }
+
+std::string difference_of(double reached, double wanted) {
+  return wanted > kNothingSeen ? signed_percent((reached - wanted) / wanted) : kDash;
 }
 
 std::string counted(std::size_t count, const std::string& noun) {

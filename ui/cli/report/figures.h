@@ -19,6 +19,10 @@ std::string quantity(double value, Unit unit);
 std::string percent(double share);
 /// The same with its sign, also where it is positive.
 std::string signed_percent(double share);
+/// A part of a whole as a percentage, and how far what was reached is from what was wanted, with its sign. A dash where the whole
+/// is nothing that people could see (below a thousandth of a unit): a percentage of zero says nothing.
+std::string share_of(double part, double whole);
+std::string difference_of(double reached, double wanted);
 /// "1 volume", "3 volumes".
 std::string counted(std::size_t count, const std::string& noun);
 

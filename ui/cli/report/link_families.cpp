@@ -1,8 +1,9 @@
-// Which links become lines: those between places, unless a set is so large that the lines would hide the plan.
+// Which links become lines: those between volumes, unless a set is so large that the lines would hide the plan.
 #include "ui/cli/report/link_families.h"
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 namespace bl::report {
@@ -31,13 +32,32 @@ const LinkFamily* family_of(std::string_view kind) {
   return &kFamilies[5];
 }
 
+namespace {
+
+bool joins_volumes_only(const Plan& plan, const LinkPlan& link) {
+  const auto is_volume = [&](std::uint32_t node) {
+    const auto& types = plan.nodes[node].types;
+    return std::any_of(types.begin(), types.end(), [](const TypePlan& type) { return type.definition->id == "smart_volume"; });
+  };
+  return std::all_of(link.nodes[0].begin(), link.nodes[0].end(), is_volume) &&
+         std::all_of(link.nodes[1].begin(), link.nodes[1].end(), is_volume);
+}
+
+}  // namespace
+
 DrawnLinks links_to_draw(const State& state) {
   DrawnLinks drawn;
+  std::map<std::string, std::size_t> beside;
   std::set<const LinkFamily*> seen;
   for (const LinkPlan& link : state.plan->links) {
     if (link.definition == nullptr || !link.is_enabled) continue;
     const LinkFamily* family = family_of(link.definition->id);
     if (family == nullptr) continue;
+    // Links to streets, studies, styles and data say nothing of where volumes stand to each other, and would cover the plan.
+    if (!joins_volumes_only(*state.plan, link)) {
+      ++beside[link.definition->label];
+      continue;
+    }
     std::vector<DrawnLink> lines;
     std::size_t pairs = 0;
     for (const std::uint32_t from : link.nodes[0])
@@ -55,6 +75,8 @@ DrawnLinks links_to_draw(const State& state) {
   }
   for (const LinkFamily& family : kFamilies)
     if (seen.contains(&family)) drawn.families.push_back(&family);
+  for (const auto& [label, count] : beside)
+    drawn.beside.push_back(label + (count == 1 ? "" : " (" + std::to_string(count) + ")"));
   return drawn;
 }
 

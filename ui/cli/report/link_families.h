@@ -26,6 +26,7 @@ struct DrawnLink {
 struct DrawnLinks {
   std::vector<DrawnLink> lines;
   std::vector<const LinkFamily*> families;  ///< that occur, in the order of the legend
+  std::vector<std::string> beside;          ///< kinds with how many of them: what joins other things than volumes
   std::vector<std::string> left_out;        ///< links over sets too large to be drawn
 };
 DrawnLinks links_to_draw(const State& state);

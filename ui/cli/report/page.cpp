@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "ui/cli/report/figure_tables.h"
 #include "ui/cli/report/figures.h"
 
 namespace bl::report {
@@ -22,21 +23,27 @@ void key(Markup& page, const std::string& label, const std::string& figure, cons
 
 void write_keys(Markup& page, const ReportModel& model) {
   const bool has_site = model.plan_area > 0;
-  const double index = has_site ? model.floor_area / model.plan_area : 0;
-  const auto share = [](double part, double whole) { return whole > 0 ? percent(part / whole) : std::string("\xE2\x80\x93"); };
+  const UseAccount& all = model.accounts.all;
   page.open("dl", {{"class", "keys"}});
   key(page, "Plan area", has_site ? quantity(model.plan_area, Unit::square_metre) : "\xE2\x80\x93",
       has_site ? "inside the boundary" : "no boundary");
-  key(page, "Floor area wanted", quantity(model.wanted_floor_area, Unit::square_metre), "by the programme");
-  key(page, "Floor area reached", quantity(model.floor_area, Unit::square_metre),
-      share(model.floor_area, model.wanted_floor_area) + " of what is wanted");
-  key(page, "Floor space index", has_site ? grouped(index, 2) : "\xE2\x80\x93", "floor area to plan area");
-  key(page, "Volume", quantity(model.volume, Unit::cubic_metre), share(model.volume, model.demand) + " of what is asked for");
-  key(page, "Fill", share(model.volume, model.site_volume), "of the space inside the boundary");
+  key(page, "Floor area asked for", quantity(all.asked_area, Unit::square_metre),
+      all.is_in_programme ? "by the programme and by people" : "what the volumes asked for make");
+  key(page, "Floor area reached", quantity(all.floor_area, Unit::square_metre),
+      share_of(all.floor_area, all.asked_area) + " of what is asked for");
+  key(page, "Floor space index", has_site ? grouped(all.floor_area / model.plan_area, 2) : "\xE2\x80\x93",
+      "floor area to plan area");
+  key(page, "Volume", quantity(all.volume, Unit::cubic_metre), share_of(all.volume, all.asked) + " of what is asked for");
+  key(page, "Fill", share_of(all.volume, model.site_volume), "of the space inside the boundary");
   key(page, "Volumes", grouped(static_cast<double>(model.volumes.size())),
       model.shapes == model.volumes.size() ? "all have a shape"
                                            : std::to_string(model.volumes.size() - model.shapes) + " without a shape");
-  key(page, "Worst error", model.worst ? percent(std::abs(model.worst->error())) : "\xE2\x80\x93",
+  const bool is_short = model.accounts.worst_short > model.accounts.tolerance;
+  key(page, "Short", is_short ? percent(model.accounts.worst_short) : "nobody",
+      is_short ? model.accounts.worst + ", the worst" : "all have what is asked for");
+  // An error against an aim of nothing is no percentage.
+  const bool has_error = model.worst != nullptr && model.worst->limited > 1e-3;
+  key(page, "Worst error", has_error ? percent(std::abs(model.worst->error())) : "\xE2\x80\x93",
       model.worst ? model.worst->name : "no volumes");
   page.close();
 }
@@ -54,9 +61,9 @@ void write_header(Markup& page, const ReportModel& model, const ReportData& data
 
 void write_figure(Markup& page, const Picture& picture, const ReportModel& model, const Palette* legend) {
   page.open("figure").raw(picture.svg);
-  if (legend != nullptr && !model.uses.empty()) {
+  if (legend != nullptr && !model.accounts.uses.empty()) {
     page.open("ul", {{"class", "uses"}, {"aria-label", "Colours and letters of the uses"}});
-    for (const UseRow& use : model.uses) {
+    for (const UseAccount& use : model.accounts.uses) {
       page.open("li");
       write_use(page, use.use, *legend);
       page.close();
@@ -70,7 +77,7 @@ void write_figure(Markup& page, const Picture& picture, const ReportModel& model
 void write_notes(Markup& page, const ReportModel& model, const Palette& palette) {
   page.element("h2", "Legend and how figures are measured", {{"id", "notes"}});
   page.open("ul", {{"class", "uses"}});
-  for (const UseRow& use : model.uses) {
+  for (const UseAccount& use : model.accounts.uses) {
     page.open("li");
     write_use(page, use.use, palette);
     page.close();
@@ -80,8 +87,10 @@ void write_notes(Markup& page, const ReportModel& model, const Palette& palette)
   note(
       "Volume is that of the shape: the part of a volume's cell, its share of the space inside the boundary, that lies within "
       "reach of its position. "
-      "Demand is what the volume aims at: what the programme and people ask for, inside the limits set. Error is the difference "
-      "as a share of the demand.");
+      "Asked for is what the programme, people and links ask for together; limited to is what caps and other limits leave of it, "
+      "and what the volume aims at. Short is what is missing against what was asked for, whoever asked: of the volume, and where "
+      "a "
+      "programme asks, of the floor area, whichever share is larger.");
   note(
       "Floor area is the sum of horizontal sections through the middle of each storey, gross, without deductions for walls, "
       "shafts or stairs. It follows the "
@@ -91,7 +100,7 @@ void write_notes(Markup& page, const ReportModel& model, const Palette& palette)
       "Footprint is what a volume covers seen from above, whether it stands on the ground or not; volumes above each other both "
       "count theirs. Surface is the "
       "whole outer surface with the parts shared with neighbours. Height is measured from the lowest to the highest point.");
-  note("States: met, short and over compare with the tolerance of " + percent(model.tolerance) +
+  note("States: met, short and over compare with what was asked for, within the tolerance of " + percent(model.tolerance) +
        "; hidden, outside, coincident and starved volumes have no shape, and the reason says why.");
   note("The shapes are massing studies: room for a building, not a building. All lengths are in metres.");
 }
@@ -101,8 +110,11 @@ void write_footer(Markup& page, const ReportModel& model, const ReportData& data
   const auto row = [&](const std::string& label, const std::string& text) { page.element("dt", label).element("dd", text); };
   row("Scene", data.scene_path.empty() ? "not from a file" : data.scene_path);
   row("Ticks", std::to_string(model.tick));
-  row("State", "hash " + model.hash + ": the same scene and log give the same hash on every machine");
-  row("Made by", "BehaviourLinks, behaviourlinks run --report; tables in volumes.csv, shapes in volumes.obj beside this page");
+  row("State", "hash " + model.hash +
+                   ": with the same version of the program, the same scene and log give this hash on every x86-64 machine");
+  row("Made by",
+      "BehaviourLinks, behaviourlinks run --report; beside this page lie shapes in volumes.obj and a table for spreadsheets "
+      "of everything on it: volumes.csv, uses.csv, conflicts.csv and others");
   page.close().close();
 }
 
@@ -124,11 +136,13 @@ std::string write_page(const ReportModel& model, const ReportData& data, const P
   write_figure(page, draw_plan(*data.state, model, palette), model, &palette);
   page.element("h2", "The negotiation");
   write_figure(page, draw_error_chart(model, data.history), model, nullptr);
-  write_programme(page, model, palette);
-  write_volumes(page, model, palette);
+  write_programme(page, model, *data.state, palette);
+  write_volumes(page, model, *data.state, palette);
   write_facades(page, model, *data.state);
+  write_figure_tables(page, *data.state);
   write_pictures(page, *data.state);
   write_conflicts(page, model);
+  write_pullers(page, model);
   write_problems(page, model);
   write_notes(page, model, palette);
   page.close();

@@ -12,12 +12,13 @@ namespace bl::report {
 std::string write_page(const ReportModel& model, const ReportData& data, const Palette& palette);
 
 /// Its parts, in the order of the page.
-void write_programme(Markup& page, const ReportModel& model, const Palette& palette);
-void write_volumes(Markup& page, const ReportModel& model, const Palette& palette);
+void write_programme(Markup& page, const ReportModel& model, const State& state, const Palette& palette);
+void write_volumes(Markup& page, const ReportModel& model, const State& state, const Palette& palette);
 /// Nothing where no volume is dressed, or no picture stands in the scene.
 void write_facades(Markup& page, const ReportModel& model, const State& state);
 void write_pictures(Markup& page, const State& state);
 void write_conflicts(Markup& page, const ReportModel& model);
+void write_pullers(Markup& page, const ReportModel& model);
 void write_problems(Markup& page, const ReportModel& model);
 
 /// The rules of its look, for screens in light and dark and for paper.

@@ -27,29 +27,32 @@ void open_table(Markup& page, const std::string& label, const std::string& capti
 }
 
 // As a bar and in words; more than all fills the bar, the words say how much.
-void met_cell(Markup& page, double volume, double wanted) {
+void met_cell(Markup& page, const Account& account) {
+  const std::string words = share_of(account.volume, account.asked);
   page.open("td");
-  if (!(wanted > 0)) {
-    page.text("\xE2\x80\x93").close();
-    return;
+  if (account.asked > 0 && words.find('%') != std::string::npos) {
+    page.open("span", {{"class", "bar"}, {"aria-hidden", "true"}});
+    page.open("span", {{"style", "width:" + pixels(std::clamp(account.volume / account.asked, 0.0, 1.0) * 100) + "%"}})
+        .close()
+        .close();
   }
-  const double share = volume / wanted;
-  page.open("span", {{"class", "bar"}, {"aria-hidden", "true"}});
-  page.open("span", {{"style", "width:" + pixels(std::clamp(share, 0.0, 1.0) * 100) + "%"}}).close().close();
-  page.text(percent(share)).close();
+  page.text(words).close();
 }
 
-std::string difference(double reached, double wanted) {
-  return wanted > 0 ? signed_percent((reached - wanted) / wanted) : "\xE2\x80\x93";
+// What is missing by the measure in which more of it is missing.
+std::string short_text(const Account& account, double tolerance) {
+  return account.is_short(tolerance) ? percent(account.short_share()) : "\xE2\x80\x93";
 }
 
 // Caps and other limits lower demands before the solver sees them.
-std::string held_back(const ReportModel& model) {
-  const double held = model.demand - model.wanted;
-  return held > 0.001 * model.demand ? " Limits hold " + quantity(held, Unit::cubic_metre) + " of the demand back." : "";
+std::string held_back(const Account& all) {
+  return all.withheld() > 0.001 * all.asked
+             ? " Limits hold " + quantity(all.withheld(), Unit::cubic_metre) + " of the demand back."
+             : "";
 }
 
-void volume_row(Markup& page, const VolumeRow& volume, const Palette& palette, double tolerance) {
+void volume_row(Markup& page, const State& state, const ReportModel& model, const VolumeRow& volume, const Palette& palette) {
+  const double tolerance = model.accounts.tolerance;
   const std::string standing = standing_of(volume, tolerance);
   const bool is_good = standing == "met";
   page.open("tr");
@@ -58,26 +61,42 @@ void volume_row(Markup& page, const VolumeRow& volume, const Palette& palette, d
   page.open("td");
   write_use(page, volume.use, palette);
   page.close();
-  number_cell(page, readable(volume.wanted));
+  number_cell(page, readable(volume.asked));
+  number_cell(page, readable(volume.limited));
   number_cell(page, readable(volume.volume));
-  number_cell(page, difference(volume.volume, volume.wanted), is_good ? "" : "bad");
+  number_cell(page, difference_of(volume.volume, volume.asked), is_good ? "" : "bad");
   number_cell(page, readable(volume.floor_area));
+  number_cell(page, volume.is_by_area ? difference_of(volume.floor_area, volume.asked_area) : "\xE2\x80\x93",
+              is_good ? "" : "bad");
   number_cell(page, readable(volume.surface_area));
   number_cell(page, readable(volume.footprint));
   number_cell(page, readable(volume.height));
   page.element("td", standing, {{"class", is_good ? "good" : "bad"}});
-  std::string reason = volume.reason;
-  // What was asked for and what is aimed at differ where a limit holds.
-  if (std::abs(volume.demand - volume.wanted) > 0.005 * std::max(volume.demand, 1.0))
-    reason += (reason.empty() ? "" : "; ") + std::string("asked for ") + quantity(volume.demand, Unit::cubic_metre) + ", limited";
-  page.element("td", reason, {{"class", "reason"}}).close();
+  const std::string why = volume.state == "alive" ? why_short(state, model.accounts, volume) : "";
+  page.element("td", volume.reason + (volume.reason.empty() || why.empty() ? "" : "; ") + why, {{"class", "reason"}}).close();
+}
+
+void use_row(Markup& page, const State& state, const ReportModel& model, const UseAccount& use, const Palette& palette) {
+  const double tolerance = model.accounts.tolerance;
+  page.open("tr").open("th", {{"scope", "row"}});
+  write_use(page, use.use, palette);
+  if (!use.is_in_programme) page.text(" *");
+  page.close();
+  number_cell(page, readable(use.asked_area));
+  number_cell(page, readable(use.limited_area));
+  number_cell(page, readable(use.floor_area));
+  number_cell(page, difference_of(use.floor_area, use.asked_area));
+  number_cell(page, std::to_string(use.volumes), use.volumes == 0 ? "bad" : "");
+  met_cell(page, use);
+  number_cell(page, short_text(use, tolerance), use.is_short(tolerance) ? "bad" : "");
+  page.element("td", why_short(state, model.accounts, use), {{"class", "reason"}}).close();
 }
 
 }  // namespace
 
 std::string standing_of(const VolumeRow& volume, double tolerance) {
   if (volume.state != "alive") return volume.state.empty() ? "unknown" : volume.state;
-  return std::abs(volume.error()) <= tolerance ? "met" : volume.error() < 0 ? "short" : "over";
+  return volume.is_short(tolerance) ? "short" : volume.difference() > tolerance ? "over" : "met";
 }
 
 void write_use(Markup& page, const std::string& use, const Palette& palette) {
@@ -86,62 +105,61 @@ void write_use(Markup& page, const std::string& use, const Palette& palette) {
   page.text(use.empty() ? "no use given" : use).close();
 }
 
-void write_programme(Markup& page, const ReportModel& model, const Palette& palette) {
+void write_programme(Markup& page, const ReportModel& model, const State& state, const Palette& palette) {
+  const Accounts& accounts = model.accounts;
   page.element("h2", "Programme", {{"id", "programme"}});
-  if (model.uses.empty()) {
+  if (accounts.uses.empty()) {
     page.element("p", "The scene has no programme and no volumes.");
     return;
   }
-  const bool has_own = std::any_of(model.uses.begin(), model.uses.end(), [](const UseRow& use) { return !use.is_in_programme; });
-  open_table(page, "Programme",
-             "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(model) +
-                 std::string(has_own ? " Uses with * stand in no programme; their area follows from the demands of their volumes."
-                                     : ""));
+  const bool has_own =
+      std::any_of(accounts.uses.begin(), accounts.uses.end(), [](const UseAccount& use) { return !use.is_in_programme; });
+  open_table(
+      page, "Programme",
+      "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(accounts.all) +
+          std::string(has_own ? " Uses with * stand in no programme; their area follows from what their volumes ask for." : ""));
   page.open("thead").open("tr");
   head(page, "Use", "", false);
-  head(page, "Wanted", "m\xC2\xB2");
+  head(page, "Asked for", "m\xC2\xB2");
+  head(page, "Limited to", "m\xC2\xB2");
   head(page, "Reached", "m\xC2\xB2");
   head(page, "Difference");
   head(page, "Volumes");
-  head(page, "Demand met", "", false);
+  head(page, "Volume met", "", false);
+  head(page, "Short");
+  head(page, "Why", "", false);
   page.close().close().open("tbody");
-  for (const UseRow& use : model.uses) {
-    page.open("tr").open("th", {{"scope", "row"}});
-    write_use(page, use.use, palette);
-    if (!use.is_in_programme) page.text(" *");
-    page.close();
-    number_cell(page, readable(use.wanted_floor_area));
-    number_cell(page, readable(use.floor_area));
-    number_cell(page, difference(use.floor_area, use.wanted_floor_area));
-    number_cell(page, std::to_string(use.count), use.count == 0 ? "bad" : "");
-    met_cell(page, use.volume, use.demand);
-    page.close();
-  }
+  for (const UseAccount& use : accounts.uses) use_row(page, state, model, use, palette);
   page.close().open("tfoot").open("tr").element("th", "All uses", {{"scope", "row"}});
-  number_cell(page, readable(model.wanted_floor_area));
-  number_cell(page, readable(model.floor_area));
-  number_cell(page, difference(model.floor_area, model.wanted_floor_area));
+  number_cell(page, readable(accounts.all.asked_area));
+  number_cell(page, readable(accounts.all.limited_area));
+  number_cell(page, readable(accounts.all.floor_area));
+  number_cell(page, difference_of(accounts.all.floor_area, accounts.all.asked_area));
   number_cell(page, std::to_string(model.volumes.size()));
-  met_cell(page, model.volume, model.demand);
-  page.close().close().close().close();
+  met_cell(page, accounts.all);
+  number_cell(page, short_text(accounts.all, accounts.tolerance));
+  page.element("td", "").close().close().close().close();
 }
 
-void write_volumes(Markup& page, const ReportModel& model, const Palette& palette) {
+void write_volumes(Markup& page, const ReportModel& model, const State& state, const Palette& palette) {
   page.element("h2", "Volumes", {{"id", "volumes"}});
   if (model.volumes.empty()) {
     page.element("p", "The scene has no volumes.");
     return;
   }
   open_table(page, "Volumes",
-             "Every volume, numbered as in the drawings. Met: within " + percent(model.tolerance) + " of its demand.");
+             "Every volume, numbered as in the drawings. Met: within " + percent(model.accounts.tolerance) +
+                 " of what was asked for; where a programme asks, of its floor area too.");
   page.open("thead").open("tr");
   head(page, "No.");
   head(page, "Name", "", false);
   head(page, "Use", "", false);
-  head(page, "Demand", "m\xC2\xB3");
+  head(page, "Asked for", "m\xC2\xB3");
+  head(page, "Limited to", "m\xC2\xB3");
   head(page, "Volume", "m\xC2\xB3");
-  head(page, "Error");
+  head(page, "Difference");
   head(page, "Floor area", "m\xC2\xB2");
+  head(page, "Difference");
   head(page, "Surface", "m\xC2\xB2");
   head(page, "Footprint", "m\xC2\xB2");
   head(page, "Height", "m");
@@ -150,15 +168,20 @@ void write_volumes(Markup& page, const ReportModel& model, const Palette& palett
   page.close().close().open("tbody");
   double surface = 0;
   for (const VolumeRow& volume : model.volumes) {
-    volume_row(page, volume, palette, model.tolerance);
+    volume_row(page, state, model, volume, palette);
     surface += volume.surface_area;
   }
+  // Of the volumes alone: a use that no volume has asks in the programme's table.
+  Account sum;
+  for (const VolumeRow& volume : model.volumes) sum.add(volume);
   page.close().open("tfoot").open("tr");
   page.element("th", "All", {{"scope", "row"}, {"colspan", "3"}});
-  number_cell(page, readable(model.wanted));
-  number_cell(page, readable(model.volume));
-  number_cell(page, difference(model.volume, model.wanted));
-  number_cell(page, readable(model.floor_area));
+  number_cell(page, readable(sum.asked));
+  number_cell(page, readable(sum.limited));
+  number_cell(page, readable(sum.volume));
+  number_cell(page, difference_of(sum.volume, sum.asked));
+  number_cell(page, readable(sum.floor_area));
+  number_cell(page, "");
   number_cell(page, readable(surface));
   page.element("td", "", {{"colspan", "4"}});
   page.close().close().close().close();
@@ -195,6 +218,28 @@ void write_conflicts(Markup& page, const ReportModel& model) {
     if (row.pulls.size() > 8) page.element("li", "and " + std::to_string(row.pulls.size() - 8) + " more");
     if (row.pulls.empty()) page.element("li", "a limit of the port itself");
     page.close().close().close();
+  }
+  page.close().close().close();
+}
+
+// Everybody who pulls, with how often and how hard: who stands in most conflicts stands first.
+void write_pullers(Markup& page, const ReportModel& model) {
+  if (model.pullers.empty()) return;
+  open_table(
+      page, "Conflicts by link and person",
+      "Who stands in these conflicts, in how many of them, and how hard: tension against the size of what is pulled at, shared "
+      "evenly among those who pull.");
+  page.open("thead").open("tr");
+  head(page, "Who", "", false);
+  head(page, "Kind", "", false);
+  head(page, "Conflicts");
+  head(page, "Share");
+  page.close().close().open("tbody");
+  for (const PullerRow& row : model.pullers) {
+    page.open("tr").element("th", row.link.empty() ? "People, by hand" : row.link, {{"scope", "row"}}).element("td", row.kind);
+    number_cell(page, std::to_string(row.conflicts));
+    number_cell(page, percent(row.share));
+    page.close();
   }
   page.close().close().close();
 }

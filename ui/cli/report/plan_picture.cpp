@@ -9,6 +9,7 @@
 #include "ui/cli/report/link_families.h"
 #include "ui/cli/report/pictures.h"
 #include "ui/cli/report/solid_drawing.h"
+#include "ui/cli/report/surroundings.h"
 
 namespace bl::report {
 
@@ -181,7 +182,8 @@ void draw_legend(Markup& svg, const Sheet& sheet, const DrawnLinks& links, Pixel
   }
 }
 
-std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model, const Palette& palette, double bottom) {
+std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model, const Surroundings& surroundings,
+                       const Palette& palette, double bottom) {
   if (model.volumes.size() > kMostNumbers) return " Too many volumes for labels: pointing at one shows its number and name.";
   std::vector<Label> labels;
   for (const VolumeRow* volume : by_size(model)) {
@@ -193,6 +195,9 @@ std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model
   }
   LabelPlacer placer({kFrame, 30, sheet.width() - 4, bottom}, {{sheet.width() - 70, 30, sheet.width(), 116}});
   const std::size_t without = placer.write(svg, labels, labels.size() > kMostNames ? 0 : labels.size());
+  // Where room is left: what stands around.
+  const std::vector<Label> around = surroundings_labels(sheet, surroundings, {kFrame, 30, sheet.width() - kFrame, bottom});
+  placer.write(svg, around, around.size());
   return without == 0 ? "" : " " + counted(without, "volume") + " without a label for want of room.";
 }
 
@@ -203,6 +208,11 @@ std::string caption_of(const ReportModel& model, const DrawnLinks& links, double
   if (std::any_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& v) { return !v.mesh; }))
     caption += " Hollow dots are volumes without a shape.";
   if (!links.families.empty()) caption += " Links of demand are not drawn.";
+  if (!links.beside.empty()) {
+    caption += " Nor are links to other things than volumes: ";
+    for (std::size_t i = 0; i < links.beside.size(); ++i) caption += (i > 0 ? ", " : "") + links.beside[i];
+    caption += ".";
+  }
   if (!links.left_out.empty()) {
     caption += " Not drawn, because they join large sets: ";
     for (std::size_t i = 0; i < links.left_out.size() && i < 6; ++i) caption += (i > 0 ? ", " : "") + links.left_out[i];
@@ -215,26 +225,41 @@ std::string caption_of(const ReportModel& model, const DrawnLinks& links, double
 }  // namespace
 
 Picture draw_plan(const State& state, const ReportModel& model, const Palette& palette) {
-  const std::vector<Point3> content = content_of(model);
+  const Surroundings& surroundings = model.surroundings;
+  const std::vector<Point3> content = framed(content_of(model), surroundings);
   if (content.empty()) return {empty_picture("plan", "Plan", "Nothing to draw: there is no boundary and no volume."), ""};
   const DrawnLinks links = links_to_draw(state);
   const Sheet sheet(plan_view(), content, kPlanWidth, kMostHeight, {kFrame + 20, 46, kFrame + 20, 30});
   const double bottom = sheet.height() - 8, cut = ground_of(model) + kEyeHeight;
-  const double height = sheet.height() + 34 + kLegendRow * (links.families.empty() ? 0 : links.families.size() > 4 ? 2 : 1);
+  const double link_rows = links.families.empty() ? 0 : links.families.size() > 4 ? 2 : 1;
+  const Pixel below{20, sheet.height() + 42 + kLegendRow * link_rows};
+  const double height =
+      sheet.height() + 34 + kLegendRow * link_rows + draw_surroundings_legend(nullptr, sheet, surroundings, below);
   Markup svg;
   open_picture(svg, sheet.width(), height, "plan", "Plan",
-               "The site seen from above with all volumes, their positions, and the links between them.");
+               "The site and its surroundings seen from above with all volumes, their positions, and the links between them.");
   const double step = draw_grid(svg, sheet, bottom);
+  // Streets go on beyond the frame; they end at it.
+  svg.open("clipPath", {{"id", "plan-frame"}});
+  svg.leaf("rect",
+           {{"x", pixels(kFrame)}, {"y", "30"}, {"width", pixels(sheet.width() - 2 * kFrame)}, {"height", pixels(bottom - 30)}});
+  svg.close();
+  svg.open("g", {{"clip-path", "url(#plan-frame)"}});
+  draw_ground_layers(svg, sheet, surroundings);
   draw_sites(svg, sheet, model);
+  draw_plots(svg, sheet, surroundings);
+  draw_streets_and_buildings(svg, sheet, surroundings);
+  svg.close();
   draw_volumes(svg, sheet, model, palette, cut);
   draw_links(svg, state, sheet, links);
   draw_positions(svg, state, sheet, model, links);
-  const std::string missing = label_plan(svg, sheet, model, palette, bottom);
+  const std::string missing = label_plan(svg, sheet, model, surroundings, palette, bottom);
   draw_scale_bar(svg, sheet.scale(), {kFrame, sheet.height() + 18}, 170);
   draw_legend(svg, sheet, links, {links.families.size() > 4 ? 20.0 : kFrame, sheet.height() + 42});
+  draw_surroundings_legend(&svg, sheet, surroundings, below);
   draw_north(svg, plan_view(), model.true_north, {sheet.width() - 36, 82}, 24);
   svg.close();
-  return {svg.str(), caption_of(model, links, step, cut) + missing};
+  return {svg.str(), caption_of(model, links, step, cut) + surroundings_caption(surroundings) + missing};
 }
 
 }  // namespace bl::report

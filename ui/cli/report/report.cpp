@@ -7,6 +7,7 @@
 #include "core/exchange/csv_table.h"
 #include "core/exchange/wavefront_obj.h"
 #include "core/file/file_io.h"
+#include "ui/cli/report/figure_tables.h"
 #include "ui/cli/report/page.h"
 
 namespace bl {
@@ -25,12 +26,15 @@ std::string csv_of(const ReportModel& model, const State& state) {
                                            "y [m]",
                                            "z [m]",
                                            "storey_height [m]",
-                                           "demand [m3]",
-                                           "wanted [m3]",
+                                           "asked [m3]",
+                                           "limited_to [m3]",
                                            "volume [m3]",
+                                           "short [m3]",
+                                           "short [%]",
+                                           "asked_floor_area [m2]",
+                                           "floor_area [m2]",
                                            "cell_volume [m3]",
                                            "error [%]",
-                                           "floor_area [m2]",
                                            "surface_area [m2]",
                                            "footprint [m2]",
                                            "bottom [m]",
@@ -38,6 +42,7 @@ std::string csv_of(const ReportModel& model, const State& state) {
                                            "weight [m2]",
                                            "state",
                                            "reason",
+                                           "why_short",
                                            "facade_style",
                                            "facade_area [m2]",
                                            "glazed_area [m2]",
@@ -45,9 +50,31 @@ std::string csv_of(const ReportModel& model, const State& state) {
                                            "facade_cost [EUR]"};
   std::vector<std::vector<CsvCell>> rows;
   for (const VolumeRow& v : model.volumes) {
-    rows.push_back({v.number,        v.id,        v.name,   v.use,    v.position.x,  v.position.y,    v.position.z,
-                    v.storey_height, v.demand,    v.wanted, v.volume, v.cell_volume, v.error() * 100, v.floor_area,
-                    v.surface_area,  v.footprint, v.bottom, v.height, v.weight,      v.state,         v.reason});
+    rows.push_back({v.number,
+                    v.id,
+                    v.name,
+                    v.use,
+                    v.position.x,
+                    v.position.y,
+                    v.position.z,
+                    v.storey_height,
+                    v.asked,
+                    v.limited,
+                    v.volume,
+                    v.missing(),
+                    v.short_share() * 100,
+                    v.asked_area,
+                    v.floor_area,
+                    v.cell_volume,
+                    v.limited > 1e-3 ? CsvCell(v.error() * 100) : CsvCell(),
+                    v.surface_area,
+                    v.footprint,
+                    v.bottom,
+                    v.height,
+                    v.weight,
+                    v.state,
+                    v.reason,
+                    report::why_short(state, model.accounts, v)});
     if (!report::has_type(state, v.node, "facade")) continue;
     rows.back().emplace_back(report::text_at(state, v.node, "facade", "style_in_force"));
     for (const char* port : {"facade_area", "glazed_area", "opaque_area", "cost"})
@@ -56,8 +83,51 @@ std::string csv_of(const ReportModel& model, const State& state) {
   return write_csv(header, rows);
 }
 
+std::string uses_csv_of(const ReportModel& model, const State& state) {
+  const std::vector<std::string> header = {"use",
+                                           "in_programme",
+                                           "volumes",
+                                           "short_volumes",
+                                           "asked_floor_area [m2]",
+                                           "limited_to_floor_area [m2]",
+                                           "floor_area [m2]",
+                                           "asked [m3]",
+                                           "limited_to [m3]",
+                                           "volume [m3]",
+                                           "short [m3]",
+                                           "short [m2]",
+                                           "short [%]",
+                                           "why_short"};
+  std::vector<std::vector<CsvCell>> rows;
+  for (const report::UseAccount& use : model.accounts.uses)
+    rows.push_back({use.use, use.is_in_programme ? "yes" : "no", use.volumes, use.short_volumes, use.asked_area, use.limited_area,
+                    use.floor_area, use.asked, use.limited, use.volume, use.missing(), use.missing_area(),
+                    use.short_share() * 100, report::why_short(state, model.accounts, use)});
+  return write_csv(header, rows);
+}
+
+// One row for each conflict and each who pulls in it; who is empty where people have set or locked the value.
+std::string conflicts_csv_of(const ReportModel& model, const State& state) {
+  const std::vector<std::string> header = {"node", "name", "port", "tension", "unit", "severity [%]", "link", "kind", "says"};
+  std::vector<std::vector<CsvCell>> rows;
+  for (const report::ConflictRow& conflict : model.conflicts) {
+    const std::string unit(info(state.plan->port(conflict.ref).unit).symbol);
+    for (std::size_t k = 0; k < std::max<std::size_t>(1, conflict.pulls.size()); ++k) {
+      const std::string link = k < conflict.links.size() ? conflict.links[k] : "";
+      const std::size_t index = report::link_index(*state.plan, link);
+      const bool is_link = index < state.plan->links.size() && state.plan->links[index].definition != nullptr;
+      rows.push_back({conflict.node_id, conflict.node, conflict.port, conflict.amount, unit, conflict.severity * 100, link,
+                      is_link                                   ? state.plan->links[index].definition->label
+                      : link.empty() && !conflict.pulls.empty() ? "by hand"
+                                                                : "",
+                      k < conflict.pulls.size() ? conflict.pulls[k] : "a limit of the port itself"});
+    }
+  }
+  return write_csv(header, rows);
+}
+
 // One row for each orientation of each dressed volume.
-std::string facades_csv_of(const ReportModel& model, const State& state) {
+report::CsvFile facades_csv_of(const ReportModel& model, const State& state) {
   std::vector<std::vector<CsvCell>> rows;
   for (const VolumeRow& v : model.volumes) {
     const Table* sides = report::table_at(state, v.node, "facade", "by_orientation");
@@ -66,10 +136,9 @@ std::string facades_csv_of(const ReportModel& model, const State& state) {
                       sides->text(row, "orientation"), sides->number(row, "area"), sides->number(row, "glazed"),
                       sides->number(row, "opaque"), sides->number(row, "cost")});
   }
-  if (rows.empty()) return "";
-  const std::vector<std::string> header = {"id",          "name",        "use",        "style", "orientation", "area [m2]",
-                                           "glazed [m2]", "opaque [m2]", "cost [EUR]"};
-  return write_csv(header, rows);
+  const std::vector<std::string> header = {"id",        "name",        "use",         "style",     "orientation",
+                                           "area [m2]", "glazed [m2]", "opaque [m2]", "cost [EUR]"};
+  return {"facades.csv", write_csv(header, rows), !rows.empty()};
 }
 
 std::string obj_of(const ReportModel& model) {
@@ -96,9 +165,18 @@ Result<void> write_report(const std::string& directory, const ReportData& data) 
   report::read_model(*data.state, model);
   const report::Palette palette(model.use_names());
   const std::filesystem::path folder(directory);
-  if (auto written = write_file((folder / "volumes.csv").string(), csv_of(model, *data.state)); !written) return written;
-  if (const std::string facades = facades_csv_of(model, *data.state); !facades.empty())
-    if (auto written = write_file((folder / "facades.csv").string(), facades); !written) return written;
+  std::vector<report::CsvFile> tables = report::figure_files(*data.state);
+  tables.push_back({"volumes.csv", csv_of(model, *data.state), true});
+  tables.push_back({"uses.csv", uses_csv_of(model, *data.state), !model.accounts.uses.empty()});
+  tables.push_back({"conflicts.csv", conflicts_csv_of(model, *data.state), !model.conflicts.empty()});
+  tables.push_back(facades_csv_of(model, *data.state));
+  for (const report::CsvFile& table : tables) {
+    const std::string file = (folder / table.name).string();
+    std::error_code ignored;
+    // A table without rows is not written; but what an earlier report has left under its name would be taken for this one's.
+    if (!table.has_rows && !std::filesystem::exists(file, ignored)) continue;
+    if (auto written = write_file(file, table.text); !written) return written;
+  }
   if (auto written = write_file((folder / "volumes.obj").string(), obj_of(model)); !written) return written;
   return write_file((folder / "report.html").string(), report::write_page(model, data, palette));
 }

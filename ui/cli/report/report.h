@@ -25,8 +25,9 @@ struct ReportData {
   std::string outcome;               ///< the last line of the run
 };
 
-/// Writes report.html, volumes.csv and volumes.obj into `directory`, which is made where it is missing.
-/// The files depend on `data` alone: no clock, no locale, no machine.
+/// Writes report.html, volumes.obj and tables (volumes.csv, uses.csv, conflicts.csv, and one for each kind of thing that the
+/// scene has, such as streets.csv) into `directory`, which is made where it is missing. The files depend on `data` alone: no
+/// clock, no locale, no machine.
 Result<void> write_report(const std::string& directory, const ReportData& data);
 
 }  // namespace bl

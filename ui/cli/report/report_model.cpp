@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/base/hash.h"
 
@@ -28,20 +27,15 @@ std::size_t group_of(const Plan& plan, std::uint32_t node) {
   return 0;
 }
 
-VolumeRow read_volume(const State& state, std::uint32_t node, bool with_shape) {
-  const auto number = [&](const char* port) { return number_at(state, node, kVolume, port); };
+VolumeRow read_volume(const State& state, const VolumeAccount& account, bool with_shape) {
   VolumeRow row;
-  row.node = node;
+  static_cast<VolumeAccount&>(row) = account;
+  const std::uint32_t node = account.node;
+  const auto number = [&](const char* port) { return number_at(state, node, kVolume, port); };
   row.id = state.plan->nodes[node].id;
   row.name = name_at(state, node);
-  row.use = text_at(state, node, kVolume, "use");
   row.state = text_at(state, node, kVolume, "state");
   row.reason = text_at(state, node, kVolume, "reason");
-  row.storey_height = number("storey_height");
-  row.demand = number("demand");
-  row.wanted = number_at(state, node, kVolume, "wanted", row.demand);
-  row.volume = number("volume");
-  row.floor_area = number("floor_area");
   if (!with_shape) return row;
   row.position = point_at(state, node, "node", "position");
   row.cell_volume = number("cell_volume");
@@ -77,65 +71,15 @@ SiteRow read_site(const State& state, std::uint32_t node) {
   return site;
 }
 
-// A demand link with a use of its own credits its volumes to that row of the programme, whatever their own use says.
-std::map<std::uint32_t, std::string> credited_uses(const Plan& plan) {
-  std::map<std::uint32_t, std::string> credited;
-  for (const LinkPlan& link : plan.links) {
-    const auto record = plan.scene.links.find(link.id);
-    if (record == plan.scene.links.end() || record->second.kind != "demand" || !link.is_enabled) continue;
-    const auto use = record->second.parameters.find("use");
-    if (use == record->second.parameters.end()) continue;
-    const auto* text = std::get_if<std::string>(&use->second);
-    if (text == nullptr || text->empty()) continue;
-    for (const std::uint32_t node : link.nodes[1]) credited.emplace(node, *text);
-  }
-  return credited;
-}
-
-void read_uses(const State& state, ReportModel& model) {
-  std::map<std::string, std::size_t> index;
-  const auto row_of = [&](const std::string& use) -> UseRow& {
-    const auto [found, is_new] = index.emplace(use, model.uses.size());
-    if (is_new) model.uses.push_back({use, 0, false, 0, 0, 0, 0, 0});
-    return model.uses[found->second];
-  };
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
-    const Table* rows = table_at(state, n, "programme", "rows");
-    if (rows == nullptr) continue;
-    const Table& table = *rows;
-    for (std::size_t r = 0; r < table.rows.size(); ++r) {
-      UseRow& row = row_of(table.text(r, "use"));
-      row.is_in_programme = true;
-      row.wanted_floor_area += table.number(r, "floor_area") * std::max(1.0, table.number(r, "count"));
-    }
-  }
-  const auto credited = credited_uses(*state.plan);
-  std::map<std::string, std::vector<const VolumeRow*>> members;
-  for (VolumeRow& volume : model.volumes) {
-    if (const auto other = credited.find(volume.node); other != credited.end()) volume.use = other->second;
-    members[volume.use].push_back(&volume);
-  }
-  for (const auto& [use, volumes] : members) {
-    UseRow& row = row_of(use);
-    for (const VolumeRow* volume : volumes) {
-      ++row.count;
-      row.floor_area += volume->floor_area;
-      row.demand += volume->demand;
-      row.wanted += volume->wanted;
-      row.volume += volume->volume;
-      if (!row.is_in_programme) row.wanted_floor_area += volume->wanted_floor_area();
-    }
+void read_volumes(const State& state, ReportModel& model, bool with_shape) {
+  model.accounts = accounts_of(state);
+  for (const VolumeAccount& account : model.accounts.volumes) {
+    model.volumes.push_back(read_volume(state, account, with_shape));
+    model.volumes.back().number = model.volumes.size();
   }
 }
 
 void add_totals(ReportModel& model) {
-  for (const UseRow& use : model.uses) {
-    model.wanted_floor_area += use.wanted_floor_area;
-    model.floor_area += use.floor_area;
-    model.volume += use.volume;
-    model.wanted += use.wanted;
-    model.demand += use.demand;
-  }
   for (const SiteRow& site : model.sites) {
     model.plan_area += site.ground_area;
     model.site_volume += site.volume;
@@ -194,17 +138,13 @@ std::string name_at(const State& state, std::uint32_t node) {
 
 std::vector<std::string> ReportModel::use_names() const {
   std::vector<std::string> names;
-  for (const UseRow& row : uses) names.push_back(row.use);
+  for (const UseAccount& row : accounts.uses) names.push_back(row.use);
   return names;
 }
 
 void read_figures(const State& state, ReportModel& model) {
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
-    if (!has_type(state, n, kVolume)) continue;
-    model.volumes.push_back(read_volume(state, n, false));
-    model.volumes.back().number = model.volumes.size();
-  }
-  read_uses(state, model);
+  model.tolerance = state.plan->settings.tolerance;
+  read_volumes(state, model, false);
   add_totals(model);
 }
 
@@ -218,14 +158,10 @@ void read_model(const State& state, ReportModel& model) {
   model.tick = state.tick;
   model.hash = hex_digits(state.hash);
   model.is_settled = state.is_settled();
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
-    if (has_type(state, n, kVolume)) {
-      model.volumes.push_back(read_volume(state, n, true));
-      model.volumes.back().number = model.volumes.size();
-    }
+  read_volumes(state, model, true);
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
     if (has_type(state, n, "boundary")) model.sites.push_back(read_site(state, n));
-  }
-  read_uses(state, model);
+  model.surroundings = read_surroundings(state);
   add_totals(model);
   read_conflicts(state, model);
   read_problems(state, model);

@@ -6,37 +6,27 @@
 #include <vector>
 
 #include "core/graph/state.h"
+#include "ui/cli/report/account.h"
 #include "ui/cli/report/exact_shape.h"
 #include "ui/cli/report/mesh_lines.h"
+#include "ui/cli/report/surroundings.h"
 
 namespace bl::report {
 
-/// A SmartVolume, also one that has no shape.
-struct VolumeRow {
+/// A SmartVolume, also one that has no shape, with what was asked for and what there is.
+struct VolumeRow : VolumeAccount {
   std::size_t number = 0;  ///< from 1, as in the table and the pictures
-  std::uint32_t node = 0;
-  std::string id, name, use, state, reason;
+  std::string id, name, state, reason;
   Point3 position;
-  double storey_height = 0;                                ///< [m]
-  double demand = 0, wanted = 0, volume = 0;               ///< [m³]; wanted: the demand inside its limits
-  double cell_volume = 0, weight = 0;                      ///< [m³], [m²]
-  double floor_area = 0, surface_area = 0, footprint = 0;  ///< [m²]
-  double height = 0, bottom = 0;                           ///< [m]
-  MeshPointer mesh;                                        ///< none where there is no shape
-  ExactShape exact;                                        ///< radius 0 where only the mesh is known
-  std::size_t group = 0;                                   ///< volumes of one solver stand together
+  double cell_volume = 0, weight = 0;      ///< [m³], [m²]
+  double surface_area = 0, footprint = 0;  ///< [m²]
+  double height = 0, bottom = 0;           ///< [m]
+  MeshPointer mesh;                        ///< none where there is no shape
+  ExactShape exact;                        ///< radius 0 where only the mesh is known
+  std::size_t group = 0;                   ///< volumes of one solver stand together
 
-  double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
-  double wanted_floor_area() const { return storey_height > 0 ? wanted / storey_height : 0; }
-};
-
-/// All volumes of one use, against the programme where one speaks of it.
-struct UseRow {
-  std::string use;
-  std::size_t count = 0;
-  bool is_in_programme = false;
-  double wanted_floor_area = 0, floor_area = 0;  ///< [m²]
-  double demand = 0, wanted = 0, volume = 0;     ///< [m³]
+  /// How far the volume is from what the solver aims at, as a share of it: what settling looks at.
+  double error() const { return limited > 0 ? (volume - limited) / limited : 0; }
 };
 
 /// A boundary and the lines that draw it.
@@ -59,10 +49,18 @@ struct TensePort {
 struct ConflictRow {
   std::string node, port, tension;
   std::vector<std::string> pulls;
-  double severity = 0;
+  double amount = 0;    ///< of the tension, in the port's unit
+  double severity = 0;  ///< against the size of what is pulled at
   PortRef ref;
   std::string node_id;
   std::vector<std::string> links;  ///< ids, one for each of `pulls`; empty for what people have set or locked
+};
+
+/// A link, or people, and the conflicts in which they pull.
+struct PullerRow {
+  std::string link, kind;  ///< id and label of its kind; without an id: people, who have set or locked values
+  std::size_t conflicts = 0;
+  double share = 0;  ///< of the severity of all conflicts, each shared evenly among those who pull
 };
 
 /// What failed or cannot be had.
@@ -70,6 +68,7 @@ struct ProblemRow {
   std::string place, message;
   std::string node, link;    ///< ids of where it is, as far as it is somewhere
   bool is_shortage = false;  ///< nothing failed: there is less than what is wanted
+  bool is_place = false;     ///< nothing failed: volumes hang in the air or lie on one point
 };
 
 struct ReportModel {
@@ -79,12 +78,13 @@ struct ReportModel {
   std::string hash;
   bool is_settled = false;
   std::vector<VolumeRow> volumes;  ///< ascending id
-  std::vector<UseRow> uses;        ///< in the order of the programme, then by name
+  Accounts accounts;               ///< of uses and of all together; of volumes as in `volumes`
   std::vector<SiteRow> sites;
+  Surroundings surroundings;
   std::vector<ConflictRow> conflicts;  ///< the worst first
   std::size_t minor_conflicts = 0;     ///< too small to be listed
+  std::vector<PullerRow> pullers;      ///< who stands in the conflicts, the largest share first
   std::vector<ProblemRow> problems;
-  double wanted_floor_area = 0, floor_area = 0, volume = 0, wanted = 0, demand = 0;
   double plan_area = 0, site_volume = 0;
   std::size_t shapes = 0;
   const VolumeRow* worst = nullptr;  ///< the largest error; nothing where there are no volumes
@@ -96,7 +96,7 @@ struct ReportModel {
 void read_model(const State& state, ReportModel& model);
 void read_conflicts(const State& state, ReportModel& model);
 void read_problems(const State& state, ReportModel& model);
-/// Names, demands, volumes and floor areas of volumes and uses, and their totals, for a window that reads them in every tick:
+/// Names, accounts and states of volumes and uses, and their totals, for a window that reads them in every tick:
 /// without shapes and measures of them, sites, conflicts and problems.
 void read_figures(const State& state, ReportModel& model);
 
@@ -108,6 +108,8 @@ std::vector<TensePort> tense_ports(const State& state);
 double severity_of(const State& state, PortRef ref, double tension);
 /// Who pulls at it, and how.
 ConflictRow conflict_row(const State& state, const TensePort& tense);
+/// Who stands in how many of these conflicts; the largest share first, then in ascending id.
+std::vector<PullerRow> pullers_of(const State& state, const std::vector<ConflictRow>& conflicts);
 /// "wants 7 200 m³, strength 0.5": what a link says, without its name.
 std::string voice_text(const State& state, const Voice& voice);
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include <GLFW/glfw3.h>
+#include <imgui_internal.h>
 
 namespace bl::desktop {
 
@@ -67,8 +68,9 @@ std::span<const Action> actions() {
 }
 
 void run_pressed_actions(Editor& editor) {
-  const bool is_elsewhere =
-      ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  // The key that closes a menu does nothing else: the menu is gone before this frame has begun.
+  const bool is_elsewhere = ImGui::GetIO().WantTextInput || !editor.menu_opening.menu.empty() ||
+                            ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   for (const Action& action : actions()) {
     if (is_elsewhere && !action.is_always) continue;
     if (action.area != Area::none && action.area != editor.area) continue;
@@ -76,23 +78,88 @@ void run_pressed_actions(Editor& editor) {
   }
 }
 
-void draw_menus(Editor& editor) {
-  const char* menu = nullptr;
-  bool is_open = false;
-  for (const Action& action : actions()) {
-    const bool is_same_menu = menu != nullptr && std::strcmp(menu, action.menu) == 0;
-    if (menu == nullptr || std::strcmp(menu, action.menu) != 0) {
-      if (is_open) ImGui::EndMenu();
-      menu = action.menu;
-      is_open = ImGui::BeginMenu(menu);
+namespace {
+
+bool is_same_text(const char* a, const char* b) { return a == b || (a != nullptr && b != nullptr && std::strcmp(a, b) == 0); }
+
+// Whether a release in this frame is that of the press which has opened the menu where the mouse is.
+bool is_opening_release(const MenuOpening& opening) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const float far = ImGui::GetTextLineHeightWithSpacing(), x = mouse.x - opening.x, y = mouse.y - opening.y;
+  return opening.is_held && ImGui::IsMouseReleased(0) && x * x + y * y < far * far;
+}
+
+// Walks along the menus of the bar; those of one menu, and of one submenu, stand together in the list of actions.
+class MenuBar {
+ public:
+  explicit MenuBar(Editor& editor) : editor_(&editor), is_deaf_(is_opening_release(editor.menu_opening)) {}
+
+  void draw(const Action& action) {
+    const bool is_same_menu = is_same_text(menu_, action.menu),
+               is_same_submenu = is_same_menu && is_same_text(submenu_, action.submenu);
+    if (!is_same_submenu) close_submenu();
+    if (!is_same_menu) {
+      close_menu();
+      menu_ = action.menu;
+      is_open_ = ImGui::BeginMenu(menu_);
+      if (is_open_) note_open(menu_);
     }
-    if (!is_open) continue;
-    if (is_same_menu && action.begins_group) ImGui::Separator();
-    const bool is_possible = action.can == nullptr || action.can(editor);
-    const bool is_on = action.is_on != nullptr && action.is_on(editor);
-    if (ImGui::MenuItem(action.label, text_of(action.chord).c_str(), is_on, is_possible)) action.run(editor);
+    if (!is_open_) return;
+    const bool is_seen = !is_same_submenu || submenu_ == nullptr || is_submenu_open_;
+    if (is_same_menu && action.begins_group && is_seen) ImGui::Separator();
+    if (!is_same_submenu && action.submenu != nullptr) {
+      submenu_ = action.submenu;
+      is_submenu_open_ = ImGui::BeginMenu(submenu_);
+      if (is_submenu_open_) note_open(std::string(menu_) + "/" + submenu_);
+    }
+    if (submenu_ == nullptr || is_submenu_open_) draw_item(action);
   }
-  if (is_open) ImGui::EndMenu();
+
+  void end() {
+    close_submenu();
+    close_menu();
+    MenuOpening& opening = editor_->menu_opening;
+    const bool is_down = ImGui::IsMouseDown(0) || ImGui::IsMouseReleased(0);
+    if (opening.menu != open_) opening = {open_, ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y, is_down && !open_.empty()};
+    if (!ImGui::IsMouseDown(0) && !is_newly_open_) opening.is_held = false;
+  }
+
+ private:
+  void note_open(std::string path) {
+    open_ = std::move(path);
+    is_newly_open_ = open_ != editor_->menu_opening.menu;
+  }
+  void close_submenu() {
+    if (submenu_ != nullptr && is_submenu_open_) ImGui::EndMenu();
+    submenu_ = nullptr;
+    is_submenu_open_ = false;
+  }
+  void close_menu() {
+    if (is_open_) ImGui::EndMenu();
+    is_open_ = false;
+  }
+  void draw_item(const Action& action) {
+    const bool is_possible = action.can == nullptr || action.can(*editor_);
+    const bool is_on = action.is_on != nullptr && action.is_on(*editor_);
+    ImGui::PushItemFlag(ImGuiItemFlags_SelectableDontClosePopup, is_deaf_);
+    const bool is_taken = ImGui::MenuItem(action.label, text_of(action.chord).c_str(), is_on, is_possible);
+    ImGui::PopItemFlag();
+    if (is_taken && !is_deaf_) action.run(*editor_);
+  }
+
+  Editor* editor_;
+  bool is_deaf_;
+  const char *menu_ = nullptr, *submenu_ = nullptr;
+  bool is_open_ = false, is_submenu_open_ = false, is_newly_open_ = false;
+  std::string open_;  // the innermost menu that is open in this frame
+};
+
+}  // namespace
+
+void draw_menus(Editor& editor) {
+  MenuBar bar(editor);
+  for (const Action& action : actions()) bar.draw(action);
+  bar.end();
 }
 
 }  // namespace bl::desktop

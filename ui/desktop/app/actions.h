@@ -34,13 +34,15 @@ struct Action {
   bool is_always = false;                  ///< its keys count over open dialogs as well
   unsigned targets = 0;                    ///< the context menus that it stands in, where it can be done
   bool begins_group = false;               ///< a line goes before it in menus
+  const char* submenu = nullptr;           ///< of `menu`, where it stands in one; actions of one submenu stand together
 };
 
 /// All actions, menu by menu, in the order of the menus.
 std::span<const Action> actions();
 /// Runs the actions whose keys were pressed; not while people type into a field.
 void run_pressed_actions(Editor& editor);
-/// The menu bar.
+/// The menu bar. A menu that opens under the mouse does not act on the release that opened it; who goes on to an entry with the
+/// button held, and lets go there, means it.
 void draw_menus(Editor& editor);
 
 /// For `can`: there is a document; something is chosen.

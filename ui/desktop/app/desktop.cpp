@@ -130,6 +130,8 @@ void Desktop::frame(double now) {
     draw_menus(editor);
     top = ImGui::GetWindowHeight();
     ImGui::EndMainMenuBar();
+  } else {
+    editor.menu_opening = {};
   }
   if (editor.document) {
     start_page_->leave();

@@ -106,10 +106,12 @@ std::int64_t Document::name_files_from(const NamedFiles& named) {
   }
   if (named.commands.empty()) return 0;
   const std::int64_t gesture = session_->new_gesture();
-  if (auto done = submit(named.commands, gesture); !done) return 0;  // somebody has taken the node away: then it names no file any more
+  if (auto done = submit(named.commands, gesture); !done)
+    return 0;  // somebody has taken the node away: then it names no file any more
   name_step(gesture, "Name files from the new folder");
   if (!named.copies.empty())
-    note(report::counted(named.copies.size(), "recorded table") + " copied into the scene's new folder, where recordings are played from.");
+    note(report::counted(named.copies.size(), "recorded table") +
+         " copied into the scene's new folder, where recordings are played from.");
   if (const std::size_t rest = named.commands.size() - named.copies.size(); rest > 0)
     note(report::counted(rest, "file") + " that the scene names stayed in place; the scene names them from its new folder.");
   return gesture;
@@ -188,24 +190,34 @@ void Document::write_imports(const std::string& scene_path) {
     save_note_ += (save_note_.empty() ? "" : " ") + ("The import report could not be written: " + written.error().text());
 }
 
+// What devices have said since the file was written is no change of anybody's: it is taken on in what is compared with, too.
 bool Document::is_unsaved() {
-  const std::size_t size = session_->log().size();
   if (!saved_) return true;
-  const auto is_persons = [](const LogEntry& entry) { return entry.author == LiveSession::kAuthor; };
-  const auto fresh = session_->log().begin() + static_cast<std::ptrdiff_t>(std::min(compared_size_, size));
-  const bool is_compared = compared_size_ != 0 && std::none_of(fresh, session_->log().end(), is_persons);
-  if (size == compared_size_) return is_unsaved_;
-  compared_size_ = size;
-  if (is_compared) return is_unsaved_;
+  const auto& log = session_->log();
+  bool has_persons = false;
+  for (; compared_size_ < log.size(); ++compared_size_) {
+    const LogEntry& entry = log[compared_size_];
+    if (entry.author == LiveSession::kAuthor) {
+      has_persons = true;
+      continue;
+    }
+    SceneEdit edit(*saved_, *registry_);
+    (void)bl::apply(edit, entry.command);  // of a node that the file does not have, it says nothing
+  }
   // Undone changes leave nothing to save: what counts is what people have said, not that it ran on.
-  is_unsaved_ = !(*saved_ == scene());
+  if (has_persons) is_unsaved_ = !(*saved_ == scene());
   return is_unsaved_;
 }
 
 Result<void> Document::save_log(const std::string& path) const {
   std::string text = log_header(log_start_);
   const auto& log = session_->log();
-  for (std::size_t i = log_begin_; i < log.size(); ++i) text += log_line(log[i], *registry_);
+  Gestures gestures;
+  for (std::size_t i = log_begin_; i < log.size(); ++i) {
+    const LogEntry entry = gestures.fitted(log[i]);
+    gestures.take(entry);
+    text += log_line(entry, *registry_);
+  }
   // A replay compares before it applies what was said in that tick: as the tick itself has left it.
   const State& state = *session_->moment()->ticked;
   text += log_line(LogCheck{state.tick, hex_digits(state.hash), true});
@@ -247,6 +259,12 @@ const std::vector<HistoryStep>& Document::history() {
     ++step->entries;
   }
   return history_;
+}
+
+std::int64_t Document::last_step() const {
+  const auto& log = session_->log();
+  const auto last = std::find_if(log.rbegin(), log.rend(), [](const LogEntry& e) { return e.author == LiveSession::kAuthor; });
+  return last == log.rend() || last->undoes != 0 || last->redoes != 0 ? 0 : last->gesture;
 }
 
 void Document::abandon(std::int64_t gesture) {

@@ -11,9 +11,9 @@
 
 #include "core/exchange/import_report.h"
 #include "core/file/scene_file.h"
-#include "ui/desktop/app/named_files.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/app/live_session.h"
+#include "ui/desktop/app/named_files.h"
 
 namespace bl::desktop {
 
@@ -79,6 +79,9 @@ class Document {
   Result<void> save_log(const std::string& path) const;
   /// Steps, oldest first; made anew after changes only.
   const std::vector<HistoryStep>& history();
+  /// The gesture of the step that people have made last, which can still be added to; 0 where there is none, or where they have
+  /// undone or redone something since.
+  std::int64_t last_step() const;
   /// What the step of a gesture is called, where its commands alone do not say what was meant: "Solo · Hotel".
   void name_step(std::int64_t gesture, std::string label);
 

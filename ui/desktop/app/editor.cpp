@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "core/base/text.h"
+#include "ui/desktop/panels/canvas/canvas.h"
 
 namespace bl::desktop {
 
@@ -106,6 +107,11 @@ void Editor::take(std::unique_ptr<Document> fresh) {
   picks = {};
   panels = nullptr;
   script_watch.clear();
+}
+
+Result<void> Editor::save(const std::string& path) {
+  if (canvas != nullptr) canvas->store_places();
+  return document->save(path);
 }
 
 const Registry& Editor::types() const {

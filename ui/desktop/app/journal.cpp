@@ -6,11 +6,9 @@
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <set>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include "core/file/file_io.h"
@@ -48,15 +46,13 @@ std::set<std::string>& written_here() {
   return paths;
 }
 
-// A new empty file; never one that is there already.
-Result<std::string> fresh_file(const std::string& folder) {
+// Opens a new file; never one that is there already. Its path.
+Result<std::string> open_fresh(const std::string& folder, LogWriter& writer) {
   for (int count = 1;; ++count) {
-    std::string path = folder + "/" + std::to_string(getpid()) + "-" + std::to_string(count) + kEnding;
-    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0 && errno == EEXIST) continue;
-    if (file < 0) return Error{ErrorCode::io, path, std::string("cannot be written: ") + std::strerror(errno)};
-    close(file);
-    return path;
+    const std::string path = folder + "/" + std::to_string(getpid()) + "-" + std::to_string(count) + kEnding;
+    const auto opened = writer.open(path, true);
+    if (opened) return path;
+    if (opened.error().code != ErrorCode::duplicate) return opened.error();
   }
 }
 
@@ -90,11 +86,10 @@ Result<void> Journal::begin(const std::string& scene_path, const std::string& sc
   const auto start = [&]() -> Result<void> {
     const std::string folder = journal_folder();
     if (folder.empty()) return Error{ErrorCode::io, "journal", "there is no folder to keep a journal in: set HOME"};
-    const auto path = fresh_file(folder);
-    if (!path) return path.error();
     auto writer = std::make_unique<LogWriter>();
+    const auto path = open_fresh(folder, *writer);
+    if (!path) return path.error();
     auto done = write_file(*path + kPathEnding, scene_path);
-    if (done) done = writer->open(*path);
     if (done) writer->write(log_header(scene_text));
     if (done && !writer->failure().empty()) done = Error{ErrorCode::io, *path, writer->failure()};
     if (!done) {
@@ -106,6 +101,7 @@ Result<void> Journal::begin(const std::string& scene_path, const std::string& sc
     writer_ = std::move(writer);
     path_ = *path;
     last_tick_ = 0;
+    gestures_ = {};
     written_here().insert(path_);
     return {};
   };
@@ -117,7 +113,8 @@ Result<void> Journal::begin(const std::string& scene_path, const std::string& sc
 void Journal::add(const LogEntry& entry, const Registry& registry) {
   if (!writer_) return;
   // Where a rewind could not begin a new journal, ticks go back; recovery does not look at them, but wants them in order.
-  LogEntry ordered = entry;
+  LogEntry ordered = gestures_.fitted(entry);
+  gestures_.take(ordered);
   last_tick_ = ordered.tick = std::max(entry.tick, last_tick_);
   writer_->write(log_line(ordered, registry));
 }
@@ -152,7 +149,7 @@ std::vector<Journal::Remains> Journal::find(const Registry& registry, std::vecto
     auto text = read_file(path);
     // Cut off within its first line, there is no entry in it yet.
     const bool is_begun = !text || text->find('\n') != std::string::npos;
-    auto log = text ? read_log(*text, registry) : Result<LogFile>(text.error());
+    auto log = text ? read_log(*text, registry, LogUse::recovery) : Result<LogFile>(text.error());
     if (!is_begun || (log && log->entries.empty())) {
       remove_both(path);
       continue;

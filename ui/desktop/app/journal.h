@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/file/log_writer.h"
+#include "core/session/gestures.h"
 #include "core/session/log.h"
 
 namespace bl::desktop {
@@ -41,6 +42,7 @@ class Journal {
   std::unique_ptr<LogWriter> writer_;  // none where there is no journal
   std::string path_, problem_;
   std::int64_t last_tick_ = 0;
+  Gestures gestures_;  // that are in it
 };
 
 /// The person's folder for journals, settings and pictures, made where it is missing: XDG_STATE_HOME or ~/.local/state.

@@ -22,6 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 // States kept for rewinding: their meshes and tables are shared between them as long as nothing changes.
 constexpr std::size_t kKeptStates = 400;
+// In place of a number of entries: not even the state without any has been looked at.
+constexpr std::size_t kNeverShown = static_cast<std::size_t>(-1);
 // New ticks count so much in the smoothed times.
 constexpr double kSmoothing = 0.15;
 
@@ -57,8 +59,9 @@ struct LiveSession::Shared {
   bool do_ticks_wait = false;  // for somebody who serves them
   std::int64_t served = -1;    // the last tick that was
   double wanted_rate = 20;
-  std::size_t shown_entries = 0;         // of the log: what they have said is in what is published
-  std::shared_ptr<const State> preview;  // the last tick's state with what people have changed since; none where they have not
+  std::size_t shown_entries = kNeverShown;  // of the log: what they have said is in what is published
+  std::shared_ptr<const State> preview;  // the last tick's state with what people have changed since, and with what nodes make of
+                                         // settings that no tick has seen; none where there is nothing of it
   std::string failure;                   // of the last tick; a tick that goes well ends it
   // Of whoever has set `is_ticking`; else behind the mutex too.
   Simulation simulation;
@@ -76,6 +79,7 @@ struct LiveSession::Shared {
   bool is_held_up() const { return do_ticks_wait && served != simulation.state()->tick; }
   bool is_news() const { return !is_playing && steps_due == 0 && shown_entries != ledger.log().size(); }
   void show_changes(std::unique_lock<std::mutex>& lock);
+  void show(std::shared_ptr<const State> seen) { preview = seen == simulation.state() ? nullptr : std::move(seen); }
   void gather_changes();
   void take_on_changes();
   void wait_between_ticks(std::unique_lock<std::mutex>& lock);
@@ -131,18 +135,19 @@ void LiveSession::Shared::go_back(std::int64_t ticks) {
 void LiveSession::Shared::show_changes(std::unique_lock<std::mutex>& lock) {
   const std::size_t entries = ledger.log().size();
   gather_changes();
-  if (pending) {
+  if (pending || shown_entries == kNeverShown) {
     is_ticking = true;
     lock.unlock();
-    std::shared_ptr<const State> seen;
+    std::shared_ptr<const State> seen = simulation.state();
     try {
-      seen = simulation.with_scene(*pending, pending_placed);
+      if (pending) seen = simulation.with_scene(*pending, pending_placed);
+      seen = simulation.shown(std::move(seen));
     } catch (const std::exception&) {
       // The next tick will say so.
     }
     lock.lock();
     is_ticking = false;
-    preview = std::move(seen);
+    show(std::move(seen));
     publish();
   }
   shown_entries = entries;
@@ -200,7 +205,7 @@ void LiveSession::Shared::run() {
       go_back(std::exchange(rewind_by, 0));
       preview = nullptr;
       served = -1;
-      shown_entries = 0;
+      shown_entries = kNeverShown;
       next_tick = simulation.state()->tick;
       publish();
       done.notify_all();
@@ -356,7 +361,7 @@ std::shared_ptr<const State> LiveSession::take_on_changes() {
   shared_->wait_between_ticks(lock);
   shared_->gather_changes();
   shared_->take_on_changes();
-  shared_->preview = nullptr;
+  shared_->show(shared_->simulation.shown(shared_->simulation.state()));
   shared_->shown_entries = ledger_.log().size();
   shared_->publish();
   return shared_->simulation.state();
@@ -367,7 +372,8 @@ void LiveSession::settle() {
   shared_->wake.notify_all();
   shared_->done.wait(lock, [this] {
     // Ticks that wait to be served are not waited for: who serves them may be who asks.
-    return shared_->rewind_by == 0 && (shared_->steps_due == 0 || (!shared_->is_ticking && shared_->is_held_up())) && !shared_->is_news();
+    return shared_->rewind_by == 0 && (shared_->steps_due == 0 || (!shared_->is_ticking && shared_->is_held_up())) &&
+           !shared_->is_news();
   });
   shared_->wait_between_ticks(lock);
 }

@@ -39,6 +39,15 @@ void PersonSettings::remember(std::vector<std::string>& list, const std::string&
   if (list.size() > most) list.resize(most);
 }
 
+Extent fitting_window(Extent wished, Extent room) {
+  // What a title bar and edges take; nobody knows it before there is a window.
+  constexpr int kTitleBar = 40, kEdges = 8;
+  const auto fitted_length = [](int length, int most, int taken) {
+    return most <= 0 || length <= most ? length : std::max(most - taken, 1);
+  };
+  return {fitted_length(wished.width, room.width, kEdges), fitted_length(wished.height, room.height, kTitleBar)};
+}
+
 PersonSettings read_person_settings(const std::string& file) {
   PersonSettings settings;
   settings.file = file;

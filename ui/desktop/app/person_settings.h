@@ -25,6 +25,12 @@ struct PersonSettings {
   void remember(std::vector<std::string>& list, const std::string& item, std::size_t most = 12);
 };
 
+struct Extent {
+  int width = 0, height = 0;
+};
+/// The size of a new window: as wished, and wholly on a screen that has `room` (0: not known), with its title bar.
+Extent fitting_window(Extent wished, Extent room);
+
 /// Reads the person's file; what is missing or unreadable is as a new person would have it.
 PersonSettings read_person_settings(const std::string& file);
 Result<void> write_person_settings(const PersonSettings& settings);

@@ -64,6 +64,14 @@ void wait_for_next_frame(double begin) {
   if (rest > 0.001) glfwWaitEventsTimeout(rest);
 }
 
+// What the screen has for windows; nothing known where there is no monitor.
+Extent work_area() {
+  Extent area;
+  int x = 0, y = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &area.width, &area.height);
+  return area;
+}
+
 void complain(const std::string& text) { std::fprintf(stderr, "behaviourlinks: %s\n", text.c_str()); }
 
 class Window {
@@ -88,7 +96,8 @@ class Window {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    window_ = glfwCreateWindow(person.width, person.height, "BehaviourLinks", nullptr, nullptr);
+    const Extent extent = fitting_window({person.width, person.height}, work_area());
+    window_ = glfwCreateWindow(extent.width, extent.height, "BehaviourLinks", nullptr, nullptr);
     if (window_ == nullptr) {
       complain("this computer's graphics are too old, or have no driver: OpenGL 3.3 is needed (" + last_error +
                "). The scene can be run and reported without a window: behaviourlinks run SCENE --report DIR");

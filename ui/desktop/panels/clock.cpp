@@ -69,6 +69,8 @@ void draw_standing(Editor& editor) {
   } else if (state.is_settled()) {
     colour = c.good;
     text = std::string(icon::kCheck) + "  settled, worst error " + fixed(100 * state.largest_residual, 2) + " %";
+  } else if (state.tick > 0 && !moment.is_playing) {
+    text = "paused: worst error " + fixed(100 * state.largest_residual, 2) + " %, press P to go on";
   } else if (state.tick > 0) {
     text = "negotiating: worst error " + fixed(100 * state.largest_residual, 2) + " %, moves up to " +
            distance_text(state.largest_move) + " a tick";

@@ -141,7 +141,7 @@ void Dialogs::ask_script() {
 void Dialogs::ask_save_as(std::function<void()> then) {
   chooser_.open(FileChooser::Purpose::save_file, "Save the scene", {".json"}, place_to_save(*editor_));
   chosen_ = [this, then = std::move(then)](const std::string& chosen) {
-    if (auto saved = editor_->document->save(chosen); !saved) return chooser_.complain(saved.error().text());
+    if (auto saved = editor_->save(chosen); !saved) return chooser_.complain(saved.error().text());
     editor_->person.remember(editor_->person.recent, chosen);
     tell_saved(*editor_, chosen);
     if (then) then();
@@ -151,7 +151,7 @@ void Dialogs::ask_save_as(std::function<void()> then) {
 void Dialogs::save(std::function<void()> then) {
   Document& document = *editor_->document;
   if (document.path().empty()) return ask_save_as(std::move(then));
-  if (auto saved = document.save(document.path()); !saved) return editor_->tell(NoticeKind::error, saved.error().text());
+  if (auto saved = editor_->save(document.path()); !saved) return editor_->tell(NoticeKind::error, saved.error().text());
   tell_saved(*editor_, document.name());
   if (then) then();
 }

@@ -38,8 +38,10 @@ bool passes_filter(const std::string& filter, const std::string& text);
 
 /// A switch with two states; whether it was switched.
 bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mixed);
-/// A field that opens a list; true while the list is open (then ImGui::EndPopup has to follow).
-bool begin_list(Editor& editor, const std::string& key, const std::string& shown, float width, ImU32 colour = 0);
+/// A field that opens a list; true while the list is open (then ImGui::EndPopup has to follow). `before`: how far to the left of
+/// the field the list begins.
+bool begin_list(Editor& editor, const std::string& key, const std::string& shown, float width, ImU32 colour = 0,
+                float before = 0);
 /// An entry of such a list: label, and a quieter line below it.
 bool list_entry(Editor& editor, const std::string& label, const std::string& doc, bool is_chosen);
 /// A small sign that can be pressed.

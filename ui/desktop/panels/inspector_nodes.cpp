@@ -3,6 +3,7 @@
 
 #include "core/define/codec.h"
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
@@ -156,11 +157,14 @@ void draw_add_role(Editor& editor, const InspectorView& view) {
   filter_field(editor, ImGui::GetContentRegionAvail().x);
   const std::string filter = memory_of(editor).filter;
   for (const auto& [id, type] : editor.types().typifications()) {
-    std::vector<Command> commands;
+    std::vector<std::string> lacking;
     for (const std::string& node : view.nodes())
-      if (!editor.scene().nodes.at(node).types.contains(id)) commands.push_back(command<Typify>({node, id, {"{}"}}));
-    if (commands.empty() || !(passes_filter(filter, type.label) || passes_filter(filter, id))) continue;
+      if (!editor.scene().nodes.at(node).types.contains(id)) lacking.push_back(node);
+    if (lacking.empty() || !(passes_filter(filter, type.label) || passes_filter(filter, id))) continue;
     if (!list_entry(editor, type.label, type.doc, false)) continue;
+    std::vector<Command> commands;
+    for (const std::string& node : lacking)
+      commands.push_back(command<Typify>({node, id, {first_values(editor, id, commands.size())}}));
     editor.submit(commands);
     ImGui::CloseCurrentPopup();
   }

@@ -57,7 +57,7 @@ bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mi
   return is_pressed;
 }
 
-bool begin_list(Editor& editor, const std::string& key, const std::string& shown, float width, ImU32 colour) {
+bool begin_list(Editor& editor, const std::string& key, const std::string& shown, float width, ImU32 colour, float before) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushID(key.c_str());
@@ -76,7 +76,7 @@ bool begin_list(Editor& editor, const std::string& key, const std::string& shown
   ImGui::PopID();
   const std::string popup = "list " + key;
   if (is_pressed) ImGui::OpenPopup(popup.c_str());
-  ImGui::SetNextWindowPos({from.x, to.y + theme.px(2)}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowPos({from.x - before, to.y + theme.px(2)}, ImGuiCond_Appearing);
   ImGui::SetNextWindowSizeConstraints({std::max(width, theme.px(240)), 0}, {theme.px(380), theme.px(420)});
   return ImGui::BeginPopup(popup.c_str());
 }

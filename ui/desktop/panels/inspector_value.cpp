@@ -6,6 +6,7 @@
 
 #include "core/define/codec.h"
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -122,6 +123,25 @@ std::optional<Change> text_field(Editor& editor, const Subject& subject, float w
   const CellEvent event = cell(editor, subject.key, subject.is_mixed ? "" : text, subject.is_mixed ? "" : text, width, look);
   if (!event.is_typed) return std::nullopt;
   return constant(event.text);
+}
+
+// A use can be any text, and is mostly one that the scene knows: it is typed, or taken from the list behind it.
+std::optional<Change> use_field(Editor& editor, const Subject& subject, float width) {
+  const float arrow = ImGui::GetFrameHeight(), gap = editor.theme.px(2);
+  std::optional<Change> change = text_field(editor, subject, width - arrow - gap);
+  ImGui::SameLine(0, gap);
+  if (!begin_list(editor, subject.key + "/list", "", arrow, 0, width - arrow)) return change;
+  const auto& chosen = std::get<std::string>(subject.value);
+  const std::vector<std::string> uses = known_uses(editor.scene());
+  for (const std::string& use : uses)
+    if (list_entry(editor, use, "", !subject.is_mixed && use == chosen)) {
+      change = constant(use);
+      ImGui::CloseCurrentPopup();
+    }
+  if (uses.empty())
+    small_text(editor, "No brief and no volume of this scene names a use: type one.", editor.theme.colours().text_soft);
+  ImGui::EndPopup();
+  return change;
 }
 
 std::optional<Change> choice_field(Editor& editor, const Subject& subject, float width) {
@@ -265,7 +285,8 @@ std::optional<Change> value_field(Editor& editor, const Subject& subject, float 
     }
     case ValueKind::integer:
     case ValueKind::number: return number_field(editor, subject, width);
-    case ValueKind::text: return text_field(editor, subject, width);
+    case ValueKind::text:
+      return subject.port->id == "use" ? use_field(editor, subject, width) : text_field(editor, subject, width);
     case ValueKind::choice: return choice_field(editor, subject, width);
     case ValueKind::port: return port_field(editor, subject, width);
     case ValueKind::point: return point_field(editor, subject, width);

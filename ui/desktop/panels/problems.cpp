@@ -25,6 +25,7 @@ Sign sign_of(const Theme& theme, const ProblemItem& item) {
     case ProblemKind::shortage: return {icon::kWarning, item.is_error ? c.bad : c.warning};
     case ProblemKind::failing: return {icon::kError, c.bad};
     case ProblemKind::no_room: return {icon::kCube, c.warning};
+    case ProblemKind::place: return {icon::kCube, c.warning};
     case ProblemKind::idle: return {icon::kMuted, c.text_faint};
     case ProblemKind::file: return {icon::kFile, item.is_error ? c.bad : c.warning};
   }
@@ -106,7 +107,7 @@ void draw_item(Editor& editor, ProblemItem& item, int index, float height) {
   if (is_pressed) go_to(editor, item);
 }
 
-void draw_nothing(Editor& editor) {
+void draw_nothing(Editor& editor, const ProblemList& problems) {
   const Colours& c = editor.theme.colours();
   ImGui::Dummy({0, editor.theme.px(6)});
   ImGui::PushStyleColor(ImGuiCol_Text, c.good);
@@ -114,8 +115,7 @@ void draw_nothing(Editor& editor) {
   ImGui::PopStyleColor();
   ImGui::SameLine();
   const bool has_run = editor.moment && editor.state().tick > 0;
-  ImGui::TextUnformatted(has_run ? "Nothing is in the way: no conflicts, no failures, everybody has room."
-                                 : "Nothing is in the way so far; conflicts show once it runs.");
+  ImGui::TextUnformatted(all_is_well(problems.accounts(), has_run).c_str());
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ void draw_nothing(Editor& editor) {
 void draw_problems(Editor& editor) {
   PanelMemory& memory = memory_of(editor);
   ProblemList& problems = *memory.problems;
-  if (problems.items().empty()) return draw_nothing(editor);
+  if (problems.items().empty()) return draw_nothing(editor, problems);
   draw_filters(editor, problems);
   ImGui::BeginChild("problem list", {0, 0});
   std::vector<std::size_t> shown;

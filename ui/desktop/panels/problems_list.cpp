@@ -6,6 +6,7 @@
 #include <set>
 
 #include "ui/cli/report/figures.h"
+#include "ui/cli/report/place_problems.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -14,8 +15,8 @@ namespace {
 
 // A row changes its band when it is this far beyond the edge, in powers of two; it comes in at 0 and goes at -1.
 constexpr double kMargin = 0.35;
-// A use is short when this share of it is missing; it stays listed until only half of that is.
-constexpr double kShort = 0.02;
+// Who is short by the account stays listed until only this share of the tolerance is missing.
+constexpr double kStaysShort = 0.5;
 
 int band_of(double severity, const int* before) {
   const double exact = std::log2(severity / report::kMinorSeverity);
@@ -30,9 +31,29 @@ std::string number_word(std::size_t count) {
   return count < std::size(kWords) ? kWords[count] : report::grouped(static_cast<double>(count));
 }
 
+// What is missing, by the measure of which the larger share is.
+std::string missing_words(const report::Account& account) {
+  const double by_volume = account.asked > 0 ? account.missing() / account.asked : 0;
+  const bool is_area = account.is_by_area && account.short_share() > by_volume;
+  const Unit unit = is_area ? Unit::square_metre : Unit::cubic_metre;
+  const double asked = is_area ? account.asked_area : account.asked, had = is_area ? account.floor_area : account.volume;
+  return "asked for are " + report::quantity(asked, unit) + (is_area ? " of floor area" : "") + ", there are " +
+         report::quantity(had, unit) + ": " + report::quantity(asked - had, unit) + " (" +
+         report::percent(account.short_share()) + ") go without";
+}
+
 std::string lower_first(std::string text) {
   if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
   return text;
+}
+
+// A link that fails, or one that runs and says what it cannot reach.
+std::string what_of(const State& state, const std::string& link) {
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    if (state.plan->links[l].id == link && state.links[l].remark)
+      return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met"
+                                                        : "Not everything that is asked for has a volume";
+  return "Link " + link + " fails";
 }
 
 }  // namespace
@@ -43,10 +64,17 @@ const char* label_of(ProblemKind kind) {
     case ProblemKind::shortage: return "Shortages";
     case ProblemKind::failing: return "Failures";
     case ProblemKind::no_room: return "Without room";
+    case ProblemKind::place: return "Places";
     case ProblemKind::idle: return "Switched off";
     case ProblemKind::file: return "File";
   }
   return "";
+}
+
+std::string all_is_well(const report::Accounts& accounts, bool has_run) {
+  if (!has_run) return "Nothing is in the way so far; conflicts show once it runs.";
+  if (accounts.worst_short <= accounts.tolerance) return "Nothing is in the way: no conflicts, no failures, everybody has room.";
+  return "No conflicts and no failures; but " + accounts.worst + " is short by " + report::percent(accounts.worst_short) + ".";
 }
 
 std::size_t ProblemList::pressing() const { return items_.size() - count(ProblemKind::idle); }
@@ -73,6 +101,13 @@ void ProblemList::add_conflicts(const State& state) {
 }
 
 void ProblemList::write(const State& state, ProblemItem& item) const {
+  if (item.kind == ProblemKind::shortage && item.why.empty()) {
+    for (const report::UseAccount& use : accounts_.uses)
+      if (item.key == "use/" + use.use) item.why = report::why_short(state, accounts_, use);
+    for (const report::VolumeAccount& volume : accounts_.volumes)
+      if (item.key == "volume/" + state.plan->nodes[volume.node].id) item.why = report::why_short(state, accounts_, volume);
+    if (!item.why.empty()) item.text += "; " + item.why;
+  }
   if (item.kind != ProblemKind::conflict || !item.text.empty()) return;
   const report::ConflictRow row = report::conflict_row(state, item.tense);
   const PortDefinition& port = state.plan->port(item.tense.ref);
@@ -87,56 +122,59 @@ void ProblemList::write(const State& state, ProblemItem& item) const {
   item.links.assign(links.begin(), links.end());
 }
 
+// Uses first; then volumes whose use is not listed, or all where a solver says that not everything can be had. One account
+// decides who is short, here as in colours, statistics and report.
 void ProblemList::add_shortages(const State& state, const report::ReportModel& figures) {
+  accounts_ = figures.accounts;
   if (state.tick == 0) return;
-  std::map<std::string, bool> now_short;
-  for (const report::UseRow& use : figures.uses) {
-    if (!use.is_in_programme || !(use.wanted_floor_area > 0)) continue;
-    const double missing = use.wanted_floor_area - use.floor_area, share = missing / use.wanted_floor_area;
-    if (share < kShort * (short_uses_.contains(use.use) ? 0.5 : 1)) continue;
-    now_short[use.use] = true;
-    ProblemItem item{ProblemKind::shortage, "use/" + use.use, 0, false, "Not all " + use.use + " can be had", "", {}, {}, {}};
-    item.text = "the brief asks for " + report::quantity(use.wanted_floor_area, Unit::square_metre) + ", there are " +
-                report::quantity(use.floor_area, Unit::square_metre) + ": " + report::quantity(missing, Unit::square_metre) +
-                " (" + report::percent(share) + ") go without, in " + report::counted(use.count, "volume");
+  std::set<std::string> now_short, listed_uses;
+  const bool is_too_small = std::any_of(items_.begin(), items_.end(),
+                                        [](const ProblemItem& i) { return i.kind == ProblemKind::shortage && i.is_error; });
+  const auto add = [&](const std::string& key, const report::Account& account, const std::string& subject) -> ProblemItem* {
+    if (!account.is_short(accounts_.tolerance * (short_.contains(key) ? kStaysShort : 1))) return nullptr;
+    now_short.insert(key);
+    ProblemItem item;
+    item.kind = ProblemKind::shortage;
+    item.key = key;
+    item.subject = subject;
+    item.text = missing_words(account);
+    return &items_.emplace_back(std::move(item));
+  };
+  for (const report::UseAccount& use : accounts_.uses) {
+    ProblemItem* item =
+        add("use/" + use.use, use, use.use.empty() ? "Not all without a use can be had" : "Not all " + use.use + " can be had");
+    if (item == nullptr) continue;
+    listed_uses.insert(use.use);
+    item->text += ", in " + report::counted(use.volumes, "volume");
     for (const report::VolumeRow& volume : figures.volumes)
-      if (volume.use == use.use) item.nodes.push_back(volume.id);
-    items_.push_back(std::move(item));
+      if (volume.use == use.use && (use.short_volumes == 0 || volume.is_short(accounts_.tolerance)))
+        item->nodes.push_back(volume.id);
   }
-  short_uses_ = std::move(now_short);
-}
-
-// Where a solver says that not everything can be had: each volume that gets less than it wants.
-void ProblemList::add_losers(const State& state, const report::ReportModel& figures) {
-  const bool is_short = std::any_of(items_.begin(), items_.end(),
-                                    [](const ProblemItem& i) { return i.kind == ProblemKind::shortage && i.is_error; });
-  if (!is_short) return;
-  const double tolerance = std::max(state.plan->settings.tolerance, 1e-6);
   for (const report::VolumeRow& volume : figures.volumes) {
-    const double missing = volume.wanted - volume.volume;
-    if (!(volume.wanted > 0) || missing <= tolerance * volume.wanted) continue;
-    ProblemItem item{
-        ProblemKind::shortage, "volume/" + volume.id, 0, false, volume.name + " falls short", "", {}, {volume.id}, {}};
-    item.text = "it has " + report::quantity(volume.volume, Unit::cubic_metre) + " of the " +
-                report::quantity(volume.wanted, Unit::cubic_metre) +
-                " that it wants: " + report::quantity(missing, Unit::cubic_metre) + " (" +
-                report::percent(missing / volume.wanted) + ") are missing";
-    items_.push_back(std::move(item));
+    // Who has no shape stands among those without room, with the reason.
+    const bool is_told =
+        (listed_uses.contains(volume.use) && !is_too_small) || (volume.state != "alive" && !volume.reason.empty());
+    if (is_told) continue;
+    if (ProblemItem* item = add("volume/" + volume.id, volume, volume.name + " falls short")) item->nodes = {volume.id};
   }
+  short_ = std::move(now_short);
 }
 
 void ProblemList::add_failures(const State& state, const report::ReportModel& problems) {
   for (const bool is_shortage : {true, false})
     for (const report::ProblemRow& row : problems.problems) {
-      if (row.is_shortage != is_shortage || (is_shortage && state.tick == 0)) continue;
+      if (row.is_place || row.is_shortage != is_shortage || (is_shortage && state.tick == 0)) continue;
       // Ghosts hinder nobody: they stand among what does not run.
       if (const auto& links = state.plan->scene.links;
           !row.link.empty() && links.contains(row.link) && !links.at(row.link).ghost.empty())
         continue;
-      ProblemItem item{
-          is_shortage ? ProblemKind::shortage : ProblemKind::failing, row.place, 0, true, "", row.message, {}, {}, {}};
+      ProblemItem item;
+      item.kind = is_shortage ? ProblemKind::shortage : ProblemKind::failing;
+      item.key = row.place;
+      item.is_error = true;
+      item.text = row.message;
       item.subject = is_shortage        ? "The boundary is too small"
-                     : row.node.empty() ? "Link " + row.link + " fails"
+                     : row.node.empty() ? what_of(state, row.link)
                                         : row.place.substr(5) + " fails";
       if (!row.node.empty()) item.nodes = {row.node};
       if (!row.link.empty()) item.links = {row.link};
@@ -148,37 +186,40 @@ void ProblemList::add_volumes(const State& state, const report::ReportModel& fig
   if (state.tick == 0) return;
   for (const report::VolumeRow& volume : figures.volumes) {
     if (volume.state == "alive" || volume.reason.empty()) continue;
-    items_.push_back(
-        {ProblemKind::no_room, volume.id, 0, false, volume.name + " is " + volume.state, volume.reason, {}, {volume.id}, {}});
+    ProblemItem item;
+    item.kind = ProblemKind::no_room;
+    item.key = volume.id;
+    item.subject = volume.name + " is " + volume.state;
+    item.text = volume.reason;
+    item.nodes = {volume.id};
+    items_.push_back(std::move(item));
+  }
+}
+
+void ProblemList::add_places(const State& state) {
+  for (report::PlaceProblem& problem : report::place_problems(state)) {
+    // Heights change from tick to tick, who hangs does not.
+    ProblemItem item{ProblemKind::place, "place", 0, false, problem.subject, problem.text, {}, problem.nodes, problem.links};
+    for (const std::string& node : problem.nodes) item.key += "/" + node;
+    items_.push_back(std::move(item));
   }
 }
 
 void ProblemList::add_idle(const State& state) {
+  const auto add = [&](const LinkPlan& link, const std::string& standing, const std::string& text) {
+    ProblemItem item;
+    item.kind = ProblemKind::idle;
+    item.key = link.id;
+    item.subject = "Link " + link.id + standing;
+    item.text = text;
+    item.links = {link.id};
+    items_.push_back(std::move(item));
+  };
   for (const LinkPlan& link : state.plan->links) {
-    if (link.definition == nullptr) {
-      items_.push_back({ProblemKind::idle,
-                        link.id,
-                        0,
-                        false,
-                        "Link " + link.id + " does not run",
-                        "this program does not know its kind; it is kept and saved as it is",
-                        {},
-                        {},
-                        {link.id}});
-      continue;
-    }
-    if (link.is_enabled && !link.is_muted) continue;
-    const std::string& kind = link.definition->label;
-    items_.push_back(
-        {ProblemKind::idle,
-         link.id,
-         0,
-         false,
-         "Link " + link.id + (link.is_enabled ? " is muted" : " is off"),
-         kind + (link.is_enabled ? ": it is evaluated, but what it says does not count" : ": it is not evaluated at all"),
-         {},
-         {},
-         {link.id}});
+    if (link.definition == nullptr)
+      add(link, " does not run", "this program does not know its kind; it is kept and saved as it is");
+    else if (!link.is_enabled) add(link, " is off", link.definition->label + ": it is not evaluated at all");
+    else if (link.is_muted) add(link, " is muted", link.definition->label + ": it is evaluated, but what it says does not count");
   }
 }
 
@@ -188,15 +229,13 @@ void ProblemList::add_file(const Editor& editor) {
     const Problem& problem = editor.problems[k];
     const std::string& place = problem.error.place;
     const bool is_script = place.starts_with("scripts/");
-    ProblemItem item{ProblemKind::file,
-                     "file/" + std::to_string(k),
-                     problem.is_error ? 1 : 0,
-                     problem.is_error,
-                     is_script ? place.substr(place.find('/') + 1) + ".lua" : file,
-                     is_script ? problem.error.message : problem.error.text(),
-                     {},
-                     {},
-                     {}};
+    ProblemItem item;
+    item.kind = ProblemKind::file;
+    item.key = "file/" + std::to_string(k);
+    item.band = problem.is_error ? 1 : 0;
+    item.is_error = problem.is_error;
+    item.subject = is_script ? place.substr(place.find('/') + 1) + ".lua" : file;
+    item.text = is_script ? problem.error.message : problem.error.text();
     const auto id_in = [&](const std::string& folder) {
       const std::string rest = place.substr(folder.size());
       return rest.substr(0, rest.find('/'));
@@ -223,8 +262,8 @@ void ProblemList::refresh(const Editor& editor, const report::ReportModel& figur
     report::read_problems(*state, problems);
     add_failures(*state, problems);
     add_shortages(*state, figures);
-    add_losers(*state, figures);
     add_volumes(*state, figures);
+    add_places(*state);
     add_idle(*state);
   }
   add_file(editor);

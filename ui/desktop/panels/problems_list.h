@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,16 +14,17 @@
 namespace bl::desktop {
 
 /// In the order of the list.
-enum class ProblemKind { conflict, shortage, failing, no_room, idle, file };
-inline constexpr std::size_t kProblemKinds = 6;
+enum class ProblemKind { conflict, shortage, failing, no_room, place, idle, file };
+inline constexpr std::size_t kProblemKinds = 7;
 
 struct ProblemItem {
   ProblemKind kind = ProblemKind::file;
   std::string key;  ///< the same from tick to tick
   int band = 0;     ///< how bad, in steps: the worse come first within their kind
   bool is_error = false;
-  std::string subject, text;              ///< what it is about, and the sentence; of conflicts made when they are seen
-  report::TensePort tense;                ///< of conflicts
+  std::string subject, text;  ///< what it is about, and the sentence; of conflicts made when they are seen
+  report::TensePort tense;    ///< of conflicts
+  std::string why;            ///< of shortages of a use ("use/...") or a volume ("volume/..."): filled when it is seen
   std::vector<std::string> nodes, links;  ///< where a press goes
 };
 
@@ -34,6 +36,8 @@ class ProblemList {
   std::size_t count(ProblemKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
   /// How many want to be looked at: all but what people have switched off themselves.
   std::size_t pressing() const;
+  /// What was asked for and what there is, of the state that was read last.
+  const report::Accounts& accounts() const { return accounts_; }
   /// Subject and sentence of an item.
   void write(const State& state, ProblemItem& item) const;
 
@@ -42,9 +46,9 @@ class ProblemList {
  private:
   void add_conflicts(const State& state);
   void add_shortages(const State& state, const report::ReportModel& figures);
-  void add_losers(const State& state, const report::ReportModel& figures);
   void add_failures(const State& state, const report::ReportModel& problems);
   void add_volumes(const State& state, const report::ReportModel& figures);
+  void add_places(const State& state);
   void add_idle(const State& state);
   void add_file(const Editor& editor);
 
@@ -54,9 +58,12 @@ class ProblemList {
   const Plan* plan_ = nullptr;
   std::uint64_t revision_ = static_cast<std::uint64_t>(-1);  ///< of the file's problems
   std::map<PortRef, int> bands_;
-  std::map<std::string, bool> short_uses_;
+  std::set<std::string> short_;  ///< keys of the uses and volumes that were short
+  report::Accounts accounts_;
 };
 
+/// What stands where the list is empty: that everybody has room, only where everybody has what was asked for.
+std::string all_is_well(const report::Accounts& accounts, bool has_run);
 /// "Conflicts", "Shortages", ...
 const char* label_of(ProblemKind kind);
 

@@ -11,8 +11,10 @@
 
 #include "core/file/file_io.h"
 #include "core/session/session.h"
+#include "core/traffic/street_line.h"
 #include "ui/cli/report/report_model.h"
 #include "ui/desktop/view/colouring.h"
+#include "ui/desktop/view/urban_facts.h"
 
 namespace bl::desktop {
 
@@ -89,6 +91,33 @@ std::vector<Piece> pieces_of(const State& state, const report::ReportModel& mode
 
 }  // namespace
 
+namespace {
+
+using Lines = std::vector<std::vector<Projected>>;
+
+Lines ground_lines(const report::ReportModel& model) {
+  Lines lines;
+  for (const report::SiteRow& site : model.sites)
+    for (const report::Polyline& line : site.ground) {
+      lines.emplace_back();
+      for (const Point3& point : line.points) lines.back().push_back(project({point.x, point.y, site.bottom}));
+    }
+  return lines;
+}
+
+Lines street_lines(const State& state) {
+  Lines lines;
+  for (const StreetFacts& street : read_urban(state, nullptr).streets) {
+    const auto place = [&](std::uint32_t node) { return report::point_at(state, node, "node", "position"); };
+    lines.emplace_back();
+    for (const Point3& point : street_line(place(street.start), street.course, place(street.end)))
+      lines.back().push_back(project(point));
+  }
+  return lines;
+}
+
+}  // namespace
+
 ScenePicture picture_of(const State& state) {
   report::ReportModel model;
   report::read_model(state, model);
@@ -97,27 +126,24 @@ ScenePicture picture_of(const State& state) {
   picture.about = model.about;
   picture.volumes = model.volumes.size();
   const std::vector<Piece> pieces = pieces_of(state, model);
-  std::vector<std::vector<Projected>> grounds;
-  for (const report::SiteRow& site : model.sites)
-    for (const report::Polyline& line : site.ground) {
-      grounds.emplace_back();
-      for (const Point3& point : line.points) grounds.back().push_back(project({point.x, point.y, site.bottom}));
-    }
+  const Lines grounds = ground_lines(model), streets = street_lines(state);
   double low_x = 1e300, high_x = -1e300, low_y = 1e300, high_y = -1e300;
   auto include = [&](const Projected& p) {
     low_x = std::min(low_x, p.x), high_x = std::max(high_x, p.x), low_y = std::min(low_y, p.y), high_y = std::max(high_y, p.y);
   };
   for (const Piece& piece : pieces)
     for (const Projected& corner : piece.corners) include(corner);
-  for (const auto& ground : grounds)
-    for (const Projected& corner : ground) include(corner);
+  for (const Lines* lines : {&grounds, &streets})
+    for (const auto& line : *lines)
+      for (const Projected& corner : line) include(corner);
   const double size = std::max({high_x - low_x, high_y - low_y, 1e-9});
   auto x_of = [&](const Projected& p) { return static_cast<float>(0.5 + (p.x - 0.5 * (low_x + high_x)) / size); };
   auto y_of = [&](const Projected& p) { return static_cast<float>(0.5 + (p.y - 0.5 * (low_y + high_y)) / size); };
-  for (const auto& ground : grounds) {
-    picture.grounds.emplace_back();
-    for (const Projected& corner : ground) picture.grounds.back().emplace_back(x_of(corner), y_of(corner));
-  }
+  for (const auto& [lines, drawn] : {std::pair(&grounds, &picture.grounds), std::pair(&streets, &picture.streets)})
+    for (const auto& line : *lines) {
+      drawn->emplace_back();
+      for (const Projected& corner : line) drawn->back().emplace_back(x_of(corner), y_of(corner));
+    }
   // Where there are too many, the farthest go: they are the most covered.
   const std::size_t first = pieces.size() - std::min(pieces.size(), kMostTriangles);
   for (const Piece& piece : std::span(pieces).subspan(first)) {

@@ -23,6 +23,7 @@ struct ScenePicture {
   bool is_ready = false;
   std::vector<PictureTriangle> triangles;
   std::vector<std::vector<std::pair<float, float>>> grounds;  ///< outlines of boundaries, in the same square
+  std::vector<std::vector<std::pair<float, float>>> streets;  ///< from end to end
 };
 
 /// Runs scenes one after the other on a thread of its own, for as long as somebody looks.
@@ -41,7 +42,7 @@ class ScenePictures {
   std::unique_ptr<Worker> worker_;
 };
 
-/// An axonometric picture of a state: volumes and boundaries only.
+/// An axonometric picture of a state: volumes, boundaries and streets.
 ScenePicture picture_of(const State& state);
 
 }  // namespace bl::desktop

@@ -90,9 +90,8 @@ void SceneView::draw_card() {
   if (editor_->picks.nodes.contains(nearest->id) && !editor_->is_beamer) return;
   const VolumeFacts& volume = *nearest;
   const std::vector<std::string> pulls = pulls_on(volume.node);
-  const double error = volume.error();
-  const ImU32 standing =
-      volume.volume > 0 ? (std::abs(error) <= facts_->state->plan->settings.tolerance ? c.good : c.warning) : c.bad;
+  const double standing_share = volume.standing();
+  const ImU32 standing = volume.volume > 0 ? (std::abs(standing_share) <= facts_->tolerance ? c.good : c.warning) : c.bad;
   const auto write = [&](CardWriter& card) {
     card.text(theme.fonts().strong, c.text, volume.name, 1);
     card.text(theme.fonts().small, c.text_soft,
@@ -103,15 +102,18 @@ void SceneView::draw_card() {
         return low.x + card.width * static_cast<float>(std::clamp(share / kShareShown, 0.0, 1.0));
       };
       card.list->AddRectFilled(low, high, c.sunken, theme.px(3));
-      if (volume.wanted > 0) {
-        card.list->AddRectFilled(low, {place(volume.volume / volume.wanted), high.y}, standing, theme.px(3));
+      if (volume.asked > 0) {
+        card.list->AddRectFilled(low, {place(volume.volume / volume.asked), high.y}, standing, theme.px(3));
         card.list->AddLine({place(1), low.y - theme.px(2)}, {place(1), high.y + theme.px(2)}, c.text, theme.px(1.5f));
       }
     }
     card.y += theme.px(kBarHeight + 6);
     card.row(c.text_soft, c.text, "Volume", report::quantity(volume.volume, Unit::cubic_metre));
-    card.row(c.text_soft, c.text, "Wanted", report::quantity(volume.wanted, Unit::cubic_metre));
-    card.row(c.text_soft, standing, "Difference", volume.wanted > 0 ? report::signed_percent(error) : "wants nothing");
+    card.row(c.text_soft, c.text, "Asked for", report::quantity(volume.asked, Unit::cubic_metre));
+    if (volume.withheld() > facts_->tolerance * volume.asked)
+      card.row(c.text_soft, c.warning, "Limited to", report::quantity(volume.limited, Unit::cubic_metre));
+    card.row(c.text_soft, standing, standing_share < 0 ? "Short" : "Difference",
+             volume.asked > 0 ? report::signed_percent(standing_share) : "asks for nothing");
     card.row(c.text_soft, c.text, "Floor area", report::quantity(volume.floor_area, Unit::square_metre));
     if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, "Nothing has run yet: P lets it.", 1);
     else if (!volume.reason.empty() && volume.state != "alive") card.text(theme.fonts().small, c.bad, volume.reason, 3);

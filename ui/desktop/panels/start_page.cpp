@@ -2,8 +2,10 @@
 #include "ui/desktop/panels/start_page.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
+#include "ui/cli/report/figures.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/view/colouring.h"
@@ -14,6 +16,12 @@ namespace {
 
 namespace files = std::filesystem;
 
+// What shows most of the program comes first; the others follow by name.
+int rank_of(const files::path& scene) {
+  constexpr std::array<const char*, 3> kFirst = {"urban_mode", "sixty_volumes", "thousand_volumes"};
+  return static_cast<int>(std::find(kFirst.begin(), kFirst.end(), scene.stem().string()) - kFirst.begin());
+}
+
 std::vector<std::string> shipped_scenes() {
   std::vector<std::string> paths;
   for (const char* folder : {"start", "studies"}) {
@@ -21,7 +29,8 @@ std::vector<std::string> shipped_scenes() {
     std::error_code error;
     for (const auto& entry : files::directory_iterator(files::path(BL_SCENES_DIR) / folder, error))
       if (entry.path().extension() == ".json") here.push_back(entry.path().string());
-    std::sort(here.begin(), here.end());
+    std::sort(here.begin(), here.end(),
+              [](const std::string& a, const std::string& b) { return std::pair(rank_of(a), a) < std::pair(rank_of(b), b); });
     paths.insert(paths.end(), here.begin(), here.end());
   }
   return paths;
@@ -138,6 +147,11 @@ bool StartPage::draw_card(const ScenePicture& picture, float width) {
     for (const auto& [x, y] : ground) line.push_back({corner.x + x * side, corner.y + y * side});
     list.AddPolyline(line.data(), static_cast<int>(line.size()), c.text_faint, ImDrawFlags_Closed, 1.0f);
   }
+  for (const auto& street : picture.streets) {
+    std::vector<ImVec2> line;
+    for (const auto& [x, y] : street) line.push_back({corner.x + x * side, corner.y + y * side});
+    list.AddPolyline(line.data(), static_cast<int>(line.size()), mixed(c.text_faint, c.accent, 0.5f), 0, 2.0f);
+  }
   const ImDrawListFlags flags = list.Flags;
   list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // soft edges would leave seams between neighbours
   for (const PictureTriangle& t : picture.triangles) {
@@ -154,7 +168,8 @@ bool StartPage::draw_card(const ScenePicture& picture, float width) {
   if (!picture.is_ready) list.AddText({at.x + theme.px(14), at.y + theme.px(12)}, c.text_faint, "drawing ...");
   list.AddText(theme.fonts().strong, theme.fonts().strong->FontSize, {at.x + theme.px(14), at.y + height + theme.px(10)}, c.text,
                title.c_str());
-  const std::string note = picture.is_ready ? std::to_string(picture.volumes) + " volumes. " + picture.about : picture.path;
+  const std::string count = picture.volumes > 0 ? report::counted(picture.volumes, "volume") + ". " : std::string();
+  const std::string note = picture.is_ready ? count + picture.about : picture.path;
   const ImVec4 clip{at.x, at.y, end.x - theme.px(12), end.y - theme.px(10)};
   list.AddText(theme.fonts().small, theme.fonts().small->FontSize, {at.x + theme.px(14), at.y + height + theme.px(32)},
                c.text_soft, note.c_str(), nullptr, width - theme.px(28), &clip);

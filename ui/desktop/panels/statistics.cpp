@@ -111,9 +111,9 @@ void draw_volume(Editor& editor, const report::VolumeRow& row, int index, float 
   list.AddCircleFilled({at.x + theme.px(7), middle}, theme.px(3.5f), colour_of_its_use);
   ImGui::PushFont(small);
   list.AddText(small, small->FontSize, {at.x + theme.px(16), y}, c.text, fitted(row.name, name_width - theme.px(20)).c_str());
-  const double error = row.error(), size = std::abs(error);
-  const bool is_met = size <= tolerance || row.wanted <= 0;
-  const std::string off = row.wanted > 0 ? report::signed_percent(error) : std::string("wants none");
+  const double standing = row.standing(), size = std::abs(standing);
+  const bool is_met = size <= tolerance || row.asked <= 0;
+  const std::string off = row.asked > 0 ? report::signed_percent(standing) : std::string("asks for none");
   list.AddText({at.x + width - ImGui::CalcTextSize(off.c_str()).x - theme.px(4), y},
                is_met       ? c.text_faint
                : size > 0.1 ? c.bad
@@ -123,12 +123,12 @@ void draw_volume(Editor& editor, const report::VolumeRow& row, int index, float 
   const double most = std::max(largest, 1e-9);
   const ImU32 colour = is_met ? mixed(c.good, c.panel, 0.25f) : size > 0.1 ? c.bad : c.warning;
   bar(theme, {at.x + name_width, middle - theme.px(4)}, {at.x + width - number, middle + theme.px(4)}, row.volume / most,
-      row.wanted / most, colour);
+      row.asked / most, colour);
   if (is_hovered) {
     editor.picks.hovered_node = row.id;
-    std::string text =
-        "has " + report::quantity(row.volume, Unit::cubic_metre) + " of " + report::quantity(row.wanted, Unit::cubic_metre);
-    if (row.demand != row.wanted) text += "\nasked for " + report::quantity(row.demand, Unit::cubic_metre) + " before its limits";
+    std::string text = "has " + report::quantity(row.volume, Unit::cubic_metre) + " of " +
+                       report::quantity(row.asked, Unit::cubic_metre) + " asked for";
+    if (row.withheld() > tolerance * row.asked) text += "\nlimited to " + report::quantity(row.limited, Unit::cubic_metre);
     text += "\nfloor area " + report::quantity(row.floor_area, Unit::square_metre);
     card(editor, row.name, text,
          row.use + (row.use.empty() ? "" : ", ") + row.state + (row.reason.empty() ? "" : ": " + row.reason));
@@ -147,7 +147,7 @@ void draw_volumes(Editor& editor, RunRecord& record) {
   const std::vector<std::size_t>& order = record.ordered(editor);
   if (order.empty()) return small_text(editor, "There are no volumes in this scene.", editor.theme.colours().text_faint);
   double largest = 0;
-  for (const report::VolumeRow& row : model.volumes) largest = std::max({largest, row.wanted, row.volume});
+  for (const report::VolumeRow& row : model.volumes) largest = std::max({largest, row.asked, row.volume});
   ImGui::BeginChild("volumes", {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   const float height = std::round(ImGui::GetFontSize() + editor.theme.px(5));
@@ -157,14 +157,15 @@ void draw_volumes(Editor& editor, RunRecord& record) {
   while (clipper.Step())
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const report::VolumeRow& volume = model.volumes[order[static_cast<std::size_t>(row)]];
-      draw_volume(editor, volume, row, height, largest, model.tolerance, colour_of_use(editor.theme, numbers.of(volume.use)));
+      draw_volume(editor, volume, row, height, largest, model.accounts.tolerance,
+                  colour_of_use(editor.theme, numbers.of(volume.use)));
     }
   ImGui::PopStyleVar();
   ImGui::EndChild();
 }
 
 // One line of the programme: what is wanted as the mark, what there is as the bar.
-void draw_use(Editor& editor, const report::UseRow& use, ImU32 colour, double largest) {
+void draw_use(Editor& editor, const report::UseAccount& use, ImU32 colour, double largest, double tolerance) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -173,37 +174,40 @@ void draw_use(Editor& editor, const report::UseRow& use, ImU32 colour, double la
   ImFont* small = theme.fonts().small;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImGui::PushFont(small);
-  const double share = use.wanted_floor_area > 0 ? use.floor_area / use.wanted_floor_area - 1 : 0;
   const std::string amount = report::quantity(use.floor_area, Unit::square_metre) +
-                             (use.wanted_floor_area > 0 ? "  " + report::signed_percent(share) : "");
+                             (use.asked_area > 0 ? "  " + report::difference_of(use.floor_area, use.asked_area) : "");
   const float amount_width = ImGui::CalcTextSize(amount.c_str()).x;
+  const bool is_short = use.is_short(tolerance);
   const std::string name = use.use.empty() ? "without a use" : use.use;
   list.AddText({at.x, at.y}, c.text, fitted(name, width - amount_width - theme.px(12)).c_str());
-  list.AddText({at.x + width - amount_width, at.y}, share < -0.02 ? c.warning : c.text_soft, amount.c_str());
+  list.AddText({at.x + width - amount_width, at.y}, is_short ? c.warning : c.text_soft, amount.c_str());
   ImGui::PopFont();
   const float y = at.y + small->FontSize + theme.px(4);
   bar(theme, {at.x, y}, {at.x + width, y + theme.px(5)}, use.floor_area / std::max(largest, 1e-9),
-      use.wanted_floor_area / std::max(largest, 1e-9), colour);
+      use.asked_area / std::max(largest, 1e-9), colour);
   if (!ImGui::IsItemHovered()) return;
   card(editor, name,
-       report::quantity(use.floor_area, Unit::square_metre) + " of " +
-           report::quantity(use.wanted_floor_area, Unit::square_metre) + " floor area",
-       report::counted(use.count, "volume") + ", " + report::quantity(use.volume, Unit::cubic_metre) +
-           (use.is_in_programme ? "" : "\nnot in any programme: what its volumes want counts"));
+       report::quantity(use.floor_area, Unit::square_metre) + " of " + report::quantity(use.asked_area, Unit::square_metre) +
+           " floor area asked for",
+       report::counted(use.volumes, "volume") + ", " + report::quantity(use.volume, Unit::cubic_metre) +
+           (use.is_in_programme ? "" : "\nnot in any programme: what its volumes ask for counts"));
 }
 
 void draw_programme(Editor& editor, const report::ReportModel& model) {
   column_title(editor, "Floor area by use");
   ImGui::BeginChild("uses", {0, 0});
+  const report::Accounts& accounts = model.accounts;
   double largest = 0;
-  for (const report::UseRow& use : model.uses) largest = std::max({largest, use.floor_area, use.wanted_floor_area});
+  for (const report::UseAccount& use : accounts.uses) largest = std::max({largest, use.floor_area, use.asked_area});
   const UseNumbers numbers(editor.state().plan->scene);
-  for (const report::UseRow& use : model.uses) draw_use(editor, use, colour_of_use(editor.theme, numbers.of(use.use)), largest);
-  if (!model.uses.empty()) {
-    const report::UseRow total{"all uses",       model.volumes.size(), true,         model.wanted_floor_area,
-                               model.floor_area, model.demand,         model.wanted, model.volume};
+  for (const report::UseAccount& use : accounts.uses)
+    draw_use(editor, use, colour_of_use(editor.theme, numbers.of(use.use)), largest, accounts.tolerance);
+  if (!accounts.uses.empty()) {
+    report::UseAccount total = accounts.all;
+    total.use = "all uses";
+    total.is_in_programme = true;
     ImGui::Separator();
-    draw_use(editor, total, editor.theme.colours().text_faint, std::max(model.floor_area, model.wanted_floor_area));
+    draw_use(editor, total, editor.theme.colours().text_faint, std::max(total.floor_area, total.asked_area), accounts.tolerance);
   }
   ImGui::EndChild();
 }

@@ -50,7 +50,7 @@ void RunRecord::sample(const Editor& editor) {
   tick.push_back(static_cast<double>(state->tick));
   worst.push_back(state->largest_residual);
   mean.push_back(model.volumes.empty() ? 0 : sum / static_cast<double>(model.volumes.size()));
-  volume.push_back(model.volume);
+  volume.push_back(model.accounts.all.volume);
   move.push_back(state->largest_move);
   tick_ms.push_back(1000 * editor.moment->tick_seconds);
   bytes.push_back(static_cast<double>(editor.bytes_sent - bytes_sent_) / ticks);
@@ -84,10 +84,10 @@ const std::vector<std::size_t>& RunRecord::ordered(const Editor& editor) {
   std::stable_sort(ordered_.begin(), ordered_.end(), [&](std::size_t a, std::size_t b) {
     const report::VolumeRow &x = volumes[a], &y = volumes[b];
     switch (order) {
-      case VolumeOrder::error: return std::abs(x.error()) > std::abs(y.error());
+      case VolumeOrder::error: return std::abs(x.standing()) > std::abs(y.standing());
       case VolumeOrder::name: return x.name < y.name;
       case VolumeOrder::use: return x.use < y.use;
-      case VolumeOrder::size: return x.wanted > y.wanted;
+      case VolumeOrder::size: return x.asked > y.asked;
     }
     return a < b;
   });

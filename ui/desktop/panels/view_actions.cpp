@@ -74,12 +74,12 @@ bool is_previewing(const Editor& e) { return has_sun(e) && e.view->preview().has
 void add_sun_actions(std::vector<Action>& list) {
   const auto add = [&](const char* label, Chord chord, bool (*can)(const Editor&), void (*run)(Editor&), bool repeats = false) {
     list.push_back({"View", label, chord, {}, Area::view, can, run, repeats});
+    list.back().submenu = "Sun";
   };
   constexpr double kHalfHour = 1800;
   add(
       "Sun: half an hour later", {GLFW_KEY_RIGHT, false, false, true}, has_sun, [](Editor& e) { e.view->step_sun(kHalfHour, 0); },
       true);
-  list.back().begins_group = true;
   add(
       "Sun: half an hour earlier", {GLFW_KEY_LEFT, false, false, true}, has_sun,
       [](Editor& e) { e.view->step_sun(-kHalfHour, 0); }, true);
@@ -124,9 +124,11 @@ void add_kept_view(std::vector<Action>& list) {
   list.push_back({"View", kKeepLabels[number - 1], {GLFW_KEY_0 + number, true}, {}, Area::view, has_document, [](Editor& e) {
                     e.view->store_camera(number);
                   }});
+  list.back().submenu = "Kept views";
   list.push_back({"View", kGoLabels[number - 1], {GLFW_KEY_0 + number}, {}, Area::view, is_in_beamer, [](Editor& e) {
                     e.view->recall_camera(number);
                   }});
+  list.back().submenu = "Kept views";
   if constexpr (number < 9) add_kept_view<number + 1>(list);
 }
 
@@ -143,6 +145,7 @@ void add_layer_actions(std::vector<Action>& list) {
                   [](Editor& e) { set_layer(e.person, layers()[index].id, !is_on(e.person, layers()[index].id)); },
                   false,
                   [](const Editor& e) { return is_on(e.person, layers()[index].id); }});
+  list.back().submenu = "Layers";
   if constexpr (index + 1 < kLayerCount) add_layer_actions<index + 1>(list);
 }
 
@@ -157,45 +160,30 @@ void add_scale(std::vector<Action>& list, const char* label) {
                   [](Editor& e) { e.person.scale = percent / 100.0f; },
                   false,
                   [](const Editor& e) { return e.person.scale == percent / 100.0f; }});
+  list.back().submenu = "Scale";
+}
+
+constexpr const char *kRhino = "rhino", *kBlender = "blender", *kSketchUp = "sketchup", *kPolyscope = "polyscope";
+
+template <const char* const& habit>
+void add_habit(std::vector<Action>& list, const char* label) {
+  list.push_back({"View",
+                  label,
+                  {},
+                  {},
+                  Area::none,
+                  nullptr,
+                  [](Editor& e) { e.person.navigation = habit; },
+                  false,
+                  [](const Editor& e) { return e.person.navigation == habit; }});
+  list.back().submenu = "Mouse";
 }
 
 void add_navigation(std::vector<Action>& list) {
-  list.push_back({"View",
-                  "Mouse as in Rhino",
-                  {},
-                  {},
-                  Area::none,
-                  nullptr,
-                  [](Editor& e) { e.person.navigation = "rhino"; },
-                  false,
-                  [](const Editor& e) { return e.person.navigation == "rhino"; }});
-  list.push_back({"View",
-                  "Mouse as in Blender",
-                  {},
-                  {},
-                  Area::none,
-                  nullptr,
-                  [](Editor& e) { e.person.navigation = "blender"; },
-                  false,
-                  [](const Editor& e) { return e.person.navigation == "blender"; }});
-  list.push_back({"View",
-                  "Mouse as in SketchUp",
-                  {},
-                  {},
-                  Area::none,
-                  nullptr,
-                  [](Editor& e) { e.person.navigation = "sketchup"; },
-                  false,
-                  [](const Editor& e) { return e.person.navigation == "sketchup"; }});
-  list.push_back({"View",
-                  "Mouse as in Polyscope",
-                  {},
-                  {},
-                  Area::none,
-                  nullptr,
-                  [](Editor& e) { e.person.navigation = "polyscope"; },
-                  false,
-                  [](const Editor& e) { return e.person.navigation == "polyscope"; }});
+  add_habit<kRhino>(list, "Mouse as in Rhino");
+  add_habit<kBlender>(list, "Mouse as in Blender");
+  add_habit<kSketchUp>(list, "Mouse as in SketchUp");
+  add_habit<kPolyscope>(list, "Mouse as in Polyscope");
 }
 
 // Canvas, 3D view, fields, and round again: for those who work without a mouse.

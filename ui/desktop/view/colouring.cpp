@@ -29,7 +29,8 @@ std::vector<double> values_of(const SceneFacts& facts, const std::string& choice
       value = volume.tension;
       unit = Unit::metre;
     } else if (choice == "fill") {
-      value = volume.wanted > 0 ? volume.volume / volume.wanted : value;
+      // Of what was asked for, before any limit: who is short in the list is not full here.
+      value = volume.asked > 0 ? 1 + std::min(0.0, volume.standing()) : value;
       unit = Unit::ratio;
     } else if (path) {
       if (const auto ref = facts.state->plan->find(volume.node, *path)) {
@@ -63,6 +64,7 @@ std::string text_in(const PortValues& values, const char* port) {
   return text == nullptr ? std::string() : *text;
 }
 
+// Against what was asked for: short to one side, more than that to the other.
 Colouring by_error(const SceneFacts& facts, const Theme& theme) {
   Colouring out;
   out.legend = {"Volume against demand",
@@ -71,7 +73,7 @@ Colouring by_error(const SceneFacts& facts, const Theme& theme) {
                 report::signed_percent(-kLargestShownError),
                 "met",
                 report::signed_percent(kLargestShownError)};
-  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(theme.diverging(volume.error() / kLargestShownError));
+  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(theme.diverging(volume.standing() / kLargestShownError));
   for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(theme.diverging(2.0 * k / kRampSteps - 1));
   return out;
 }

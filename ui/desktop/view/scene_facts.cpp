@@ -33,9 +33,11 @@ void read_facade(const State& state, std::uint32_t node, VolumeFacts& facts) {
   }
 }
 
-VolumeFacts read_volume(const State& state, std::uint32_t node) {
+VolumeFacts read_volume(const State& state, const report::VolumeAccount& account) {
+  const std::uint32_t node = account.node;
   const auto number = [&](const char* port) { return report::number_at(state, node, kVolume, port); };
   VolumeFacts facts;
+  static_cast<report::Account&>(facts) = account;
   facts.node = node;
   facts.id = state.plan->nodes[node].id;
   facts.name = report::name_at(state, node);
@@ -44,10 +46,6 @@ VolumeFacts read_volume(const State& state, std::uint32_t node) {
   facts.reason = report::text_at(state, node, kVolume, "reason");
   facts.position = report::point_at(state, node, "node", "position");
   facts.radius = std::max(0.0, number("radius"));
-  facts.wanted = report::number_at(state, node, kVolume, "wanted", number("demand"));
-  if (!(facts.wanted > 0)) facts.wanted = number("demand");
-  facts.volume = number("volume");
-  facts.floor_area = number("floor_area");
   facts.storey = number("storey_height");
   facts.bottom = number("bottom");
   facts.height = number("height");
@@ -204,12 +202,15 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   auto facts = std::make_shared<SceneFacts>();
   const State& state = *given;
   std::set<std::string> uses;
+  const report::Accounts accounts = report::accounts_of(state);
+  facts->tolerance = accounts.tolerance;
+  auto account = accounts.volumes.begin();  // ascending node, as the walk is
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
     facts->places.push_back(report::point_at(state, n, "node", "position"));
     if (report::has_type(state, n, "boundary")) read_boundary(state, n, last, *facts);
     if (report::has_type(state, n, "media")) read_media(state, n, *facts);
     if (report::has_type(state, n, kVolume)) {
-      VolumeFacts volume = read_volume(state, n);
+      VolumeFacts volume = read_volume(state, *account++);
       // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
       const VolumeFacts* before = last != nullptr && volume.is_ball ? last->volume_of(n) : nullptr;
       if (before != nullptr && before->is_ball && before->position == volume.position && before->radius == volume.radius)

@@ -10,23 +10,23 @@
 #include <vector>
 
 #include "core/graph/state.h"
+#include "ui/cli/report/account.h"
 #include "ui/desktop/view/urban_facts.h"
 #include "ui/desktop/view/view_scene.h"
 
 namespace bl::desktop {
 
-struct VolumeFacts {
+/// With what was asked for and what there is, by the account that list, statistics and report read too.
+struct VolumeFacts : report::Account {
   std::uint32_t node = 0;
   std::string id, name, use, state, reason;
   Point3 position;
-  double radius = 0, wanted = 0, volume = 0, floor_area = 0, storey = 0, bottom = 0, height = 0;  ///< [m], [m³], [m²]
-  double tension = 0;                                                                             ///< of its place [m]
+  double radius = 0, storey = 0, bottom = 0, height = 0;  ///< [m]
+  double tension = 0;                                     ///< of its place [m]
   MeshPointer cell;      ///< coarse, with its wrap; a ball where the solver gives a volume but no shape; none without a volume
   bool is_ball = false;  ///< the shape is not known, only its radius
   bool is_dressed = false;
   ViewFacade facade;  ///< where it is dressed
-
-  double error() const { return wanted > 0 ? (volume - wanted) / wanted : 0; }
 };
 
 /// A node without a volume, as a small mark.
@@ -68,6 +68,7 @@ struct PullFacts {
 struct SceneFacts {
   std::shared_ptr<const State> state;
   std::vector<VolumeFacts> volumes;  ///< ascending node
+  double tolerance = 0;              ///< share of what was asked for below which nobody is short
   std::vector<MarkFacts> marks;
   std::vector<BoundaryFacts> boundaries;
   std::vector<MediaFacts> media;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/scene_file.h"
+#include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/edits.h"
@@ -45,13 +46,11 @@ Command new_node(Board& board, const TypificationDefinition& role, const std::st
   Json node = Json::object();
   const std::size_t number = id.rfind('-');
   node["name"] = role.label + (number == std::string::npos ? "" : " " + id.substr(number + 1));
-  Json values = Json::object();
   if (role.id == "smart_volume") {
-    const NewVolume volume = place_volume(board.editor.types(), board.editor.scene());
-    node["position"] = Json::array({volume.position.x, volume.position.y, volume.position.z});
-    if (volume.demand != 1000) values["demand"] = volume.demand;
+    const Point3 place = place_volume(board.editor.types(), board.editor.scene());
+    node["position"] = Json::array({place.x, place.y, place.z});
   }
-  node["types"][role.id] = values;
+  node["types"][role.id] = Json::parse(first_values(board.editor, role.id));
   patch["boxes"][id] =
       place_json({std::round((at.x - kBoxWidth / 2) / kGrid) * kGrid, std::round((at.y - kHeadHeight / 2) / kGrid) * kGrid});
   join_entered(board, patch, "nodes", id);
@@ -90,7 +89,8 @@ void add_role(Board& board, const std::string& type) {
   Editor& editor = board.editor;
   std::vector<Command> commands;
   for (const std::string& id : editor.picks.nodes)
-    if (lacks_role(editor.scene(), id, type)) commands.push_back(command<Typify>({id, type, {"{}"}}));
+    if (lacks_role(editor.scene(), id, type))
+      commands.push_back(command<Typify>({id, type, {first_values(editor, type, commands.size())}}));
   if (editor.submit(commands, editor.new_gesture())) remember(editor, type);
 }
 

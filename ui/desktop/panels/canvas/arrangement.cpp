@@ -9,6 +9,7 @@
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/entered.h"
+#include "ui/desktop/panels/canvas/stored_places.h"
 
 namespace bl::desktop::canvas {
 
@@ -97,18 +98,7 @@ void lay_out_chosen(Board& board) {
     for (std::size_t k = 0; k < board.model.boxes.size(); ++k) chosen.push_back(k);
     if (chosen.empty()) return;
   } else if (is_all) {
-    // Everything goes back to the automatic layout: what the view says of boxes, sets and dots goes.
-    Json patch = Json::object();
-    for (const auto& [id, at] : board.model.view.boxes) patch["boxes"][id] = nullptr;
-    for (const auto& [key, at] : board.model.view.sets) patch["sets"][key] = nullptr;
-    for (const auto& [id, dots] : board.model.view.dots) patch["dots"][id] = nullptr;
-    board.model.forget_places();
-    if (!patch.empty()) board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
-    board.after_frame = [](Board& b) {
-      b.model.update(b.editor);
-      fit_all(b, true);
-    };
-    return;
+    return lay_out_all(board);
   }
   std::vector<LayoutItem> items;
   std::vector<std::pair<std::size_t, std::size_t>> links;

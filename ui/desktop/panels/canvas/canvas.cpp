@@ -10,6 +10,7 @@
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/entered.h"
 #include "ui/desktop/panels/canvas/mouse.h"
+#include "ui/desktop/panels/canvas/stored_places.h"
 
 namespace bl::desktop {
 
@@ -92,6 +93,7 @@ void Canvas::draw(ImVec2 size) {
   board.camera.set_pane({ImGui::GetWindowPos(), size}, editor.theme.scale(), editor.now);
   const std::size_t revision = board.model.revision;
   bring_up_to_date(board);
+  if (canvas::store_places(board)) bring_up_to_date(board);
   place_overlays(board);
   if (board.is_reset) fit_all(board, false);
   board.is_reset = false;
@@ -121,6 +123,12 @@ void Canvas::fit(bool all) {
   const auto chosen = all ? std::nullopt : canvas::box_of_choice(*board_);
   if (chosen) board_->camera.fit(*chosen, true);
   else canvas::fit_all(*board_, true);
+}
+
+void Canvas::store_places() {
+  if (!board_->editor.document) return;
+  canvas::bring_up_to_date(*board_);
+  canvas::store_places(*board_);
 }
 
 void Canvas::show(const std::string& node) { canvas::show_node(*board_, node); }

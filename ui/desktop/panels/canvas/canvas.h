@@ -21,6 +21,8 @@ class Canvas {
   void draw(ImVec2 size);
   /// Brings everything, or what is chosen, into sight.
   void fit(bool all);
+  /// Before the scene is saved: what was changed since the last frame has its places as well.
+  void store_places();
   /// Brings a node into sight, if it is outside.
   void show(const std::string& node);
   /// Part of the step that adds a node somewhere else: it lies in the frame that is entered. Nothing where none is.

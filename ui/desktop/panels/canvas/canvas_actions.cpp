@@ -127,6 +127,11 @@ bool is_at_set(const Editor& e) {
 
 bool has_one_link(const Editor& e) { return has_document(e) && e.picks.links.size() == 1; }
 
+// The actions from `first` on.
+void into_submenu(std::vector<Action>& list, std::size_t first, const char* submenu) {
+  for (std::size_t k = first; k < list.size(); ++k) list[k].submenu = submenu;
+}
+
 void dot_at_cursor(Editor& e) {
   Board& board = board_of(e);
   add_dot(board, board.model.find_line(*e.picks.links.begin()), board.cursor());
@@ -184,6 +189,7 @@ void add_arrangement_commands(std::vector<Action>& list) {
   offer(list, on_ground, {"Canvas", "Comment", {GLFW_KEY_C, false, true}, {}, area, has_document, [](Editor& e) {
                             add_comment(board_of(e), board_of(e).cursor());
                           }});
+  const std::size_t first = list.size();
   begin_group(list, on_node,
               {"Canvas", "Align left", {GLFW_KEY_LEFT, false, false, true}, {}, area, has_several, align<Alignment::left>});
   offer(list, on_node,
@@ -199,6 +205,7 @@ void add_arrangement_commands(std::vector<Action>& list) {
   offer(list, on_node, {"Canvas", "Distribute down", {GLFW_KEY_D, false, true, true}, {}, area, has_several, [](Editor& e) {
                           distribute_chosen(board_of(e), false);
                         }});
+  into_submenu(list, first, "Align");
   begin_group(list, on_ground | on_node,
               {"Canvas", "Lay out selection, or all", {GLFW_KEY_L, false, true}, {}, area, has_document, [](Editor& e) {
                  lay_out_chosen(board_of(e));
@@ -251,6 +258,7 @@ void add_sight_commands(std::vector<Action>& list) {
               {"Canvas", "Fit selection, or all", {GLFW_KEY_F}, {}, area, has_document, [](Editor& e) { e.canvas->fit(false); }});
   offer(list, on_ground,
         {"Canvas", "Fit all", {GLFW_KEY_HOME}, {GLFW_KEY_A}, area, has_document, [](Editor& e) { e.canvas->fit(true); }});
+  const std::size_t first = list.size();
   begin_group(list, 0,
               {"Canvas",
                "Zoom in",
@@ -271,6 +279,7 @@ void add_sight_commands(std::vector<Action>& list) {
   list.push_back({"Canvas", "Full size", {GLFW_KEY_0, true}, {}, area, has_document, [](Editor& e) {
                     board_of(e).camera.glide_to_zoom(1);
                   }});
+  into_submenu(list, first, "Zoom");
 }
 
 // The arrows go from node to node.
@@ -278,10 +287,12 @@ void add_walking_commands(std::vector<Action>& list) {
   const auto walk = [](const char* label, int key, void (*run)(Editor&)) {
     return Action{"Canvas", label, {key}, {}, Area::canvas, has_document, run, true};
   };
+  const std::size_t first = list.size();
   begin_group(list, 0, walk("Go left", GLFW_KEY_LEFT, [](Editor& e) { step_choice(board_of(e), {-1, 0}); }));
   list.push_back(walk("Go right", GLFW_KEY_RIGHT, [](Editor& e) { step_choice(board_of(e), {1, 0}); }));
   list.push_back(walk("Go up", GLFW_KEY_UP, [](Editor& e) { step_choice(board_of(e), {0, -1}); }));
   list.push_back(walk("Go down", GLFW_KEY_DOWN, [](Editor& e) { step_choice(board_of(e), {0, 1}); }));
+  into_submenu(list, first, "Go");
 }
 
 }  // namespace

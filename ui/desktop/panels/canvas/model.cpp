@@ -75,11 +75,12 @@ void Model::update(const Editor& editor) {
   const std::size_t log_size = editor.document->session().log().size();
   const Scene& scene = editor.scene();
   const bool is_other = document != document_ || node_count_ != scene.nodes.size() || log_size < log_size_;
-  if (is_other || log_size != log_size_ || entered != narrowed_to_) {
+  if (is_other || log_size != log_size_ || entered != narrowed_to_ || is_dark_ != editor.theme.is_dark()) {
     if (document != document_ || log_size < log_size_) kept_.clear();
     document_ = document;
     log_size_ = log_size;
     node_count_ = scene.nodes.size();
+    is_dark_ = editor.theme.is_dark();
     narrowed_to_ = entered;
     if (scene.view != view_text_ || revision == 0 || is_view_moved) view = read_view(view_text_ = scene.view);
     is_view_moved = false;
@@ -99,12 +100,6 @@ void Model::update(const Editor& editor) {
     state_ = editor.moment->state;
     ++state_revision;
   }
-}
-
-void Model::forget_places() {
-  kept_.clear();
-  log_size_ = 0;
-  document_ = 0;
 }
 
 void Model::make_boxes(const Editor& editor) {
@@ -203,7 +198,7 @@ void Model::make_lines(const Editor& editor) {
 }
 
 // Boxes and pills together: sources in a column or two, then pills, then the rest in the field.
-void Model::place(const Editor& editor) {
+std::vector<ImVec2> Model::automatic_places(const Editor& editor) const {
   std::vector<LayoutItem> items;
   std::size_t sources = 0;
   for (const NodeBox& box : boxes) {
@@ -228,39 +223,51 @@ void Model::place(const Editor& editor) {
   std::vector<std::pair<std::size_t, std::size_t>> links;
   for (const Line& line : lines)
     if (line.from < boxes.size() && line.to < boxes.size()) links.emplace_back(line.from, line.to);
-  const auto known = [&](const std::string& key) { return kept_.contains(key); };
-  const bool is_complete =
-      std::all_of(boxes.begin(), boxes.end(), [&](const NodeBox& b) { return view.boxes.contains(b.id) || known(b.id); }) &&
-      std::all_of(pills.begin(), pills.end(), [&](const Pill& p) { return view.sets.contains(p.key) || known("\n" + p.key); });
-  std::set<std::string> fresh;  // placed for the first time
-  if (!is_complete) {
-    const std::vector<ImVec2> places = lay_out(items, links);
-    for (std::size_t k = 0; k < boxes.size(); ++k)
-      if (kept_.emplace(boxes[k].id, places[k]).second) fresh.insert(boxes[k].id);
-    for (std::size_t k = 0; k < pills.size(); ++k)
-      if (kept_.emplace("\n" + pills[k].key, places[boxes.size() + k] + ImVec2(0, kLoopRoom)).second)
-        fresh.insert("\n" + pills[k].key);
-  }
+  std::vector<ImVec2> places = lay_out(items, links);
+  for (std::size_t k = boxes.size(); k < places.size(); ++k) places[k] = places[k] + ImVec2(0, kLoopRoom);
+  return places;
+}
+
+void Model::place(const Editor& editor) {
+  const auto is_unknown = [&](const std::string& key, bool is_stored) { return !is_stored && !kept_.contains(key); };
+  std::set<std::string> fresh;  // seen for the first time, and nobody says where it lies
   for (NodeBox& box : boxes) {
-    const auto stored = view.boxes.find(box.id);
-    box.is_stored = stored != view.boxes.end();
-    box.box.at = box.is_stored ? stored->second : kept_.at(box.id);
+    box.is_stored = view.boxes.contains(box.id);
+    if (is_unknown(box.id, box.is_stored)) fresh.insert(box.id);
   }
   for (Pill& pill : pills) {
-    const auto stored = view.sets.find(pill.key);
-    pill.is_stored = stored != view.sets.end();
-    pill.box.at = pill.is_stored ? stored->second : kept_.at("\n" + pill.key);
+    pill.is_stored = view.sets.contains(pill.key);
+    if (is_unknown("\n" + pill.key, pill.is_stored)) fresh.insert("\n" + pill.key);
   }
+  if (!fresh.empty()) {
+    const std::vector<ImVec2> places = automatic_places(editor);
+    for (std::size_t k = 0; k < boxes.size(); ++k)
+      if (fresh.contains(boxes[k].id)) kept_[boxes[k].id] = places[k];
+    for (std::size_t k = 0; k < pills.size(); ++k)
+      if (fresh.contains("\n" + pills[k].key)) kept_["\n" + pills[k].key] = places[boxes.size() + k];
+  }
+  for (NodeBox& box : boxes) box.box.at = box.is_stored ? view.boxes.at(box.id) : kept_.at(box.id);
+  for (Pill& pill : pills) pill.box.at = pill.is_stored ? view.sets.at(pill.key) : kept_.at("\n" + pill.key);
   if (!fresh.empty() && fresh.size() < boxes.size() + pills.size()) make_room(fresh);
+  note_unstored();
+}
+
+void Model::note_unstored() {
+  unstored_boxes.clear();
+  unstored_sets.clear();
+  for (const NodeBox& box : boxes)
+    if (!box.is_stored) unstored_boxes[box.id] = box.box.at;
+  for (const Pill& pill : pills)
+    if (!pill.is_stored) unstored_sets[pill.key] = pill.box.at;
 }
 
 // What is placed for the first time gives way, downwards, to what people have placed and to what has been seen already.
 void Model::make_room(const std::set<std::string>& fresh) {
   std::vector<Box> taken;
   for (const NodeBox& box : boxes)
-    if (box.is_stored || !fresh.contains(box.id)) taken.push_back(box.box);
+    if (!fresh.contains(box.id)) taken.push_back(box.box);
   for (const Pill& pill : pills)
-    if (pill.is_stored || !fresh.contains("\n" + pill.key)) taken.push_back(pill.box);
+    if (!fresh.contains("\n" + pill.key)) taken.push_back(pill.box);
   const auto give_way = [&](Box& box, const std::string& key) {
     if (!fresh.contains(key)) return;
     for (std::size_t tries = 0; tries <= taken.size(); ++tries) {
@@ -272,10 +279,8 @@ void Model::make_room(const std::set<std::string>& fresh) {
     taken.push_back(box);
     kept_[key] = box.at;
   };
-  for (NodeBox& box : boxes)
-    if (!box.is_stored) give_way(box.box, box.id);
-  for (Pill& pill : pills)
-    if (!pill.is_stored) give_way(pill.box, "\n" + pill.key);
+  for (NodeBox& box : boxes) give_way(box.box, box.id);
+  for (Pill& pill : pills) give_way(pill.box, "\n" + pill.key);
 }
 
 void Model::trace_lines() {

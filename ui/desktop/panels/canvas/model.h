@@ -99,6 +99,8 @@ class Model {
   std::vector<NodeBox> outside_boxes;  ///< what the entered frame does not hold; ascending id
   std::vector<Line> outside_lines;
   std::map<std::string, ImU32, std::less<>> families;  ///< of these lines, with their colours
+  std::map<std::string, ImVec2> unstored_boxes;        ///< where boxes of the whole scene lie that the view says nothing of
+  std::map<std::string, ImVec2> unstored_sets;         ///< the same of pills, by their key
   std::size_t undrawn = 0;                             ///< links of unknown kinds whose ends cannot be read
   std::size_t revision = 0;                            ///< grows with each change of the scene
   std::size_t state_revision = 0;                      ///< grows with each state that is seen, and with each change of the scene
@@ -120,8 +122,9 @@ class Model {
   Box bounds() const;
   /// Around what is in the frame, with its head; nothing in an empty frame.
   bool frame_box(const std::string& id, Box& out, int depth = 0) const;
-  /// Boxes without an entry in the view are laid out anew, with the next update.
-  void forget_places();
+  /// Where the automatic layout puts everything, whatever the view says: boxes first, pills after them. Of the whole scene: not
+  /// while a frame is entered.
+  std::vector<ImVec2> automatic_places(const Editor& editor) const;
   /// Draws the curves anew, after boxes have moved.
   void trace_lines();
 
@@ -131,6 +134,7 @@ class Model {
   void make_lines(const Editor& editor);
   void place(const Editor& editor);
   void make_room(const std::set<std::string>& fresh);
+  void note_unstored();
   void narrow();
   void place_doors(const std::vector<ImVec2>& origins);
   void find_indices(const Editor& editor);
@@ -138,6 +142,7 @@ class Model {
 
   std::uint64_t document_ = 0;  ///< whose places these are; 0: of none
   std::size_t log_size_ = 0, node_count_ = 0;
+  bool is_dark_ = false;  ///< of the theme that gave the lines their colours
   std::string view_text_, narrowed_to_;
   // Held, so that another state or plan never lies at the same address.
   std::shared_ptr<const State> state_;

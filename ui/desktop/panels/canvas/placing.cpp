@@ -73,27 +73,20 @@ double distance_to_outline(const std::vector<Point3>& plan, double x, double y) 
 
 }  // namespace
 
-NewVolume place_volume(const Registry& registry, const Scene& scene) {
-  NewVolume volume;
+Point3 place_volume(const Registry& registry, const Scene& scene) {
+  Point3 place;
   std::vector<Point3> others;
-  double demands = 0;
-  int count = 0;
-  const TypificationDefinition* type = registry.typification("smart_volume");
   const TypificationDefinition* base = registry.typification(kBaseNode);
   for (const auto& [id, node] : scene.nodes) {
-    if (type == nullptr || base == nullptr || !node.types.contains("smart_volume") ||
-        !node.types.contains(std::string(kBaseNode)))
-      continue;
+    if (base == nullptr || !node.types.contains("smart_volume") || !node.types.contains(std::string(kBaseNode))) continue;
     if (const auto* at = std::get_if<Vector3>(&set_value(scene, node, *base, base->ports[base->port_index("position")])))
       others.push_back(*at);
-    demands += as_number(set_value(scene, node, *type, type->ports[type->port_index("demand")])), ++count;
   }
-  if (count > 0) volume.demand = std::max(1.0, std::round(demands / count));
   const auto site = site_of(registry, scene);
   if (!site || site->plan.size() < 3) {
     // Without a boundary: beside the last one.
-    if (!others.empty()) volume.position = {others.back().x + 20, others.back().y, others.back().z};
-    return volume;
+    if (!others.empty()) place = {others.back().x + 20, others.back().y, others.back().z};
+    return place;
   }
   const Site box = box_site(site->plan);
   const double middle = (site->bottom + site->top) / 2;
@@ -105,9 +98,9 @@ NewVolume place_volume(const Registry& registry, const Scene& scene) {
       if (!is_inside(site->plan, x, y)) continue;
       double free = 2 * distance_to_outline(site->plan, x, y);
       for (const Point3& other : others) free = std::min(free, std::hypot(x - other.x, y - other.y));
-      if (free > best) best = free, volume.position = {std::round(10 * x) / 10, std::round(10 * y) / 10, middle};
+      if (free > best) best = free, place = {std::round(10 * x) / 10, std::round(10 * y) / 10, middle};
     }
-  return volume;
+  return place;
 }
 
 }  // namespace bl::desktop::canvas

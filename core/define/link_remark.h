@@ -1,0 +1,35 @@
+// What a link that runs has to say beside its proposals: who goes without, or which rule is not kept.
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "core/base/result.h"
+#include "core/define/definition.h"
+
+namespace bl {
+
+/// Whatever is remarked, the proposals stand. In ascending gravity.
+enum class LinkRemark {
+  short_of,  ///< somebody goes without: shown as a problem; the scene settles nevertheless
+  at_work,   ///< a rule is not kept yet and the link is bringing it about: no problem, but nothing is settled before it is
+  unmet,     ///< a rule cannot be kept: shown as a problem, and the scene does not settle
+};
+
+/// What one link has remarked in one tick. The gravest of its pairs speaks; among equals the first.
+struct LinkRemarks {
+  LinkRemark kind = LinkRemark::short_of;
+  std::optional<Error> said;
+};
+
+/// To be called from within evaluate(), by links that keep nothing else in their memo: it is how the remark is handed on. Where
+/// nobody listens, nothing is said.
+inline void remark(const Tick& tick, LinkRemark kind, Error what) {
+  if (tick.memo == nullptr) return;
+  LinkRemarks& remarks = tick.memo->of<LinkRemarks>();
+  if (remarks.said && kind <= remarks.kind) return;
+  remarks.kind = kind;
+  remarks.said = std::move(what);
+}
+
+}  // namespace bl

@@ -1,0 +1,11 @@
+// Stands for the reader of GeoTIFF in a build without it.
+#include "core/exchange/terrain_grid.h"
+
+namespace bl {
+
+Result<TerrainGrid> read_geotiff(std::string_view) {
+  return Error{ErrorCode::missing, "",
+               "This program was built without GeoTIFF: configure the build with -DBL_GEOTIFF=ON, or give the terrain as ASCII grid."};
+}
+
+}  // namespace bl

@@ -1,0 +1,65 @@
+// Makes volumes that press on each other part: each goes towards the middle of its own body.
+#include <algorithm>
+#include <optional>
+
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+#include "core/geometry/touching_balls.h"
+
+namespace bl {
+
+namespace {
+
+struct MakeRoom {
+  struct In {
+    double stiffness = 0.3, play = 0.12;
+  };
+  struct Ends {
+    double count = 0;
+    Point3 position, centroid;
+    double volume = 0;
+  };
+  struct Out {
+    std::optional<Vector3> move;
+  };
+
+  static void declare(LinkBuilder<MakeRoom>& l) {
+    l.id("make_room")
+        .label("Make room")
+        .doc(
+            "Makes volumes that press on each other part. A body that others or the boundary cut has its middle away from its "
+            "position; the position follows it, until the bodies have room. A volume whose body is round stays where it is.");
+    l.param(&In::stiffness, "stiffness")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0, 0.5)
+        .doc("The share of the deviation that is corrected in one tick.");
+    l.param(&In::play, "play")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0, 0.3)
+        .doc(
+            "How far the position may be from the middle of the body before it follows, as a share of the radius of a ball of "
+            "that "
+            "volume: neighbours that share a facet on purpose are left alone, and pulls that cannot be satisfied come to rest.");
+    l.reads(&Ends::count, End::from, "smart_volumes_solver.count");
+    l.reads(&Ends::position, End::to, "node.position", Unit::metre);
+    l.reads(&Ends::centroid, End::to, "smart_volume.centroid", Unit::metre);
+    l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.proposes(&Out::move, End::to, "node.position", Unit::metre);
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    const Vector3 off = ends.centroid - ends.position;
+    const double length = norm(off), beyond = length - in.play * ball_radius(ends.volume);
+    // Where the solver has given nobody room there are no bodies to follow.
+    if (!(ends.count > 0) || !(ends.volume > 0) || !(beyond > 0)) return Out{};
+    return Out{off * (in.stiffness * beyond / length)};
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(make_room, MakeRoom)

@@ -1,0 +1,66 @@
+// Lets volumes down until they stand: on the ground, or on what is below them.
+#include <algorithm>
+#include <optional>
+
+#include "core/define/link_builder.h"
+#include "core/define/registry.h"
+#include "core/geometry/touching_balls.h"
+
+namespace bl {
+
+namespace {
+
+struct Stand {
+  struct In {
+    double stiffness = 0.8, footing = 0.2, play = 0.05;
+  };
+  struct Ends {
+    double count = 0, drop = 0, volume = 0;
+  };
+  struct Out {
+    std::optional<Vector3> move;
+  };
+
+  static void declare(LinkBuilder<Stand>& l) {
+    l.id("stand").label("Stand").doc(
+        "Lets volumes down until they stand on what their `standing` allows: the ground of the boundary, or a volume below. "
+        "Nothing is lifted: a volume that stands deeper than it has to stays there.");
+    l.param(&In::stiffness, "stiffness")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0, 1)
+        .doc(
+            "The share of the way down that is made in one tick, but no more than half a radius: pulls do not hold a volume up.");
+    l.param(&In::footing, "footing")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0, 0.5)
+        .doc(
+            "How deep a ball sinks into what carries it, as a share of the radius that its volume has as a ball: one that only "
+            "touches the ground would "
+            "have no "
+            "floor there.");
+    l.param(&In::play, "play")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0, 0.2)
+        .doc("How much of that depth may be missing, as a share of the radius, before the volume is let down again.");
+    l.reads(&Ends::count, End::from, "smart_volumes_solver.count");
+    l.reads(&Ends::drop, End::to, "smart_volume.drop", Unit::metre);
+    l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.proposes(&Out::move, End::to, "node.position", Unit::metre);
+  }
+
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+    const double radius = ball_radius(ends.volume), way = ends.drop + (in.footing - in.play) * radius;
+    if (!(ends.count > 0) || !(ends.volume > 0) || !(way > 0)) return Out{};
+    // What falls by more than its own size in one tick would pass others on the way.
+    return Out{Vector3{0, 0, -std::min(in.stiffness * way, 0.5 * radius)}};
+  }
+};
+
+}  // namespace
+
+}  // namespace bl
+
+BL_LINK(stand, Stand)

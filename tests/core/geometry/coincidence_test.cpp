@@ -1,0 +1,59 @@
+// Sites at one place: who lives, by the words of the header, and how long it takes where very many lie there.
+#include "core/geometry/coincidence.h"
+
+#include <chrono>
+
+#include "core/geometry/none.h"
+#include "tests/core/geometry/geometry_support.h"
+
+namespace bl::test {
+namespace {
+
+// Heaviest first, each against all that live: the definition, as slow as it is.
+std::vector<std::uint32_t> twins_by_definition(const std::vector<PowerSite>& sites, double tolerance) {
+  std::vector<std::uint32_t> order(sites.size()), twin(sites.size(), kNone), living;
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return sites[i].weight > sites[j].weight; });
+  for (const std::uint32_t i : order) {
+    for (const std::uint32_t j : living)
+      if (twin[i] == kNone && distance(sites[i].position, sites[j].position) <= tolerance) twin[i] = j;
+    if (twin[i] == kNone) living.push_back(i);
+  }
+  return twin;
+}
+
+TEST(Coincidence, IsWhatItsWordsSay) {
+  for (std::uint64_t round = 0; round < 200; ++round) {
+    Random random(round);
+    const double tolerance = round % 3 == 0 ? 1e-6 : 0.01;
+    const Vector3 origin = round % 2 == 0 ? Vector3{} : Vector3{4e6, -3e5, 7};
+    std::vector<PowerSite> sites;
+    for (int k = 0; k < 60; ++k) {
+      const Point3 place = random_point(random, {0, 0, 0}, {3 * tolerance, 2 * tolerance, 2 * tolerance});
+      const Point3 centre = origin + 5.0 * static_cast<double>(random.below(3)) * Vector3{tolerance, 1, tolerance};
+      sites.push_back({centre + place, std::floor(random.uniform(0, 8))});
+    }
+    std::vector<std::uint32_t> twin;
+    find_coincident(sites, tolerance, twin);
+    EXPECT_EQ(twin, twins_by_definition(sites, tolerance)) << round;
+  }
+}
+
+TEST(Coincidence, ManySitesOnOnePlaceCostLittle) {
+  constexpr std::uint32_t kCount = 30000;
+  std::vector<PowerSite> sites(kCount, {{5, 5, 5}, 4});
+  sites[kCount / 2].weight = 5;
+  sites.push_back({{2, 2, 2}, 4});
+  const auto began = std::chrono::steady_clock::now();
+  const auto cells = cells_of(box({0, 0, 0}, {10, 10, 10}), sites);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const CellTotals totals = totals_of(cells);
+  EXPECT_EQ(totals.alive, 2u);
+  EXPECT_EQ(totals.coincident, kCount - 1);
+  EXPECT_EQ(cells[kCount / 2].state, SiteState::alive);
+  // Pair by pair this takes minutes and gigabytes.
+  EXPECT_LT(seconds, 5);
+}
+
+}  // namespace
+}  // namespace bl::test

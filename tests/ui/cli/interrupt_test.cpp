@@ -1,0 +1,146 @@
+// One Ctrl-C ends each task within a second, and what was asked for is written.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "core/base/random.h"
+#include "tests/ui/cli/program.h"
+
+namespace bl::test {
+namespace {
+
+// Ends a task that would run for minutes. The shell tells how many milliseconds it took to end, and its exit code; where the
+// program has ended by itself before, the code is not that of an interrupt.
+struct Interrupted {
+  Outcome outcome;
+  long milliseconds = -1;
+  int code = -1;
+};
+
+Interrupted interrupt(const Workplace& place, const std::string& task, const std::string& after = "1.5") {
+  const Outcome outcome = place.shell("\"$BEHAVIOURLINKS\" " + task + " & pid=$!\nsleep " + after +
+                                      "\nbegan=$(date +%s%N)\nkill -INT $pid\nwait $pid\ncode=$?\n"
+                                      "echo \"$code $(( ($(date +%s%N) - began) / 1000000 ))\" > ended");
+  Interrupted found{outcome};
+  std::sscanf(place.text("ended").c_str(), "%d %ld", &found.code, &found.milliseconds);
+  return found;
+}
+
+// A second, and what a machine under load takes away from it.
+void expect_at_once(const Interrupted& found) {
+  EXPECT_EQ(found.code, 130) << found.outcome.out << found.outcome.err;
+  EXPECT_LT(found.milliseconds, 3000);
+}
+
+// So many fits of five thousand volumes each, to a tolerance that no fit reaches.
+std::string endless_fits(int cases) {
+  std::string sites, demands;
+  Random random(7);
+  for (int i = 0; i < 5000; ++i) {
+    sites += (i > 0 ? ",[" : "[") + std::to_string(random.uniform()) + "," + std::to_string(random.uniform()) + "," +
+             std::to_string(random.uniform()) + "]";
+    demands += (i > 0 ? "," : "") + std::to_string(1e-5 * static_cast<double>(1 + i % 7));
+  }
+  const std::string one = R"({"boundary": {"plan": [[0,0],[1,0],[1,1],[0,1]], "bottom": 0, "top": 1}, "sites": [)" + sites +
+                          "], \"demands\": [" + demands + "]}";
+  std::string text = "{\"cases\": [" + one;
+  for (int k = 1; k < cases; ++k) text += "," + one;
+  return text + "]}";
+}
+
+TEST(Interrupt, EndsARunAndWritesAllThatWasAskedFor) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  const auto found =
+      interrupt(place, "run s.json --ticks 100000000 --json out.json --save saved.json --log log.jsonl --report page");
+  expect_at_once(found);
+  for (const char* file : {"out.json", "saved.json", "log.jsonl", "page/report.html"})
+    EXPECT_TRUE(std::filesystem::exists(place.path(file))) << file;
+  EXPECT_EQ(place.run({"check", "saved.json"}).code, 0);
+}
+
+// A tick of a script that has minutes of work in it is dropped: what is saved is the tick before.
+TEST(Interrupt, EndsAScriptInTheMiddleOfATick) {
+  const Workplace place;
+  std::string links;
+  for (int k = 0; k < 1500; ++k)
+    links += (k > 0 ? "," : "") + std::string(R"({"id": "l)") + std::to_string(k) +
+             R"(", "kind": "slow", "from": "east", "to": "west"})";
+  std::string scene = scene_text(volume_text("east", "[8, 0, 8]") + "," + volume_text("west", "[-8, 0, 8]"), links);
+  place.write("slow.lua", R"(return {
+  id = "slow",
+  label = "Slow",
+  doc = "Counts for long.",
+  reads = {here = {at = "to", port = "node.position", unit = "m"}},
+  proposes = {move = {at = "to", port = "node.position", unit = "m"}},
+  evaluate = function(params, ends, tick)
+    local sum = 0
+    for i = 1, 80000 do sum = sum + i % 7 end
+    return {move = point(0, 0, 0 * sum)}
+  end,
+}
+)");
+  place.write("s.json", scene);
+  const auto found = interrupt(place, "run s.json --script slow.lua --ticks 1000000 --save saved.json");
+  expect_at_once(found);
+  EXPECT_TRUE(std::filesystem::exists(place.path("saved.json")));
+}
+
+TEST(Interrupt, EndsAFitAndWritesAllCases) {
+  const Workplace place;
+  place.write("s.json", endless_fits(12));
+  const auto found = interrupt(place, "fit s.json --json out.json --tolerance 1e-16 --steps 100000", "4");
+  expect_at_once(found);
+  const auto cases = place.json("out.json")["cases"];
+  ASSERT_EQ(cases.size(), 12u);
+  EXPECT_EQ(cases.back()["status"], "cancelled");
+  for (const auto& one : cases) EXPECT_EQ(one["weights"].size(), 5000u);
+}
+
+TEST(Interrupt, EndsAnAssignmentAndWritesHowFarItHasCome) {
+  const Workplace place;
+  constexpr int kZones = 160, kAside = 3;
+  std::string links, trips;
+  const auto node = [](int row, int column) { return std::to_string(row * kZones + column + 1); };
+  int count = 0;
+  for (int row = 0; row < kAside; ++row)
+    for (int column = 0; column < kZones; ++column)
+      for (const auto& [r, c] : {std::pair{row + 1, column}, {row - 1, column}, {row, column + 1}, {row, column - 1}}) {
+        if (r < 0 || r >= kAside || c < 0 || c >= kZones) continue;
+        links +=
+            node(row, column) + " " + node(r, c) + " 900 1 " + std::to_string(1 + (row * 7 + c * 3) % 5) + " 0.15 4 0 0 1 ;\n";
+        ++count;
+      }
+  for (int from = 1; from <= kZones; ++from) {
+    trips += "Origin " + std::to_string(from) + "\n";
+    for (int to = 1; to <= kZones; ++to)
+      if (to != from) trips += std::to_string(to) + " : " + std::to_string(1 + (from * to) % 9) + ".0; ";
+    trips += "\n";
+  }
+  place.write("n_net.tntp",
+              "<NUMBER OF ZONES> " + std::to_string(kZones) + "\n<NUMBER OF NODES> " + std::to_string(kAside * kZones) +
+                  "\n<FIRST THRU NODE> 1\n<NUMBER OF LINKS> " + std::to_string(count) +
+                  "\n<END OF METADATA>\n~ init term capacity length free_flow_time b power speed toll link_type ;\n" + links);
+  place.write("n_trips.tntp", "<NUMBER OF ZONES> " + std::to_string(kZones) + "\n<TOTAL OD FLOW> 0\n<END OF METADATA>\n" + trips);
+  const auto found = interrupt(place, "assign n_net.tntp n_trips.tntp --gap 1e-300 --iterations 1000000 --json out.json");
+  expect_at_once(found);
+  ASSERT_TRUE(std::filesystem::exists(place.path("out.json"))) << found.outcome.out << found.outcome.err;
+  const auto out = place.json("out.json");
+  EXPECT_EQ(out["links"].size(), static_cast<std::size_t>(count));
+  EXPECT_GT(out["equilibrium"]["gap"].get<double>(), 0);
+}
+
+TEST(Interrupt, EndsAComparisonAndWritesThePage) {
+  const Workplace place;
+  place.write("a.json", moving_scene());
+  place.write("b.json", moving_scene());
+  const auto found = interrupt(place, "compare a.json b.json --ticks 100000000 --report page.html");
+  expect_at_once(found);
+  EXPECT_TRUE(std::filesystem::exists(place.path("page.html")));
+}
+
+}  // namespace
+}  // namespace bl::test

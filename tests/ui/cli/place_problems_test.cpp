@@ -1,0 +1,71 @@
+// What is said of bodies in the air and of volumes on one point.
+#include "ui/cli/report/place_problems.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/world.h"
+#include "ui/cli/report/report_model.h"
+
+namespace bl {
+namespace {
+
+std::string placed_scene(const std::string& volumes, const std::string& links = "") {
+  return R"({"format": "behaviourlinks", "version": 1, "nodes": [)" + volumes +
+         R"(, {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0,0,0],[60,0,0],[60,40,0],[0,40,0]], "height": 40}}},
+            {"id": "solver", "types": {"smart_volumes_solver": {}}}],
+            "links": [)" +
+         links + "]}";
+}
+
+std::string volume_at(const std::string& id, const std::string& position, const std::string& more = "") {
+  return R"({"id": ")" + id + R"(", "name": "The )" + id + R"(", "position": )" + position +
+         R"(, "types": {"smart_volume": {"demand": 1000)" + more + "}}}";
+}
+
+// 1000 m³ are a ball of radius 6.2 m.
+TEST(PlaceProblems, NamesWhatHangsWithItsHeight) {
+  World world = World::from_text(placed_scene(volume_at("kiosk", "[10, 10, 5]") + "," + volume_at("nursery", "[40, 20, 20]") +
+                                              "," + volume_at("shop", "[10, 10, 15]", R"(, "standing": "ground")")));
+  ASSERT_TRUE(world.settle());
+  const auto hanging = report::hanging_volumes(world.state());
+  ASSERT_EQ(hanging.size(), 2u);
+  EXPECT_EQ(hanging[0].subject, "The nursery hangs 13.8 m above the ground");
+  EXPECT_EQ(hanging[0].nodes, std::vector<std::string>{"nursery"});
+  EXPECT_NE(hanging[0].text.find("nothing that stands carries it"), std::string::npos) << hanging[0].text;
+  EXPECT_TRUE(hanging[1].subject.starts_with("The shop stands ")) << hanging[1].subject;
+  EXPECT_NE(hanging[1].text.find("it stands on `kiosk`, and has to stand on the ground"), std::string::npos) << hanging[1].text;
+  EXPECT_TRUE(report::collapsed_volumes(world.state()).empty());
+  // The report's list has them too, as no failure.
+  report::ReportModel model;
+  report::read_problems(world.state(), model);
+  ASSERT_EQ(model.problems.size(), 2u);
+  EXPECT_TRUE(model.problems[0].is_place);
+  EXPECT_NE(model.problems[0].message.find("13.8 m above the ground"), std::string::npos);
+}
+
+TEST(PlaceProblems, TellsACollapseAsOneWithThosePulling) {
+  World world = World::from_text(placed_scene(
+      volume_at("a", "[20, 20, 6]") + "," + volume_at("b", "[22, 20, 6]") + "," + volume_at("c", "[20, 22, 6]") + "," +
+          volume_at("far", "[50, 20, 6]"),
+      R"({"id": "hug", "kind": "attract", "from": "a", "to": ["b", "c"], "parameters": {"rest": 0, "stiffness": 0.3}},
+         {"id": "inside", "kind": "inside_boundary", "from": "site", "to": {"typification": "smart_volume"}},
+         {"id": "off", "kind": "repel", "from": "a", "to": "b", "strength": 0.01},
+         {"id": "silent", "kind": "attract", "from": "b", "to": "c", "muted": true})"));
+  world.tick(60);
+  const auto collapsed = report::collapsed_volumes(world.state());
+  ASSERT_EQ(collapsed.size(), 1u);
+  EXPECT_EQ(collapsed[0].nodes, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(collapsed[0].links, std::vector<std::string>{"hug"});
+  EXPECT_EQ(collapsed[0].subject, "3 volumes lie on one point, pulled by `hug`");
+  EXPECT_EQ(report::place_problems(world.state()).front().subject, collapsed[0].subject);
+}
+
+TEST(PlaceProblems, SaysNothingBeforeTheFirstTick) {
+  World world = World::from_text(placed_scene(volume_at("a", "[20, 20, 26]") + "," + volume_at("b", "[20, 20, 26]")));
+  EXPECT_TRUE(report::place_problems(world.state()).empty());
+}
+
+}  // namespace
+}  // namespace bl

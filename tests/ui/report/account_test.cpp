@@ -1,0 +1,145 @@
+// The account of demands: what was asked for, by whoever asked, and who goes short of it; one for all displays.
+#include "ui/cli/report/account.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "tests/support/world.h"
+#include "ui/cli/report/page.h"
+#include "ui/cli/report/report_model.h"
+
+namespace bl {
+namespace {
+
+using report::Accounts;
+
+std::string scene_of(const std::string& nodes, const std::string& links) {
+  return R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "site", "types": {"boundary": {}}},
+    {"id": "solver", "types": {"smart_volumes_solver": {}}})" +
+         (nodes.empty() ? "" : ", " + nodes) + R"(], "links": [)" + links + "]}";
+}
+
+constexpr const char* kCapped =
+    R"({"id": "hand", "name": "Hand", "position": [0, 0, 5], "types": {"smart_volume": {"demand": 1000}}},
+  {"id": "total", "types": {"statistics": {"port": "smart_volume.floor_area"}}},
+  {"id": "limited", "position": [-9, 0, 5], "types": {"smart_volume": {"demand": 600, "demand_limit": 400}}})";
+
+// What a person has asked for and a limit cuts is short, brief or none.
+TEST(Account, WhatPeopleAskForByHandCountsAgainstItsLimit) {
+  World world = World::from_text(scene_of(kCapped, ""));
+  world.tick(120);
+  const Accounts accounts = report::accounts_of(world.state());
+  ASSERT_EQ(accounts.volumes.size(), 2u);
+  const report::VolumeAccount &free = accounts.volumes[0], &cut = accounts.volumes[1];
+  EXPECT_EQ(free.asked, 1000);
+  EXPECT_FALSE(free.is_short(accounts.tolerance)) << free.short_share();
+  EXPECT_EQ(cut.asked, 600);
+  EXPECT_EQ(cut.limited, 400);
+  EXPECT_NEAR(cut.volume, 400, 8);
+  EXPECT_TRUE(cut.is_short(accounts.tolerance));
+  EXPECT_NEAR(cut.short_share(), 1.0 / 3, 0.02);
+  EXPECT_NE(report::why_short(world.state(), accounts, cut).find("a limit set by hand leaves 400"), std::string::npos)
+      << report::why_short(world.state(), accounts, cut);
+  EXPECT_EQ(report::why_short(world.state(), accounts, free), "");
+  EXPECT_EQ(accounts.worst, "volume limited");
+  EXPECT_NEAR(accounts.worst_short, 1.0 / 3, 0.02);
+  EXPECT_EQ(accounts.all.short_volumes, 1u);
+}
+
+constexpr const char* kBrief = R"({"id": "brief", "types": {"programme": {"rows": [
+    {"use": "housing", "floor_area": 250, "storey_height": 3, "count": 2}, {"use": "office", "floor_area": 200, "storey_height": 3}]}}},
+  {"id": "home_a", "position": [-8, 0, 5], "types": {"smart_volume": {"use": "housing"}}},
+  {"id": "home_b", "position": [8, 0, 5], "types": {"smart_volume": {"use": "housing"}}})";
+
+// A use that no volume has is short as a whole, with what to do; the others are counted on their own.
+TEST(Account, AUseWithoutVolumesIsShortOfAllThatTheBriefAsks) {
+  World world = World::from_text(scene_of(
+      kBrief,
+      R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}, "parameters": {"every_row": false}})"));
+  world.tick(120);
+  const Accounts accounts = report::accounts_of(world.state());
+  ASSERT_EQ(accounts.uses.size(), 2u);
+  EXPECT_EQ(accounts.uses[0].use, "housing");
+  EXPECT_EQ(accounts.uses[0].asked_area, 500);
+  EXPECT_EQ(accounts.uses[0].asked, 1500);
+  EXPECT_EQ(accounts.uses[1].use, "office");
+  EXPECT_EQ(accounts.uses[1].asked_area, 200);
+  EXPECT_EQ(accounts.uses[1].short_share(), 1);
+  EXPECT_NE(report::why_short(world.state(), accounts, accounts.uses[1]).find("no volume has this use"), std::string::npos);
+  EXPECT_EQ(accounts.all.asked_area, 700);
+}
+
+// The brief asks for floor, the solver gives volume: where storeys of the shape hold less, the use is short and the reason is
+// told.
+TEST(Account, FloorAreaThatTheShapeDoesNotHoldIsMissing) {
+  World world = World::from_text(scene_of(R"({"id": "brief", "types": {"programme": {"rows": [
+      {"use": "theatre", "floor_area": 100, "storey_height": 8}]}}},
+    {"id": "stage", "position": [0, 0, 8], "types": {"smart_volume": {"use": "theatre"}}})",
+                                          R"({"id": "deal", "kind": "demand", "from": "brief", "to": "stage"})"));
+  world.tick(150);
+  const Accounts accounts = report::accounts_of(world.state());
+  const report::VolumeAccount& stage = accounts.volumes.front();
+  EXPECT_TRUE(stage.is_by_area);
+  EXPECT_NEAR(stage.volume / stage.asked, 1, 0.01);
+  ASSERT_LT(stage.floor_area, 0.98 * stage.asked_area) << "the case that is tested has gone; take another height";
+  EXPECT_TRUE(stage.is_short(accounts.tolerance));
+  EXPECT_TRUE(accounts.uses.front().is_short(accounts.tolerance));
+  EXPECT_NE(report::why_short(world.state(), accounts, accounts.uses.front()).find("storeys of the shape hold less floor"),
+            std::string::npos);
+}
+
+// The law: in random scenes with briefs, hands, limits and links, figures fit together, the sums are those of their parts, and
+// page and account call the same volumes short.
+TEST(AccountLaw, FiguresFitTogetherInEveryScene) {
+  Random random(12);
+  const std::vector<std::string> uses = {"", "a", "b", "c"};
+  for (int trial = 0; trial < 40; ++trial) {
+    std::string nodes = R"({"id": "brief", "types": {"programme": {"rows": [{"use": "a", "floor_area": )" +
+                        std::to_string(50 + random.below(300)) + R"(}, {"use": "b", "floor_area": 120, "count": 2}]}}})";
+    const std::uint64_t count = random.below(6);
+    for (std::uint64_t k = 0; k < count; ++k) {
+      nodes += R"(, {"id": "v)" + std::to_string(k) + R"(", "position": [)" + std::to_string(random.uniform(-12, 12)) + ", " +
+               std::to_string(random.uniform(-12, 12)) + R"(, 5], "types": {"smart_volume": {"use": ")" + uses[random.below(4)] +
+               "\"";
+      if (random.below(2) == 0) nodes += R"(, "demand": )" + std::to_string(random.below(2500));
+      if (random.below(3) == 0) nodes += R"(, "demand_limit": )" + std::to_string(random.below(900));
+      nodes += "}}}";
+    }
+    World world = World::from_text(scene_of(
+        nodes, R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}, "strength": 0.7})"));
+    world.tick(1 + static_cast<int>(random.below(40)));
+    report::ReportModel model;
+    report::read_model(world.state(), model);
+    const Accounts& accounts = model.accounts;
+    report::Account sum;
+    double worst = 0;
+    for (const report::VolumeRow& volume : model.volumes) {
+      sum.add(volume);
+      worst = std::max(worst, volume.short_share());
+      EXPECT_GE(volume.missing(), 0);
+      EXPECT_LE(volume.short_share(), 1);
+      EXPECT_EQ(volume.is_short(accounts.tolerance), volume.standing() < -accounts.tolerance);
+      EXPECT_EQ(volume.is_short(accounts.tolerance), !report::why_short(world.state(), accounts, volume).empty());
+      if (volume.state == "alive") {
+        EXPECT_EQ(volume.is_short(accounts.tolerance), report::standing_of(volume, accounts.tolerance) == "short");
+      }
+    }
+    std::size_t volumes = 0;
+    double had = 0;
+    for (const report::UseAccount& use : accounts.uses) {
+      volumes += use.volumes;
+      had += use.volume;
+      worst = std::max(worst, use.short_share());
+      EXPECT_EQ(use.is_short(accounts.tolerance), !report::why_short(world.state(), accounts, use).empty());
+      if (use.is_in_programme) { EXPECT_GE(use.asked_area, use.brief_area * (1 - 1e-12)); }
+    }
+    EXPECT_EQ(volumes, model.volumes.size());
+    EXPECT_EQ(had, accounts.all.volume);
+    EXPECT_NEAR(had, sum.volume, 1e-9 * (1 + had));
+    EXPECT_EQ(accounts.worst_short, worst);
+    EXPECT_EQ(accounts.worst.empty(), worst == 0);
+  }
+}
+
+}  // namespace
+}  // namespace bl

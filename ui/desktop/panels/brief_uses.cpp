@@ -1,0 +1,74 @@
+// Reads briefs by the names of their ports, and what is missing from the figures that statistics and lists show.
+#include "ui/desktop/panels/brief_uses.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "core/define/json_text.h"
+#include "ui/desktop/panels/panel_memory.h"
+#include "ui/desktop/panels/statistics_record.h"
+
+namespace bl::desktop {
+
+namespace {
+
+std::vector<std::string> uses_of_briefs(const Scene& scene) {
+  std::vector<std::string> uses;
+  for (const auto& [id, node] : scene.nodes) {
+    const auto programme = node.types.find("programme");
+    if (programme == node.types.end()) continue;
+    const auto rows = programme->second.find("rows");
+    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
+    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row)
+      if (const std::string& use = (*table)->text(row, "use");
+          !use.empty() && std::find(uses.begin(), uses.end(), use) == uses.end())
+        uses.push_back(use);
+  }
+  return uses;
+}
+
+std::string use_of_volume(const NodeRecord& node) {
+  const auto volume = node.types.find("smart_volume");
+  if (volume == node.types.end()) return "";
+  const auto use = volume->second.find("use");
+  const auto* text = use == volume->second.end() ? nullptr : std::get_if<std::string>(&use->second);
+  return text == nullptr ? std::string() : *text;
+}
+
+}  // namespace
+
+std::vector<std::string> known_uses(const Scene& scene) {
+  std::vector<std::string> uses = uses_of_briefs(scene);
+  std::set<std::string> others;
+  for (const auto& [id, node] : scene.nodes) others.insert(use_of_volume(node));
+  for (const std::string& use : others)
+    if (!use.empty() && std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
+  return uses;
+}
+
+std::vector<std::string> uses_by_need(Editor& editor) {
+  std::vector<std::string> uses = uses_of_briefs(editor.scene());
+  const report::ReportModel& figures = memory_of(editor).record->figures(editor);
+  std::map<std::string, double> missing;  // [m²]
+  for (const report::UseRow& use : figures.uses) missing[use.use] = use.wanted_floor_area - use.floor_area;
+  // A volume that has nothing yet was added a moment ago: its use is seen to.
+  std::set<std::string> grown;
+  for (const report::VolumeRow& volume : figures.volumes)
+    if (volume.volume > 0) grown.insert(volume.id);
+  for (const auto& [id, node] : editor.scene().nodes)
+    if (const std::string use = use_of_volume(node); !use.empty() && !grown.contains(id)) missing[use] = 0;
+  std::stable_sort(uses.begin(), uses.end(), [&](const auto& a, const auto& b) { return missing[a] > missing[b]; });
+  return uses;
+}
+
+std::string first_values(Editor& editor, const std::string& type, std::size_t number) {
+  Json values = Json::object();
+  if (type == "smart_volume")
+    if (const std::vector<std::string> uses = uses_by_need(editor); !uses.empty()) values["use"] = uses[number % uses.size()];
+  return write_json_line(values);
+}
+
+}  // namespace bl::desktop
