@@ -191,9 +191,11 @@ Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch) {
   } catch (const osmium::xml_error& error) { return xml_fault(error); } catch (const std::bad_alloc&) {
     throw;  // no fault of the file
   } catch (const std::system_error&) { throw; } catch (const std::exception& error) {
-    return Error{
-        ErrorCode::parse, format == "pbf" ? "PBF" : "XML",
-        std::string("The OpenStreetMap file cannot be read to its end: ") + error.what() + ". It is damaged or cut off."};
+    // Of a PBF the library speaks in words of its own format, which help nobody.
+    if (format == "pbf")
+      return Error{ErrorCode::parse, "PBF", "A block of the PBF cannot be read: the file is damaged or cut off."};
+    return Error{ErrorCode::parse, "XML",
+                 std::string("The OpenStreetMap file cannot be read to its end: ") + error.what() + ". It is damaged."};
   }
 }
 

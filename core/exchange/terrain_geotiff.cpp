@@ -161,6 +161,16 @@ struct Sample {
   }
 };
 
+// Does a block lie behind the end of the file, or the list that says where they lie?
+bool is_cut_off(TIFF* tiff, const MemoryFile& file) {
+  const std::uint32_t blocks = TIFFIsTiled(tiff) != 0 ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+  for (std::uint32_t k = 0; k < blocks; ++k) {
+    const std::uint64_t begin = TIFFGetStrileOffset(tiff, k), size = TIFFGetStrileByteCount(tiff, k);
+    if (begin > file.bytes.size() || size > file.bytes.size() - begin || !file.message.empty()) return true;
+  }
+  return false;
+}
+
 // Strips or tiles: of a block that cannot be read the error says which.
 Result<void> read_blocks(TIFF* tiff, const MemoryFile& file, const Sample& sample, TerrainGrid& grid) {
   const bool is_tiled = TIFFIsTiled(tiff) != 0;
@@ -252,6 +262,9 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes) {
   if (!sample.is_known() || sample.per_pixel == 0)
     return Error{ErrorCode::parse, "TIFF",
                  "Pixels of this kind are not read: 8 to 64 bit whole numbers and 32 or 64 bit floating ones are."};
+  if (is_cut_off(tiff.get(), file))
+    return Error{ErrorCode::parse, "byte " + std::to_string(bytes.size()),
+                 "The GeoTIFF ends before its last block: the file is cut off. Fetch it again."};
   if (auto placed = place(tiff.get(), grid); !placed) return placed.error();
   grid.crs = crs_of(tiff.get());
   grid.height_unit = height_unit_of(tiff.get());

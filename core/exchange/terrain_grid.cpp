@@ -108,7 +108,9 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
     if (!value && std::any_of(word.begin(), word.end(), [](char c) { return c <= ' ' || c > '~'; }))
       return Error{ErrorCode::parse, words.place(),
                    "Something stands here that is no number and no text: the ASCII grid is damaged."};
-    if (!value) return Error{ErrorCode::parse, words.place(), "`" + std::string(word.substr(0, 40)) + "` is no number."};
+    if (!value)
+      return Error{ErrorCode::parse, words.place(),
+                   "`" + std::string(word.substr(0, 40)) + "` is no number: the ASCII grid is damaged or cut off."};
     grid.values.push_back(*value == nodata || !std::isfinite(*value) ? kNothing : *value);
   }
   if (!words.next().empty())
@@ -195,6 +197,10 @@ Result<TerrainGrid> read_terrain_grid(std::string_view bytes) {
   auto text = unpacked(bytes);
   if (!text) return text.error();
   if (text->empty()) return Error{ErrorCode::missing, "byte 0", "The file is empty: an ASCII grid or a GeoTIFF is needed."};
+  for (const std::string_view mark : {std::string_view("II*\0", 4), std::string_view("MM\0*", 4)})
+    if (mark.starts_with(*text))
+      return Error{ErrorCode::parse, "byte " + std::to_string(text->size()),
+                   "The GeoTIFF ends in its first bytes: the file is cut off. Fetch it again."};
   const bool is_tiff = text->starts_with("II*") || text->starts_with(std::string_view("MM\0*", 4)) || text->starts_with("II+") ||
                        text->starts_with(std::string_view("MM\0+", 4));
   if (is_tiff) return read_geotiff(*text);

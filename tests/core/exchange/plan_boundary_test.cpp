@@ -200,7 +200,7 @@ TEST(PlanBoundary, RingErrors) {
             "coordinates/0: A ring needs at least 3 different points; this one has 2.");
   EXPECT_EQ(boundary_error_of(polygon("[[]]")), "coordinates/0: A ring needs at least 3 different points; this one has 0.");
   EXPECT_EQ(boundary_error_of(polygon("[]")),
-            "There is no polygon in the file (1 other features). A plan boundary must be a Polygon or a MultiPolygon.");
+            "There is no polygon in the file (1 other feature). A plan boundary must be a Polygon or a MultiPolygon.");
   EXPECT_EQ(boundary_error_of(polygon(kDutchSquare)),
             "coordinates/0/0: (85000.000, 446000.000) is no longitude and latitude. The coordinates are probably projected, and "
             "the file does not say "
@@ -234,7 +234,7 @@ TEST(PlanBoundary, FormatErrors) {
   EXPECT_EQ(boundary_error_of(polygon("[[[4,52],[1e999,3]]]")),
             "The text cannot be read as JSON: a number or a character in it is out of range.");
   EXPECT_EQ(boundary_error_of(R"({"type":"Feature","properties":null,"geometry":{"type":"Point","coordinates":[1,2]}})"),
-            "There is no polygon in the file (1 other features). A plan boundary must be a Polygon or a MultiPolygon.");
+            "There is no polygon in the file (1 other feature). A plan boundary must be a Polygon or a MultiPolygon.");
 }
 
 TEST(PlanBoundary, CrsErrors) {

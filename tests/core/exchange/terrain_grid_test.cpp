@@ -279,7 +279,7 @@ TEST(TerrainGrid, HeightsNobodyReachesAreNoValues) {
   EXPECT_EQ(terrain->report.count(ImportOutcome::taken), 24u);
   EXPECT_EQ(terrain->report.count(ImportOutcome::skipped), 1u);
   EXPECT_TRUE(std::any_of(terrain->notes.begin(), terrain->notes.end(),
-                          [](const std::string& note) { return note.find("1 cells have heights beyond") == 0; }));
+                          [](const std::string& note) { return note.find("1 cell has a height beyond") == 0; }));
 }
 
 TEST(TerrainGrid, HeightsInFeetBecomeMetres) {

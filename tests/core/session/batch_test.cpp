@@ -50,9 +50,9 @@ TEST(Batch, ItsInversesUndoFromTheLastToTheFirst) {
   ASSERT_EQ(world.submit(command<Batch>({{list}})), "");
   const Scene after = world.session().scene();
   EXPECT_FALSE(after.nodes.contains("parking"));
-  ASSERT_TRUE(world.session().undo("person").ok());
+  ASSERT_TRUE(world.session().undo("test").ok());
   EXPECT_EQ(world.session().scene(), before);
-  ASSERT_TRUE(world.session().redo("person").ok());
+  ASSERT_TRUE(world.session().redo("test").ok());
   EXPECT_EQ(world.session().scene(), after);
 }
 
