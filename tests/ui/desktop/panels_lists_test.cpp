@@ -224,6 +224,7 @@ TEST(History, APressTakesBackAndBringsBack) {
   ListDesktop desktop(kListedQuarter);
   const std::string before = desktop.scene_text();
   for (const char* name : {"One", "Two", "Three"}) ASSERT_TRUE(desktop.editor().submit(command<RenameNode>({"library", name})));
+  desktop.frames(1);  // the places of the boxes go into the last step
   const std::string after = desktop.scene_text();
   desktop.open_tab("History");
   desktop.press_on("step/1");

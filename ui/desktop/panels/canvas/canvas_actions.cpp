@@ -254,11 +254,11 @@ void add_sight_commands(std::vector<Action>& list) {
          area,
          [](const Editor& e) { return has_document(e) && !e.canvas->board().model.entered.empty(); },
          [](Editor& e) { leave_frame(board_of(e)); }});
+  const std::size_t first = list.size();
   begin_group(list, on_node | on_link | on_frame | on_comment,
               {"Canvas", "Fit selection, or all", {GLFW_KEY_F}, {}, area, has_document, [](Editor& e) { e.canvas->fit(false); }});
   offer(list, on_ground,
         {"Canvas", "Fit all", {GLFW_KEY_HOME}, {GLFW_KEY_A}, area, has_document, [](Editor& e) { e.canvas->fit(true); }});
-  const std::size_t first = list.size();
   begin_group(list, 0,
               {"Canvas",
                "Zoom in",
