@@ -7,6 +7,7 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/base/text.h"
@@ -70,7 +71,8 @@ std::uint32_t big_endian(const char* bytes) {
 }
 
 // Whether all of it could be read; its messages are handed to the sensors that they name.
-bool deliver(Endpoint& endpoint, std::vector<char> packet, int depth) {
+bool deliver(Endpoint& endpoint, std::span<const char> bytes, int depth) {
+  std::vector<char> packet(bytes.begin(), bytes.end());  // the library reads numbers where it stands, which has to be aligned
   if (packet.size() >= kBundleHead && std::memcmp(packet.data(), "#bundle", 8) == 0) {
     if (depth == kDeepest) return false;
     for (std::size_t at = kBundleHead; at < packet.size();) {
@@ -78,8 +80,7 @@ bool deliver(Endpoint& endpoint, std::vector<char> packet, int depth) {
       const std::size_t size = big_endian(packet.data() + at);
       at += 4;
       if (size == 0 || size > packet.size() - at) return false;
-      const auto begin = packet.begin() + static_cast<std::ptrdiff_t>(at);
-      if (!deliver(endpoint, {begin, begin + static_cast<std::ptrdiff_t>(size)}, depth + 1)) return false;
+      if (!deliver(endpoint, std::span(packet).subspan(at, size), depth + 1)) return false;
       at += size;
     }
     return true;
@@ -103,7 +104,7 @@ void hear(Endpoint& endpoint, const Socket& socket) {
     const ssize_t size = recv(socket.handle(), buffer.data(), buffer.size(), MSG_DONTWAIT);
     if (size < 0) continue;
     // Noise names no sensor, so all on this port hear of it.
-    if (!deliver(endpoint, {buffer.begin(), buffer.begin() + size}, 0))
+    if (!deliver(endpoint, std::span(buffer).first(static_cast<std::size_t>(size)), 0))
       for (const Subscriber& subscriber : endpoint.subscribers())
         subscriber.station->problem("a packet on the port " + std::to_string(endpoint.port()) + " is no OSC message");
   }
