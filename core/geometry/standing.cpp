@@ -16,6 +16,10 @@ namespace {
 // move, so that more would overshoot.
 constexpr double kCreepOfHang = 0.25, kCreepOfRadius = 0.1;
 
+// What stands on another volume stays there until the way between them is this flat: with one limit for coming and staying, who
+// comes to rest at it would be carried in one tick and not in the next.
+constexpr double kSteepnessToStay = 0.9 * kLeastSteepness;
+
 struct HeightSpan {
   double bottom, top;
 };
@@ -74,7 +78,7 @@ class StanceFinder {
 
   bool is_below(std::size_t lower, std::size_t upper) const {
     const Vector3 up = sites_[upper].position - sites_[lower].position;
-    return up.z > 0 && up.z >= kLeastSteepness * norm(up);
+    return up.z > 0 && up.z >= kSteepnessToStay * norm(up);
   }
 
   // One round; true where it found somebody.

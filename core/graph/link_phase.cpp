@@ -11,12 +11,13 @@ namespace {
 
 // Proposals of all pairs of one link on one target, taken together in the order of the pairs. A link speaks with one voice: the
 // mean of the pairs that move anything, so that a node pulled by sixty partners is moved no farther than by one, and
-// links to sets settle whatever the size of the set.
+// links to sets settle whatever the size of the set. A pair counts as far as it moves anything: if it counted whole from its
+// first millimetre on, the voice of the others would jump to half whenever a second pair comes in, and nodes would saw for ever.
 struct Collected {
   int count = 0, moving = 0;
   double number = 0;
   Vector3 vector;
-  double magnitude = 0;
+  double magnitude = 0, squares = 0;
   std::vector<std::string> texts;
 
   void add(const Value& value, CombineRule rule) {
@@ -28,11 +29,13 @@ struct Collected {
     if (const auto* v = std::get_if<Vector3>(&value)) {
       vector += *v;
       magnitude += norm(*v);
+      squares += squared_norm(*v);
       if (*v != Vector3{}) ++moving;
       return;
     }
     const double x = as_number(value);
     magnitude += std::abs(x);
+    squares += x * x;
     if (x != 0) ++moving;
     if (rule == CombineRule::min) number = count == 1 ? x : std::min(number, x);
     else if (rule == CombineRule::max) number = count == 1 ? x : std::max(number, x);
@@ -49,10 +52,17 @@ struct Collected {
       }
       return {target, Shared(std::move(all)), 0, strength};
     }
-    const int voices = port.rule == CombineRule::blend ? count : port.rule == CombineRule::sum ? std::max(1, moving) : 1;
-    const double share = 1.0 / voices;
+    const double share = port.rule == CombineRule::blend ? 1.0 / count : port.rule == CombineRule::sum ? share_of_sum() : 1.0;
     if (port.kind == ValueKind::point) return {target, vector * share, magnitude * share, strength};
     return {target, number * share, magnitude * share, strength};
+  }
+
+  // One over the number of pairs that move anything, each counted by how much it moves: (sum m)² / sum m² of n equal ones is n,
+  // and one that hardly moves hardly counts. The sum times this share is never more than the largest move.
+  double share_of_sum() const {
+    if (moving <= 1) return 1;
+    const double share = squares / (magnitude * magnitude);
+    return share > 0 && share <= 1 ? share : 1.0 / moving;  // squares of extreme numbers overflow
   }
 };
 
