@@ -121,6 +121,8 @@ std::string meets_another(const CLI::App& task, const std::vector<NamedFile>& na
   for (std::size_t i = 0; i < named.size(); ++i) {
     const NamedFile& other = named[i];
     if (i == place || other.role->use == Use::fills || !is_plain_file(other.path) || !falls_on(output, other.path)) continue;
+    // Of two files the one that is named later is blamed.
+    if (other.role->use == Use::writes && output.role->use == Use::writes && i > place) continue;
     if (other.role->use == Use::writes)
       return output.option + ": " + other.path + ": is written by " + other.option + " already; choose another " + thing;
     if (changed != nullptr && shown_option(*changed) == other.option) continue;

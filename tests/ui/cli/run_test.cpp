@@ -228,12 +228,13 @@ TEST(Run, InterruptWritesWhatIsThere) {
 TEST(Run, FullDiskLeavesTheOldFileWhole) {
   const Workplace place;
   place.write("s.json", moving_scene());
-  place.write("saved.json", "old content\n");
+  const std::string old = scene_text("");
+  place.write("saved.json", old);
   // A limit on the size of files stands for the full disk; its signal is ignored, so that writing fails with an error.
   const Outcome outcome = place.shell("trap '' XFSZ; ulimit -f 1; \"$BEHAVIOURLINKS\" run s.json --ticks 2 --save saved.json");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("the old file is unchanged"), std::string::npos) << outcome.err;
-  EXPECT_EQ(place.text("saved.json"), "old content\n");
+  EXPECT_EQ(place.text("saved.json"), old);
   const Outcome device = place.run({"run", "s.json", "--ticks", "2", "--json", "/dev/full"});
   EXPECT_EQ(device.code, 2);
   EXPECT_NE(device.err.find("No space left"), std::string::npos) << device.err;
