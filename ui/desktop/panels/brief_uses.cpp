@@ -53,7 +53,7 @@ std::vector<std::string> uses_by_need(Editor& editor) {
   std::vector<std::string> uses = uses_of_briefs(editor.scene());
   const report::ReportModel& figures = memory_of(editor).record->figures(editor);
   std::map<std::string, double> missing;  // [m²]
-  for (const report::UseRow& use : figures.uses) missing[use.use] = use.wanted_floor_area - use.floor_area;
+  for (const report::UseAccount& use : figures.accounts.uses) missing[use.use] = use.missing_area();
   // A volume that has nothing yet was added a moment ago: its use is seen to.
   std::set<std::string> grown;
   for (const report::VolumeRow& volume : figures.volumes)
