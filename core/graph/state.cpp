@@ -122,7 +122,7 @@ SavedState save(const State& state) {
     for (const Voice& voice : state.links[l].voices)
       if (is_lasting(state, voice))
         saved.voices[id].push_back({plan.nodes[voice.target.node].id, plan.path_text(voice.target), voice.value});
-    if (const auto& error = state.links[l].error; error && !plan.links[l].error) saved.link_errors[id] = *error;
+    if (const auto& error = state.links[l].error; state.links[l].has_failed() && !plan.links[l].error) saved.link_errors[id] = *error;
   }
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const AnalysisState& now = state.analyses[a];

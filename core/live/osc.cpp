@@ -70,29 +70,31 @@ std::uint32_t big_endian(const char* bytes) {
   return number;
 }
 
-// Whether all of it could be read; its messages are handed to the sensors that they name.
-bool deliver(Endpoint& endpoint, std::span<const char> bytes, int depth) {
-  std::vector<char> packet(bytes.begin(), bytes.end());  // the library reads numbers where it stands, which has to be aligned
-  if (packet.size() >= kBundleHead && std::memcmp(packet.data(), "#bundle", 8) == 0) {
-    if (depth == kDeepest) return false;
-    for (std::size_t at = kBundleHead; at < packet.size();) {
-      if (packet.size() - at < 4) return false;
-      const std::size_t size = big_endian(packet.data() + at);
-      at += 4;
-      if (size == 0 || size > packet.size() - at) return false;
-      if (!deliver(endpoint, std::span(packet).subspan(at, size), depth + 1)) return false;
-      at += size;
-    }
-    return true;
-  }
+bool deliver_message(Endpoint& endpoint, std::span<const char> bytes) {
   // The path ends with a zero inside the packet, or the packet is none.
-  if (packet.empty() || packet.front() != '/' || std::memchr(packet.data(), 0, packet.size()) == nullptr) return false;
+  if (bytes.empty() || bytes.front() != '/' || std::memchr(bytes.data(), 0, bytes.size()) == nullptr) return false;
+  std::vector<char> packet(bytes.begin(), bytes.end());  // the library reads numbers where they stand, which has to be aligned
   const std::string path(packet.data());
   int problem = 0;
   const Message message(lo_message_deserialise(packet.data(), packet.size(), &problem), lo_message_free);
   if (!message) return false;
   for (const Subscriber& subscriber : endpoint.subscribers())
     if (subscriber.path == path) hand_over(message.get(), subscriber);
+  return true;
+}
+
+// Whether all of it could be read; its messages are handed to the sensors that they name.
+bool deliver(Endpoint& endpoint, std::span<const char> packet, int depth) {
+  if (packet.size() < kBundleHead || std::memcmp(packet.data(), "#bundle", 8) != 0) return deliver_message(endpoint, packet);
+  if (depth == kDeepest) return false;
+  for (std::size_t at = kBundleHead; at < packet.size();) {
+    if (packet.size() - at < 4) return false;
+    const std::size_t size = big_endian(packet.data() + at);
+    at += 4;
+    if (size == 0 || size > packet.size() - at) return false;
+    if (!deliver(endpoint, packet.subspan(at, size), depth + 1)) return false;
+    at += size;
+  }
   return true;
 }
 

@@ -162,7 +162,7 @@ TEST_F(RestTest, RemarksLeaveProposalsInForce) {
     EXPECT_EQ(has_failure(*fresh.state()), word == "unmet") << word;
     EXPECT_EQ(first_work(*fresh.state()).has_value(), word == "work") << word;
     EXPECT_EQ(word == "unmet" ? state.error->text() : "", word == "unmet" ? "links/l/says: cannot be met" : "") << word;
-    EXPECT_TRUE(save(*fresh.state()).held.empty()) << word << ": nothing is held that is said anew in every tick";
+    EXPECT_TRUE(save(*fresh.state()).link_errors.empty()) << word << ": a remark is made anew in every tick";
     scene_.links["l"].is_muted = true;
     fresh.set_scene(scene_);
     for (int i = 0; i < 6; ++i) fresh.step();

@@ -199,7 +199,13 @@ void ProblemList::add_volumes(const State& state, const report::ReportModel& fig
 void ProblemList::add_places(const State& state) {
   for (report::PlaceProblem& problem : report::place_problems(state)) {
     // Heights change from tick to tick, who hangs does not.
-    ProblemItem item{ProblemKind::place, "place", 0, false, problem.subject, problem.text, {}, problem.nodes, problem.links};
+    ProblemItem item;
+    item.kind = ProblemKind::place;
+    item.key = "place";
+    item.subject = problem.subject;
+    item.text = problem.text;
+    item.nodes = problem.nodes;
+    item.links = problem.links;
     for (const std::string& node : problem.nodes) item.key += "/" + node;
     items_.push_back(std::move(item));
   }
