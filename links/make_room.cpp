@@ -1,5 +1,6 @@
 // Makes volumes that press on each other part: each goes towards the middle of its own body.
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
 #include "core/define/link_builder.h"
@@ -15,7 +16,7 @@ struct MakeRoom {
     double stiffness = 0.3, play = 0.12;
   };
   struct Ends {
-    double count = 0;
+    std::int64_t count = 0;
     Point3 position, centroid;
     double volume = 0;
   };
@@ -53,7 +54,7 @@ struct MakeRoom {
     const Vector3 off = ends.centroid - ends.position;
     const double length = norm(off), beyond = length - in.play * ball_radius(ends.volume);
     // Where the solver has given nobody room there are no bodies to follow.
-    if (!(ends.count > 0) || !(ends.volume > 0) || !(beyond > 0)) return Out{};
+    if (ends.count == 0 || !(ends.volume > 0) || !(beyond > 0)) return Out{};
     return Out{off * (in.stiffness * beyond / length)};
   }
 };

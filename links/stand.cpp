@@ -1,5 +1,6 @@
 // Lets volumes down until they stand: on the ground, or on what is below them.
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
 #include "core/define/link_builder.h"
@@ -15,7 +16,8 @@ struct Stand {
     double stiffness = 0.8, footing = 0.2, play = 0.05;
   };
   struct Ends {
-    double count = 0, drop = 0, volume = 0;
+    std::int64_t count = 0;
+    double drop = 0, volume = 0;
   };
   struct Out {
     std::optional<Vector3> move;
@@ -53,7 +55,7 @@ struct Stand {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     const double radius = ball_radius(ends.volume), way = ends.drop + (in.footing - in.play) * radius;
-    if (!(ends.count > 0) || !(ends.volume > 0) || !(way > 0)) return Out{};
+    if (ends.count == 0 || !(ends.volume > 0) || !(way > 0)) return Out{};
     // What falls by more than its own size in one tick would pass others on the way.
     return Out{Vector3{0, 0, -std::min(in.stiffness * way, 0.5 * radius)}};
   }

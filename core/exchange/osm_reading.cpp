@@ -163,6 +163,9 @@ Error xml_fault(const osmium::xml_error& error) {
   // The end of the file where more of it was to come.
   const bool is_cut = error.error_code == XML_ERROR_NO_ELEMENTS || error.error_code == XML_ERROR_UNCLOSED_TOKEN ||
                       error.error_code == XML_ERROR_PARTIAL_CHAR || error.error_code == XML_ERROR_UNCLOSED_CDATA_SECTION;
+  // Where the reader knows no place (what is no XML error but one of OpenStreetMap's form), it says 0.
+  if (error.line == 0 && !is_cut)
+    return {ErrorCode::parse, "XML", std::string("This is not what OpenStreetMap files hold: ") + error.what() + "."};
   const std::string place =
       error.line > 0 ? "line " + std::to_string(error.line) + ", column " + std::to_string(error.column) : "XML";
   if (is_cut) return {ErrorCode::parse, place, "The XML ends here: the file is cut off. Fetch or export it again."};

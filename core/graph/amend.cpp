@@ -89,7 +89,7 @@ std::shared_ptr<const Plan> amend(const Plan& plan, const Scene& scene) {
     for (std::size_t p = 0; p < type.definition->ports.size(); ++p) {
       const PortDefinition& port = type.definition->ports[p];
       type.set_values[p] = set_value(scene.settings, *change.values, port);
-      type.is_set[p] = type.set_values[p] != port.default_value;
+      type.is_set[p] = is_said(*change.values, port, type.set_values[p]);
     }
   }
   return amended;

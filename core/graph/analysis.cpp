@@ -1,20 +1,16 @@
 // Working analyses out on a thread of their own.
 #include "core/graph/analysis.h"
 
-#include <chrono>
 #include <exception>
 #include <new>
 #include <optional>
 #include <system_error>
 
-#include "core/base/stop_check.h"
+#include "core/base/stop_wait.h"
 
 namespace bl {
 
 namespace {
-
-// A waiting thread looks so often whether it is to stop.
-constexpr std::chrono::milliseconds kBetweenLooks{50};
 
 // Meshes count as nothing in a state's hash, because they follow from the rest; the rest need not be among an analysis' inputs.
 void add_input(Hash& hash, const Value& value) {
@@ -105,7 +101,7 @@ const AnalysisResult* Analysis::result() {
     run();
     std::unique_lock lock(mutex_);
     // Another thread that works on it knows nothing of a wish of this one.
-    while (!done_.wait_for(lock, kBetweenLooks, [this] { return is_done_ || !is_claimed_; }) && !is_stop_wished()) {}
+    wait_unless_stopped(done_, lock, [this] { return is_done_ || !is_claimed_; });
     if (is_done_) return &result_;
     if (is_stop_wished()) return nullptr;
   }

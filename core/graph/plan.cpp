@@ -66,7 +66,7 @@ class Compiler {
       type.is_served = static_cast<bool>(definition->evaluate);
       for (const PortDefinition& port : definition->ports) {
         const Value& value = set_value(plan_->scene.settings, values, port);
-        type.is_set.push_back(value != port.default_value);
+        type.is_set.push_back(is_said(values, port, value));
         type.set_values.push_back(value);
         type.is_locked.push_back(record.locked.contains(definition->id + "." + port.id));
       }

@@ -70,6 +70,11 @@ const Value& set_value(const PortValues& settings, const PortValues& values, con
 /// The same of a node of the scene, which must carry the typification.
 const Value& set_value(const Scene& scene, const NodeRecord& node, const TypificationDefinition& type,
                        const PortDefinition& port);
+/// Whether people have said something of a port whose set value is `value`: what differs from the default, or is kept although it
+/// does not.
+inline bool is_said(const PortValues& values, const PortDefinition& port, const Value& value) {
+  return value != port.default_value || (port.keeps_default && values.contains(port.id));
+}
 /// The unit of a node's port, following `unit_from` to the port that names it.
 Unit unit_of(const Registry& registry, const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port);
 

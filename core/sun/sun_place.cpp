@@ -112,8 +112,8 @@ double clock_at(const SunPlace& place, DayNumber day, double moment) {
 }
 
 Vector3 scene_direction(const SunPlace& place, double azimuth, double altitude) {
-  constexpr double kRadian = 0.017453292519943295;
-  const double turn = (azimuth + place.true_north) * kRadian, up = altitude * kRadian;
+  constexpr double kDegree = 0.017453292519943295;
+  const double turn = (azimuth + place.true_north) * kDegree, up = altitude * kDegree;
   // Rounded to 2^-40, far below any angle that matters: the sun in the south stands exactly there.
   const auto steady = [](double x) { return std::round(x * 0x1p40) * 0x1p-40; };
   return {steady(mathematics::cosine(up) * mathematics::sine(turn)), steady(mathematics::cosine(up) * mathematics::cosine(turn)),

@@ -40,9 +40,9 @@ std::vector<Hostile> files() {
       {"truncated", "", good.substr(0, good.size() / 2), 2, "the file is cut off"},
       {"not_json", "", "volumes = 3", 2, "i.json: line 1, column 1: this is not JSON"},
       {"xml", "", "<?xml version=\"1.0\"?><sites/>", 2, "this is not JSON"},
-      {"utf16", "", std::string("\xFF\xFE{\0}\0", 6), 2, "this is not JSON"},
+      {"utf16", "", std::string("\xFF\xFE{\0}\0", 6), 2, "A zero byte stands here"},
       {"no_utf8", "", "{\"note\": \"\xC3(\"}", 2, "this is not JSON"},
-      {"zero_bytes", "", std::string(64, '\0'), 2, "this is not JSON"},
+      {"zero_bytes", "", std::string(64, '\0'), 2, "A zero byte stands here"},
       {"two_values", "", good + good, 2, "this is not JSON"},
       {"trailing_comma", "", "{\"sites\": [[1,2,3],]}", 2,
        "line 1, column 20: this is not JSON (no comments, no trailing commas"},
@@ -272,7 +272,7 @@ std::vector<Hostile> options() {
           row("output_without_folder", {"--json", "no/where/o.json"},
               "--json: no/where/o.json: cannot be written: there is no folder no/where"),
           row("output_is_the_input", {"--json", "i.json"}, "--json: i.json: is read as FILE; choose another file"),
-          row("output_is_a_folder", {"--json", "/"}, "/: cannot be written: Is a directory"),
+          row("output_is_a_folder", {"--json", "/"}, "/: is a folder, not a file"),
           row("output_on_a_full_disk", {"--json", "/dev/full"}, "/dev/full: cannot be written: No space left on device")};
 }
 

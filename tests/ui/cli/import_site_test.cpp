@@ -178,7 +178,7 @@ TEST_F(ImportSite, AnOldReportDoesNotOutliveAFailedImport) {
   for (const auto& [file, into] :
        {std::pair<std::string, std::string>{"cut.osm", ""}, {"missing.osm", ""}, {"around.geojson", "cut.osm"}}) {
     place.write("cut.osm", R"(<osm version="0.6"><node id="1")");
-    place.write("rows.csv", "old");
+    place.write("rows.csv", "a,b\n1,2\n");
     std::vector<std::string> arguments{"import", file, "--out", "p.json", "--report", "rows.csv"};
     if (!into.empty()) arguments.insert(arguments.end(), {"--into", into});
     EXPECT_EQ(place.run(arguments).code, 2) << file;

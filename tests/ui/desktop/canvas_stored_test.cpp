@@ -26,6 +26,9 @@ SeenPlaces places_on(const canvas::Model& model) {
   return places;
 }
 
+// Of this process alone: tests run beside each other.
+std::string path_of(const std::string& name) { return ::testing::TempDir() + name + "-" + std::to_string(getpid()) + ".json"; }
+
 // A journal of this process as a crash would leave it: of one that is gone.
 std::string leave_journal() {
   const std::filesystem::path folder = std::filesystem::path(person_folder()) / "journals";
@@ -34,7 +37,7 @@ std::string leave_journal() {
     if (entry.path().filename().string().starts_with(std::to_string(getpid()) + "-") && entry.path().extension() == ".journal")
       if (last.empty() || std::filesystem::last_write_time(entry.path()) >= std::filesystem::last_write_time(last))
         last = entry.path();
-  const std::filesystem::path gone = folder / "2147483645-1.journal";
+  const std::filesystem::path gone = folder / ("2147483645-" + std::to_string(getpid()) + ".journal");
   std::filesystem::copy_file(last, gone, std::filesystem::copy_options::overwrite_existing);
   return gone.string();
 }
@@ -112,7 +115,7 @@ TEST_F(CanvasStored, TheFirstChangeStoresWhatIsSeenAndUndoForgetsIt) {
 }
 
 TEST_F(CanvasStored, WhoOnlyLooksAndSavesKeepsTheFile) {
-  const std::string path = ::testing::TempDir() + "looked_at.json";
+  const std::string path = path_of("looked_at");
   ASSERT_TRUE(write_file(path, read_file(std::string(BL_SOURCE_DIR "/scenes/start/quarter.json")).value()).ok());
   ASSERT_TRUE(editor().open(path));
   desktop.frames(3);
@@ -122,7 +125,7 @@ TEST_F(CanvasStored, WhoOnlyLooksAndSavesKeepsTheFile) {
 }
 
 TEST_F(CanvasStored, SavedInTheSameFrameAsTheChangeItHasThePlacesToo) {
-  const std::string path = ::testing::TempDir() + "at_once.json";
+  const std::string path = path_of("at_once");
   ASSERT_TRUE(editor().submit(command<RemoveNode>({"cafe"})));
   ASSERT_TRUE(editor().save(path).ok());
   desktop.frames(3);
@@ -135,7 +138,7 @@ TEST_F(CanvasStored, SavedInTheSameFrameAsTheChangeItHasThePlacesToo) {
 
 TEST_F(CanvasStored, WhatIsNewGivesWayToWhatTheFileHasPlaced) {
   lay_link();
-  const std::string path = ::testing::TempDir() + "grown_elsewhere.json";
+  const std::string path = path_of("grown_elsewhere");
   ASSERT_TRUE(editor().save(path).ok());
   const SeenPlaces seen = places();
   // Another program adds nodes to the file, as `import --into` does.
@@ -187,7 +190,7 @@ TEST_P(CanvasStoredLaw, ThePictureOutlivesTheWindow) {
   canvas::Model& model = editor.canvas->board().model;
   const std::string opened = desktop.scene_text();
   const SeenPlaces first = places_on(model);
-  const std::string path = ::testing::TempDir() + "law_of_places.json";
+  const std::string path = path_of("law_of_places");
   for (int round = 0; round < 6; ++round) {
     for (int k = 0; k < 7; ++k) {
       edit_somehow(editor, random, 100 * round + k);

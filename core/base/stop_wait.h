@@ -1,0 +1,19 @@
+// Waiting that ends when nobody wants what is waited for any more.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+#include "core/base/stop_check.h"
+
+namespace bl {
+
+/// Waits until `is_over` is true or the work is not wanted any more, which is looked at twenty times a second.
+template <class Predicate>
+void wait_unless_stopped(std::condition_variable& changed, std::unique_lock<std::mutex>& lock, Predicate is_over) {
+  constexpr std::chrono::milliseconds kBetweenLooks{50};
+  while (!changed.wait_for(lock, kBetweenLooks, is_over) && !is_stop_wished()) {}
+}
+
+}  // namespace bl
