@@ -17,10 +17,16 @@ step_time() { printf -- '-- %s: %s s\n' "$1" $(($(date +%s) - step_began)); }
 # attribute NAME FILE: a number of the first element of a JUnit file.
 attribute() { sed -n "s/^[[:space:]]*$1=\"\([0-9]*\)\".*/\1/p; /<testcase/q" "$2" | head -n 1; }
 
-# in_shards RESULT FILE: how many tests of the test programs that ran in shards have PASSED or FAILED, from the log of ctest.
+# in_shards FILE: of the test programs that ran in shards, from the log of ctest: how many tests PASSED, how many FAILED, and how many
+# shards failed. A shard that ends without its sum has crashed, and counts as one failed test.
 in_shards() {
-  awk -v result="$1" '/^Command: / { shard = /_tests/ && !/--gtest_filter/ }
-    shard && index($0, "[  " result "  ] ") == 1 && $4 ~ /^[0-9]+$/ && $5 ~ /^tests?[.,]/ { sum += $4 } END { print sum + 0 }' "$2"
+  awk 'function close_shard() { if (shard && !is_whole && !bad) bad = 1
+      if (shard) { passed += good; failed += bad; if (bad) broken++ }
+      shard = good = bad = is_whole = 0 }
+    /^Command: / { close_shard(); shard = /_tests/ && !/--gtest_filter/ }
+    shard && $4 ~ /^[0-9]+$/ && $5 ~ /^tests?[.,]/ { if (/^\[  PASSED  \] /) { good = $4; is_whole = 1 } else if (/^\[  FAILED  \] /) bad = $4 }
+    shard && /^Test Failed\.$/ && !bad { bad = 1 }
+    END { close_shard(); print passed + 0, failed + 0, broken + 0 }' "$1"
 }
 
 # run_ctest PRESET ARGUMENTS...: runs the tests of a build and adds to $passed and $failed.
@@ -39,12 +45,12 @@ run_ctest() {
     idle=$(($(attribute disabled "$junit") + $(attribute skipped "$junit")))
   fi
   # A program in shards is a few tests to ctest; what counts are the tests inside.
-  log=$root/build/$preset/Testing/Temporary/LastTest.log
   shards=$(grep -c '<testcase name="[a-z_]*_tests/shard_' "$junit" 2>/dev/null)
   if [ "${shards:-0}" -gt 0 ]; then
-    tests=$((tests - shards + $(in_shards PASSED "$log") + $(in_shards FAILED "$log")))
-    inside=$(in_shards FAILED "$log")
-    [ "$inside" -gt "${bad:-0}" ] && bad=$inside
+    # shellcheck disable=SC2046
+    set -- $(in_shards "$root/build/$preset/Testing/Temporary/LastTest.log")
+    tests=$((tests - shards + $1 + $2))
+    bad=$((bad > $3 ? bad - $3 + $2 : $2))
   fi
   passed=$((passed + ${tests:-0} - ${bad:-0} - idle))
   # A ctest that fails without a failed test (none found, a program missing) is a failure all the same.
