@@ -26,6 +26,7 @@ struct PlotRules {
     All<std::string> ids;
     All<Point3> centroids;
     All<double> demands, limits, wanted, volumes, bottoms, heights;
+    All<bool> locked;
   };
   struct Out {
     All<std::optional<double>> limits;
@@ -71,6 +72,7 @@ struct PlotRules {
     l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
     l.reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre)
         .reads(&Ends::heights, End::to, "smart_volume.height", Unit::metre);
+    l.reads_lock(&Ends::locked, End::to, "smart_volume.demand_limit");
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
@@ -79,12 +81,11 @@ struct PlotRules {
     out.limits.values.resize(ends.demands.values.size());
     if (ends.polygon.size() < 3) return out;
     std::vector<std::size_t> on_plot;
-    double share = kLeastGranted;
-    for (std::size_t i = 0; i < ends.demands.values.size(); ++i) {
-      if (!ring_contains(ends.polygon, ends.centroids.values[i])) continue;
-      on_plot.push_back(i);
-      share = std::max(share, granted(ends, i));
-    }
+    for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
+      if (ring_contains(ends.polygon, ends.centroids.values[i])) on_plot.push_back(i);
+    const HeldBack held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                        ends.wanted.values, ends.volumes.values, ends.locked.values};
+    const double share = share_granted(held, on_plot);
     double room = 2;
     if (in.hold_fsi) room = std::min(room, answer_within(ends.fsi_max, ends.fsi, in.tolerance));
     if (in.hold_gsi) room = std::min(room, answer_within(ends.gsi_max, ends.gsi, in.tolerance, kLittleGround));
@@ -96,7 +97,7 @@ struct PlotRules {
             std::min(limit, granted(ends, i) * (1 + in.gain * (answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
       out.limits.values[i] = limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
     }
-    tell(in, ends, on_plot, tick);
+    tell(in, ends, held, on_plot, tick);
     return out;
   }
 
@@ -109,12 +110,16 @@ struct PlotRules {
   static double top(const Ends& ends, std::size_t i) { return ends.bottoms.values[i] + ends.heights.values[i] - ends.ground; }
 
   // Every rule that is broken: on its way, or held up by volumes that give way no further.
-  static void tell(const In& in, const Ends& ends, const std::vector<std::size_t>& on_plot, const Tick& tick) {
-    const HeldBack held{ends.ids.values, ends.demands.values, ends.limits.values, ends.wanted.values, ends.volumes.values};
-    std::string unmet, work;
+  static void tell(const In& in, const Ends& ends, const HeldBack& held, const std::vector<std::size_t>& on_plot,
+                   const Tick& tick) {
+    std::string unmet, work, unlock;
     const auto judge = [&](const std::string& found, const std::vector<std::size_t>& who) {
-      if (!is_exhausted(held, who, in.least)) work += (work.empty() ? "" : ", ") + found;
-      else unmet += (unmet.empty() ? "" : "; ") + found + ", " + held_by(held, who, in.least);
+      if (!is_exhausted(held, who, in.least)) {
+        work += (work.empty() ? "" : ", ") + found;
+        return;
+      }
+      unmet += (unmet.empty() ? "" : "; ") + found + ", " + held_by(held, who, in.least);
+      if (unlock.empty()) unlock = unlocking(held, who, in.least);
     };
     if (in.hold_fsi && ends.fsi > ends.fsi_max) judge("FSI " + fixed(ends.fsi, 2) + " of " + fixed(ends.fsi_max, 2), on_plot);
     if (in.hold_gsi && ends.gsi > ends.gsi_max) judge("GSI " + fixed(ends.gsi, 2) + " of " + fixed(ends.gsi_max, 2), on_plot);
@@ -125,8 +130,8 @@ struct PlotRules {
     if (!unmet.empty())
       return remark(tick, LinkRemark::unmet,
                     {ErrorCode::infeasible, "from",
-                     "cannot be met: " + unmet + "; loosen the rule, or lower what is insisted on or `least`"});
-    if (!work.empty()) remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "from", work + " is still being brought down"});
+                     "cannot be met: " + unmet + "; loosen the rule," + unlock + " or lower what is insisted on or `least`"});
+    if (!work.empty()) remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "from", work});
   }
 };
 

@@ -23,6 +23,7 @@ struct SetCap {
     double total = 0;
     All<std::string> ids;
     All<double> demands, limits, wanted, volumes;
+    All<bool> locked;
   };
   struct Out {
     All<std::optional<double>> limits;
@@ -63,6 +64,7 @@ struct SetCap {
     l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
     l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
     l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads_lock(&Ends::locked, End::to, "smart_volume.demand_limit");
     l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
@@ -71,34 +73,25 @@ struct SetCap {
     out.limits.values.resize(ends.demands.values.size());
     if (!(ends.total > 0)) return out;
     const double answer = 1 + in.gain * (answer_within(in.cap, ends.total, in.tolerance) - 1);
-    const double share = std::max(in.least, share_granted(ends) * answer);
+    const HeldBack held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                        ends.wanted.values, ends.volumes.values, ends.locked.values};
+    std::vector<std::size_t> all(ends.ids.values.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const double share = std::max(in.least, share_granted(held, all) * answer);
     for (std::size_t i = 0; i < out.limits.values.size(); ++i)
       out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
-    if (ends.total > in.cap) tell(in, ends, tick);
+    if (ends.total > in.cap) tell(in, ends.total, held, all, tick);
     return out;
   }
 
  private:
-  // The proportion of the demands that the limits leave now: that of the least limited volume, because limits of others may
-  // hold back some.
-  static double share_granted(const Ends& ends) {
-    double share = kLeastGranted;
-    for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
-      share = std::max(share, granted_share(ends.demands.values[i], ends.limits.values[i]));
-    return share;
-  }
-
-  static void tell(const In& in, const Ends& ends, const Tick& tick) {
-    const HeldBack held{ends.ids.values, ends.demands.values, ends.limits.values, ends.wanted.values, ends.volumes.values};
-    std::vector<std::size_t> all(ends.ids.values.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const std::string found = "a sum of " + fixed(ends.total, 0) + " of " + fixed(in.cap, 0);
-    if (!is_exhausted(held, all, in.least))
-      return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "cap", found + " is still being brought down"});
+  static void tell(const In& in, double total, const HeldBack& held, const std::vector<std::size_t>& all, const Tick& tick) {
+    const std::string found = "a sum of " + fixed(total, 0) + " of " + fixed(in.cap, 0);
+    if (!is_exhausted(held, all, in.least)) return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "cap", found});
     remark(tick, LinkRemark::unmet,
            {ErrorCode::infeasible, "cap",
-            "the cap cannot be met: " + found + ", " + held_by(held, all, in.least) +
-                "; raise the cap, or lower what is insisted on or `least`"});
+            "the cap cannot be met: " + found + ", " + held_by(held, all, in.least) + "; raise the cap," +
+                unlocking(held, all, in.least) + " or lower what is insisted on or `least`"});
   }
 };
 

@@ -124,7 +124,9 @@ std::string catalogue_page(const LinkDefinition& kind, const Registry& registry)
   for (const End end : {End::from, End::to}) {
     std::string reads, proposes;
     for (const LinkRead& read : kind.reads)
-      if (read.end == end) reads += (reads.empty() ? "" : ", ") + path_text(read.path);
+      if (read.end == end)
+        reads += (reads.empty() ? "" : ", ") +
+                 (read.is_lock ? "whether " + path_text(read.path) + " is locked" : path_text(read.path));
     for (const LinkWrite& write : kind.proposes)
       if (write.end == end) {
         proposes += (proposes.empty() ? "" : ", ") + path_text(write.path);

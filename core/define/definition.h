@@ -35,12 +35,15 @@ class Memo {
   const char* tag_ = nullptr;
 };
 
+struct LinkRemarks;
+
 /// What an evaluation may know of the moment: the tick's number and the pool to compute with. No clock, no order.
 struct Tick {
   std::int64_t index = 0;
-  ThreadPool* pool = nullptr;  ///< only set evaluations (solvers) may use it; nullptr means one thread
-  Memo* memo = nullptr;        ///< only where somebody keeps it: a set's from tick to tick, a link's during one tick
-  bool is_recall = false;      ///< only the meshes of the values as they stand are wanted: no step is taken
+  ThreadPool* pool = nullptr;      ///< only set evaluations (solvers) may use it; nullptr means one thread
+  Memo* memo = nullptr;            ///< only where somebody keeps it: a set's from tick to tick, a link's during one tick
+  bool is_recall = false;          ///< only the meshes of the values as they stand are wanted: no step is taken
+  LinkRemarks* remarks = nullptr;  ///< where a link says what else there is to say (link_remark.h); nullptr: nobody listens
 };
 
 /// How proposals on a port are combined (design: tick, phase 4). `sum` adds changes to the value; `collect` unites lists of
@@ -72,11 +75,11 @@ struct PortDefinition {
   std::string id, doc;
   ValueKind kind = ValueKind::number;
   Unit unit = Unit::none;
-  std::string unit_from;     ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
-  bool is_computed = false;  ///< written by evaluations only; never set by people or links
+  std::string unit_from;       ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
+  bool is_computed = false;    ///< written by evaluations only; never set by people or links
   bool keeps_default = false;  ///< to say the default is more than to say nothing: a place on the equator is one
-  bool is_required = false;  ///< has no usable default (ids in commands)
-  bool is_residual = false;  ///< a scene is settled when every residual is within its tolerance
+  bool is_required = false;    ///< has no usable default (ids in commands)
+  bool is_residual = false;    ///< a scene is settled when every residual is within its tolerance
   OfScene of_scene = OfScene::no;
   CombineRule rule = CombineRule::none;
   double step_limit = std::numeric_limits<double>::infinity();  ///< largest change in one tick
@@ -162,6 +165,7 @@ std::string_view name_of(End end);
 
 struct LinkRead : ReadDefinition {
   End end = End::from;
+  bool is_lock = false;  ///< reads whether people have locked the port, not what stands there
 };
 struct LinkWrite : WriteDefinition {
   End end = End::to;

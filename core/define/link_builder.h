@@ -47,6 +47,13 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
     bind_read(read, member);
     return *this;
   }
+  /// Reads whether people have locked a setting, so that no link can move it.
+  template <class M>
+  LinkBuilder& reads_lock(M Ends::*member, End end, std::string_view path) {
+    reads(member, end, path);
+    definition_->reads.back().is_lock = true;
+    return *this;
+  }
   template <class M>
   LinkBuilder& proposes(M Out::*member, End end, std::string_view path, std::optional<Unit> unit = std::nullopt) {
     LinkWrite& write = definition_->proposes.emplace_back();

@@ -12,8 +12,9 @@ namespace bl {
 /// Whatever is remarked, the proposals stand. In ascending gravity.
 enum class LinkRemark {
   short_of,  ///< somebody goes without: shown as a problem; the scene settles nevertheless
-  at_work,   ///< a rule is not kept yet and the link is bringing it about: no problem, but nothing is settled before it is
-  unmet,     ///< a rule cannot be kept: shown as a problem, and the scene does not settle
+  at_work,   ///< what of a rule is not kept yet, while the link is bringing it about: no problem before nothing changes any more,
+            ///< but nothing is settled before it is kept
+  unmet,  ///< a rule cannot be kept: shown as a problem, and the scene does not settle
 };
 
 /// What one link has remarked in one tick. The gravest of its pairs speaks; among equals the first.
@@ -22,11 +23,10 @@ struct LinkRemarks {
   std::optional<Error> said;
 };
 
-/// To be called from within evaluate(), by links that keep nothing else in their memo: it is how the remark is handed on. Where
-/// nobody listens, nothing is said.
+/// To be called from within evaluate(). Where nobody listens, nothing is said.
 inline void remark(const Tick& tick, LinkRemark kind, Error what) {
-  if (tick.memo == nullptr) return;
-  LinkRemarks& remarks = tick.memo->of<LinkRemarks>();
+  if (tick.remarks == nullptr) return;
+  LinkRemarks& remarks = *tick.remarks;
   if (remarks.said && kind <= remarks.kind) return;
   remarks.kind = kind;
   remarks.said = std::move(what);

@@ -147,11 +147,19 @@ class LinkRun {
     return ref.type != PortRef::kNodeId && frozen_.nodes[ref.node].types[ref.type].error && frozen_.plan->port(ref).is_computed;
   }
 
+  const Value& lock_at(PortRef ref) const {
+    static const Value locked = true, open = false;
+    return frozen_.plan->nodes[ref.node].types[ref.type].is_locked[ref.port] ? locked : open;
+  }
+
   Result<void> evaluate(std::size_t f, std::size_t t, const Tick& tick) {
     for (std::size_t r = 0; r < definition_.reads.size(); ++r) {
       const LinkRead& read = definition_.reads[r];
       const std::size_t first = read.is_whole ? 0 : (read.end == End::from ? f : t);
-      for (std::size_t i = 0; i < reads_.values[r].size(); ++i) reads_.values[r][i] = &frozen_.value(plan_.reads[r][first + i]);
+      for (std::size_t i = 0; i < reads_.values[r].size(); ++i) {
+        const PortRef ref = plan_.reads[r][first + i];
+        reads_.values[r][i] = read.is_lock ? &lock_at(ref) : &frozen_.value(ref);
+      }
       if (!read.is_whole && is_of_the_past(plan_.reads[r][first]))
         return Error{ErrorCode::missing, "",
                      "`" + frozen_.plan->nodes[plan_.reads[r][first].node].id + "` has an error, so that its `" +
@@ -206,13 +214,13 @@ void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
   }
   LinkRun run(frozen, plan);
   Memo memo;
-  run.run(Tick{.index = frozen.tick, .memo = &memo});
+  LinkRemarks remarks;
+  run.run(Tick{.index = frozen.tick, .memo = &memo, .remarks = &remarks});
   next.voices = run.voices(last);
   if (const auto error = run.error()) {
     next.error = error->within("links/" + plan.id);
     return;
   }
-  const LinkRemarks& remarks = memo.of<LinkRemarks>();
   if (!remarks.said) return;
   const Error said = remarks.said->within("links/" + plan.id);
   if (remarks.kind == LinkRemark::at_work) {

@@ -60,6 +60,29 @@ void ask_nodes(State& next, ThreadPool& pool, const IsDue& is_due) {
   });
 }
 
+// Nothing changes any more by a thousandth of what counts as calm.
+bool stands_still(const State& state) {
+  constexpr double kStandstill = 1e-3;
+  const Settings& settings = state.plan->settings;
+  return state.largest_residual <= settings.tolerance && state.largest_move <= kStandstill * settings.move_limit &&
+         state.largest_change <= kStandstill * settings.change_limit;
+}
+
+// Whoever is bringing a rule about while nothing changes does so in vain. That wakes what rests, too: the links may answer in
+// full.
+void name_stuck_rules(State& state) {
+  for (std::size_t l = 0; l < state.links.size(); ++l) {
+    if (!is_at_work(state, l)) continue;
+    LinkState& link = state.links[l];
+    link.error = std::move(link.work);
+    link.error->message = "cannot be met: " + link.error->message +
+                          ", and nothing changes any more; loosen the rule, or let go what holds it up: a lock, another link, or "
+                          "a `gain` of 0";
+    link.remark = LinkRemark::unmet;
+    link.work.reset();
+  }
+}
+
 }  // namespace
 
 void evaluate_nodes(const State& frozen, State& next, ThreadPool& pool) {
@@ -84,6 +107,7 @@ bool evaluate_unasked(State& state, ThreadPool& pool) {
 void commit(State& next) {
   const Settings& settings = next.plan->settings;
   next.largest_residual = largest_residual_of(next);
+  if (stands_still(next)) name_stuck_rules(next);
   // Whoever rests needs more to be woken than to come to rest: volumes that follow by steps of their tolerance are no news, nor
   // is what links answer to these.
   const bool rests = is_at_rest(next);

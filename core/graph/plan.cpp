@@ -209,7 +209,7 @@ class Compiler {
       auto& refs = link.reads.emplace_back();
       for (const std::uint32_t node : link.nodes[static_cast<int>(read.end)]) {
         const PortRef ref = *plan_->find(node, actual(definition, read.path, values));
-        if (ref.type != PortRef::kNodeId)
+        if (ref.type != PortRef::kNodeId && !read.is_lock)
           if (auto kind = check_kind(ref, read.kind, "link reads"); !kind) return kind;
         refs.push_back(ref);
       }

@@ -34,9 +34,13 @@ std::optional<Error> first_failure(const State& state) {
 
 bool has_failure(const State& state) { return first_failure(state).has_value(); }
 
+bool is_at_work(const State& state, std::size_t link) {
+  return state.links[link].work && link_counts(state.plan->links[link]) && state.plan->links[link].strength > 0;
+}
+
 std::optional<Error> first_work(const State& state) {
   for (std::size_t l = 0; l < state.links.size(); ++l)
-    if (state.links[l].work && link_counts(state.plan->links[l]) && state.plan->links[l].strength > 0) return state.links[l].work;
+    if (is_at_work(state, l)) return state.links[l].work;
   return std::nullopt;
 }
 
@@ -122,7 +126,8 @@ SavedState save(const State& state) {
     for (const Voice& voice : state.links[l].voices)
       if (is_lasting(state, voice))
         saved.voices[id].push_back({plan.nodes[voice.target.node].id, plan.path_text(voice.target), voice.value});
-    if (const auto& error = state.links[l].error; state.links[l].has_failed() && !plan.links[l].error) saved.link_errors[id] = *error;
+    if (const auto& error = state.links[l].error; state.links[l].has_failed() && !plan.links[l].error)
+      saved.link_errors[id] = *error;
   }
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const AnalysisState& now = state.analyses[a];

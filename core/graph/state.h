@@ -81,6 +81,8 @@ std::optional<Error> first_failure(const State& state);
 bool has_failure(const State& state);
 /// A rule that a link is still bringing about.
 std::optional<Error> first_work(const State& state);
+/// Is this link heard, and still bringing a rule about?
+bool is_at_work(const State& state, std::size_t link);
 /// Calm for long enough, so that what is left of moves dies away and links have to want more than what counts as calm to wake it:
 /// a city that has settled comes to a standstill.
 bool is_at_rest(const State& state);

@@ -5,7 +5,9 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,12 @@ class LinkCase {
   LinkCase& from(const std::string& path, Value value) { return read(End::from, path, {std::move(value)}); }
   LinkCase& to(const std::string& path, Value value) { return read(End::to, path, {std::move(value)}); }
 
+  /// People have locked the port of one node; locks are declared after what is read of a whole end.
+  LinkCase& lock(End end, const std::string& path, std::size_t node = 0) {
+    locked_.insert({end, path, node});
+    return *this;
+  }
+
   /// "" or the error's text; then `proposed` can be asked.
   std::string run() {
     std::vector<Value> values;
@@ -43,21 +51,26 @@ class LinkCase {
     std::size_t nodes = 1;
     for (const LinkRead& read : link_->reads) {
       auto& row = reads.values.emplace_back();
+      if (read.is_lock) {
+        const std::size_t count = read.is_whole ? nodes : 1;
+        for (std::size_t i = 0; i < count; ++i)
+          row.push_back(&(locked_.contains({read.end, name(read.path), i}) ? truth_ : lie_));
+        continue;
+      }
       for (const Value& value : readings_[{read.end, name(read.path)}]) row.push_back(&value);
       if (read.is_whole) nodes = row.size();
     }
     writes_.values.clear();
     for (const LinkWrite& write : link_->proposes) writes_.values.emplace_back(write.is_whole ? nodes : 1);
-    memo_ = {};
-    const auto done = link_->evaluate(link_->instantiate(values).get(), reads, writes_, Tick{.memo = &memo_});
+    Memo memo;
+    remarks_ = {};
+    const auto done =
+        link_->evaluate(link_->instantiate(values).get(), reads, writes_, Tick{.memo = &memo, .remarks = &remarks_});
     return done ? "" : done.error().text();
   }
 
   /// "" or what it remarked of one kind beside its proposals, place and all.
-  std::string remarked(LinkRemark kind) {
-    const LinkRemarks& remarks = memo_.of<LinkRemarks>();
-    return remarks.said && remarks.kind == kind ? remarks.said->text() : "";
-  }
+  std::string remarked(LinkRemark kind) { return remarks_.said && remarks_.kind == kind ? remarks_.said->text() : ""; }
 
   std::optional<Value> proposed(End end, const std::string& path, std::size_t node = 0) const {
     for (std::size_t w = 0; w < link_->proposes.size(); ++w)
@@ -79,7 +92,9 @@ class LinkCase {
   std::map<std::string, Value> parameters_;
   std::map<std::pair<End, std::string>, std::vector<Value>> readings_;
   LinkWrites writes_;
-  Memo memo_;
+  LinkRemarks remarks_;
+  std::set<std::tuple<End, std::string, std::size_t>> locked_;
+  const Value truth_ = true, lie_ = false;
 };
 
 inline void expect_near(const Vector3& found, const Vector3& wanted, double tolerance = 1e-9) {

@@ -49,7 +49,7 @@ TEST(PlotRules, JustBelowWhatIsAllowedTheLimitsRest) {
   LinkCase high = rules(1, 0.1, 20.2);
   ASSERT_EQ(high.set("tolerance", 0.01).run(), "");
   EXPECT_DOUBLE_EQ(high.number(End::to, "smart_volume.demand_limit", 0), 1000 * (1 + 0.5 * (19.9 / 20.2 - 1)));
-  EXPECT_EQ(high.remarked(LinkRemark::at_work), "from: height 20.2 m of 20.0 m at `here` is still being brought down");
+  EXPECT_EQ(high.remarked(LinkRemark::at_work), "from: height 20.2 m of 20.0 m at `here`");
 }
 
 TEST(PlotRules, LeaveTheLeastShareAndSayWhoHoldsTheRule) {
@@ -63,7 +63,20 @@ TEST(PlotRules, LeaveTheLeastShareAndSayWhoHoldsTheRule) {
             "insisted on or `least`");
   link.read(End::to, "smart_volume.wanted", {200.0, 1000.0}).read(End::to, "smart_volume.volume", {200.0, 1000.0});
   ASSERT_EQ(link.run(), "");
-  EXPECT_NE(link.remarked(LinkRemark::unmet).find("GSI 0.62 of 0.40, all are down to 20 % of their demands"), std::string::npos);
+  EXPECT_NE(link.remarked(LinkRemark::unmet).find("GSI 0.62 of 0.40, held by `here`, which is down to 20 % of its demand"),
+            std::string::npos);
+}
+
+// People have locked what could give way.
+TEST(PlotRules, LockedLimitsAreNamedAtOnce) {
+  World world = World::from_file("scenes/links/plot_rules.json");
+  for (const char* id : {"west", "east"})
+    ASSERT_EQ(world.submit(command<LockPort>({.node = id, .port = {"smart_volume.demand_limit"}})), "");
+  world.tick(20);
+  const std::string said = world.link_error("l1_rules");
+  EXPECT_NE(said.find("cannot be met: FSI "), std::string::npos) << said;
+  EXPECT_NE(said.find("`west` (6000 m³, its limit is locked)"), std::string::npos) << said;
+  EXPECT_NE(said.find("loosen the rule, unlock the limits, or lower"), std::string::npos) << said;
 }
 
 // One volume is insisted on and breaks the rule by itself: the other is left its share, and the scene is not called settled.

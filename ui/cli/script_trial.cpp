@@ -29,7 +29,7 @@ Value trial_value(const PortDefinition& port, double number) {
 // What the port holds that a link reads; of one that a parameter chooses only the kind is known.
 PortDefinition port_of(const LinkRead& read, const Registry& types) {
   PortDefinition port;
-  if (read.path.chosen_by.empty())
+  if (read.path.chosen_by.empty() && !read.is_lock)
     if (const auto found = types.port(read.path)) port = **found;
   port.kind = read.kind;
   return port;

@@ -84,7 +84,7 @@ std::string why_not_settled(const State& state, const State* before) {
     return problem->text() + (worst != volumes.end() && worst->error > settings.tolerance ? "; " + of_worst(*worst) : "");
   }
   if (worst != volumes.end() && worst->error > settings.tolerance) return of_worst(*worst) + of_greedy(state);
-  if (const auto work = first_work(state)) return work->text();
+  if (const auto work = first_work(state)) return work->text() + "; this is still being worked on";
   if (state.largest_residual > settings.tolerance) return "an error of " + fixed(100 * state.largest_residual, 2) + " % is left";
   if (state.largest_move > settings.move_limit) {
     const Mover mover = fastest(state, before);

@@ -171,5 +171,21 @@ TEST_F(RestTest, RemarksLeaveProposalsInForce) {
   }
 }
 
+// A rule that is at work while nothing changes any more is a problem with a name; it wakes what rests.
+TEST_F(RestTest, WhoIsAtWorkInVainIsAProblem) {
+  scene_.links["l"].parameters["says"] = std::string("work");
+  scene_.nodes["a"].types["scale"]["push"] = 0.0;
+  Simulation fresh(creepers(), 1);
+  fresh.set_scene(scene_);
+  for (int i = 0; i < 8; ++i) fresh.step();
+  const State& state = *fresh.state();
+  EXPECT_FALSE(state.is_settled());
+  EXPECT_FALSE(first_work(state));
+  ASSERT_TRUE(has_failure(state));
+  EXPECT_EQ(state.links[0].error->text().rfind("links/l/says: cannot be met: is on its way, and nothing changes any more; ", 0),
+            0u);
+  EXPECT_EQ(state.links[0].remark, LinkRemark::unmet);
+}
+
 }  // namespace
 }  // namespace bl
