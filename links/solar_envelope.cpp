@@ -3,10 +3,13 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/demand_limit.h"
+#include "core/base/text.h"
 #include "core/define/link_builder.h"
+#include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/sun/moment_table.h"
 #include "core/sun/shadow_shape.h"
@@ -20,12 +23,14 @@ struct SolarEnvelope {
   struct In {
     std::vector<Point3> edge = {{-20, 30, 0}, {20, 30, 0}};
     Mode mode = Mode::move;
-    double gain = 0.3, tolerance = 0.02, least = 0.2;
+    double gain = 0.3, tolerance = 0.02, play = 0.125, least = 0.2;
   };
   struct Ends {
     Shared<Table> moments;
     Point3 position;
-    double radius = 0, bottom = 0, height = 0, demand = 0, limit = 0;
+    double radius = 0, bottom = 0, height = 0, demand = 0, limit = 0, wanted = 0, volume = 0;
+    std::string id;
+    bool is_limit_locked = false, is_position_locked = false;
   };
   struct Out {
     std::optional<Vector3> move;
@@ -58,10 +63,20 @@ struct SolarEnvelope {
         .range(0.001, 1)
         .soft(0.005, 0.1)
         .doc("How far a volume may reach through a plane, as a share of its radius.");
+    l.param(&In::play, "play")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0, 0.5)
+        .doc(
+            "How far beyond the tolerance a volume that is shaved still rests, as a share of the tolerance. The rule is being "
+            "brought about until no volume reaches farther than that.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc("Share of the demand that is not shaved off, whatever stands in the sun.");
+        .doc(
+            "Share of the demand that is not shaved off, whatever stands in the sun. Where that is not enough, the rule cannot "
+            "be "
+            "met, and says so.");
     l.reads(&Ends::moments, End::from, "sun_and_sky.moments");
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads(&Ends::radius, End::to, "smart_volume.radius", Unit::metre);
@@ -69,6 +84,11 @@ struct SolarEnvelope {
     l.reads(&Ends::height, End::to, "smart_volume.height", Unit::metre);
     l.reads(&Ends::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads(&Ends::id, End::to, "node.id");
+    l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
+    l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads_lock(&Ends::is_limit_locked, End::to, "smart_volume.demand_limit");
+    l.reads_lock(&Ends::is_position_locked, End::to, "node.position");
     l.proposes(&Out::move, End::to, "node.position", Unit::metre);
     l.proposes(&Out::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
@@ -125,11 +145,30 @@ struct SolarEnvelope {
       }
     }
     const double beyond = worst / ends.radius - in.tolerance;
+    if (beyond > in.play * in.tolerance) tell(in, ends, beyond + in.tolerance, tick);
     if (in.mode == Mode::move) return beyond > 0 ? Out{normal * (-in.gain * beyond * ends.radius), {}} : Out{};
-    // Between half the tolerance and all of it the limit rests; below it the volume may grow again.
+    // From half the tolerance to a little beyond it the limit rests; below it the volume may grow again. Without that little the
+    // last of the excess would be shaved off for ever.
     const double room = std::min(0.5, std::max(0.0, -beyond - 0.5 * in.tolerance));
-    const double answer = (1 - in.gain * std::clamp(beyond, 0.0, 0.5)) * (1 + in.gain * room);
+    const double excess = beyond > in.play * in.tolerance ? std::min(beyond, 0.5) : 0.0;
+    const double answer = (1 - in.gain * excess) * (1 + in.gain * room);
     return Out{{}, limit_that_grants(ends.demand, std::max(in.least, granted_share(ends.demand, ends.limit) * answer))};
+  }
+
+ private:
+  // The planes are not kept: the volume is on its way under them, or held.
+  static void tell(const In& in, const Ends& ends, double through, const Tick& tick) {
+    const std::string found = "`" + ends.id + "` reaches " + fixed(through * ends.radius, 2) + " m through the planes of the sun";
+    const std::vector<bool> locked = {ends.is_limit_locked};
+    const HeldBack held{{&ends.id, 1}, {&ends.demand, 1}, {&ends.limit, 1}, {&ends.wanted, 1}, {&ends.volume, 1}, locked};
+    std::string held_up;
+    if (in.mode == Mode::move && ends.is_position_locked)
+      held_up = ", and its position is locked; unlock the position, or let it be shaved";
+    else if (in.mode == Mode::shave && is_exhausted(held, {0}, in.least))
+      held_up = ", " + held_by(held, {0}, in.least) + "; move the edge or the volume," + unlocking(held, {0}, in.least) +
+                " or lower what is insisted on or `least`";
+    if (held_up.empty()) return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "edge", found});
+    remark(tick, LinkRemark::unmet, {ErrorCode::infeasible, "edge", "cannot be met: " + found + held_up});
   }
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/demand_limit.h"
 #include "core/base/direction.h"
@@ -9,6 +10,7 @@
 #include "core/define/link_builder.h"
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
+#include "core/sun/loss_table.h"
 
 namespace bl {
 
@@ -18,18 +20,21 @@ struct SolarRight {
   enum class Mode { lower, move, shave };
   struct In {
     Mode mode = Mode::shave;
-    double gain = 0.2, tolerance = 0.02, least = 0.2;
+    double gain = 0.2, tolerance = 0.02, play = 0.125, least = 0.2;
   };
   struct Ends {
-    std::string receiver, caster;
-    Point3 place, position;
+    std::string receiver;
+    Point3 place;
     double deficit = 0, required = 0, possible = 0, least = 0;
     Shared<Table> losses;
-    double demand = 0, limit = 0, radius = 0, bottom = 0;
+    All<std::string> ids;
+    All<Point3> positions;
+    All<double> demands, limits, wanted, volumes, radii, bottoms;
+    All<bool> are_limits_locked, are_positions_locked;
   };
   struct Out {
-    std::optional<Vector3> move;
-    std::optional<double> limit;
+    All<std::optional<Vector3>> moves;
+    All<std::optional<double>> limits;
   };
 
   static void declare(LinkBuilder<SolarRight>& l) {
@@ -37,9 +42,8 @@ struct SolarRight {
         .label("Solar right")
         .doc(
             "Defends the sun that a receiver needs. While points of it are short of it, the volumes in the way give way: the "
-            "worst one most, the others in proportion to what they take, and none once the need is met. Who takes next to "
-            "nothing "
-            "is not held back.");
+            "worst "
+            "one most, the others by what they take, none once the need is met. Who takes next to nothing is not held back.");
     l.param(&In::mode, "mode",
             {{Mode::lower, "lower", "The volume's position sinks, no lower than the foot of its shape: it grows wide, not high."},
              {Mode::move, "move", "The volume moves away in plan."},
@@ -55,26 +59,35 @@ struct SolarRight {
         .range(0.001, 1)
         .soft(0.005, 0.1)
         .doc("What may be missing on the mean of all points, as a share of the sun that is required.");
+    l.param(&In::play, "play")
+        .unit(Unit::ratio)
+        .range(0, 1)
+        .soft(0, 0.5)
+        .doc("How much more may be missing before volumes are shaved, as a share of the tolerance.");
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc("Share of the demand that is not shaved off, whatever stands in the sun.");
+        .doc("Share of a demand that is not shaved off. Where that is not enough, the rule cannot be met, and says so.");
     l.reads(&Ends::receiver, End::from, "node.id").reads(&Ends::place, End::from, "node.position", Unit::metre);
     l.reads(&Ends::deficit, End::from, "shadow_receiver.deficit", Unit::second);
     l.reads(&Ends::required, End::from, "shadow_receiver.required_sun", Unit::second);
     l.reads(&Ends::possible, End::from, "shadow_receiver.sun_possible", Unit::second);
     l.reads(&Ends::least, End::from, "shadow_receiver.sun_min", Unit::second);
     l.reads(&Ends::losses, End::from, "shadow_receiver.losses");
-    l.reads(&Ends::caster, End::to, "node.id").reads(&Ends::position, End::to, "node.position", Unit::metre);
-    l.reads(&Ends::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
-    l.reads(&Ends::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
-    l.reads(&Ends::radius, End::to, "smart_volume.radius", Unit::metre);
-    l.reads(&Ends::bottom, End::to, "smart_volume.bottom", Unit::metre);
-    l.proposes(&Out::move, End::to, "node.position", Unit::metre);
-    l.proposes(&Out::limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads(&Ends::ids, End::to, "node.id").reads(&Ends::positions, End::to, "node.position", Unit::metre);
+    l.reads(&Ends::demands, End::to, "smart_volume.demand", Unit::cubic_metre);
+    l.reads(&Ends::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
+    l.reads(&Ends::volumes, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads(&Ends::radii, End::to, "smart_volume.radius", Unit::metre)
+        .reads(&Ends::bottoms, End::to, "smart_volume.bottom", Unit::metre);
+    l.reads_lock(&Ends::are_limits_locked, End::to, "smart_volume.demand_limit");
+    l.reads_lock(&Ends::are_positions_locked, End::to, "node.position");
+    l.proposes(&Out::moves, End::to, "node.position", Unit::metre);
+    l.proposes(&Out::limits, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
-  static constexpr double kLittle = 0.05;  // of what the worst one takes
+  static constexpr double kLittle = 0.05;  // of what the worst one takes; of a radius that is left to sink
 
   // What is missing beyond the tolerance, as a share of what is required; what no caster takes cannot be asked of one.
   static double shortage(const In& in, const Ends& ends) {
@@ -85,49 +98,78 @@ struct SolarRight {
   // What even the worst point has beyond its need, as a share of the need.
   static double surplus(const Ends& ends) { return std::clamp((ends.least - ends.required) / ends.required, 0.0, 1.0); }
 
-  // What the volume takes, as a share of what the worst one takes.
-  static double share_of(const Ends& ends) {
-    double own = 0, most = 0;
-    for (std::size_t row = 0; row < ends.losses->rows.size(); ++row) {
-      const double taken = ends.losses->number(row, "shared");
-      most = std::max(most, taken);
-      if (ends.losses->text(row, "node") == ends.caster) own = std::max(0.0, taken);
-    }
-    return most > 0 ? own / most : 0;
-  }
-
   // Moves away from the receiver in plan; two on one point part by their names.
-  static Vector3 away(const Ends& ends) {
-    const Vector3 between{ends.position.x - ends.place.x, ends.position.y - ends.place.y, 0};
+  static Vector3 away(const Ends& ends, std::size_t i) {
+    const Point3& position = ends.positions.values[i];
+    const Vector3 between{position.x - ends.place.x, position.y - ends.place.y, 0};
     const double length = norm(between);
-    return length > 0 ? between / length : direction_by_name(ends.receiver, ends.caster);
+    return length > 0 ? between / length : direction_by_name(ends.receiver, ends.ids.values[i]);
   }
 
-  // The worst one has given way as far as it has to, and still the sun is not there.
-  static void tell(const In& in, const Ends& ends, const Tick& tick) {
-    const double short_of = ends.deficit / 3600;
-    remark(tick, LinkRemark::unmet,
-           {ErrorCode::infeasible, "from",
-            "cannot be met: `" + ends.receiver + "` is short of " + fixed(short_of, 2) + " h of sun, held by `" + ends.caster +
-                "`, which is down to " + shortest(100 * in.least) +
-                " % of its demand; lower `required_sun` or `least`, or move the volume"});
+  static double fall_left(const Ends& ends, std::size_t i) {
+    return std::max(0.0, ends.positions.values[i].z - ends.bottoms.values[i]);
+  }
+
+  // Why those who take the sun cannot give way any further; empty while one of them can.
+  static std::string why_held(const In& in, const Ends& ends, const std::vector<std::size_t>& who) {
+    const HeldBack held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                        ends.wanted.values, ends.volumes.values, ends.are_limits_locked.values};
+    const std::string advice = "; lower `required_sun`";
+    if (who.empty()) return held_by(held, who, in.least) + advice + ", or lead the link to them";
+    if (in.mode == Mode::shave && !is_exhausted(held, who, in.least)) return "";
+    if (in.mode == Mode::shave)
+      return held_by(held, who, in.least) + advice + " or `least`," + unlocking(held, who, in.least) + " or move the volume";
+    std::string holders;
+    for (const std::size_t i : who) {
+      const bool is_locked = ends.are_positions_locked.values[i];
+      if (!is_locked && (in.mode == Mode::move || fall_left(ends, i) > kLittle * ends.radii.values[i])) return "";
+      holders += (holders.empty() ? "held by `" : ", `") + ends.ids.values[i] +
+                 (is_locked ? "` (its position is locked)" : "` (it has sunk as far as it can)");
+    }
+    return holders + advice + ", or let them be shaved";
+  }
+
+  // The sun is not there yet: on its way, or held up by those who give way no further.
+  static void tell(const In& in, const Ends& ends, const std::vector<double>& shares, const Tick& tick) {
+    std::vector<std::size_t> who;
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      if (shares[i] > kLittle) who.push_back(i);
+    const std::string found = "`" + ends.receiver + "` is short of " + fixed(ends.deficit / 3600, 2) + " h of sun";
+    const std::string held_up = why_held(in, ends, who);
+    const std::string said = held_up.empty() ? found : "cannot be met: " + found + ", " + held_up;
+    remark(tick, held_up.empty() ? LinkRemark::at_work : LinkRemark::unmet, {ErrorCode::infeasible, "from", said});
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
-    if (!(ends.required > 0)) return Out{};
-    const double share = share_of(ends), missing = shortage(in, ends), answer = in.gain * std::max(0.0, missing) * share;
-    if (in.mode == Mode::lower) {
-      const double fall = answer * std::max(0.0, ends.position.z - ends.bottom);
-      return fall > 0 ? Out{Vector3{0, 0, -fall}, {}} : Out{};
+    Out out;
+    if (!(ends.required > 0)) return out;
+    const std::vector<double> shares = loss_shares(*ends.losses, ends.ids.values);
+    out.moves.values.resize(shares.size());
+    out.limits.values.resize(shares.size());
+    const double missing = shortage(in, ends);
+    const bool is_kept = missing <= in.play * in.tolerance;
+    if (!is_kept) tell(in, ends, shares, tick);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      if (ends.ids.values[i] == ends.receiver) continue;
+      const double answer = in.gain * std::max(0.0, missing) * shares[i];
+      if (in.mode == Mode::lower) {
+        if (const double fall = answer * fall_left(ends, i); fall > 0) out.moves.values[i] = Vector3{0, 0, -fall};
+      } else if (in.mode == Mode::move) {
+        if (const double way = answer * ends.radii.values[i]; way > 0) out.moves.values[i] = away(ends, i) * way;
+      } else {
+        out.limits.values[i] = limit_of(in, ends, i, missing, is_kept ? 0 : answer, shares[i]);
+      }
     }
-    if (in.mode == Mode::move) return answer * ends.radius > 0 ? Out{away(ends) * (answer * ends.radius), {}} : Out{};
-    // Between half the tolerance and all of it the limit rests, so that the last moments of sun do not make it chatter. Below
-    // that it grows with the sun that is left over. Who takes little may grow nevertheless: what others limit, or limited once,
-    // is not ours to hold.
+    return out;
+  }
+
+  // From half the tolerance to a little beyond it the limit rests: the last moments of sun would be shaved off for ever. Who
+  // takes little may grow nevertheless: what others limit, or limited once, is not ours to hold.
+  static std::optional<double> limit_of(const In& in, const Ends& ends, std::size_t i, double missing, double answer,
+                                        double share) {
     const double room = std::max({0.0, -missing - 0.5 * in.tolerance, surplus(ends), 1 - share / kLittle});
-    if (missing > 0 && share >= 1 && granted_share(ends.demand, ends.limit) <= in.least * (1 + 1e-6)) tell(in, ends, tick);
-    const double kept = granted_share(ends.demand, ends.limit) * (1 - answer) * (1 + in.gain * room);
-    return Out{{}, limit_that_grants(ends.demand, std::max(in.least, kept))};
+    const double kept = granted_share(ends.demands.values[i], ends.limits.values[i]) * (1 - answer) * (1 + in.gain * room);
+    return limit_that_grants(ends.demands.values[i], std::max(in.least, kept));
   }
 };
 
