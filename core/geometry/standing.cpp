@@ -1,10 +1,13 @@
-// Who carries whom: contacts first, then one pass after the other until nobody else is found to stand.
+// Who carries whom: contacts first, then on from all who stand until nobody else is found to stand.
 #include "core/geometry/standing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 
+#include "core/geometry/plan_buckets.h"
 #include "core/geometry/touching_balls.h"
 
 namespace bl {
@@ -53,7 +56,7 @@ class StanceFinder {
         stances_[i].stands_on = Stance::kGround;
         is_carried_[i] = true;
       }
-    while (find_more_carried()) {}
+    find_carried();
     for (std::size_t i = 0; i < sites_.size(); ++i)
       if (cells_[i].volume > 0) measure(i);
     return std::move(stances_);
@@ -81,29 +84,52 @@ class StanceFinder {
     return up.z > 0 && up.z >= kSteepnessToStay * norm(up);
   }
 
-  // One round; true where it found somebody.
-  bool find_more_carried() {
-    bool is_more = false;
-    for (std::size_t i = 0; i < sites_.size(); ++i) {
-      if (is_carried_[i] || !(cells_[i].volume > 0)) continue;
-      int holders = 0;
-      for (const FacetArea& facet : cells_[i].facets) {
-        if (facet.kind != FaceKind::site || !is_carried_[facet.index]) continue;
-        ++holders;
-        if (stances_[i].stands_on == Stance::kNothing && is_below(facet.index, i))
-          stances_[i].stands_on = static_cast<std::int32_t>(facet.index);
+  // In rounds in the order of the sites, in which only those are looked at who have a neighbour that has come to stand since.
+  void find_carried() {
+    std::set<std::size_t> round, next;
+    for (std::size_t i = 0; i < sites_.size(); ++i) round.insert(round.end(), i);
+    for (; !round.empty(); round.swap(next))
+      while (!round.empty()) {
+        const std::size_t i = *round.begin();
+        round.erase(round.begin());
+        if (is_carried_[i] || !(cells_[i].volume > 0) || !carries(i)) continue;
+        is_carried_[i] = true;
+        for (const FacetArea& facet : cells_[i].facets)
+          if (facet.kind == FaceKind::site && !is_carried_[facet.index]) (facet.index > i ? round : next).insert(facet.index);
       }
-      const bool is_bridge = rules_[i] == Standing::bridge && holders >= 2;
-      if (stances_[i].stands_on == Stance::kNothing && !is_bridge) continue;
-      is_carried_[i] = true;
-      is_more = true;
+  }
+
+  // Do those who stand carry it, as far as is known?
+  bool carries(std::size_t i) {
+    int holders = 0;
+    for (const FacetArea& facet : cells_[i].facets) {
+      if (facet.kind != FaceKind::site || !is_carried_[facet.index]) continue;
+      ++holders;
+      if (stances_[i].stands_on == Stance::kNothing && is_below(facet.index, i))
+        stances_[i].stands_on = static_cast<std::int32_t>(facet.index);
     }
-    return is_more;
+    return stances_[i].stands_on != Stance::kNothing || (rules_[i] == Standing::bridge && holders >= 2);
+  }
+
+  double radius_of(std::size_t i) const { return std::sqrt(std::max(0.0, sites_[i].weight)); }
+
+  // Made when the first body is found to hang.
+  const PlanBuckets& buckets() {
+    if (!buckets_) {
+      std::vector<Point3> centres;
+      std::vector<double> radii;
+      for (std::size_t i = 0; i < sites_.size(); ++i) {
+        centres.push_back(sites_[i].position);
+        radii.push_back(cells_[i].volume > 0 ? radius_of(i) : 0);
+      }
+      buckets_.emplace(centres, radii);
+    }
+    return *buckets_;
   }
 
   void measure(std::size_t i) {
     Stance& stance = stances_[i];
-    const double ground = ground_under(domain_, sites_[i].position), radius = std::sqrt(std::max(0.0, sites_[i].weight));
+    const double ground = ground_under(domain_, sites_[i].position), radius = radius_of(i);
     const bool is_content = rules_[i] == Standing::ground ? stance.stands_on == Stance::kGround : is_carried_[i];
     if (!is_content) stance.hang = std::max(0.0, cells_[i].bottom - ground);
     stance.drop = sites_[i].position.z - radius - ground;
@@ -115,8 +141,11 @@ class StanceFinder {
       for (const FacetArea& facet : cells_[i].facets)
         if (facet.kind == FaceKind::site) stance.drop = std::min(stance.drop, gap_above(facet.index, i, stance.drop));
     } else {
-      for (std::size_t j = 0; j < sites_.size(); ++j)
-        if (j != i && cells_[j].volume > 0) stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
+      // A hair wider than gap_above() looks, for rounding.
+      const double aside = std::sqrt(1 - kLeastSteepness * kLeastSteepness) * (1 + 1e-9);
+      buckets().near(sites_[i].position, radius, aside, [&](std::size_t j) {
+        if (j != i) stance.drop = std::min(stance.drop, gap_above(j, i, stance.drop));
+      });
       stance.drop = std::max(stance.drop, creep);
     }
   }
@@ -125,7 +154,7 @@ class StanceFinder {
   double gap_above(std::size_t lower, std::size_t upper, double otherwise) const {
     const Vector3 up = sites_[upper].position - sites_[lower].position;
     if (!(up.z > 0)) return otherwise;
-    const double radii = std::sqrt(std::max(0.0, sites_[upper].weight)) + std::sqrt(std::max(0.0, sites_[lower].weight));
+    const double radii = radius_of(upper) + radius_of(lower);
     const double steep_reach = radii * radii * (1 - kLeastSteepness * kLeastSteepness), aside = up.x * up.x + up.y * up.y;
     if (!(aside <= steep_reach)) return otherwise;
     const double gap = up.z - std::sqrt(radii * radii - aside);
@@ -146,6 +175,7 @@ class StanceFinder {
   std::vector<bool> is_underside_;  // per side of the domain
   std::vector<Stance> stances_;
   std::vector<bool> is_carried_;
+  std::optional<PlanBuckets> buckets_;
 };
 
 }  // namespace
