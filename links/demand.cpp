@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/text.h"
+#include "core/define/brief_sums.h"
 #include "core/define/link_builder.h"
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
@@ -79,14 +80,13 @@ struct Demand {
     for (std::size_t row = 0; row < rows.rows.size(); ++row) {
       if (rows.text(row, "use").empty()) continue;  // the programme itself says so
       Share& share = shares[rows.text(row, "use")];
-      const double count = rows.number(row, "count"), height = rows.number(row, "storey_height");
-      const double area = rows.number(row, "floor_area") * count, largest = rows.number(row, "floor_area_max");
-      share.demand += area * height;
-      share.minimum += rows.number(row, "floor_area_min") * count * height;
-      share.maximum += largest * count * height;
-      share.is_open = share.is_open || !(largest > 0);
-      share.floor_area += area;
-      share.storey_height = std::max(share.storey_height, height);
+      const BriefSums sums = brief_sums(rows, row);
+      share.demand += sums.volume;
+      share.minimum += sums.volume_min;
+      share.maximum += sums.volume_max;
+      share.is_open = share.is_open || sums.is_open;
+      share.floor_area += sums.area;
+      share.storey_height = std::max(share.storey_height, rows.number(row, "storey_height"));
     }
     return shares;
   }

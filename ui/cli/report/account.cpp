@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/define/brief_sums.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/report_model.h"
 
@@ -141,9 +142,9 @@ std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
       const auto [found, is_new] = index.emplace(table->text(r, "use"), brief.size());
       if (is_new) brief.emplace_back(found->first, BriefRow{});
       BriefRow& row = brief[found->second].second;
-      const double area = table->number(r, "floor_area") * table->number(r, "count");
-      row.area += area;
-      row.volume += area * table->number(r, "storey_height");
+      const BriefSums sums = brief_sums(*table, r);
+      row.area += sums.area;
+      row.volume += sums.volume;
     }
   }
   return brief;
