@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/define/brief_sums.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 
@@ -60,6 +61,11 @@ struct Programme {
                  .minimum = 1,
                  .maximum = 1e6,
                  .doc = "Number of items, a whole number."})
+        .column({.id = "standing",
+                 .is_text = true,
+                 .default_value = std::string("stack"),
+                 .doc = "What new volumes of the use may stand on: `ground`, `stack` (also on others) or `bridge` (also between "
+                        "two)."})
         .column({.id = "note", .is_text = true, .default_value = std::string(), .doc = "A remark for people."})
         .doc("The uses that are wanted; each use stands in one row.");
     t.out(&Out::total_floor_area, "total_floor_area")
@@ -94,6 +100,10 @@ struct Programme {
     const double count = rows.number(row, "count");
     if (!(count >= 1) || std::floor(count) != count)
       return "must be a whole number of items, at least 1, found " + shortest(count);
+    column = "standing";
+    const std::string& standing = rows.text(row, "standing");
+    if (!standing.empty() && standing != "ground" && standing != "stack" && standing != "bridge")
+      return "`" + standing + "` is none of `ground`, `stack` and `bridge`: write one of them";
     return {};
   }
 
@@ -110,11 +120,11 @@ struct Programme {
       if (!seen.insert(use).second)
         return Error{ErrorCode::duplicate, place + "use",
                      "the use `" + use + "` stands in an earlier row too: put both into one row, or name one otherwise"};
-      const double count = rows.number(row, "count"), area = rows.number(row, "floor_area") * count;
-      out.total_floor_area += area;
-      out.total_floor_area_min += rows.number(row, "floor_area_min") * count;
-      out.total_volume += area * rows.number(row, "storey_height");
-      out.items += static_cast<std::int64_t>(count);
+      const BriefSums sums = brief_sums(rows, row);
+      out.total_floor_area += sums.area;
+      out.total_floor_area_min += sums.area_min;
+      out.total_volume += sums.volume;
+      out.items += static_cast<std::int64_t>(rows.number(row, "count"));
     }
     out.uses = static_cast<std::int64_t>(rows.rows.size());
     return out;

@@ -72,7 +72,10 @@ struct SmartVolume {
          {{Standing::ground, "ground", "It has to stand on the ground, as a garage or a supermarket does."},
           {Standing::stack, "stack", "It may also stand on other volumes, as flats do on shops."},
           {Standing::bridge, "bridge", "It may also hang between two or more volumes that stand and touch it."}})
-        .doc("What the volume may stand on. One that stands on nothing of it is named among the problems.");
+        .doc(
+            "What the volume may stand on. One that stands on nothing of it is named among the problems. It stands on another "
+            "one "
+            "where the way up from that one's position is steep, by 27° or more.");
   }
 
   static void declare_shape(TypificationBuilder<SmartVolume>& t) {
@@ -133,7 +136,12 @@ struct SmartVolume {
         .doc("Height of the lowest point above the ground where the volume stands on nothing that it may stand on; else 0.");
     t.out(&Out::drop, "drop")
         .unit(Unit::metre)
-        .doc("How far the ball can sink until it touches what it may stand on; negative where it has sunk in by so much.");
+        .doc(
+            "How far the ball can sink until it touches what it may stand on; negative where it has sunk in by so much. What it "
+            "comes down on lies at 30° or more below it; once there it is carried down to 27°, so that who rests at the limit "
+            "does "
+            "not come and go. What still hangs though its ball has sunk in goes down by a quarter of what is missing, and by no "
+            "more than a tenth of its radius.");
   }
 };
 

@@ -50,6 +50,17 @@ TEST(Programme, NamesTheRowAndColumnOfAFault) {
   EXPECT_EQ(programme_error(R"({"use": "", "floor_area": 1})"), "nodes/it/programme/rows/0/use: the use is empty: name the use");
 }
 
+TEST(Programme, KeepsWhatVolumesMayStandOn) {
+  World world = World::from_text(one_node("programme", R"("rows": [
+      {"use": "garage", "floor_area": 100, "standing": "ground"}, {"use": "flats", "floor_area": 50}])"));
+  world.tick();
+  EXPECT_EQ(world.node_error("it", "programme"), "");
+  EXPECT_EQ(world.table("it", "programme.rows").text(0, "standing"), "ground");
+  EXPECT_EQ(world.table("it", "programme.rows").text(1, "standing"), "stack") << "where nothing is said";
+  EXPECT_EQ(programme_error(R"({"use": "a", "floor_area": 10, "standing": "air"})"),
+            "nodes/it/programme/rows/0/standing: the value `air` is none of `ground`, `stack` and `bridge`: write one of them");
+}
+
 TEST(Programme, SceneAddsUp) {
   World world = World::from_file("scenes/nodes/programme.json");
   EXPECT_TRUE(world.settle(20));

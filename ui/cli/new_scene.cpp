@@ -76,6 +76,7 @@ class Builder {
                       {"floor_area_max", row.floor_area_max.value_or(0)},
                       {"storey_height", row.storey_height},
                       {"count", static_cast<double>(row.count)},
+                      {"standing", row.standing},
                       {"note", row.name == row.use ? "" : row.name}});
     node(kProgramme, {{"name", "Programme"}, {"types", {{"programme", {{"rows", rows}}}}}});
     node(kSolver, {{"name", "Solver"}, {"types", {{"smart_volumes_solver", Json::object()}}}});

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "tests/ui/cli/program.h"
 
@@ -57,6 +59,21 @@ TEST_F(New, MakesASceneThatSettles) {
   const nlohmann::json totals = place.json("r.json")["totals"];
   EXPECT_NEAR(totals["volume"].get<double>(), 12840, 128);
   EXPECT_EQ(totals["uses"].size(), 3u);
+}
+
+// What a brief says of standing is in the scene's brief as well as at its volumes, so that a later volume of the use has it too.
+TEST_F(New, KeepsTheStandingOfEachUse) {
+  place.write("stand.csv", "use,floor_area_m2,count,storey_height_m,standing\ngarage,300,1,3,ground\nflats,200,2,3,\n");
+  const Outcome made =
+      place.run({"new", "--boundary", "site.geojson", "--height", "30", "--programme", "stand.csv", "--out", "s.json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  std::map<std::string, nlohmann::json> rows;
+  for (const nlohmann::json& node : place.json("s.json")["nodes"])
+    if (node["types"].contains("programme"))
+      for (const nlohmann::json& row : node["types"]["programme"]["rows"]) rows[row["use"].get<std::string>()] = row;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows["garage"]["standing"], "ground");
+  EXPECT_FALSE(rows["flats"].contains("standing")) << "what is the default is not written";
 }
 
 // Wishes that cannot all be had: a hub with fourteen neighbours, a chain, and one use that is a hundred times as large as others.

@@ -38,6 +38,19 @@ std::string use_of_volume(const NodeRecord& node) {
   return text == nullptr ? std::string() : *text;
 }
 
+// What the first brief that speaks of a use lets its volumes stand on; empty where none does.
+std::string standing_of_use(const Scene& scene, const std::string& use) {
+  for (const auto& [id, node] : scene.nodes) {
+    const auto programme = node.types.find("programme");
+    if (programme == node.types.end()) continue;
+    const auto rows = programme->second.find("rows");
+    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
+    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row)
+      if ((*table)->text(row, "use") == use) return (*table)->text(row, "standing");
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> known_uses(const Scene& scene) {
@@ -67,7 +80,13 @@ std::vector<std::string> uses_by_need(Editor& editor) {
 std::string first_values(Editor& editor, const std::string& type, std::size_t number) {
   Json values = Json::object();
   if (type == "smart_volume")
-    if (const std::vector<std::string> uses = uses_by_need(editor); !uses.empty()) values["use"] = uses[number % uses.size()];
+    if (const std::vector<std::string> uses = uses_by_need(editor); !uses.empty()) {
+      const std::string& use = uses[number % uses.size()];
+      values["use"] = use;
+      // Only what differs from the default is said.
+      if (const std::string standing = standing_of_use(editor.scene(), use); !standing.empty() && standing != "stack")
+        values["standing"] = standing;
+    }
   return write_json_line(values);
 }
 
