@@ -68,7 +68,8 @@ TEST_F(New, KeepsTheStandingOfEachUse) {
       place.run({"new", "--boundary", "site.geojson", "--height", "30", "--programme", "stand.csv", "--out", "s.json"});
   ASSERT_EQ(made.code, 0) << made.err;
   std::map<std::string, nlohmann::json> rows;
-  for (const nlohmann::json& node : place.json("s.json")["nodes"])
+  const nlohmann::json scene = place.json("s.json");
+  for (const nlohmann::json& node : scene["nodes"])
     if (node["types"].contains("programme"))
       for (const nlohmann::json& row : node["types"]["programme"]["rows"]) rows[row["use"].get<std::string>()] = row;
   ASSERT_EQ(rows.size(), 2u);
