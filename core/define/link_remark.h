@@ -12,8 +12,9 @@ namespace bl {
 /// Whatever is remarked, the proposals stand. In ascending gravity.
 enum class LinkRemark {
   short_of,  ///< somebody goes without: shown as a problem; the scene settles nevertheless
-  at_work,   ///< what of a rule is not kept yet, while the link is bringing it about: no problem before nothing changes any more,
-            ///< but nothing is settled before it is kept
+  /// What of a rule is not kept yet while the link is bringing it about: nothing is settled before it is, and it is a problem
+  /// once nothing changes any more.
+  at_work,
   unmet,  ///< a rule cannot be kept: shown as a problem, and the scene does not settle
 };
 
