@@ -1,6 +1,5 @@
 // Files made to cost more than they weigh: nested, spiky, holed and overlapping ones are read or refused in little time.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cmath>
 #include <ctime>
@@ -15,11 +14,12 @@
 #include "core/exchange/plan_boundary.h"
 #include "core/geometry/polygon_triangles.h"
 #include "tests/core/exchange/context_data.h"
+#include "tests/support/gzip.h"
 
 namespace bl {
 namespace {
 
-using test::reason_of, test::rows_of;
+using test::gzip_of, test::reason_of, test::rows_of;
 
 // Processor time, so that a busy machine does not decide; the limits are many times what is needed, and far below what it took.
 class Stopwatch {
@@ -29,20 +29,6 @@ class Stopwatch {
  private:
   std::clock_t start_ = std::clock();
 };
-
-std::string packed(const std::string& text) {
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 31, 9, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string bytes(deflateBound(&stream, text.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_out = static_cast<uInt>(bytes.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  bytes.resize(stream.total_out);
-  deflateEnd(&stream);
-  return bytes;
-}
 
 std::string ring_text(const Ring& ring) {
   std::string text = "[";
@@ -76,8 +62,8 @@ TEST(ContextLimits, NestedJsonIsRefusedBeforeItIsBuilt) {
   const std::string deep(20000000, '[');
   const Stopwatch watch;
   for (const auto& error :
-       {read_geojson_context(deep).error(), read_cityjson_context(deep).error(), read_geojson_context(packed(deep)).error(),
-        read_cityjson_context(packed(deep)).error(), read_layer_geojson(deep, {}).error()}) {
+       {read_geojson_context(deep).error(), read_cityjson_context(deep).error(), read_geojson_context(gzip_of(deep)).error(),
+        read_cityjson_context(gzip_of(deep)).error(), read_layer_geojson(deep, {}).error()}) {
     EXPECT_EQ(error.place, "line 1, column 65");
     EXPECT_NE(error.message.find("nested deeper than 64"), std::string::npos) << error.message;
   }

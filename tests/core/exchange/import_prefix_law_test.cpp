@@ -1,7 +1,6 @@
 // A law of all importers: of a file that was cut off anywhere, or that noise got into, they never fall, they account for every
 // element that they take, and what they refuse they name: what the file should be, or that it is cut off.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <ctime>
@@ -19,6 +18,7 @@
 #include "core/exchange/terrain_grid.h"
 #include "core/exchange/tntp.h"
 #include "tests/core/exchange/context_data.h"
+#include "tests/support/gzip.h"
 
 namespace bl {
 namespace {
@@ -50,20 +50,6 @@ Verdict verdict_of(const Result<Context>& context) {
 template <class T>
 Verdict verdict_of_plain(const Result<T>& result) {
   return result ? Verdict{} : verdict_of(result.error());
-}
-
-std::string gzip_of(const std::string& text) {
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 31, 9, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string bytes(deflateBound(&stream, text.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_out = static_cast<uInt>(bytes.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  bytes.resize(stream.total_out);
-  deflateEnd(&stream);
-  return bytes;
 }
 
 const std::string kSampleMap =
@@ -131,7 +117,7 @@ std::vector<Importer> all_importers() {
   const auto grid = [](const std::string& text) { return verdict_of_plain(read_terrain_grid(text)); };
   return {
       {"OSM XML", kSampleMap, osm, true, {"OpenStreetMap", "XML"}},
-      {"OSM gzip", gzip_of(kSampleMap), osm, true, {"OpenStreetMap", "XML", "packed file"}},
+      {"OSM gzip", test::gzip_of(kSampleMap), osm, true, {"OpenStreetMap", "XML", "packed file"}},
       {"OSM PBF", sample_pbf(), osm, false, {"OpenStreetMap", "PBF", "holds no node"}},
       {"GeoJSON",
        kSampleFeatures,
@@ -276,12 +262,12 @@ TEST(ImportPrefixLaw, RealFilesCutOffAreCalledCutOff) {
 
 TEST(ImportPrefixLaw, WhatUnpacksToGigabytesIsRefusedEarly) {
   // Blanks without end pack to a thousandth, as nothing does that people make: the first 64 MiB give them away.
-  const std::string bomb = gzip_of(std::string(std::size_t{160} << 20, ' '));
+  const std::string bomb = test::gzip_of(std::string(std::size_t{160} << 20, ' '));
   const auto refused = unpacked(bomb);
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(refused.error().message.find("200 times its size"), std::string::npos) << refused.error().text();
   // Of what is no bomb the size alone decides.
-  const std::string sound = gzip_of(kSampleMap);
+  const std::string sound = test::gzip_of(kSampleMap);
   EXPECT_TRUE(unpacked(sound, kSampleMap.size()).ok());
   const auto large = unpacked(sound, kSampleMap.size() - 1);
   ASSERT_FALSE(large.ok());

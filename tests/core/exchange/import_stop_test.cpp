@@ -1,6 +1,5 @@
 // Whoever stops an import need not wait for the end of a file: every parser asks within the text, and ends where it is told so.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <functional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "core/exchange/geojson_context.h"
 #include "core/exchange/inflate.h"
 #include "core/exchange/terrain_grid.h"
+#include "tests/support/gzip.h"
 
 namespace bl {
 namespace {
@@ -43,20 +43,6 @@ std::string repeated(const std::string& text, int count) {
   return all;
 }
 
-std::string zipped(const std::string& text) {
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 1, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string out(deflateBound(&stream, text.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
-
 const std::string kPoint =
     R"({"type": "Feature", "properties": {"v": 1}, "geometry": {"type": "Point", "coordinates": [4.1, 52]}},)";
 
@@ -67,7 +53,7 @@ std::string features(int count) {
 }
 
 TEST(ImportStop, ParsersAskWithinTheText) {
-  const std::string geojson = features(20000), gz = zipped(repeated("0123456789", 200000));
+  const std::string geojson = features(20000), gz = test::gzip_of(repeated("0123456789", 200000));
   expect_to_stop("GeoJSON", [&] { return read_geojson_context(geojson, {}); });
   expect_to_stop("gzip", [&] { return unpacked(gz); });
   const std::string grid = "ncols 1000\nnrows 400\nxllcorner 85000\nyllcorner 446000\ncellsize 1\n" + repeated("1 ", 400000);
