@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 #include <array>
 #include <cerrno>
@@ -24,6 +25,8 @@ constexpr std::string_view kSavingMark = ".saving-";
 constexpr std::string_view kMarkDigits = "abcdefghijklmnopqrstuvwxyz0123456789";
 constexpr std::size_t kMarkLength = 20;    // 36^20 names
 constexpr std::size_t kLongestStem = 200;  // a name has room for 255 bytes
+constexpr const char* kAccessList = "system.posix_acl_access";
+constexpr std::string_view kOwnAttributes = "user.";
 
 // A place in an open folder, so that nobody can put another folder under the path meanwhile.
 struct SavePlace {
@@ -125,15 +128,58 @@ Result<Temporary> new_temporary(const SavePlace& place, const std::string& path)
   return io_error(path, "cannot be written");
 }
 
-// Mode and group of the file that is replaced, its owner where we may. Where the group cannot be kept, the group that has it now
-// gets no more than everybody. File systems without rights have nothing to keep.
-void keep_rights(int file, const struct stat& old) {
+// What `get` gives where it is asked for its size first; empty where there is nothing, or nothing of the kind here.
+template <class Get>
+std::string attribute_bytes(const Get& get) {
+  const ssize_t size = get(nullptr, 0);
+  if (size <= 0) return "";
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  const ssize_t read = get(bytes.data(), bytes.size());
+  bytes.resize(read > 0 ? static_cast<std::size_t>(read) : 0);
+  return bytes;
+}
+
+std::string attribute_of(int file, const char* name) {
+  return attribute_bytes([&](char* room, std::size_t size) { return ::fgetxattr(file, name, room, size); });
+}
+
+// Whether the access list of the file that is replaced holds for the new one as well: also where there is none, although the
+// folder has given one to the new file.
+bool keep_access_list(int file, int old) {
+  const std::string list = attribute_of(old, kAccessList);
+  if (!list.empty()) return ::fsetxattr(file, kAccessList, list.data(), list.size(), 0) == 0;
+  return attribute_of(file, kAccessList).empty() || ::fremovexattr(file, kAccessList) == 0;
+}
+
+// What people and their programs have noted at the file. A note that does not come along is no reason not to save.
+void keep_attributes(int file, int old) {
+  const std::string names = attribute_bytes([old](char* room, std::size_t size) { return ::flistxattr(old, room, size); });
+  for (std::size_t at = 0; at < names.size(); at += std::char_traits<char>::length(names.c_str() + at) + 1) {
+    const char* name = names.c_str() + at;
+    if (!std::string_view(name).starts_with(kOwnAttributes)) continue;
+    const std::string value = attribute_of(old, name);
+    (void)::fsetxattr(file, name, value.data(), value.size(), 0);
+  }
+}
+
+// Mode, group, access list and attributes of the file that is replaced, its owner where we may. With a list, the group's bits of
+// the mode are the most that anybody named in it may do: where list or group cannot be kept, the group that has the file now gets
+// no more than everybody. File systems without rights have nothing to keep.
+void keep_rights(int file, const SavePlace& place) {
+  const struct stat& old = place.status;
   struct stat now {};
   if (::fstat(file, &now) != 0) return;
   mode_t mode = old.st_mode & 07777;
   const uid_t owner = ::geteuid() == 0 ? old.st_uid : now.st_uid;
   const bool is_other = now.st_gid != old.st_gid || now.st_uid != owner;
-  if (is_other && ::fchown(file, owner, old.st_gid) != 0) mode = (mode & 0707) | ((mode & 07) << 3);
+  bool is_group_kept = !is_other || ::fchown(file, owner, old.st_gid) == 0;
+  const Descriptor before(
+      ::openat(place.folder.number(), place.name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (before.is_open()) {
+    if (is_group_kept) is_group_kept = keep_access_list(file, before.number());
+    keep_attributes(file, before.number());
+  }
+  if (!is_group_kept) mode = (mode & 0707) | ((mode & 07) << 3);
   (void)::fchmod(file, mode);
 }
 
@@ -200,7 +246,7 @@ Result<void> write_file(const std::string& path, std::string_view content) {
   const auto made = new_temporary(*place, path);
   if (!made) return made.error();
   const int folder = place->folder.number(), file = made->file.number();
-  if (place->is_there) keep_rights(file, place->status);
+  if (place->is_there) keep_rights(file, *place);
   const bool is_written =
       write_all(file, content) && ::fsync(file) == 0 && ::renameat(folder, made->name.c_str(), folder, place->name.c_str()) == 0;
   if (is_written) return sync_folder(*place, path);

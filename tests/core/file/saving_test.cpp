@@ -2,7 +2,11 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -67,6 +71,74 @@ TEST_F(Saving, KeepsModeAndGroupWhateverTheUsualRights) {
   EXPECT_EQ(status("a.json").st_mode & 07777, 0664u);
   EXPECT_EQ(status("a.json").st_gid, group);
   EXPECT_EQ(status("b.json").st_mode & 07777, 0600u) << "a new file has the usual rights";
+}
+
+// An access list as the kernel keeps it (version 2): what the owner, one other person, the group and everybody may do.
+std::string access_list(std::uint16_t person, std::uint16_t group, std::uint16_t mask) {
+  std::string list("\x02\0\0\0", 4);
+  const auto add = [&list](std::uint16_t tag, std::uint16_t rights, std::uint32_t id) {
+    for (const std::uint32_t half : {static_cast<std::uint32_t>(tag), static_cast<std::uint32_t>(rights), id, id >> 16})
+      list += static_cast<char>(half & 0xff), list += static_cast<char>(half >> 8 & 0xff);
+  };
+  constexpr std::uint32_t kNobody = 0xffffffff;
+  add(0x01, 6, kNobody);
+  add(0x02, person, 4321);
+  add(0x04, group, kNobody);
+  add(0x10, mask, kNobody);
+  add(0x20, 0, kNobody);
+  return list;
+}
+
+std::string attribute(const std::string& path, const char* name) {
+  std::string value(4096, '\0');
+  const ssize_t size = ::getxattr(path.c_str(), name, value.data(), value.size());
+  value.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  return value;
+}
+
+// Whether the file could be given it; a file system without them has nothing to test.
+bool give(const std::string& path, const char* name, const std::string& value) {
+  return ::setxattr(path.c_str(), name, value.data(), value.size(), 0) == 0;
+}
+
+constexpr const char* kList = "system.posix_acl_access";
+
+TEST_F(Saving, KeepsTheAccessList) {
+  put("a.json", "old");
+  const std::string list = access_list(6, 0, 6);
+  if (!give(at("a.json"), kList, list)) GTEST_SKIP() << "no access lists here: " << std::strerror(errno);
+  ASSERT_EQ(status("a.json").st_mode & 07777, 0660u) << "the group's bits are the mask";
+  ASSERT_TRUE(write_file(at("a.json"), "new").ok());
+  EXPECT_EQ(*read_file(at("a.json")), "new");
+  EXPECT_EQ(attribute(at("a.json"), kList), list) << "the group of the file may do nothing still";
+  EXPECT_EQ(status("a.json").st_mode & 07777, 0660u);
+}
+
+// A folder gives what is made in it a list: a file that had none gets none by being saved.
+TEST_F(Saving, AListOfTheFolderIsForNewFilesAlone) {
+  put("a.json", "old");
+  if (!give(folder_.string(), "system.posix_acl_default", access_list(6, 6, 6)))
+    GTEST_SKIP() << "no access lists here: " << std::strerror(errno);
+  ASSERT_EQ(::chmod(at("a.json").c_str(), 0664), 0);
+  ASSERT_TRUE(write_file(at("a.json"), "new").ok());
+  ASSERT_TRUE(write_file(at("b.json"), "first").ok());
+  EXPECT_EQ(attribute(at("a.json"), kList), "");
+  EXPECT_EQ(status("a.json").st_mode & 07777, 0664u);
+  EXPECT_NE(attribute(at("b.json"), kList), "");
+}
+
+TEST_F(Saving, KeepsWhatPeopleHaveNotedAtAFile) {
+  put("a.json", "old");
+  const std::string bytes("with\0zero", 9), large(2000, 'l');
+  if (!give(at("a.json"), "user.origin", bytes)) GTEST_SKIP() << "no attributes here: " << std::strerror(errno);
+  ASSERT_TRUE(give(at("a.json"), "user.large", large));
+  ASSERT_TRUE(give(at("a.json"), "user.empty", ""));
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(write_file(at("a.json"), "new").ok());
+    EXPECT_EQ(attribute(at("a.json"), "user.origin"), bytes);
+    EXPECT_EQ(attribute(at("a.json"), "user.large"), large);
+    EXPECT_EQ(::getxattr(at("a.json").c_str(), "user.empty", nullptr, 0), 0);
+  }
 }
 
 TEST_F(Saving, FollowsLinksToTheirFileAlsoWhereItIsNotThereYet) {
