@@ -85,9 +85,13 @@ void Equilibrium::begin(std::vector<TripDemand> demands, std::span<const BushFlo
 template <class PlantOne>
 void Equilibrium::plant_all(PlantOne&& plant_one) {
   lost_.clear();
-  within_ = 0;
+  within_ = waiting_ = 0;
   std::size_t count = 0;
   for (auto first = demands_.begin(); first != demands_.end();) {
+    if (is_stop_wished()) {
+      for (; first != demands_.end(); ++first) waiting_ += first->trips;
+      break;
+    }
     const auto last = std::find_if(first, demands_.end(), [&](const TripDemand& d) { return d.origin != first->origin; });
     if (count == bushes_.size()) bushes_.emplace_back();
     Bush& bush = bushes_[count++];  // of whichever origin it was: its memory is used again
@@ -167,7 +171,8 @@ void Equilibrium::set_demands(std::vector<TripDemand> demands) {
 
 EquilibriumFigures Equilibrium::figures() {
   double excess = 0;
-  for (const Bush& bush : bushes_) excess += worker_.excess(bush, loads_);
+  // What a stop has left half loaded has no gap; whoever stopped it waits for an answer, not for the shortest ways.
+  for (const Bush& bush : bushes_) excess += waiting_ > 0 ? 0 : worker_.excess(bush, loads_);
   return totals(excess);
 }
 
@@ -182,6 +187,7 @@ EquilibriumFigures Equilibrium::totals(double excess) const {
   EquilibriumFigures figures;
   figures.iterations = iterations_;
   figures.within = within_;
+  figures.waiting = waiting_;
   for (const Bush& bush : bushes_)
     for (const TripDemand& demand : bush.demands) figures.trips += demand.trips;
   for (const LostTrips& lost : lost_) figures.lost += lost.trips;
@@ -192,7 +198,7 @@ EquilibriumFigures Equilibrium::totals(double excess) const {
     figures.cut += network_.is_cut(l, loads_.flows[l]) ? 1 : 0;
   }
   figures.shortest_cost = figures.total_cost - excess;
-  figures.gap = figures.total_cost > 0 ? excess / figures.total_cost : 0;
+  figures.gap = waiting_ > 0 ? 1 : figures.total_cost > 0 ? excess / figures.total_cost : 0;
   return figures;
 }
 

@@ -28,6 +28,7 @@ struct EquilibriumFigures {
   double trips = 0;          ///< on the streets
   double lost = 0;           ///< trips that cannot reach their destination
   double within = 0;         ///< trips that begin and end in one zone and need no street
+  double waiting = 0;        ///< trips that nobody has looked at, because the work was stopped before; the gap is 1 then
   std::size_t cut = 0;       ///< links whose cost is not that of the formula (`TrafficNetwork::is_cut`)
 };
 
@@ -42,6 +43,8 @@ struct Route {
 class Equilibrium {
  public:
   /// Demands of one pair add up; those without trips are dropped. Starts with everybody on the shortest way, origin by origin.
+  /// Where the work is stopped (`core/base/stop.h`) in between, the trips of the other origins wait: whoever wants them on the
+  /// streets begins anew.
   Equilibrium(TrafficNetwork network, std::vector<TripDemand> demands, std::span<const OriginFlow> start = {});
 
   Equilibrium(const Equilibrium&) = delete;  // the bushes work on this very network
@@ -95,7 +98,7 @@ class Equilibrium {
   std::vector<LostTrips> lost_;
   LinkLoads loads_;
   BushWorker worker_;
-  double within_ = 0;
+  double within_ = 0, waiting_ = 0;
   int iterations_ = 0;
 };
 

@@ -282,6 +282,9 @@ class AssignRun {
     print_line("  seconds     " + fixed(seconds, 6) + (o_.repeat > 1 ? "  (median of " + std::to_string(o_.repeat) + ")" : ""));
     if (figures.within > 0)
       print_line("  within      " + fixed(figures.within, 1) + " trips stay in their zone and need no street");
+    if (figures.waiting > 0)
+      print_line("  waiting     " + fixed(figures.waiting, 1) +
+                 " trips were not loaded before it was stopped: flows and costs are those of the others");
     if (figures.cut > 0)
       print_line("  cut         " + counted(figures.cut, "link") +
                  " would cost more than 1e100: gap, objective and total are those of smaller costs, not of the formula");
@@ -333,8 +336,9 @@ class AssignRun {
                       {"to", network.node(l.destination).id},
                       {"trips", l.trips},
                       {"reason", l.reason}});
-    return {{"iterations", f.iterations}, {"gap", f.gap},       {"objective", f.objective}, {"total_cost", f.total_cost},
-            {"trips", f.trips},           {"within", f.within}, {"cut", f.cut}, {"lost", std::move(lost)}};
+    return {{"iterations", f.iterations}, {"gap", f.gap},     {"objective", f.objective},
+            {"total_cost", f.total_cost}, {"trips", f.trips}, {"within", f.within},
+            {"waiting", f.waiting},       {"cut", f.cut},     {"lost", std::move(lost)}};
   }
 
   static Json links_json(const Equilibrium& equilibrium) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/stop.h"
 #include "tests/core/traffic/traffic_case.h"
 
 namespace bl {
@@ -41,6 +42,32 @@ TEST(Equilibrium, BraessWithAndWithoutTheBridgeByHand) {
   ASSERT_TRUE(open.run(1e-12, 100));
   EXPECT_NEAR(open.figures().total_cost, 498, 1e-6);
   EXPECT_EQ(flow_of(open, "b-c"), 0);
+}
+
+// A stop while the first trips are loaded ends after the origin at hand, and every trip is accounted for: on the streets, lost,
+// within its zone, or waiting.
+TEST(Equilibrium, LoadingCanBeStoppedAndWhatWaitsIsCounted) {
+  const Case one = random_grid(5, 6, 80);
+  const TrafficNetwork network = one.network();
+  const std::vector<TripDemand> demands = one.demands(network);
+  double all = 0;
+  for (const TripDemand& demand : demands) all += demand.trips;
+  Equilibrium whole(network, demands);
+  EXPECT_EQ(whole.figures().waiting, 0);
+  for (const int patience : {0, 1, 5}) {
+    int asked = 0;
+    std::optional<Equilibrium> stopped;
+    {
+      const StopScope scope([&] { return ++asked > patience; });
+      stopped.emplace(network, demands);
+    }
+    EXPECT_EQ(asked, patience + 1) << "nothing is begun after it";
+    EXPECT_EQ(stopped->bushes().size(), static_cast<std::size_t>(patience));
+    const EquilibriumFigures figures = stopped->figures();
+    EXPECT_GT(figures.waiting, 0);
+    EXPECT_NEAR(figures.trips + figures.lost + figures.within + figures.waiting, all, 1e-9 * all);
+    EXPECT_EQ(figures.gap, 1) << "flows of a part of the trips are no equilibrium, however even";
+  }
 }
 
 // Roots rise upright from nothing: an empty way of two streets has to be found nevertheless.
@@ -127,7 +154,8 @@ double gap_by_formula(const Case& one, const Equilibrium& equilibrium) {
   for (std::uint32_t l = 0; l < costs.size(); ++l) {
     const TrafficLink& link = network.link(l);
     const long double flow = equilibrium.flows()[l], load = link.capacity > 0 ? flow / link.capacity : 0;
-    costs[l] = link.wait + link.free_time * (1 + static_cast<long double>(link.alpha) * std::pow(load, static_cast<long double>(link.power)));
+    costs[l] = link.wait +
+               link.free_time * (1 + static_cast<long double>(link.alpha) * std::pow(load, static_cast<long double>(link.power)));
     total += flow * costs[l];
   }
   for (std::uint32_t origin = 0; origin < network.node_count(); ++origin) {

@@ -133,6 +133,62 @@ TEST(Interrupt, EndsAnAssignmentAndWritesHowFarItHasCome) {
   EXPECT_GT(out["equilibrium"]["gap"].get<double>(), 0);
 }
 
+// The first trips of a network of thousands of origins, for which the shortest ways alone take many times as long as is waited.
+TEST(Interrupt, EndsTheLoadingOfTheFirstTrips) {
+  const Workplace place;
+  constexpr int kAside = 80, kNodes = kAside * kAside;
+  std::string links, trips;
+  int count = 0;
+  const auto node = [](int row, int column) { return std::to_string(row * kAside + column + 1); };
+  for (int row = 0; row < kAside; ++row)
+    for (int column = 0; column < kAside; ++column)
+      for (const auto& [r, c] : {std::pair{row + 1, column}, {row - 1, column}, {row, column + 1}, {row, column - 1}}) {
+        if (r < 0 || r >= kAside || c < 0 || c >= kAside) continue;
+        links +=
+            node(row, column) + " " + node(r, c) + " 900 1 " + std::to_string(1 + (row * 7 + c * 3) % 5) + " 0.15 4 0 0 1 ;\n";
+        ++count;
+      }
+  for (int from = 1; from <= kNodes; ++from)
+    trips += "Origin " + std::to_string(from) + "\n" + std::to_string(1 + (from * 37 + 11) % kNodes) + " : 2.0;\n";
+  place.write("n_net.tntp",
+              "<NUMBER OF ZONES> " + std::to_string(kNodes) + "\n<NUMBER OF NODES> " + std::to_string(kNodes) +
+                  "\n<FIRST THRU NODE> 1\n<NUMBER OF LINKS> " + std::to_string(count) +
+                  "\n<END OF METADATA>\n~ init term capacity length free_flow_time b power speed toll link_type ;\n" + links);
+  place.write("n_trips.tntp", "<NUMBER OF ZONES> " + std::to_string(kNodes) + "\n<TOTAL OD FLOW> 0\n<END OF METADATA>\n" + trips);
+  const auto found = interrupt(place, "assign n_net.tntp n_trips.tntp --gap 1e-300 --iterations 1000000 --json out.json");
+  expect_at_once(found);
+  ASSERT_TRUE(std::filesystem::exists(place.path("out.json"))) << found.outcome.out << found.outcome.err;
+  const auto figures = place.json("out.json")["equilibrium"];
+  EXPECT_GT(figures["waiting"].get<double>(), 0) << "it came to an end by itself: make the network larger";
+  EXPECT_EQ(figures["gap"], 1);
+  EXPECT_NE(found.outcome.out.find("were not loaded before it was stopped"), std::string::npos) << found.outcome.out;
+}
+
+// Six files of many houses, each of which takes longer than is waited; the scene that they were to come into stays as it is.
+TEST(Interrupt, EndsAnImportAndLeavesTheSceneAlone) {
+  const Workplace place;
+  std::string text = R"({"type": "FeatureCollection", "features": [)";
+  for (int k = 0; k < 60000; ++k) {
+    const double x = 15.0 * (k % 250), y = 15.0 * (k / 250);
+    const auto corner = [](double a, double b) { return "[" + std::to_string(a) + "," + std::to_string(b) + "]"; };
+    text += (k > 0 ? ",\n" : "") + std::string(R"({"type": "Feature", "properties": {"height": 9}, "geometry": )") +
+            R"({"type": "Polygon", "coordinates": [[)" + corner(x, y) + "," + corner(x + 10, y) + "," + corner(x + 10, y + 10) +
+            "," + corner(x, y + 10) + "," + corner(x, y) + "]]}}";
+  }
+  std::string files;
+  for (int k = 0; k < 6; ++k) {
+    const std::string name = "town" + std::to_string(k) + ".geojson";
+    place.write(name, text + "]}");
+    files += name + " ";
+  }
+  place.write("s.json", moving_scene());
+  const auto found = interrupt(place, "import " + files + "--crs local --into s.json --out s_town.json --report account.csv");
+  expect_at_once(found);
+  EXPECT_FALSE(std::filesystem::exists(place.path("s_town.json")));
+  EXPECT_EQ(place.text("s.json"), moving_scene());
+  EXPECT_NE(found.outcome.err.find("stopped"), std::string::npos) << found.outcome.out << found.outcome.err;
+}
+
 TEST(Interrupt, EndsAComparisonAndWritesThePage) {
   const Workplace place;
   place.write("a.json", moving_scene());
