@@ -70,6 +70,7 @@ struct ContextStreet {
 struct ContextRestriction {
   std::string id, rule;                   ///< "no_left_turn", "only_straight_on"
   std::size_t from = 0, to = 0, via = 0;  ///< two streets and the junction between them
+  std::size_t row = kNoRow;               ///< of the report; of a rule for several streets the same for all of them
 };
 
 /// Land use, green and water: what the ground is.

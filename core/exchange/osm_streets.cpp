@@ -180,7 +180,7 @@ class Streets {
         const auto a = piece_at(start->id, junction->second, true), b = piece_at(end->id, junction->second, false);
         if (!a) return skip(a.error().message, a.error().place);
         if (!b) return skip(b.error().message, b.error().place);
-        all.push_back({"r" + std::to_string(relation.id), *rule, *a, *b, junction->second});
+        all.push_back({"r" + std::to_string(relation.id), *rule, *a, *b, junction->second, in_.index_of(row)});
       }
     in_.context->restrictions.insert(in_.context->restrictions.end(), all.begin(), all.end());
     decide(row, ImportOutcome::taken, "turn restriction");

@@ -257,7 +257,7 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
       if (!piece.for_feet) ++without_walkers;
     }
   }
-  const std::map<std::size_t, Json> turns = turn_rules(context, street_ids);
+  const std::map<std::size_t, Json> turns = turn_rules(context, street_ids, report, unused);
   const auto junction_at = [&](std::size_t index) -> const std::string& {
     if (junction_ids[index].empty()) {
       const auto rules = turns.find(index);
@@ -270,6 +270,13 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     const std::string &start = junction_at(context.streets[s].start), &end = junction_at(context.streets[s].end);
     add_street(street_ids[s], context.streets[s], start, end, report);
     if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
+  }
+  // A rule lies at its junction, which is there by now.
+  for (const ContextRestriction& turn : context.restrictions) {
+    const bool holds = !street_ids[turn.from].empty() && !street_ids[turn.to].empty();
+    if (turn.row == kNoRow || !holds) continue;
+    const auto& made = report.rows()[turn.row].made;
+    if (std::find(made.begin(), made.end(), junction_ids[turn.via]) == made.end()) report.made(turn.row, junction_ids[turn.via]);
   }
   if (without_walkers > 0)
     notes_.push_back(how_many(without_walkers, "piece") + " of street " + by_number(without_walkers, "is", "are") +
@@ -323,13 +330,18 @@ void ContextNodes::add_street(const std::string& id, const ContextStreet& piece,
 }
 
 // Rows of turn rules by junction. A restriction holds only where both of its streets became nodes.
-std::map<std::size_t, Json> ContextNodes::turn_rules(const Context& context, const std::vector<std::string>& street_ids) {
+std::map<std::size_t, Json> ContextNodes::turn_rules(const Context& context, const std::vector<std::string>& street_ids,
+                                                     ImportReport& report, Unused& unused) {
   std::map<std::size_t, Json> rules;
   for (const ContextRestriction& turn : context.restrictions) {
     const std::string &from = street_ids[turn.from], &to = street_ids[turn.to];
     if (from.empty() || to.empty()) {
-      notes_.push_back("Turn restriction `" + turn.id + "` (" + turn.rule + ") became nothing: `" +
-                       context.streets[from.empty() ? turn.from : turn.to].id + "` became no node.");
+      const std::string& street = context.streets[from.empty() ? turn.from : turn.to].id;
+      notes_.push_back("Turn restriction `" + turn.id + "` (" + turn.rule + ") became nothing: `" + street + "` became no node.");
+      if (turn.row != kNoRow) {
+        report.remark(turn.row, "`" + street + "` became no node");
+        unused[turn.row] = "one of its streets became no node";
+      }
       continue;
     }
     Json row = {{"from", from}, {"to", to}};

@@ -59,7 +59,8 @@ class ContextNodes {
   std::string add_junction(const ContextJunction& junction, const Json& turns);
   void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
                   ImportReport& report);
-  std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids);
+  std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids, ImportReport& report,
+                                         Unused& unused);
   std::string add_plot(const ContextArea& area);
   void add_node(const std::string& id, const Json& node);
   void reach(const Point3& point);

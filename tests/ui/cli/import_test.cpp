@@ -132,10 +132,31 @@ TEST_F(Import, TurnRestrictionsOfStreetsThatBecameNoNodesAreNamed) {
   std::string map = crossing_map(rule("1", "10", "5", "12", "no_left_turn"));
   map.replace(map.find(R"(v="residential"/></way><way id="13")"), 15, R"(v="pedestrian")");
   place.write("map.osm", map);
-  const Outcome done = place.run({"import", "map.osm", "--out", "streets.json"});
+  const Outcome done = place.run({"import", "map.osm", "--out", "streets.json", "--report", "report.csv"});
   EXPECT_EQ(done.code, 0) << done.err;
+  // In the account it is nothing that was taken.
+  EXPECT_NE(place.text("report.csv")
+                .find("skipped,relation,r1,turn restriction: one of its streets became no node,`w12/0` became no node"),
+            std::string::npos)
+      << place.text("report.csv");
   EXPECT_NE(done.out.find("Turn restriction `r1` (no_left_turn) became nothing: `w12/0` became no node."), std::string::npos)
       << done.out;
+}
+
+// A rule for several streets is taken where it holds for one of them; what became of it lies at its junction.
+TEST_F(Import, TurnRestrictionsThatHoldNameTheirJunction) {
+  std::string map =
+      crossing_map(R"(<relation id="1"><member type="way" ref="12" role="from"/><member type="way" ref="13" role="from"/>)"
+                   R"(<member type="node" ref="5" role="via"/><member type="way" ref="11" role="to"/>)"
+                   R"(<tag k="type" v="restriction"/><tag k="restriction" v="no_entry"/></relation>)");
+  map.replace(map.find(R"(v="residential"/></way><way id="13")"), 15, R"(v="pedestrian")");
+  place.write("map.osm", map);
+  EXPECT_EQ(place.run({"import", "map.osm", "--out", "streets.json", "--report", "report.csv"}).code, 0);
+  const std::string report = place.text("report.csv");
+  const std::size_t row = report.find(",taken,relation,r1,turn restriction,");
+  ASSERT_NE(row, std::string::npos) << report;
+  EXPECT_TRUE(report.substr(row, report.find('\n', row) - row).ends_with("junction_n5")) << report.substr(row, 120);
+  EXPECT_EQ(node(place.json("streets.json"), "junction_n5")["types"]["turn_rules"]["turns"].size(), 1u);
 }
 
 TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
@@ -159,7 +180,8 @@ TEST_F(Import, RefusesWithASentenceAndWritesNothing) {
   refused({"houses.geojson", "--out", "there.json"}, "exists already");
   refused({"houses.geojson", "--into", "noise.osm", "--out", "out.json"}, "noise.osm");
   place.write("scene.json", moving_scene());
-  refused({"scene.json", "--out", "out.json"}, "this is a scene of BehaviourLinks; the scene that is added to is named by --into");
+  refused({"scene.json", "--out", "out.json"},
+          "this is a scene of BehaviourLinks; the scene that is added to is named by --into");
   EXPECT_EQ(place.text("there.json"), "x");
 }
 
@@ -171,10 +193,14 @@ TEST_F(Import, NoiseIsToldByWhatItIsNot) {
   struct Case {
     const char *name, *said;
   };
-  for (const auto& [name, said] : {Case{"n.tif", "This is no GeoTIFF but binary data"}, {"n.asc", "This is no ASCII grid but binary data"},
-                                   {"n.geojson", "This is no GeoJSON but binary data"}, {"n.osm", "This is no OpenStreetMap file but binary data"},
-                                   {"n.pbf", "This is no OpenStreetMap file but binary data"}, {"n.csv", "This is no CSV table but binary data"},
-                                   {"n.city.json", "This is no CityJSON but binary data"}, {"n.dat", "This is no file that is read but binary data"}}) {
+  for (const auto& [name, said] : {Case{"n.tif", "This is no GeoTIFF but binary data"},
+                                   {"n.asc", "This is no ASCII grid but binary data"},
+                                   {"n.geojson", "This is no GeoJSON but binary data"},
+                                   {"n.osm", "This is no OpenStreetMap file but binary data"},
+                                   {"n.pbf", "This is no OpenStreetMap file but binary data"},
+                                   {"n.csv", "This is no CSV table but binary data"},
+                                   {"n.city.json", "This is no CityJSON but binary data"},
+                                   {"n.dat", "This is no file that is read but binary data"}}) {
     place.write(name, noise);
     const Outcome outcome = place.run({"import", name, "--out", "out.json"});
     EXPECT_EQ(outcome.code, 2) << name;
@@ -194,7 +220,8 @@ TEST_F(Import, WhatTakesNothingIsSaid) {
   EXPECT_NE(far.err.find("nothing of the files was taken, and nothing was written"), std::string::npos) << far.err;
   EXPECT_FALSE(std::filesystem::exists(place.path("out.json")));
   ASSERT_EQ(place.run({"import", "houses.geojson", "--out", "a.json"}).code, 0);
-  const std::string there = R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
+  const std::string there =
+      R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [
     {"type": "Feature", "properties": {"gid": 9}, "geometry": {"type": "Polygon",
      "coordinates": [[[185000, 447000], [185020, 447000], [185020, 447010], [185000, 447010], [185000, 447000]]]}}]})";
   place.write("there.geojson", there);
