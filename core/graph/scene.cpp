@@ -41,7 +41,10 @@ TypeDefinition declare_settings() {
           "one wants more.");
   port(&Settings::calm_ticks, "calm_ticks").range(1, 1000).soft(1, 50).doc("Settled means calm for this many ticks in a row.");
   port(&Settings::coordinate_system, "coordinate_system")
-      .doc("Where the plan came from: a CRS such as EPSG:28992; empty for a free place.");
+      .doc(
+          "Where the plan came from: a CRS such as EPSG:28992; `local` for metres of its own without a place on Earth; empty "
+          "where "
+          "nobody has said it.");
   port(&Settings::origin_x, "origin_x").doc("First coordinate of the local origin in that system, in its own unit.");
   port(&Settings::origin_y, "origin_y").doc("Second coordinate of the local origin in that system, in its own unit.");
   port(&Settings::latitude, "latitude")
