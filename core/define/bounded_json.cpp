@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/packed_kind.h"
 #include "core/base/stop_check.h"
 
 namespace bl {
@@ -75,6 +76,7 @@ std::string place_in_text(std::string_view text, std::size_t at) {
 }
 
 Result<void> check_json_bounds(std::string_view text) {
+  if (auto packed = packed_refusal(text)) return *packed;
   // The library's parser takes it for the end of the text, and what follows would be lost in silence.
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
     return Error{ErrorCode::parse, place_in_text(text, zero),

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "core/base/packed_kind.h"
+
 namespace bl {
 
 namespace {
@@ -16,17 +18,12 @@ struct Beginning {
   std::string_view bytes;
   const char* kind;
 };
-constexpr std::array kBeginnings = {Beginning{"\x89PNG\r\n", "a picture (PNG)"},
-                                    Beginning{"\xff\xd8\xff", "a picture (JPEG)"},
-                                    Beginning{"GIF8", "a picture (GIF)"},
-                                    Beginning{"II*", "a picture (TIFF)"},
-                                    Beginning{"%PDF-", "a document (PDF)"},
-                                    Beginning{"PK\x03\x04", "a packed archive or an office document (ZIP)"},
-                                    Beginning{"\x1f\x8b", "a packed file (gzip)"},
-                                    Beginning{"SQLite format 3", "a database (SQLite, such as a GeoPackage)"},
-                                    Beginning{"glTF", "a model (GLB)"},
-                                    Beginning{"\xff\xfe", "text in UTF-16"},
-                                    Beginning{"\xfe\xff", "text in UTF-16"}};
+constexpr std::array kBeginnings = {
+    Beginning{"\x89PNG\r\n", "a picture (PNG)"}, Beginning{"\xff\xd8\xff", "a picture (JPEG)"},
+    Beginning{"GIF8", "a picture (GIF)"},        Beginning{"II*", "a picture (TIFF)"},
+    Beginning{"%PDF-", "a document (PDF)"},      Beginning{"SQLite format 3", "a database (SQLite, such as a GeoPackage)"},
+    Beginning{"glTF", "a model (GLB)"},          Beginning{"\xff\xfe", "text in UTF-16"},
+    Beginning{"\xfe\xff", "text in UTF-16"}};
 
 // Tabs, line ends and form feeds stand in texts; the mark of the end that DOS wrote, and escapes, do now and then.
 bool is_control(char c) {
@@ -37,6 +34,7 @@ bool is_control(char c) {
 }  // namespace
 
 std::string foreign_kind(std::string_view bytes) {
+  if (const std::string_view packed = packed_kind(bytes); !packed.empty()) return std::string(packed);
   for (const Beginning& beginning : kBeginnings)
     if (bytes.starts_with(beginning.bytes)) return beginning.kind;
   const std::string_view head = bytes.substr(0, kHead);

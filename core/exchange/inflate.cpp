@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "core/base/packed_kind.h"
 #include "core/base/stop_check.h"
 #include "core/exchange/context_shape.h"
 
@@ -29,17 +30,11 @@ Error too_large_unpacked(std::size_t limit) {
 }
 
 Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
-  const auto refused = [](const char* name) {
-    return Error{ErrorCode::parse, "",
-                 std::string("The file is packed with ") + name + ", which is not read: unpack it, or pack it with gzip."};
-  };
-  if (bytes.starts_with("BZh")) return refused("bzip2");
-  if (bytes.starts_with("\xFD"
-                        "7zXZ"))
-    return refused("xz");
-  if (bytes.starts_with("PK\x03\x04")) return refused("zip");
   if (bytes == "\x1F") return Error{ErrorCode::parse, "byte 1", "The packed file is cut off here: fetch or pack it again."};
-  if (!bytes.starts_with("\x1F\x8B")) return std::string(bytes);
+  if (!bytes.starts_with("\x1F\x8B")) {
+    if (auto refusal = packed_refusal(bytes)) return *refusal;
+    return std::string(bytes);
+  }
   const auto refusal = [&](std::size_t size) {
     if (size > limit) return too_large_unpacked(limit);
     return Error{ErrorCode::out_of_range, "",

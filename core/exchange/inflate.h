@@ -15,7 +15,8 @@ inline constexpr std::size_t kMostUnpacked = std::size_t{1} << 29;
 /// What is said of a file that unpacks to more.
 Error too_large_unpacked(std::size_t limit);
 
-/// The bytes themselves where they are not packed; what a gzip file holds where they are. bzip2, xz and zip are refused.
+/// The bytes themselves where they are not packed; what a gzip file holds where they are. All else that is packed
+/// (bzip2, xz, zstd, zip, 7z, rar) is refused.
 Result<std::string> unpacked(std::string_view bytes, std::size_t limit = kMostUnpacked);
 
 }  // namespace bl

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/base/packed_kind.h"
 #include "core/base/text.h"
 
 namespace bl {
@@ -79,6 +80,7 @@ Result<TntpText> split_tntp(std::string_view text) {
   TntpText out;
   std::size_t rows = 0, open_rows = 0;  // all, and those that `;` does not end
   bool is_open = false;                 // the last one is among these
+  if (auto packed = packed_refusal(text)) return *packed;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());

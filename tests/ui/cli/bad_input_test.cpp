@@ -137,6 +137,19 @@ TEST(BadInput, FilesThatCannotBeRead) {
   }
 }
 
+// An archive under the name of a scene: what it is, and what to do.
+TEST(BadInput, ArchivesAreNamedWhateverTheyAreCalled) {
+  const Workplace place;
+  place.write("s.json", std::string("PK\x03\x04", 4) + std::string(200, '\0'));
+  for (const char* command : {"run", "check", "compare"}) {
+    const Outcome outcome = place.run(command == std::string("compare") ? std::vector<std::string>{command, "s.json", "s.json"}
+                                                                        : std::vector<std::string>{command, "s.json"});
+    EXPECT_EQ(outcome.code, 2) << command;
+    EXPECT_NE((outcome.out + outcome.err).find("zip archive"), std::string::npos) << command << ": " << outcome.err;
+    EXPECT_NE((outcome.out + outcome.err).find("unpack it first"), std::string::npos) << command << ": " << outcome.err;
+  }
+}
+
 }  // namespace
 
 }  // namespace bl::test
