@@ -103,6 +103,20 @@ TEST(SolverBench, SmallMarksOfAChartAreWhatTheySay) {
   }
 }
 
+// What is printed is lines of text: headings have been printed with the letters `\\n` in them.
+TEST(SolverBench, HeadingsAreLinesOfText) {
+  const Workplace place;
+  place.write("study.json", study_scene());
+  const Outcome outcome =
+      place.run({"bench", "study.json", "--solver", "--quick", "--seeds", "1", "--sites", "30", "--threads", "1"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find('\\'), std::string::npos) << outcome.out;
+  for (const char c : outcome.out) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n') << static_cast<int>(c);
+  // The machine, a free line, and the first heading on a line of its own.
+  EXPECT_TRUE(outcome.out.starts_with("Machine: ")) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n\n"), std::string::npos);
+}
+
 TEST(SolverBench, ItsOptionsWantTheSolver) {
   const Workplace place;
   EXPECT_EQ(place.run({"bench", "--quick"}).code, 2);
