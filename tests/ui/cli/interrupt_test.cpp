@@ -136,7 +136,7 @@ TEST(Interrupt, EndsAnAssignmentAndWritesHowFarItHasCome) {
 // The first trips of a network of thousands of origins, for which the shortest ways alone take many times as long as is waited.
 TEST(Interrupt, EndsTheLoadingOfTheFirstTrips) {
   const Workplace place;
-  constexpr int kAside = 80, kNodes = kAside * kAside;
+  constexpr int kAside = 120, kNodes = kAside * kAside;
   std::string links, trips;
   int count = 0;
   const auto node = [](int row, int column) { return std::to_string(row * kAside + column + 1); };
@@ -155,7 +155,7 @@ TEST(Interrupt, EndsTheLoadingOfTheFirstTrips) {
                   "\n<FIRST THRU NODE> 1\n<NUMBER OF LINKS> " + std::to_string(count) +
                   "\n<END OF METADATA>\n~ init term capacity length free_flow_time b power speed toll link_type ;\n" + links);
   place.write("n_trips.tntp", "<NUMBER OF ZONES> " + std::to_string(kNodes) + "\n<TOTAL OD FLOW> 0\n<END OF METADATA>\n" + trips);
-  const auto found = interrupt(place, "assign n_net.tntp n_trips.tntp --gap 1e-300 --iterations 1000000 --json out.json");
+  const auto found = interrupt(place, "assign n_net.tntp n_trips.tntp --gap 1e-300 --iterations 1000000 --json out.json", "2.5");
   expect_at_once(found);
   ASSERT_TRUE(std::filesystem::exists(place.path("out.json"))) << found.outcome.out << found.outcome.err;
   const auto figures = place.json("out.json")["equilibrium"];
