@@ -8,11 +8,11 @@
 #include <system_error>
 #include <vector>
 
+#include "core/base/scarcity.h"
 #include "core/base/text.h"
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 #include "ui/cli/plugin_choice.h"
-#include "ui/cli/scarcity.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -282,14 +282,14 @@ int run_program(int count, char** arguments) {
 int main(int count, char** arguments) {
   // A limit on the size of files shall be an error of the write, which is told and cleaned up after, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  bl::cli::prepare_for_scarcity();
+  bl::prepare_for_scarcity();
   try {
     const int code = bl::cli::run_program(count, arguments);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     bl::cli::complain("what was to be printed could not be written: the disk is full, or nobody reads it.");
     return bl::cli::kBadInput;
-  } catch (const std::bad_alloc&) { bl::cli::complain(bl::cli::memory_sentence()); } catch (const std::system_error& error) {
-    if (error.code() == std::errc::resource_unavailable_try_again) bl::cli::complain(bl::cli::thread_sentence());
+  } catch (const std::bad_alloc&) { bl::cli::complain(bl::memory_sentence()); } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again) bl::cli::complain(bl::thread_sentence());
     else bl::cli::complain(std::string("the system refused something that the program needs: ") + error.what());
   } catch (const std::exception& error) {
     bl::cli::complain(std::string("this is a defect of the program, please report it: ") + error.what());

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <new>
 
 #include <imgui.h>
 
+#include "core/base/scarcity.h"
 #include "core/base/text.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 
@@ -72,6 +74,7 @@ void Editor::point_at(Area where) {
 }
 
 void Editor::tell(NoticeKind kind, std::string text) {
+  text = bounded({ErrorCode::internal, "", std::move(text)}).message;
   std::erase_if(notices, [&](const Notice& n) { return n.text == text; });
   notices.push_back({kind, std::move(text), now + (kind == NoticeKind::error ? 2 : 1) * kNoticeSeconds});
   if (notices.size() > kMostNotices) notices.erase(notices.begin());
@@ -80,6 +83,7 @@ void Editor::tell(NoticeKind kind, std::string text) {
 void Editor::list_problems(std::string file, std::vector<Problem> found) {
   problem_file = std::move(file);
   problems = std::move(found);
+  for (Problem& problem : problems) problem.error.message = bounded({problem.error.code, "", problem.error.message}).message;
   ++problems_revision;
 }
 
@@ -88,7 +92,12 @@ bool Editor::open(const std::string& wanted, bool plays) {
   const auto absolute = std::filesystem::absolute(wanted, error);
   const std::string path = error ? wanted : absolute.lexically_normal().string();
   std::vector<Problem> found;
-  auto fresh = Document::open(program, path, kTickThreads, found);
+  std::unique_ptr<Document> fresh;
+  try {
+    fresh = Document::open(program, path, kTickThreads, found);
+  } catch (const std::bad_alloc&) {
+    found = {{true, {ErrorCode::out_of_range, "", "The file is too large for this machine: " + memory_sentence()}}};
+  }
   list_problems(path, std::move(found));
   if (!fresh) {
     tell(NoticeKind::error, "This scene could not be opened; the problems list says why.");

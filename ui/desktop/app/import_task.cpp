@@ -2,7 +2,10 @@
 #include "ui/desktop/app/import_task.h"
 
 #include <exception>
+#include <new>
 #include <utility>
+
+#include "core/base/scarcity.h"
 
 namespace bl::desktop {
 
@@ -24,6 +27,9 @@ void ImportTask::wait() {
 void ImportTask::run() {
   try {
     result_ = cli::import_context(scene_, options_, *registry_);
+  } catch (const std::bad_alloc&) {
+    result_.emplace();
+    result_->errors.push_back({"", {ErrorCode::out_of_range, "", "The import has stopped: " + memory_sentence()}});
   } catch (const std::exception& exception) {
     result_.emplace();
     result_->errors.push_back({"", {ErrorCode::internal, "", std::string("The import has failed: ") + exception.what()}});

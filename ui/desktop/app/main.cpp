@@ -5,9 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/base/scarcity.h"
 #include "ui/desktop/app/window.h"
 
 int main(int count, char** arguments) {
+  bl::prepare_for_scarcity(bl::desktop::kComfort);
   CLI::App app{"The window of BehaviourLinks: wire an urban scene by hand, and watch it negotiate."};
   bl::desktop::WindowOptions options;
   bool is_paused = false;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -106,6 +107,9 @@ class Window {
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     IMGUI_CHECKVERSION();
+    // Memory that runs out in a list of what is drawn ends in a sentence too, not in a pointer to nothing.
+    ImGui::SetAllocatorFunctions([](std::size_t size, void*) { return ::operator new(size); },
+                                 [](void* block, void*) { ::operator delete(block); });
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui_ImplGlfw_InitForOpenGL(window_, false);
@@ -198,7 +202,7 @@ void write_times(const std::string& path, const FrameTimes& times) {
 
 }  // namespace
 
-int run_window(const WindowOptions& options) {
+int run_window(const WindowOptions& options) noexcept {
   cli::load_chosen_plugins(options.plugins);
   PersonSettings person = read_person_settings(person_folder().empty() ? "" : person_folder() + "/desktop.json");
   Window window;

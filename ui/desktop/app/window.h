@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bl::desktop {
@@ -16,7 +17,12 @@ struct WindowOptions {
   double seconds = 0;                ///< ends by itself after so long; 0: when people close it
 };
 
-/// Opens the window and stays in it until it is closed. Exit codes as those of the command line program.
-int run_window(const WindowOptions& options);
+/// What is said where memory runs out, besides that: every change lies in the journal as soon as it is made.
+inline constexpr std::string_view kComfort =
+    " What you did since the last save is kept, and offered when the window opens again.";
+
+/// Opens the window and stays in it until it is closed. Exit codes as those of the command line program. What nobody has caught
+/// ends the program without taking down the open scene, whose journal is thereby kept.
+int run_window(const WindowOptions& options) noexcept;
 
 }  // namespace bl::desktop

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <new>
 #include <thread>
 
 #include <stb/stb_image.h>
@@ -26,23 +27,22 @@ void halve(DecodedPicture& picture) {
   const auto at = [&](int x, int y, int c) {
     const int left = std::min(x, picture.width - 1), top = std::min(y, picture.height - 1);
     return static_cast<int>(picture.pixels[4 * (static_cast<std::size_t>(top) * static_cast<std::size_t>(picture.width) +
-                                                static_cast<std::size_t>(left)) + static_cast<std::size_t>(c)]);
+                                                static_cast<std::size_t>(left)) +
+                                           static_cast<std::size_t>(c)]);
   };
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x)
       for (int c = 0; c < 4; ++c)
         out[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)) +
             static_cast<std::size_t>(c)] =
-            static_cast<std::uint8_t>((at(2 * x, 2 * y, c) + at(2 * x + 1, 2 * y, c) + at(2 * x, 2 * y + 1, c) +
-                                       at(2 * x + 1, 2 * y + 1, c) + 2) / 4);
+            static_cast<std::uint8_t>(
+                (at(2 * x, 2 * y, c) + at(2 * x + 1, 2 * y, c) + at(2 * x, 2 * y + 1, c) + at(2 * x + 1, 2 * y + 1, c) + 2) / 4);
   picture.pixels = std::move(out);
   picture.width = w;
   picture.height = h;
 }
 
-}  // namespace
-
-DecodedPicture decode_picture(const std::string& path) {
+DecodedPicture decode_where_there_is_room(const std::string& path) {
   DecodedPicture picture;
   picture.standing = DecodedPicture::Standing::failed;
   const auto bytes = read_plain_file(path, kMostBytes);
@@ -73,6 +73,19 @@ DecodedPicture decode_picture(const std::string& path) {
   while (std::max(picture.width, picture.height) > PictureStore::kLongest) halve(picture);
   picture.standing = DecodedPicture::Standing::ready;
   return picture;
+}
+
+}  // namespace
+
+DecodedPicture decode_picture(const std::string& path) {
+  try {
+    return decode_where_there_is_room(path);
+  } catch (const std::bad_alloc&) {
+    DecodedPicture none;
+    none.standing = DecodedPicture::Standing::failed;
+    none.reason = "memory ran out while it was read: make it smaller, or give the program more";
+    return none;
+  }
 }
 
 struct PictureStore::Worker {

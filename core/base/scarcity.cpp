@@ -1,5 +1,5 @@
 // A handler for `new` that fails, and one for exceptions that nobody can catch any more.
-#include "ui/cli/scarcity.h"
+#include "core/base/scarcity.h"
 
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace bl::cli {
+namespace bl {
 
 namespace {
 
@@ -24,6 +24,7 @@ constexpr std::string_view kThreads =
 std::atomic<char*> laid_aside{nullptr};
 std::atomic<bool> has_run_out{false};
 std::terminate_handler usual_end = nullptr;
+std::string_view said_besides;
 
 // Sets the laid aside free and fails all the same: what was asked for would only use it up.
 void no_memory() {
@@ -34,7 +35,7 @@ void no_memory() {
 
 // Nothing here may ask for memory.
 [[noreturn]] void say_and_end(std::string_view sentence) {
-  for (const std::string_view part : {std::string_view("behaviourlinks: "), sentence, std::string_view("\n")})
+  for (const std::string_view part : {std::string_view("behaviourlinks: "), sentence, said_besides, std::string_view("\n")})
     if (::write(STDERR_FILENO, part.data(), part.size()) < 0) break;
   ::_exit(1);
 }
@@ -52,7 +53,8 @@ void no_memory() {
 
 }  // namespace
 
-void prepare_for_scarcity() {
+void prepare_for_scarcity(std::string_view comfort) {
+  said_besides = comfort;
   laid_aside = static_cast<char*>(::operator new(kLaidAside, std::nothrow));
   std::set_new_handler(no_memory);
   usual_end = std::set_terminate(last_word);
@@ -61,4 +63,4 @@ void prepare_for_scarcity() {
 std::string memory_sentence() { return std::string(kMemory); }
 std::string thread_sentence() { return std::string(kThreads); }
 
-}  // namespace bl::cli
+}  // namespace bl
