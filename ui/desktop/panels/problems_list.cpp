@@ -42,6 +42,13 @@ std::string missing_words(const report::Account& account) {
          report::percent(account.short_share()) + ") go without";
 }
 
+// Names and reasons come from data, and data can be long: as much as errors quote.
+void bound(ProblemItem& item) {
+  Error cut = bounded({ErrorCode::internal, std::move(item.subject), std::move(item.text)});
+  item.subject = std::move(cut.place);
+  item.text = std::move(cut.message);
+}
+
 std::string lower_first(std::string text) {
   if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
   return text;
@@ -107,6 +114,7 @@ void ProblemList::write(const State& state, ProblemItem& item) const {
     for (const report::VolumeAccount& volume : accounts_.volumes)
       if (item.key == "volume/" + state.plan->nodes[volume.node].id) item.why = report::why_short(state, accounts_, volume);
     if (!item.why.empty()) item.text += "; " + item.why;
+    bound(item);
   }
   if (item.kind != ProblemKind::conflict || !item.text.empty()) return;
   const report::ConflictRow row = report::conflict_row(state, item.tense);
@@ -120,6 +128,7 @@ void ProblemList::write(const State& state, ProblemItem& item) const {
   for (const std::string& pull : row.pulls) item.text += (item.text.empty() ? "" : "; ") + pull;
   item.text += (item.text.empty() ? "" : "; ") + std::string("tension ") + row.tension;
   item.links.assign(links.begin(), links.end());
+  bound(item);
 }
 
 // Uses first; then volumes whose use is not listed, or all where a solver says that not everything can be had. One account
@@ -274,6 +283,7 @@ void ProblemList::refresh(const Editor& editor, const report::ReportModel& figur
   }
   add_file(editor);
   std::stable_sort(items_.begin(), items_.end(), [](const ProblemItem& a, const ProblemItem& b) { return a.kind < b.kind; });
+  for (ProblemItem& item : items_) bound(item);
   counts_.fill(0);
   for (const ProblemItem& item : items_) ++counts_[static_cast<std::size_t>(item.kind)];
 }
