@@ -91,7 +91,7 @@ void SceneView::draw_card() {
   const VolumeFacts& volume = *nearest;
   const std::vector<std::string> pulls = pulls_on(volume.node);
   const double standing_share = volume.standing();
-  const ImU32 standing = volume.volume > 0 ? (std::abs(standing_share) <= facts_->tolerance ? c.good : c.warning) : c.bad;
+  const ImU32 standing = colour_of_account(theme, tone_of_account(volume, facts_->tolerance));
   const auto write = [&](CardWriter& card) {
     card.text(theme.fonts().strong, c.text, volume.name, 1);
     card.text(theme.fonts().small, c.text_soft,

@@ -111,17 +111,14 @@ void draw_volume(Editor& editor, const report::VolumeRow& row, int index, float 
   list.AddCircleFilled({at.x + theme.px(7), middle}, theme.px(3.5f), colour_of_its_use);
   ImGui::PushFont(small);
   list.AddText(small, small->FontSize, {at.x + theme.px(16), y}, c.text, fitted(row.name, name_width - theme.px(20)).c_str());
-  const double standing = row.standing(), size = std::abs(standing);
-  const bool is_met = size <= tolerance || row.asked <= 0;
-  const std::string off = row.asked > 0 ? report::signed_percent(standing) : std::string("asks for none");
+  const AccountTone tone = tone_of_account(row, tolerance);
+  const bool is_met = tone == AccountTone::met;
+  const std::string off = row.asked > 0 ? report::signed_percent(row.standing()) : std::string("asks for none");
   list.AddText({at.x + width - ImGui::CalcTextSize(off.c_str()).x - theme.px(4), y},
-               is_met       ? c.text_faint
-               : size > 0.1 ? c.bad
-                            : c.warning,
-               off.c_str());
+               is_met ? c.text_faint : colour_of_account(theme, tone), off.c_str());
   ImGui::PopFont();
   const double most = std::max(largest, 1e-9);
-  const ImU32 colour = is_met ? mixed(c.good, c.panel, 0.25f) : size > 0.1 ? c.bad : c.warning;
+  const ImU32 colour = is_met ? mixed(c.good, c.panel, 0.25f) : colour_of_account(theme, tone);
   bar(theme, {at.x + name_width, middle - theme.px(4)}, {at.x + width - number, middle + theme.px(4)}, row.volume / most,
       row.asked / most, colour);
   if (is_hovered) {

@@ -15,6 +15,7 @@ namespace bl::desktop {
 namespace {
 
 constexpr double kLargestShownError = 0.25;
+constexpr double kFarOff = 0.1;  // of what was asked for
 constexpr int kRampSteps = 24;
 
 // A number port of any kind that people and links read as a quantity.
@@ -109,6 +110,17 @@ std::size_t UseNumbers::of(const std::string& use) const {
 Colour colour_of_use(const Theme& theme, std::size_t number) {
   const Colours& c = theme.colours();
   return number == kNoUse ? mixed(c.text_faint, c.text_soft, 0.6f) : theme.category(number);
+}
+
+AccountTone tone_of_account(const report::Account& account, double tolerance) {
+  const double size = std::abs(account.standing());
+  if (size <= tolerance || account.asked <= 0) return AccountTone::met;
+  return size > kFarOff ? AccountTone::far : AccountTone::off;
+}
+
+Colour colour_of_account(const Theme& theme, AccountTone tone) {
+  const Colours& c = theme.colours();
+  return tone == AccountTone::met ? c.good : tone == AccountTone::off ? c.warning : c.bad;
 }
 
 std::vector<ColourChoice> colour_choices(const SceneFacts& facts) {

@@ -46,6 +46,11 @@ class UseNumbers {
 };
 Colour colour_of_use(const Theme& theme, std::size_t number);
 
+/// How a volume stands against what was asked for; bars, list and card share the colours.
+enum class AccountTone { met, off, far };
+AccountTone tone_of_account(const report::Account& account, double tolerance);
+Colour colour_of_account(const Theme& theme, AccountTone tone);
+
 struct Colouring {
   std::vector<Colour> colours;  ///< as facts.volumes
   Legend legend;

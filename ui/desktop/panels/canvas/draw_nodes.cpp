@@ -1,5 +1,5 @@
 // Boxes of nodes: far away a name and a colour, nearer their sections, nearest all values.
-#include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/canvas/bars.h"
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/sections.h"
 #include "ui/desktop/panels/canvas/tension.h"
@@ -25,21 +25,18 @@ struct Ink {
   ImVec2 at(float x, float y) const { return board.camera.to_screen(ImVec2(x, y)); }
 };
 
-void draw_bar_of(const Ink& ink, const NodeBox& box, const Section& section, ImVec2 low, ImVec2 high) {
-  const Editor& editor = ink.board.editor;
-  const double volume = number_of(editor, box, section, "volume", 0), wanted = number_of(editor, box, section, "wanted", 0);
-  const double demand = number_of(editor, box, section, "demand", wanted);
-  const double most = std::max({volume, wanted, demand, 1e-9});
-  const double error = wanted > 0 ? std::abs(volume - wanted) / wanted : 1;
-  const ImU32 tone = error < 0.02 ? ink.c.good : error < 0.1 ? ink.c.warning : ink.c.bad;
+void draw_bar_of(const Ink& ink, const BarFigures& bar, ImVec2 low, ImVec2 high) {
+  const report::Account& account = bar.account;
+  const double most = std::max({account.volume, account.asked, account.limited, 1e-9});
   const auto x_of = [&](double v) { return low.x + (high.x - low.x) * static_cast<float>(v / most); };
   ink.list.AddRectFilled(low, high, ink.c.sunken);
-  ink.list.AddRectFilled(low, {x_of(volume), high.y}, faded(tone, 0.85f));
+  ink.list.AddRectFilled(low, {x_of(account.volume), high.y}, faded(colour_of_account(ink.board.theme(), bar.tone), 0.85f));
   if (ink.zoom < kNameZoom) return;
-  // What it wants inside its limits, and what it asks for where that is more.
+  // What was asked for, and what limits leave of it where that is less.
   const float reach = std::max(1.0f, 1.5f * ink.k);
-  ink.list.AddRectFilled({x_of(wanted) - reach, low.y - reach}, {x_of(wanted), high.y + reach}, ink.c.text);
-  if (demand > wanted * 1.001) ink.list.AddRectFilled({x_of(demand) - reach, low.y}, {x_of(demand), high.y}, ink.c.warning);
+  const double asked = account.asked, limited = account.limited;
+  ink.list.AddRectFilled({x_of(asked) - reach, low.y - reach}, {x_of(asked), high.y + reach}, ink.c.text);
+  if (bar.is_limited) ink.list.AddRectFilled({x_of(limited) - reach, low.y}, {x_of(limited), high.y}, ink.c.warning);
 }
 
 void draw_spark(const Ink& ink, const Spark& spark, ImVec2 low, ImVec2 high, ImU32 colour) {
@@ -94,17 +91,16 @@ void draw_section_head(const Ink& ink, const NodeBox& box, const Section& sectio
 
 void draw_bar_line(const Ink& ink, const NodeBox& box, const Section& section, float y) {
   const float left = box.box.at.x + kPad, right = box.box.high().x - kPad;
-  const Editor& editor = ink.board.editor;
-  const double volume = number_of(editor, box, section, "volume", 0), wanted = number_of(editor, box, section, "wanted", 0);
+  const BarFigures bar = bar_figures(ink.board.editor, box, section);
   float text_right = right;
   if (ink.zoom >= kTextZoom) {
-    const std::string text = report::readable(volume) + " / " + report::quantity(wanted, Unit::cubic_metre);
+    const std::string text = bar.text();
     const float size = 10 * ink.k, width = text_width(ink.board, size, text);
     const ImVec2 end = ink.at(right, y + 3);
     draw_text(ink.board, {end.x - width, end.y}, size, ink.c.text_soft, text);
     text_right = right - width / ink.k - 7;
   }
-  draw_bar_of(ink, box, section, ink.at(left, y + 6), ink.at(std::max(text_right, left + 24), y + 12));
+  draw_bar_of(ink, bar, ink.at(left, y + 6), ink.at(std::max(text_right, left + 24), y + 12));
 }
 
 // The last reading or message: its value at the left, its age and quality at the right, in the colour of its standing.
@@ -191,7 +187,8 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
   ink.list.AddRectFilled(screen.low(), {screen.low().x + stripe, screen.high().y}, tone, round, ImDrawFlags_RoundCornersLeft);
   for (const Section& section : box.sections)
     if (section.has_bar && !box.is_collapsed)
-      draw_bar_of(ink, box, section, {screen.low().x + stripe + 2, screen.high().y - bar - 2}, screen.high() - ImVec2(3, 2));
+      draw_bar_of(ink, bar_figures(ink.board.editor, box, section), {screen.low().x + stripe + 2, screen.high().y - bar - 2},
+                  screen.high() - ImVec2(3, 2));
   if (screen.size.x < 34) return;
   const float badge = std::max(12 * ink.k, 9 * ink.board.theme().scale());
   draw_hidden_badge(
