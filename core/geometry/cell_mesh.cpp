@@ -19,17 +19,13 @@ namespace {
 // A site this share of its radius inside its own cell is the centre of the shrink-wrap, as in 2007.
 constexpr double kInsideShare = 1e-6;
 // Of the ball's radius: places of two parts that are no farther apart are one.
-constexpr double kStudyWeld = 1e-7;
+constexpr double kRemadeWeld = 1e-7;
 constexpr double kUnwrapped = std::numeric_limits<double>::infinity();
 
 Mesh mesh_of_one(const Polyhedron& part, double radius, int depth, const Point3& centre, const Point3& at) {
   std::vector<FaceLoop> loops;
   for (const PolyhedronFace& face : part.faces) loops.push_back(part.loop(face));
   return tessellate(part.vertices, loops, depth, radius, {centre}, at);
-}
-
-Point3 centre_of(const Polyhedron& part, double squared_radius, double margin, const Point3& other) {
-  return holds(part, squared_radius, {}, margin) ? Point3{} : other;
 }
 
 void append_mesh(const Mesh& part, Mesh& whole) {
@@ -88,19 +84,22 @@ bool holds(const Polyhedron& part, double squared_radius, const Point3& point, d
   return squared_norm(point) <= squared_radius;
 }
 
+Point3 wrap_centre(const Polyhedron& part, double squared_radius, const Point3& other) {
+  return holds(part, squared_radius, {}, kInsideShare * std::sqrt(squared_radius)) ? Point3{} : other;
+}
+
 Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
                const Point3& centroid) {
   // Towards the site, or where it is not inside its own cell, towards the centroid.
-  const double radius = std::sqrt(site.weight), margin = kInsideShare * radius;
-  if (parts.size() == 1)
-    return mesh_of_one(parts[0], radius, depth, centre_of(parts[0], site.weight, margin, centroid), site.position);
+  const double radius = std::sqrt(site.weight);
+  if (parts.size() == 1) return mesh_of_one(parts[0], radius, depth, wrap_centre(parts[0], site.weight, centroid), site.position);
   // Each part has a point of its own, because the way to one in another part may lead out of the domain.
   const std::vector<OpenPart> open = open_parts(parts, shapes, site.weight);
   Mesh whole;
   std::vector<std::uint32_t> border, own;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (shapes[k].is_empty) continue;
-    const WrapTargets targets{centre_of(parts[k], site.weight, margin, shapes[k].centroid), open[k].marks, open[k].seams};
+    const WrapTargets targets{wrap_centre(parts[k], site.weight, shapes[k].centroid), open[k].marks, open[k].seams};
     const auto first = static_cast<std::uint32_t>(whole.vertices.size());
     append_mesh(tessellate(open[k].corners, open[k].faces(), depth, radius, targets, site.position, &own), whole);
     for (const std::uint32_t vertex : own) border.push_back(first + vertex);
@@ -113,13 +112,12 @@ Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> 
 
 MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site,
                              const Point3& centroid) {
-  const double margin = kInsideShare * std::sqrt(site.weight);
   Mesh whole;
   MeshWrap wrap{site.position, std::sqrt(site.weight), {}, {}};
   const std::vector<OpenPart> open = parts.size() == 1 ? std::vector<OpenPart>(1) : open_parts(parts, shapes, site.weight);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts.size() > 1 && shapes[k].is_empty) continue;
-    const Point3 centre = centre_of(parts[k], site.weight, margin, parts.size() == 1 ? centroid : shapes[k].centroid);
+    const Point3 centre = wrap_centre(parts[k], site.weight, parts.size() == 1 ? centroid : shapes[k].centroid);
     const Mesh mesh = parts.size() == 1 ? mesh_of_one(parts[k], kUnwrapped, 0, {}, site.position)
                                         : tessellate(open[k].corners, open[k].faces(), 0, kUnwrapped, {}, site.position);
     MeshWrap::Part part{static_cast<std::uint32_t>(mesh.triangles.size()), site.position + centre, {}};
@@ -134,11 +132,11 @@ MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const 
   return std::make_shared<const Mesh>(std::move(whole));
 }
 
-MeshPointer study_mesh(const MeshPointer& mesh) {
+MeshPointer mesh_of_depth(const MeshPointer& mesh, int depth) {
   if (!mesh || !mesh->coarse || !mesh->coarse->wrap) return mesh;
   const Mesh& coarse = *mesh->coarse;
   const MeshWrap& wrap = *coarse.wrap;
-  if (mesh->triangles.size() == coarse.triangles.size() << (2 * kStudyDepth)) return mesh;
+  if (mesh->triangles.size() == coarse.triangles.size() << (2 * depth)) return mesh;
   Mesh whole;
   std::vector<std::uint32_t> border, own;
   std::size_t at = 0;
@@ -164,10 +162,10 @@ MeshPointer study_mesh(const MeshPointer& mesh) {
     const std::vector<FaceLoop> faces(loops.begin(), loops.end());
     const WrapTargets targets{part.centre - wrap.ball_centre, std::span(wrap.seams).subspan(lowest, end - lowest), seams};
     const auto first = static_cast<std::uint32_t>(whole.vertices.size());
-    append_mesh(tessellate(corners, faces, kStudyDepth, wrap.radius, targets, wrap.ball_centre, &own), whole);
+    append_mesh(tessellate(corners, faces, depth, wrap.radius, targets, wrap.ball_centre, &own), whole);
     for (const std::uint32_t vertex : own) border.push_back(first + vertex);
   }
-  weld_borders(whole, border, kStudyWeld * wrap.radius);
+  weld_borders(whole, border, kRemadeWeld * wrap.radius);
   // The centres of the coarse faces among them.
   drop_unused(whole);
   return std::make_shared<const Mesh>(std::move(whole));

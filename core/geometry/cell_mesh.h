@@ -13,6 +13,9 @@ namespace bl {
 /// Is the point in the ball, and behind all faces by at least `margin` [m]? Relative to the site, as the part is.
 bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin);
 
+/// What the vertices of a part are wrapped towards: the site, or `other` where the site is not well inside.
+Point3 wrap_centre(const Polyhedron& part, double squared_radius, const Point3& other);
+
 /// The parts in the pieces of the domain become one closed mesh that is open from part to part where the ball is. `centroid` of
 /// the shape, relative to the site.
 Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
@@ -25,8 +28,11 @@ MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const 
 /// Faces of shapes that studies measure with are split in four so many times.
 inline constexpr int kStudyDepth = 1;
 
-/// The mesh of a cell as studies see it, however finely it is shown: of kStudyDepth, made from its coarse one. A mesh without a
-/// coarse one is what it is; nullptr stays nullptr.
-MeshPointer study_mesh(const MeshPointer& mesh);
+/// The mesh of a cell as it is at another depth than that at which it is shown, made from its coarse one. A mesh without a coarse
+/// one is what it is; nullptr stays nullptr.
+MeshPointer mesh_of_depth(const MeshPointer& mesh, int depth);
+
+/// The mesh of a cell as studies see it, however finely it is shown.
+inline MeshPointer study_mesh(const MeshPointer& mesh) { return mesh_of_depth(mesh, kStudyDepth); }
 
 }  // namespace bl

@@ -11,6 +11,7 @@
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/geometry/cell_mesh.h"
+#include "core/geometry/cell_trim.h"
 #include "core/geometry/coincidence.h"
 #include "core/geometry/none.h"
 
@@ -115,8 +116,10 @@ void measure_parts(const CellGround& ground, std::uint32_t index, const CellOpti
     measure_storeys(parts, bench.shapes, site, storey, out);
   }
   if (options.tessellation_depth < 0) return;
-  Mesh mesh = make_mesh(parts, bench.shapes, site, options.tessellation_depth, centroid);
-  if (options.with_coarse_mesh && options.with_shape) mesh.coarse = make_coarse_mesh(parts, bench.shapes, site, centroid);
+  const auto trimmed = trimmed_parts(parts, bench.shapes, site, centroid);
+  const std::span<const Polyhedron> near = trimmed ? std::span<const Polyhedron>(*trimmed) : parts;
+  Mesh mesh = make_mesh(near, bench.shapes, site, options.tessellation_depth, centroid);
+  if (options.with_coarse_mesh && options.with_shape) mesh.coarse = make_coarse_mesh(near, bench.shapes, site, centroid);
   out.mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 

@@ -13,6 +13,8 @@ namespace bl {
 
 /// Depth beyond which a mesh would have more triangles than any screen has pixels.
 inline constexpr int kDeepestTessellation = 4;
+/// By depth: the mesh of a cell encloses less than its volume, but by no more than this share of it.
+inline constexpr double kMostMeshLoss[kDeepestTessellation + 1] = {0.6, 0.2, 0.06, 0.02, 0.005};
 
 /// One polygonal face of a polyhedron: indices of corners, counter-clockwise seen from outside.
 using FaceLoop = std::span<const std::uint32_t>;
