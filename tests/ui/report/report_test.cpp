@@ -10,6 +10,9 @@
 
 #include "core/base/mesh.h"
 #include "core/file/file_io.h"
+#include "core/geometry/cell_mesh.h"
+#include "core/geometry/domain_makers.h"
+#include "core/geometry/tessellate.h"
 #include "tests/support/world.h"
 #include "ui/cli/report/exact_shape.h"
 #include "ui/cli/report/figures.h"
@@ -324,6 +327,43 @@ TEST(ReportParts, SectionsOfABoxAreItsPlan) {
   EXPECT_EQ(roof.front().points.size(), 4u);
 }
 
+// A ball in the corner of an L, in two pieces of it: a cut has one line around, with no border between the pieces.
+TEST(ReportParts, ACellInPiecesHasOneLineAroundItsCut) {
+  const auto ell =
+      extrude_plan(std::vector<Point3>{{0, 0, 0}, {60, 0, 0}, {60, 20, 0}, {20, 20, 0}, {20, 60, 0}, {0, 60, 0}}, {}, 0, 40);
+  ASSERT_TRUE(ell.ok());
+  CellOptions options;
+  options.tessellation_depth = 2;
+  options.with_coarse_mesh = true;
+  const std::vector<PowerSite> sites{{{17, 17, 20}, 144}};
+  const auto cells = power_cells(*ell, sites, options);
+  ASSERT_TRUE(cells.ok());
+  const MeshPointer fine = mesh_of_depth((*cells)[0].mesh, kDeepestTessellation);
+  const auto cut = report::section(*fine, 20.003, [](std::size_t) { return true; });
+  ASSERT_EQ(cut.size(), 1u);
+  EXPECT_TRUE(cut.front().is_closed);
+  double twice_area = 0;
+  for (std::size_t i = 0; i < cut.front().points.size(); ++i) {
+    const Point3 &p = cut.front().points[i], &q = cut.front().points[(i + 1) % cut.front().points.size()];
+    twice_area += p.x * q.y - q.x * p.y;
+    EXPECT_FALSE(p.x > 20.01 && p.y > 20.01) << p.x << ", " << p.y;
+  }
+  EXPECT_NEAR(std::abs(twice_area) / 2, (*cells)[0].footprint, 0.01 * (*cells)[0].footprint);
+}
+
+// The pieces of an L and of a ring share sides of unequal lengths: what is left is the L, and the ring with its hole.
+TEST(ReportParts, PiecesSideBySideHaveOneOutline) {
+  using Ring = std::vector<report::Pixel>;
+  const auto box = [](double x, double y, double width, double height) {
+    return Ring{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
+  };
+  const auto ell = report::common_outline({box(0, 0, 60, 20), box(0, 20, 20, 40)});
+  ASSERT_EQ(ell.size(), 1u);
+  EXPECT_EQ(report::simplified(ell.front(), true).size(), 6u);
+  EXPECT_EQ(report::common_outline({box(0, 0, 60, 20), box(0, 20, 20, 40), box(40, 20, 20, 40), box(0, 60, 60, 20)}).size(), 2u);
+  EXPECT_EQ(report::common_outline({box(0, 0, 10, 10), box(30, 0, 10, 10)}).size(), 2u);
+}
+
 // Two boxes side by side, the second wider: their common wall is no edge of the plan, nor is what sticks out of it lost.
 TEST(ReportParts, BodiesSideBySideHaveOneOutline) {
   Mesh both = tall_box();
@@ -332,6 +372,7 @@ TEST(ReportParts, BodiesSideBySideHaveOneOutline) {
   EXPECT_EQ(report::bodies_of(both).size(), 2u);
   const Mesh mesh = report::joined(both);
   EXPECT_EQ(report::bodies_of(mesh).size(), 1u);
+  EXPECT_EQ(report::seen_from_above(both).size(), 1u);
   const auto normals = report::unit_normals(mesh);
   const auto roof = report::outline(mesh, [&](std::size_t t) { return normals[t].z > 0.5; });
   ASSERT_EQ(roof.size(), 1u);

@@ -207,4 +207,11 @@ std::vector<Polyline> outline(const Mesh& mesh, const TriangleFilter& counts) {
   return lines;
 }
 
+std::vector<Polyline> seen_from_above(const Mesh& mesh) {
+  const Mesh whole = joined(mesh);
+  const std::vector<Vector3> normals = unit_normals(whole);
+  // Walls are upright but for rounding.
+  return outline(whole, [&](std::size_t t) { return normals[t].z > 1e-6; });
+}
+
 }  // namespace bl::report

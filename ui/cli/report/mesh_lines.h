@@ -47,5 +47,8 @@ std::vector<Polyline> section(const Mesh& mesh, double z, const TriangleFilter& 
 /// The outline of the triangles that count: edges between them and the others, closed loops in a closed mesh. Where bodies have
 /// been put side by side, edges that lie on one another in opposite directions are none.
 std::vector<Polyline> outline(const Mesh& mesh, const TriangleFilter& counts);
+/// The outline of all that faces upward: of a closed body that nowhere overhangs itself, its shadow at noon. Where its parts have
+/// been put side by side there is no line between them.
+std::vector<Polyline> seen_from_above(const Mesh& mesh);
 
 }  // namespace bl::report

@@ -4,6 +4,8 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/geometry/cell_mesh.h"
+#include "core/geometry/tessellate.h"
 #include "ui/cli/report/figures.h"
 #include "ui/cli/report/furniture.h"
 #include "ui/cli/report/link_families.h"
@@ -82,46 +84,99 @@ void draw_sites(Markup& svg, const Sheet& sheet, const ReportModel& model) {
   svg.path(plan, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.6"}, {"stroke-dasharray", "9 3 1.5 3"}});
 }
 
-PathText cut_of(const Sheet& sheet, const VolumeRow& volume, double z) {
+// A volume with what is drawn of it: its exact form, or a mesh so fine that its corners do not show.
+struct DrawnVolume {
+  const VolumeRow* row;
+  MeshPointer fine;  // none where the exact form is known
+};
+
+PathText cut_of(const Sheet& sheet, const DrawnVolume& volume, double z) {
   PathText path;
-  if (volume.exact.radius > 0) {
-    path.polyline(on_sheet(sheet, {section_of(volume.exact, z), true}), true);
+  if (!volume.fine) path.polyline(on_sheet(sheet, {section_of(volume.row->exact, z), true}), true);
+  else
+    for (const Polyline& line : section(*volume.fine, z, [](std::size_t) { return true; }))
+      path.polyline(on_sheet(sheet, line), line.is_closed);
+  return path;
+}
+
+// Pieces whose outlines have more in common than this share of the footprint lie over one another.
+constexpr double kMostOverlap = 0.01;
+
+double area_of(const std::vector<Pixel>& ring) {
+  double twice = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Pixel &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    twice += a.x * b.y - b.x * a.y;
+  }
+  return std::abs(twice) / 2;
+}
+
+// The corners of each piece of the cell: the fine triangles come in the order of the coarse ones.
+std::vector<std::vector<Point3>> pieces_of(const DrawnVolume& volume) {
+  std::vector<std::vector<Point3>> pieces;
+  const MeshPointer& coarse = volume.row->mesh->coarse;
+  if (!coarse || !coarse->wrap || volume.fine == volume.row->mesh) {
+    for (const Mesh& body : bodies_of(*volume.fine)) pieces.push_back(body.vertices);
+    return pieces;
+  }
+  const std::size_t share = volume.fine->triangles.size() / std::max<std::size_t>(1, coarse->triangles.size());
+  std::size_t at = 0;
+  for (const MeshWrap::Part& part : coarse->wrap->parts) {
+    std::vector<Point3>& corners = pieces.emplace_back();
+    for (const std::size_t end = at + part.triangles * share; at < end; ++at)
+      for (const std::uint32_t v : volume.fine->triangles[at]) corners.push_back(volume.fine->vertices[v]);
+  }
+  return pieces;
+}
+
+PathText shadow_of(const Sheet& sheet, const DrawnVolume& volume) {
+  PathText path;
+  if (!volume.fine) {
+    path.polyline(simplified(convex_outline(sheet, *volume.row), true), true);
     return path;
   }
-  for (const Polyline& line : section(*volume.mesh, z, [](std::size_t) { return true; }))
-    path.polyline(on_sheet(sheet, line), line.is_closed);
+  // Each piece of a cell is convex, and mostly one stands beside the other: then what their outlines do not share is the outline
+  // of all. Where one lies over another, what faces upward says it, though less smoothly.
+  std::vector<std::vector<Pixel>> pieces;
+  double area = 0;
+  for (const std::vector<Point3>& corners : pieces_of(volume)) {
+    std::vector<Pixel> places;
+    for (const Point3& corner : corners) places.push_back(sheet.at(corner));
+    pieces.push_back(convex_outline(std::move(places)));
+    area += area_of(pieces.back());
+  }
+  const double footprint = volume.row->footprint * sheet.scale() * sheet.scale();
+  if (area <= (1 + kMostOverlap) * footprint) {
+    for (const auto& line : common_outline(pieces)) path.polyline(simplified(line, true), true);
+  } else {
+    for (const Polyline& line : seen_from_above(*volume.fine)) path.polyline(on_sheet(sheet, line), line.is_closed);
+  }
   return path;
 }
 
 void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, const Palette& palette, double cut) {
-  std::vector<const VolumeRow*> order;
+  std::vector<DrawnVolume> order;
   for (const VolumeRow& volume : model.volumes)
-    if (volume.mesh) order.push_back(&volume);
-  const auto top_of = [](const VolumeRow* volume) { return volume->bottom + volume->height; };
-  std::stable_sort(order.begin(), order.end(), [&](const VolumeRow* a, const VolumeRow* b) { return top_of(a) < top_of(b); });
-  for (const VolumeRow* volume : order) {
-    const Colour colour = palette.colour(volume->use);
-    const PathText cut_path = cut_of(sheet, *volume, cut);
-    svg.path(cut_path, {{"fill", hex(mix(colour, kShade, 0.12))}, {"fill-rule", "evenodd"}});
+    if (volume.mesh)
+      order.push_back({&volume, volume.exact.radius > 0 ? nullptr : mesh_of_depth(volume.mesh, kDeepestTessellation)});
+  const auto top_of = [](const DrawnVolume& volume) { return volume.row->bottom + volume.row->height; };
+  std::stable_sort(order.begin(), order.end(), [&](const DrawnVolume& a, const DrawnVolume& b) { return top_of(a) < top_of(b); });
+  std::vector<PathText> cuts;
+  for (const DrawnVolume& volume : order) {
+    cuts.push_back(cut_of(sheet, volume, cut));
+    svg.path(cuts.back(), {{"fill", hex(mix(palette.colour(volume.row->use), kShade, 0.12))}, {"fill-rule", "evenodd"}});
   }
-  for (const VolumeRow* volume : order) {
-    const Colour colour = palette.colour(volume->use);
-    PathText outline_path;
-    if (volume->exact.radius > 0) outline_path.polyline(simplified(convex_outline(sheet, *volume), true), true);
-    else
-      for (const Mesh& body : bodies_of(*volume->mesh))
-        outline_path.polyline(simplified(convex_outline(sheet, body), true), true);
-    svg.open("g").element("title", std::to_string(volume->number) + ". " + volume->name + ": " +
-                                       quantity(volume->bottom, Unit::metre) + " to " +
-                                       quantity(volume->bottom + volume->height, Unit::metre) + " above the origin");
-    svg.path(outline_path,
+  for (const DrawnVolume& volume : order) {
+    const Colour colour = palette.colour(volume.row->use);
+    svg.open("g").element("title", std::to_string(volume.row->number) + ". " + volume.row->name + ": " +
+                                       quantity(volume.row->bottom, Unit::metre) + " to " +
+                                       quantity(top_of(volume), Unit::metre) + " above the origin");
+    svg.path(shadow_of(sheet, volume),
              {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
     svg.close();
   }
-  for (const VolumeRow* volume : order) {
-    const PathText cut_path = cut_of(sheet, *volume, cut);
-    svg.path(cut_path, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.7"}, {"stroke-linejoin", "round"}});
-  }
+  for (const PathText& path : cuts)
+    svg.path(path, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.7"}, {"stroke-linejoin", "round"}});
 }
 
 void draw_links(Markup& svg, const State& state, const Sheet& sheet, const DrawnLinks& links) {

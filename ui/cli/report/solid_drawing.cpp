@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace bl::report {
 
@@ -190,6 +191,47 @@ std::vector<Pixel> convex_outline(std::vector<Pixel> places) {
     std::reverse(places.begin(), places.end());
   }
   return hull;
+}
+
+std::vector<std::vector<Pixel>> common_outline(const std::vector<std::vector<Pixel>>& pieces) {
+  constexpr double kOnePlace = 0.05;  // [pixels] no eye tells such places apart
+  std::vector<Pixel> places;
+  std::vector<std::vector<std::uint64_t>> rings;
+  for (const std::vector<Pixel>& piece : pieces) {
+    std::vector<std::uint64_t>& ring = rings.emplace_back();
+    for (const Pixel& p : piece) {
+      const auto found = std::find_if(places.begin(), places.end(),
+                                      [&](const Pixel& q) { return std::hypot(p.x - q.x, p.y - q.y) <= kOnePlace; });
+      ring.push_back(static_cast<std::uint64_t>(found - places.begin()));
+      if (found == places.end()) places.push_back(p);
+    }
+  }
+  // Edges are cut at all places on the way; what is there twice lies between two pieces.
+  std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges;
+  for (const std::vector<std::uint64_t>& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::uint64_t a = ring[i], b = ring[(i + 1) % ring.size()];
+      const Pixel from = places[a], way{places[b].x - from.x, places[b].y - from.y};
+      const double length = std::hypot(way.x, way.y);
+      std::vector<std::pair<double, std::uint64_t>> stops{{0, a}, {length, b}};
+      for (std::uint64_t k = 0; k < places.size() && length > 0; ++k) {
+        const double x = places[k].x - from.x, y = places[k].y - from.y, along = (x * way.x + y * way.y) / length;
+        if (k != a && k != b && along > 0 && along < length && std::abs(x * way.y - y * way.x) <= kOnePlace * length)
+          stops.emplace_back(along, k);
+      }
+      std::sort(stops.begin(), stops.end());
+      for (std::size_t s = 1; s < stops.size(); ++s)
+        if (stops[s - 1].second != stops[s].second) ++edges[std::minmax(stops[s - 1].second, stops[s].second)];
+    }
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> border;
+  for (const auto& [edge, count] : edges)
+    if (count % 2 == 1) border.push_back(edge);
+  std::vector<std::vector<Pixel>> outlines;
+  for (const Chain& chain : chain_edges(border)) {
+    std::vector<Pixel>& line = outlines.emplace_back();
+    for (const std::uint64_t place : chain.points) line.push_back(places[place]);
+  }
+  return outlines;
 }
 
 std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh) {

@@ -44,6 +44,8 @@ void draw_solid(Markup& svg, const Sheet& sheet, const Mesh& mesh, const SolidSt
 std::vector<Pixel> simplified(const std::vector<Pixel>& line, bool is_closed);
 /// Convex hull of places, without those that lie on its sides.
 std::vector<Pixel> convex_outline(std::vector<Pixel> places);
+/// The outline of convex polygons that stand side by side, without what two of them have in common.
+std::vector<std::vector<Pixel>> common_outline(const std::vector<std::vector<Pixel>>& pieces);
 /// Convex outline of a mesh on the sheet.
 std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh);
 /// The same of a volume, from its exact shape where that is known.
