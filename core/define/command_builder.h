@@ -21,7 +21,8 @@ struct Command {
 
 /// A command kind. `apply` leaves the scene as it was when it returns an error.
 struct CommandDefinition : TypeDefinition {
-  bool keeps_logic = false;  ///< changes by itself nothing that the tick reads
+  bool keeps_logic = false;   ///< changes by itself nothing that the tick reads
+  bool keeps_namers = false;  ///< nobody is named by it who was not before, or it notes that itself
   std::function<Result<std::vector<Command>>(SceneEdit&, std::span<const Value>)> apply;
 };
 
@@ -36,6 +37,11 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
   /// The command changes nothing that the tick reads.
   CommandBuilder& keeps_logic() {
     definition_->keeps_logic = true;
+    return *this;
+  }
+  /// By the command nobody is named who was not named before, or it notes that in the edit.
+  CommandBuilder& keeps_namers() {
+    definition_->keeps_namers = true;
     return *this;
   }
   template <class M>

@@ -190,6 +190,12 @@ Unit unit_of(const Registry& registry, const NodeRecord& node, const Typificatio
   return row ? row->unit : Unit::none;
 }
 
+const Namers& SceneEdit::namers() {
+  auto& namers = namers_slot();
+  if (!namers) namers.emplace(*scene_);
+  return *namers;
+}
+
 Result<NodeRecord*> SceneEdit::node(const std::string& id) {
   const auto it = scene_->nodes.find(id);
   if (it != scene_->nodes.end()) return &it->second;

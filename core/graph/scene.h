@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/define/registry.h"
+#include "core/graph/namers.h"
 #include "core/graph/scripts.h"
 
 namespace bl {
@@ -81,7 +82,9 @@ Unit unit_of(const Registry& registry, const NodeRecord& node, const Typificatio
 /// A scene being changed by a command: knows the types, and collects which ports were placed by hand.
 class SceneEdit {
  public:
-  SceneEdit(Scene& scene, const Registry& registry) : scene_(&scene), registry_(&registry) {}
+  /// `kept`, where given, outlives the edit: who names whom in the scene as it is, or nothing where nobody has asked.
+  SceneEdit(Scene& scene, const Registry& registry, std::optional<Namers>* kept = nullptr)
+      : scene_(&scene), registry_(&registry), kept_(kept) {}
   Scene& scene() { return *scene_; }
   const Scene& scene() const { return *scene_; }
   /// The types that this scene knows: those of the program, and the kinds of its scripts.
@@ -95,13 +98,27 @@ class SceneEdit {
   void touch_logic() { is_logic_touched_ = true; }
   bool is_logic_touched() const { return is_logic_touched_; }
 
+  /// Who names whom. Looked up in the whole scene by the first who asks, and kept as long as commands keep it true.
+  const Namers& namers();
+  /// Said before every command that does not keep it true.
+  void forget_namers() { namers_slot().reset(); }
+  /// Said of a node or link that is new, by commands that keep it true.
+  template <class Record>
+  void note_names(const std::string& id, const Record& record) {
+    if (namers_slot()) namers_slot()->note(id, record);
+  }
+
   /// The node or link of that id, or an error that names the nearest one.
   Result<NodeRecord*> node(const std::string& id);
   Result<LinkRecord*> link(const std::string& id);
 
  private:
+  std::optional<Namers>& namers_slot() { return kept_ != nullptr ? *kept_ : own_; }
+
   Scene* scene_;
   const Registry* registry_;
+  std::optional<Namers>* kept_;
+  std::optional<Namers> own_;
   std::set<std::pair<std::string, std::string>> placed_;
   bool is_logic_touched_ = false;
 };

@@ -2,6 +2,7 @@
 #include "core/session/ledger.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "core/base/text.h"
@@ -23,18 +24,20 @@ Inverse apply(SceneEdit& edit, const Command& command) {
     if (!take_in(values.back())) return Error{ErrorCode::not_finite, command.id + "/" + port.id, "must be a finite number"};
   }
   if (!definition->keeps_logic) edit.touch_logic();
+  if (!definition->keeps_namers) edit.forget_namers();
   return definition->apply(edit, values);
 }
 
 Result<void> Ledger::apply_entry(LogEntry entry) {
   if (auto fits = gestures_.check(entry); !fits) return fits;
-  SceneEdit edit(scene_, *registry_);
+  SceneEdit edit(scene_, *registry_, &namers_);
   auto inverse = bl::apply(edit, entry.command);
   if (!inverse) return inverse.error();
   placed_.insert(edit.placed().begin(), edit.placed().end());
   is_changed_ = is_changed_ || edit.is_logic_touched();
+  // Grown at its end, so that a gesture of many steps costs no more for each of them.
   auto& commands = inverses_[entry.gesture];
-  commands.insert(commands.begin(), inverse->begin(), inverse->end());
+  commands.insert(commands.end(), std::make_move_iterator(inverse->rbegin()), std::make_move_iterator(inverse->rend()));
   last_gesture_ = std::max(last_gesture_, entry.gesture);
   entry.seq = log_.empty() ? 1 : log_.back().seq + 1;
   gestures_.take(entry);
@@ -53,10 +56,10 @@ Result<void> Ledger::take_back(const std::string& author, std::int64_t tick, boo
     return Error{ErrorCode::not_found, "",
                  is_undo ? "there is nothing to undo for " + author : "there is nothing to redo for " + author};
   const std::int64_t gesture = *last;
-  const std::vector<Command> commands = inverses_[gesture];
+  const std::vector<Command> commands(inverses_[gesture].rbegin(), inverses_[gesture].rend());
   // Tried first and taken back: what somebody else removed meanwhile must not leave half of an undo behind.
-  SceneEdit edit(scene_, *registry_);
-  std::vector<Command> back;
+  SceneEdit edit(scene_, *registry_, &namers_);
+  std::vector<Command> back;  // the last one is applied first
   std::optional<Error> failure;
   for (const Command& command : commands) {
     auto done = bl::apply(edit, command);
@@ -64,9 +67,10 @@ Result<void> Ledger::take_back(const std::string& author, std::int64_t tick, boo
       failure = done.error();
       break;
     }
-    back.insert(back.begin(), done->begin(), done->end());
+    back.insert(back.end(), std::make_move_iterator(done->rbegin()), std::make_move_iterator(done->rend()));
   }
-  for (const Command& command : back) (void)bl::apply(edit, command);  // each was made for exactly this scene, so it fits
+  // Each was made for exactly this scene, so it fits.
+  std::for_each(back.rbegin(), back.rend(), [&edit](const Command& command) { (void)bl::apply(edit, command); });
   if (failure) {
     const std::string what = is_undo ? "cannot be undone" : "cannot be redone";
     return Error{failure->code, failure->place, what + " because the scene has changed since: " + failure->message};

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -50,10 +51,11 @@ class Ledger {
 
   const Registry* registry_;
   Scene scene_;
+  std::optional<Namers> namers_;  ///< of the scene, while steps that keep it true follow each other
   std::set<std::pair<std::string, std::string>> placed_;
   bool is_changed_ = false;
   std::vector<LogEntry> log_;
-  std::map<std::int64_t, std::vector<Command>> inverses_;  ///< by gesture, in the order to apply
+  std::map<std::int64_t, std::vector<Command>> inverses_;  ///< by gesture; the last one is applied first
   Gestures gestures_;
   std::int64_t last_gesture_ = 0;
   std::function<void(const LogEntry&)> listener_;

@@ -7,6 +7,7 @@
 namespace bl {
 
 void RemoveLink::declare(CommandBuilder<RemoveLink>& c) {
+  c.keeps_namers();
   c.id("remove_link").label("Remove link").doc("Removes a link.");
   c.argument(&In::id, "id").required().doc("Id of the link.");
 }
