@@ -205,12 +205,26 @@ Result<Selection> selection_from_json(const Json& json, const std::string& place
   return selection;
 }
 
-Result<void> check_keys(const Json& json, const std::vector<std::string>& known, const std::string& place) {
-  for (const auto& [key, value] : json.items())
+namespace {
+
+template <class Names>
+Result<void> check_keys_among(const Json& json, const Names& known, const std::string& place) {
+  if (!json.is_object()) return {};
+  for (const auto& [key, value] : json.get_ref<const Json::object_t&>())
     if (std::find(known.begin(), known.end(), key) == known.end())
       return Error{ErrorCode::unknown_field, place.empty() ? key : place + "/" + key,
-                   "unknown field `" + key + "`" + did_you_mean(key, known)};
+                   "unknown field `" + key + "`" + did_you_mean(key, std::vector<std::string>(known.begin(), known.end()))};
   return {};
+}
+
+}  // namespace
+
+Result<void> check_keys(const Json& json, const std::vector<std::string>& known, const std::string& place) {
+  return check_keys_among(json, known, place);
+}
+
+Result<void> check_keys(const Json& json, std::initializer_list<std::string_view> known, const std::string& place) {
+  return check_keys_among(json, known, place);
 }
 
 namespace {
@@ -323,17 +337,26 @@ Result<Value> running_value_from_json(const PortDefinition& port, const Json& js
   return decode(port, json, place);
 }
 
-Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type, const Json& json, const std::string& place) {
-  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"port\": value, ...}, found " + shown(json)};
-  std::map<std::string, Value> values;
+namespace {
+
+Error unknown_port(const TypeDefinition& type, const std::string& key, const std::string& place) {
   std::vector<std::string> settings;
   for (const PortDefinition& port : type.ports)
     if (!port.is_computed && port.of_scene != OfScene::always) settings.push_back(port.id);
-  for (const auto& [key, content] : json.items()) {
+  return {ErrorCode::unknown_field, place, "`" + type.id + "` has no `" + key + "`" + did_you_mean(key, settings)};
+}
+
+}  // namespace
+
+Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type, const Json& json, const std::string& place,
+                                                     std::span<const std::string_view> beside) {
+  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"port\": value, ...}, found " + shown(json)};
+  std::map<std::string, Value> values;
+  for (const auto& [key, content] : json.get_ref<const Json::object_t&>()) {
+    if (std::find(beside.begin(), beside.end(), key) != beside.end()) continue;
     const std::string here = place.empty() ? key : place + "/" + key;
     const PortDefinition* port = type.find_port(key);
-    if (port == nullptr)
-      return Error{ErrorCode::unknown_field, here, "`" + type.id + "` has no `" + key + "`" + did_you_mean(key, settings)};
+    if (port == nullptr) return unknown_port(type, key, here);
     if (auto reason = why_unsettable(*port); !reason.empty()) return Error{ErrorCode::conflict, here, std::move(reason)};
     auto value = value_from_json(*port, content, here);
     if (!value) return value.error();
@@ -349,7 +372,7 @@ Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value
   Json json = Json::object();
   for (const PortDefinition& port : type.ports)
     if (const auto it = values.find(port.id); it != values.end() && is_kept(port, it->second))
-      json[port.id] = value_to_json(it->second, port);
+      append_field(json, port.id) = value_to_json(it->second, port);
   return json;
 }
 
@@ -372,8 +395,10 @@ Result<Command> command_from_json(const Registry& registry, const Json& json, co
     return Error{ErrorCode::unknown_type, place,
                  "unknown command `" + name->get<std::string>() + "`" +
                      did_you_mean(name->get<std::string>(), keys_of(registry.commands()))};
-  auto arguments =
-      ports_from_json(*definition, json.value("arguments", Json::object()), place.empty() ? "arguments" : place + "/arguments");
+  static const Json kNoArguments = Json::object();
+  const auto given = json.find("arguments");
+  auto arguments = ports_from_json(*definition, given == json.end() ? kNoArguments : *given,
+                                   place.empty() ? "arguments" : place + "/arguments");
   if (!arguments) return arguments.error();
   return Command{definition->id, std::move(*arguments)};
 }

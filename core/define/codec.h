@@ -1,8 +1,11 @@
 // Values to JSON and back, checked against their declaration; every error carries its place.
 #pragma once
 
+#include <initializer_list>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/define/command_builder.h"
@@ -31,7 +34,9 @@ Json selection_to_json(const Selection& selection);
 Result<Selection> selection_from_json(const Json& json, const std::string& place);
 
 /// An object of port values. Unknown names, computed ports and wrong values are errors with their place.
-Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type, const Json& json, const std::string& place);
+/// `beside` are keys of the object that are none of its ports.
+Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type, const Json& json, const std::string& place,
+                                                     std::span<const std::string_view> beside = {});
 /// The values that differ from their defaults, in the order of the declaration.
 Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value>& values);
 
@@ -41,5 +46,6 @@ Result<Command> command_from_json(const Registry& registry, const Json& json, co
 
 /// The JSON object `json` must hold no other keys than `known`.
 Result<void> check_keys(const Json& json, const std::vector<std::string>& known, const std::string& place);
+Result<void> check_keys(const Json& json, std::initializer_list<std::string_view> known, const std::string& place);
 
 }  // namespace bl

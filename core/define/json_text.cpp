@@ -2,6 +2,8 @@
 #include "core/define/json_text.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -83,13 +85,23 @@ class JsonBuilder {
 
   // The first key that an object has twice; empty where none is.
   static std::string doubled_key(const Json& object) {
+    const auto& fields = object.get_ref<const Json::object_t&>();
+    if (fields.size() <= kFewKeys) {
+      for (auto field = fields.begin(); field != fields.end(); ++field)
+        if (std::any_of(fields.begin(), field, [&](const auto& other) { return other.first == field->first; }))
+          return field->first;
+      return "";
+    }
     std::vector<std::string_view> keys;
-    keys.reserve(object.size());
-    for (const auto& [key, value] : object.get_ref<const Json::object_t&>()) keys.emplace_back(key);
+    keys.reserve(fields.size());
+    for (const auto& [key, value] : fields) keys.emplace_back(key);
     std::sort(keys.begin(), keys.end());
     const auto twice = std::adjacent_find(keys.begin(), keys.end());
     return twice == keys.end() ? "" : std::string(*twice);
   }
+
+  // So many are compared with each other sooner than sorted.
+  static constexpr std::size_t kFewKeys = 12;
 
   std::string_view text_;
   std::string key_;
@@ -99,7 +111,14 @@ class JsonBuilder {
 }  // namespace
 
 Json& append_field(Json& object, std::string key) {
-  return object.get_ref<Json::object_t&>().emplace_back(std::move(key), Json()).second;
+  // The keys are constant, so that growing copies every one of them: small objects grow once.
+  auto& fields = object.get_ref<Json::object_t&>();
+  if (fields.size() == fields.capacity()) fields.reserve(fields.empty() ? 4 : 4 * fields.size());
+  return fields.emplace_back(std::move(key), Json()).second;
+}
+
+void append_fields(Json& object, Json&& more) {
+  for (auto& [key, value] : more.get_ref<Json::object_t&>()) append_field(object, key) = std::move(value);
 }
 
 Result<Json> parse_json(std::string_view text) {
@@ -112,59 +131,94 @@ Result<Json> parse_json(std::string_view text) {
 
 namespace {
 
+// Texts that stand in a file as they are, which nearly all do, need none of the library's care.
+bool is_plain(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; });
+}
+
+void write_text(const std::string& text, std::string& out) {
+  if (!is_plain(text)) {
+    out += Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return;
+  }
+  out += '"';
+  out += text;
+  out += '"';
+}
+
+template <class Number>
+void write_digits(Number number, std::string& out) {
+  char digits[32];
+  out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
 void write_scalar(const Json& value, std::string& out) {
   if (value.is_number_float()) out += shortest(value.get<double>());
+  else if (value.is_string()) write_text(value.get_ref<const std::string&>(), out);
+  else if (value.is_number_unsigned()) write_digits(value.get<std::uint64_t>(), out);
+  else if (value.is_number_integer()) write_digits(value.get<std::int64_t>(), out);
   else out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void write_line(const Json& value, std::string& out) {
+constexpr std::size_t kNoEnd = static_cast<std::size_t>(-1);
+
+// False as soon as the text is longer than `end`: what is written then is of no use.
+bool write_line(const Json& value, std::string& out, std::size_t end = kNoEnd) {
   if (value.is_object()) {
     out += '{';
     bool is_first = true;
-    for (const auto& [key, child] : value.items()) {
+    for (const auto& [key, child] : value.get_ref<const Json::object_t&>()) {
       if (!is_first) out += ", ";
       is_first = false;
-      write_scalar(Json(key), out);
+      write_text(key, out);
       out += ": ";
-      write_line(child, out);
+      if (!write_line(child, out, end)) return false;
     }
     out += '}';
   } else if (value.is_array()) {
     out += '[';
     for (std::size_t i = 0; i < value.size(); ++i) {
       if (i > 0) out += ", ";
-      write_line(value[i], out);
+      if (!write_line(value[i], out, end)) return false;
     }
     out += ']';
   } else {
     write_scalar(value, out);
   }
+  return out.size() <= end;
 }
 
 constexpr std::size_t kWidth = 120;
 
+// `used`: the columns of the line that are taken already.
 void write_block(const Json& value, std::size_t indent, int open_levels, std::size_t used, std::string& out) {
-  std::string line;
-  write_line(value, line);
-  if (!value.is_structured() || value.empty() || (open_levels <= 0 && used + line.size() <= kWidth)) {
-    out += line;
-    return;
+  const bool can_open = value.is_structured() && !value.empty();
+  if (!can_open || open_levels <= 0) {
+    const std::size_t begin = out.size();
+    if (write_line(value, out, !can_open ? kNoEnd : begin + kWidth - std::min(kWidth, used))) return;
+    out.resize(begin);
   }
   const std::string pad(indent + 2, ' ');
   out += value.is_object() ? '{' : '[';
   bool is_first = true;
-  for (const auto& [key, child] : value.items()) {
+  const auto begin_child = [&] {
     out += is_first ? "\n" : ",\n";
     is_first = false;
     out += pad;
-    std::size_t start = pad.size() + 1;
-    if (value.is_object()) {
-      std::string name;
-      write_scalar(Json(key), name);
-      out += name + ": ";
-      start += name.size() + 2;
+  };
+  if (value.is_object()) {
+    for (const auto& [key, child] : value.get_ref<const Json::object_t&>()) {
+      begin_child();
+      const std::size_t begin = out.size();
+      write_text(key, out);
+      out += ": ";
+      write_block(child, indent + 2, open_levels - 1, pad.size() + 1 + out.size() - begin, out);
     }
-    write_block(child, indent + 2, open_levels - 1, start, out);
+  } else {
+    for (const Json& child : value) {
+      begin_child();
+      write_block(child, indent + 2, open_levels - 1, pad.size() + 1, out);
+    }
   }
   out += '\n' + std::string(indent, ' ') + (value.is_object() ? '}' : ']');
 }
@@ -179,7 +233,7 @@ std::string write_json(const Json& value, int open_levels) {
 
 std::string write_json_line(const Json& value) {
   std::string out;
-  write_line(value, out);
+  (void)write_line(value, out);
   return out;
 }
 

@@ -13,13 +13,16 @@ namespace bl {
 using Json = nlohmann::ordered_json;
 
 /// Parses one JSON value. Refuses comments, NaN, numbers beyond a double, a key given twice in one object, nesting deeper
-/// than 64 levels, zero bytes and text that is not UTF-8; the place of an error is "line L, column C". Takes time in proportion to
-/// the text, whatever its shape.
+/// than 64 levels, zero bytes and text that is not UTF-8; the place of an error is "line L, column C". Takes time in proportion
+/// to the text, whatever its shape.
 Result<Json> parse_json(std::string_view text);
 
-/// A new field at the end of an object, without a look at those that are there: an object of a hundred thousand nodes is filled in
-/// no time. Whoever calls knows that the key is new.
+/// A new field at the end of an object, without a look at those that are there: an object of a hundred thousand nodes is filled
+/// in no time. Whoever calls knows that the key is new.
 Json& append_field(Json& object, std::string key);
+
+/// Moves the fields of an object behind those of another one. Whoever calls knows that no key stands in both.
+void append_fields(Json& object, Json&& more);
 
 /// Writes with two-space indents; what fits into 120 columns stays on one line, but for the outermost `open_levels` levels, which
 /// are always one element per line. Shortest round-trip numbers, no locale. Ends without a line feed; depends on the value alone.

@@ -1,4 +1,6 @@
 // Nodes and links to JSON and back, ghosts kept to the letter.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "core/base/near_names.h"
@@ -12,9 +14,18 @@ namespace {
 
 const TypificationDefinition& base_node(const Registry& registry) { return *registry.typification(kBaseNode); }
 
-std::vector<std::string> joined(std::vector<std::string> names, const std::vector<std::string>& more) {
-  names.insert(names.end(), more.begin(), more.end());
-  return names;
+// What a node has beside the ports of the base node.
+constexpr std::string_view kNodeKeys[] = {"id", "name", "types", "locked"};
+
+Result<void> check_node_keys(const Json& json, const TypeDefinition& base, const std::string& place) {
+  const auto is_known = [&](const auto& field) {
+    return std::ranges::find(kNodeKeys, field.first) != std::end(kNodeKeys) || base.find_port(field.first) != nullptr;
+  };
+  const auto& fields = json.get_ref<const Json::object_t&>();
+  if (std::all_of(fields.begin(), fields.end(), is_known)) return {};
+  std::vector<std::string> known(std::begin(kNodeKeys), std::end(kNodeKeys));
+  for (const std::string& port : port_ids(base)) known.push_back(port);
+  return check_keys(json, known, place);
 }
 
 Result<bool> flag_from_json(const Json& json, const std::string& place) {
@@ -47,13 +58,13 @@ Json node_to_json(const NodeRecord& node, const Registry& registry) {
   Json json = Json::object();
   if (!node.name.empty()) json["name"] = node.name;
   if (const auto base = node.types.find(std::string(kBaseNode)); base != node.types.end())
-    json.update(ports_to_json(base_node(registry), base->second));
+    append_fields(json, ports_to_json(base_node(registry), base->second));
   Json types = Json::object();
   std::map<std::string, Json> sorted;
   for (const auto& [id, values] : node.types)
     if (id != kBaseNode) sorted[id] = ports_to_json(*registry.typification(id), values);
   for (const auto& [id, text] : node.ghosts) sorted[id] = Json::parse(text, nullptr, false);
-  for (auto& [id, content] : sorted) types[id] = std::move(content);
+  for (auto& [id, content] : sorted) append_field(types, id) = std::move(content);
   if (!types.empty()) json["types"] = std::move(types);
   if (!node.locked.empty()) json["locked"] = node.locked;
   return json;
@@ -61,17 +72,13 @@ Json node_to_json(const NodeRecord& node, const Registry& registry) {
 
 Result<NodeRecord> node_from_json(const Json& json, const Registry& registry, const std::string& place) {
   if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects a node {\"id\": ..., \"types\": {...}}"};
-  if (auto keys = check_keys(json, joined({"id", "name", "types", "locked"}, port_ids(base_node(registry))), place); !keys)
-    return keys.error();
+  if (auto keys = check_node_keys(json, base_node(registry), place); !keys) return keys.error();
   NodeRecord node;
   if (const auto name = json.find("name"); name != json.end()) {
     if (!name->is_string()) return Error{ErrorCode::wrong_kind, place + "/name", "expects a text"};
     node.name = name->get<std::string>();
   }
-  Json base = Json::object();
-  for (const std::string& port : port_ids(base_node(registry)))
-    if (const auto it = json.find(port); it != json.end()) base[port] = *it;
-  auto values = ports_from_json(base_node(registry), base, place);
+  auto values = ports_from_json(base_node(registry), json, place, kNodeKeys);
   if (!values) return values.error();
   node.types[std::string(kBaseNode)] = std::move(*values);
   if (const auto types = json.find("types"); types != json.end())

@@ -249,17 +249,17 @@ std::string write_scene(const Scene& scene, const Registry& program, const Saved
   if (Json revisions = revisions_of(scene, registry); !revisions.empty()) file["revisions"] = std::move(revisions);
   if (Json settings = ports_to_json(settings_type(), scene.settings); !settings.empty()) file["settings"] = std::move(settings);
   if (Json scripts = scripts_to_json(scene.scripts); !scripts.empty()) file["scripts"] = std::move(scripts);
-  file["nodes"] = Json::array();
+  Json& nodes = append_field(file, "nodes") = Json::array();
   for (const auto& [id, node] : scene.nodes) {
     Json record = {{"id", id}};
-    record.update(node_to_json(node, registry));
-    file["nodes"].push_back(std::move(record));
+    append_fields(record, node_to_json(node, registry));
+    nodes.push_back(std::move(record));
   }
-  file["links"] = Json::array();
+  Json& links = append_field(file, "links") = Json::array();
   for (const auto& [id, link] : scene.links) {
     Json record = {{"id", id}};
-    record.update(link_to_json(link, registry));
-    file["links"].push_back(std::move(record));
+    append_fields(record, link_to_json(link, registry));
+    links.push_back(std::move(record));
   }
   if (state != nullptr && state->tick > 0) file["state"] = state_to_json(*state, registry);
   if (!scene.view.empty()) file["view"] = Json::parse(scene.view, nullptr, false);

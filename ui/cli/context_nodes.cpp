@@ -123,8 +123,11 @@ void ContextNodes::reach(const Point3& point) {
   high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
 }
 
-void ContextNodes::add_node(const std::string& id, const Json& node) {
-  commands_.push_back(write_json_line(command_to_json(*registry_, command<AddNode>({id, {write_json_line(node)}}))));
+// The command as a batch has it, without the node being written as its argument and read again.
+void ContextNodes::add_node(const std::string& id, Json&& node) {
+  Json added = {{"command", "add_node"}, {"arguments", {{"id", id}}}};
+  append_field(added["arguments"], "node") = std::move(node);
+  commands_.push_back(write_json_line(added));
 }
 
 void ContextNodes::set_port(const std::string& node, const std::string& path, const Value& value) {
@@ -207,10 +210,10 @@ std::string ContextNodes::add_building(const ContextBuilding& building, const No
   Point3 position = middle(building.outer);
   position.z = building.base;
   const std::string id = fresh_id("building_" + building.id);
-  const Json node = {{"name", building.name.empty() ? building.id : building.name},
-                     {"position", position_json(position)},
-                     {"types", {{"existing_building", ports}}}};
-  add_node(id, node);
+  Json node = {{"name", building.name.empty() ? building.id : building.name},
+               {"position", position_json(position)},
+               {"types", {{"existing_building", ports}}}};
+  add_node(id, std::move(node));
   for (const Point3& corner : building.outer) {
     reach({corner.x, corner.y, building.base});
     reach({corner.x, corner.y, building.base + building.height});
@@ -221,11 +224,11 @@ std::string ContextNodes::add_building(const ContextBuilding& building, const No
 
 std::string ContextNodes::add_plot(const ContextArea& area) {
   const Json ports = {{"polygon", points_json(area.outer, false)}};
-  const Json node = {{"name", area.name.empty() ? area.id : area.name},
-                     {"position", position_json(middle(area.outer))},
-                     {"types", {{"plot", ports}}}};
+  Json node = {{"name", area.name.empty() ? area.id : area.name},
+               {"position", position_json(middle(area.outer))},
+               {"types", {{"plot", ports}}}};
   const std::string id = fresh_id("plot_" + area.id);
-  add_node(id, node);
+  add_node(id, std::move(node));
   for (const Point3& corner : area.outer) reach(corner);
   ++made_["plot"];
   if (!area.holes.empty()) notes_.push_back("The holes of plot `" + area.id + "` were left out: a plot is one polygon.");
@@ -296,8 +299,8 @@ std::string ContextNodes::add_junction(const ContextJunction& junction, const Js
   const std::string id = fresh_id("junction_" + junction.id);
   Json types = {{"junction", Json::object()}};
   if (!turns.empty()) types["turn_rules"] = {{"turns", turns}};
-  const Json node = {{"name", junction.id}, {"position", position_json(junction.position)}, {"types", types}};
-  add_node(id, node);
+  Json node = {{"name", junction.id}, {"position", position_json(junction.position)}, {"types", types}};
+  add_node(id, std::move(node));
   ++made_["junction"];
   return id;
 }
@@ -321,10 +324,10 @@ void ContextNodes::add_street(const std::string& id, const ContextStreet& piece,
   if (is_thinned) fit.set("length", length_of(piece.line));
   fit.set("one_way", piece.is_one_way);
   fit.set("for_cars", piece.for_cars);
-  const Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
-                     {"position", position_json(piece.line[piece.line.size() / 2])},
-                     {"types", {{"street", fit.values}}}};
-  add_node(id, node);
+  Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
+               {"position", position_json(piece.line[piece.line.size() / 2])},
+               {"types", {{"street", fit.values}}}};
+  add_node(id, std::move(node));
   for (const Point3& point : piece.line) reach(point);
   ++made_["street"];
 }
@@ -374,9 +377,9 @@ void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making, Im
                       {"origin", making.source + (making.licence.empty() ? "" : ", " + making.licence)}};
   const double east = terrain.west + terrain.cell * static_cast<double>(terrain.columns) / 2;
   const double south = terrain.north - terrain.cell * static_cast<double>(terrain.rows) / 2;
-  const Json node = {{"name", "Terrain"}, {"position", position_json({east, south, lowest})}, {"types", {{"terrain", ports}}}};
+  Json node = {{"name", "Terrain"}, {"position", position_json({east, south, lowest})}, {"types", {{"terrain", ports}}}};
   const std::string id = fresh_id("terrain");
-  add_node(id, node);
+  add_node(id, std::move(node));
   name_all(report, id);
   reach({terrain.west, terrain.north, lowest});
   reach({2 * east - terrain.west, 2 * south - terrain.north, std::isfinite(highest) ? highest : lowest});
@@ -395,9 +398,9 @@ void ContextNodes::add(const DataLayer& layer, const NodeMaking& making, ImportR
                       {"unit", making.unit.empty() ? layer.unit : making.unit},
                       {"source", making.source},
                       {"licence", making.licence}};
-  const Json node = {{"name", layer.value_name}, {"position", position_json(middle(places))}, {"types", {{"data_layer", ports}}}};
+  Json node = {{"name", layer.value_name}, {"position", position_json(middle(places))}, {"types", {{"data_layer", ports}}}};
   const std::string id = fresh_id("layer_" + layer.value_name);
-  add_node(id, node);
+  add_node(id, std::move(node));
   name_all(report, id);
   for (const Point3& place : places) reach(place);
   ++made_["data_layer"];

@@ -62,7 +62,7 @@ class ContextNodes {
   std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids, ImportReport& report,
                                          Unused& unused);
   std::string add_plot(const ContextArea& area);
-  void add_node(const std::string& id, const Json& node);
+  void add_node(const std::string& id, Json&& node);
   void reach(const Point3& point);
 
   const Registry* registry_;
