@@ -14,6 +14,7 @@
 #include "core/geometry/cell_trim.h"
 #include "core/geometry/coincidence.h"
 #include "core/geometry/none.h"
+#include "core/geometry/plan_cover.h"
 
 namespace bl {
 
@@ -81,8 +82,8 @@ void measure_storeys(std::span<const Polyhedron> parts, std::span<ShapeMeasure> 
     shapes[k].lowest = lowest;
     shapes[k].highest = highest;
     out.floor_area += floor_area(parts[k], site.weight, shapes[k], storey);
-    out.footprint += footprint_area(parts[k], site.weight, shapes[k]);
   }
+  out.footprint = plan_cover(parts, shapes, site.weight);
 }
 
 void measure_parts(const CellGround& ground, std::uint32_t index, const CellOptions& options, CellBench& bench,

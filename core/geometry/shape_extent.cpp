@@ -22,7 +22,9 @@ bool is_in_face(const Polyhedron& cell, const PolyhedronFace& face, const Point3
   for (std::uint32_t i = 0; i < face.count; ++i) {
     const Point3 b = cell.vertices[cell.loops[face.first + i]];
     const Vector3 along = b - a;
-    if (dot(face.normal, cross(along, point - a)) < -tolerance * norm(along)) return false;
+    const double length = norm(along);
+    // Which way an edge without length runs is rounding: it bounds nothing.
+    if (length > tolerance && dot(face.normal, cross(along, point - a)) < -tolerance * length) return false;
     a = b;
   }
   return true;
