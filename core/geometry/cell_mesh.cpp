@@ -8,7 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "core/geometry/cell_seams.h"
 #include "core/geometry/none.h"
 #include "core/geometry/tessellate.h"
 
@@ -88,13 +87,12 @@ Point3 wrap_centre(const Polyhedron& part, double squared_radius, const Point3& 
   return holds(part, squared_radius, {}, kInsideShare * std::sqrt(squared_radius)) ? Point3{} : other;
 }
 
-Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
-               const Point3& centroid) {
+Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, std::span<const OpenPart> open,
+               const PowerSite& site, int depth, const Point3& centroid) {
   // Towards the site, or where it is not inside its own cell, towards the centroid.
   const double radius = std::sqrt(site.weight);
   if (parts.size() == 1) return mesh_of_one(parts[0], radius, depth, wrap_centre(parts[0], site.weight, centroid), site.position);
   // Each part has a point of its own, because the way to one in another part may lead out of the domain.
-  const std::vector<OpenPart> open = open_parts(parts, shapes, site.weight);
   Mesh whole;
   std::vector<std::uint32_t> border, own;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -110,11 +108,12 @@ Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> 
   return whole;
 }
 
-MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site,
-                             const Point3& centroid) {
+MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes,
+                             std::span<const OpenPart> open, const PowerSite& site, const Point3& centroid) {
   Mesh whole;
   MeshWrap wrap{site.position, std::sqrt(site.weight), {}, {}};
-  const std::vector<OpenPart> open = parts.size() == 1 ? std::vector<OpenPart>(1) : open_parts(parts, shapes, site.weight);
+  const OpenPart whole_cell;
+  if (parts.size() == 1) open = {&whole_cell, 1};
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts.size() > 1 && shapes[k].is_empty) continue;
     const Point3 centre = wrap_centre(parts[k], site.weight, parts.size() == 1 ? centroid : shapes[k].centroid);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/mesh.h"
+#include "core/geometry/cell_seams.h"
 #include "core/geometry/power_cells.h"
 #include "core/geometry/shape_measure.h"
 
@@ -17,13 +18,13 @@ bool holds(const Polyhedron& part, double squared_radius, const Point3& point, d
 Point3 wrap_centre(const Polyhedron& part, double squared_radius, const Point3& other);
 
 /// The parts in the pieces of the domain become one closed mesh that is open from part to part where the ball is. `centroid` of
-/// the shape, relative to the site.
-Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site, int depth,
-               const Point3& centroid);
+/// the shape, relative to the site. `open`: what open_parts says of more than one part, else nothing.
+Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, std::span<const OpenPart> open,
+               const PowerSite& site, int depth, const Point3& centroid);
 /// The same parts as fans of triangles, a face's centre first, not wrapped; `wrap` says how make_mesh would go on. The
 /// triangles come in the order in which make_mesh divides them.
-MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, const PowerSite& site,
-                             const Point3& centroid);
+MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes,
+                             std::span<const OpenPart> open, const PowerSite& site, const Point3& centroid);
 
 /// Faces of shapes that studies measure with are split in four so many times.
 inline constexpr int kStudyDepth = 1;

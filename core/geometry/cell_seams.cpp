@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -59,8 +60,10 @@ struct SeamPart {
     return points;
   }
   std::uint32_t find_or_add(const Point3& place, double tolerance) {
+    // Nearly all are far away, which shows without a root.
+    const double near = 2 * tolerance * tolerance;
     for (std::uint32_t c = 0; c < corners.size(); ++c)
-      if (distance(corners[c], place) <= tolerance) return c;
+      if (squared_norm(corners[c] - place) <= near && distance(corners[c], place) <= tolerance) return c;
     corners.push_back(place);
     return static_cast<std::uint32_t>(corners.size() - 1);
   }
@@ -98,6 +101,25 @@ void add_sector(const CornerLoop& path, const CornerLoop& inner, std::vector<Cor
   }
   add(std::move(between));
 }
+
+// Who lies near enough to some points to be looked at: most places of a cell lie far from each edge.
+class PlaceBox {
+ public:
+  PlaceBox(std::span<const Point3> points, double margin) : low_(points.front()), high_(points.front()) {
+    for (const Point3& p : points) {
+      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
+      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
+    }
+    low_ -= Vector3{margin, margin, margin};
+    high_ += Vector3{margin, margin, margin};
+  }
+  bool holds(const Point3& p) const {
+    return p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y && p.z >= low_.z && p.z <= high_.z;
+  }
+
+ private:
+  Point3 low_, high_;
+};
 
 class SeamMaker {
  public:
@@ -279,7 +301,8 @@ class SeamMaker {
     for (SeamPart& part : parts_) {
       if (part.openings == 0) continue;
       std::vector<Point3> places = part.corners;
-      places.insert(places.end(), shared.begin(), shared.end());
+      const PlaceBox box(part.corners, 2 * tolerance_);
+      std::copy_if(shared.begin(), shared.end(), std::back_inserter(places), [&](const Point3& p) { return box.holds(p); });
       insert(part, places);
     }
   }
@@ -288,7 +311,10 @@ class SeamMaker {
     std::vector<std::pair<double, Point3>> found;
     const double length = distance(start, end);
     const Vector3 along = (end - start) / std::max(1e-300, length);
+    const Point3 ends[2] = {start, end};
+    const PlaceBox box(ends, 2 * tolerance_);
     for (const Point3& place : places) {
+      if (!box.holds(place)) continue;
       const double at = dot(place - start, along);
       if (at > tolerance_ && at < length - tolerance_ && distance(place, start + at * along) <= 2 * tolerance_)
         found.emplace_back(at, place);

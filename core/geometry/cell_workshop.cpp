@@ -119,8 +119,10 @@ void measure_parts(const CellGround& ground, std::uint32_t index, const CellOpti
   if (options.tessellation_depth < 0) return;
   const auto trimmed = trimmed_parts(parts, bench.shapes, site, centroid);
   const std::span<const Polyhedron> near = trimmed ? std::span<const Polyhedron>(*trimmed) : parts;
-  Mesh mesh = make_mesh(near, bench.shapes, site, options.tessellation_depth, centroid);
-  if (options.with_coarse_mesh && options.with_shape) mesh.coarse = make_coarse_mesh(near, bench.shapes, site, centroid);
+  std::vector<OpenPart> open;
+  if (near.size() > 1) open = open_parts(near, bench.shapes, site.weight);
+  Mesh mesh = make_mesh(near, bench.shapes, open, site, options.tessellation_depth, centroid);
+  if (options.with_coarse_mesh && options.with_shape) mesh.coarse = make_coarse_mesh(near, bench.shapes, open, site, centroid);
   out.mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 
