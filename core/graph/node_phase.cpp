@@ -15,12 +15,11 @@ bool same_inputs(const TypificationDefinition& definition, const std::vector<Val
   return true;
 }
 
-// Whose own outputs are among its inputs, as those of a filter or a clock: it has to be asked in every tick.
+}  // namespace
+
 bool keeps_memory(const TypificationDefinition& definition) {
   return std::any_of(definition.ports.begin(), definition.ports.end(), [](const PortDefinition& port) { return !!port.recall; });
 }
-
-}  // namespace
 
 std::string place_of(const State& state, std::size_t n, std::size_t t) {
   return "nodes/" + state.plan->nodes[n].id + "/" + state.plan->nodes[n].types[t].definition->id;

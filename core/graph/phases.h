@@ -34,6 +34,8 @@ void commit(State& next);
 /// How many times the move limit a push has to be to wake a scene that rests.
 inline constexpr double kWakingPush = 2;
 
+/// Are its own outputs among its inputs, as those of a filter or a clock? Then it has to be asked in every tick, and once only.
+bool keeps_memory(const TypificationDefinition& definition);
 /// Where errors of a typification of a node stand: "nodes/tower/smart_volume".
 std::string place_of(const State& state, std::size_t n, std::size_t t);
 /// Takes over what an evaluation wrote, or keeps the last good values and the error.

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/graph/phases.h"
+#include "core/graph/sums_of_now.h"
 
 namespace bl {
 
@@ -257,6 +258,23 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
           state.nodes[target.node].types[target.type].values[target.port] = std::move(*value);
         }
   }
+}
+
+State with_sums_of_now(const State& state) {
+  State seen = state;
+  for (SetCase& one : gather_sets(state)) {
+    const TypificationDefinition& definition = one.definition(state);
+    const bool only_reads =
+        std::all_of(definition.sets.begin(), definition.sets.end(), [](const SetDefinition& set) { return set.writes.empty(); });
+    if (!only_reads || one.analysis != SetCase::kNone || one.error() != nullptr || keeps_memory(definition)) continue;
+    TypeState& sums = seen.nodes[one.node()].types[one.type()];
+    if (!sums.is_evaluated || sums.error) continue;
+    TypeState now = sums;
+    auto done = definition.evaluate(one.values, one.sets, Tick{.index = state.tick});
+    accept_values(definition, now, std::move(one.values), std::move(done), place_of(state, one.node(), one.type()));
+    if (!now.error) sums = std::move(now);
+  }
+  return seen;
 }
 
 }  // namespace bl

@@ -5,6 +5,7 @@
 #include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "core/graph/sums_of_now.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
@@ -46,7 +47,7 @@ std::shared_ptr<const State> outcome_of(const std::string& file, const SceneRead
   const auto state = (*session)->state();
   print_line(file + ": " + (state->is_settled() ? "settled" : "not settled: " + why_not_settled(*state, before.get())) +
              ", tick " + std::to_string(state->tick) + ", hash " + hex_digits(state->hash));
-  return state;
+  return std::make_shared<const State>(with_sums_of_now(*state));
 }
 
 void print_rows(const std::vector<report::IndicatorRow>& rows, std::size_t most) {

@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "core/file/log_writer.h"
+#include "core/graph/sums_of_now.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
@@ -142,7 +143,9 @@ class Run {
   // Everything that was asked for, even where a part of it fails.
   bool finish() {
     const std::shared_ptr<const State> state = session_->state();
-    const Survey survey = survey_of(*state);
+    // What people and programs read: the sums of this tick beside the figures of this tick.
+    const State seen = with_sums_of_now(*state);
+    const Survey survey = survey_of(seen);
     const std::string last_line = outcome(survey);
     bool is_saved = true;
     if (log_.is_open()) {
@@ -156,10 +159,10 @@ class Run {
       is_saved &= write(options_.save, write_file(options_.save, write_scene(session_->scene(), full_registry(), &saved)));
     }
     if (!options_.json.empty())
-      is_saved &= write(options_.json, write_file(options_.json, write_json(survey_json(survey, *state, last_line)) + "\n"));
+      is_saved &= write(options_.json, write_file(options_.json, write_json(survey_json(survey, seen, last_line)) + "\n"));
     if (!options_.report.empty())
       is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
-    print_survey(survey, *state);
+    print_survey(survey, seen);
     live_.sum_up(*state);
     const bool is_whole =
         std::none_of(state->links.begin(), state->links.end(), [](const LinkState& l) { return l.error.has_value(); });

@@ -1,6 +1,7 @@
 // Evaluations over sets: who is a member, what they are told when nobody serves them, and wrong choices of ports.
 #include <gtest/gtest.h>
 
+#include "core/graph/sums_of_now.h"
 #include "tests/support/world.h"
 
 namespace bl {
@@ -39,6 +40,35 @@ TEST(Sets, NewtonMeetsTheDemandsInFewTicks) {
   ASSERT_EQ(world.submit(command<SetPort>({"solver", {"smart_volumes_solver.tolerance"}, {"1e-6"}})), "");
   world.tick(10);
   EXPECT_NEAR(world.number("a", "smart_volume.volume"), 900, 1e-3);
+}
+
+// Sums over sets read what was there before the solver: a tick late in the state, but not for readers.
+TEST(Sets, SumsAreReadBesideTheFiguresThatTheyAddUp) {
+  World world = World::from_text(kScene);
+  const auto sum_in = [](const State& state) {
+    const auto ref = state.plan->find(state.plan->node_index("sums"), *parse_port_path("statistics.sum"));
+    return std::get<double>(state.value(*ref));
+  };
+  double largest_lag = 0;
+  for (int tick = 0; tick < 8; ++tick) {
+    world.tick();
+    const double volumes = world.number("a", "smart_volume.volume") + world.number("b", "smart_volume.volume");
+    const State& state = world.state();
+    const State seen = with_sums_of_now(state);
+    EXPECT_NEAR(sum_in(seen), volumes, 1e-9) << tick;
+    EXPECT_EQ(seen.hash, state.hash) << "it is the same state, read";
+    largest_lag = std::max(largest_lag, std::abs(sum_in(state) - volumes));
+  }
+  EXPECT_GT(largest_lag, 1) << "what a tick has lags, or there would be nothing to be read anew";
+}
+
+TEST(Sets, SumsThatFailAreReadAsTheyAre) {
+  World world = World::from_text(kScene);
+  ASSERT_EQ(world.submit(command<SetPort>({"sums", {"statistics.port"}, {"\"smart_volume.state\""}})), "");
+  world.tick();
+  const State seen = with_sums_of_now(world.state());
+  EXPECT_TRUE(seen.nodes[seen.plan->node_index("sums")].types[0].error ||
+              seen.nodes[seen.plan->node_index("sums")].types[1].error);
 }
 
 }  // namespace
