@@ -29,8 +29,9 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-std::string write_obj(std::span<const NamedMesh> meshes) {
+std::string write_obj(std::span<const NamedMesh> meshes, const std::string& note) {
   std::string out = "# BehaviourLinks: lengths in metres, z up\n";
+  if (!note.empty()) out.append("# ").append(one_line(note)).append("\n");
   std::set<std::string> used;
   std::map<std::string, int> numbers;  // the last one given to each name
   std::size_t first = 1;

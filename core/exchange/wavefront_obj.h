@@ -14,6 +14,7 @@ struct NamedMesh {
 };
 
 /// Shortest numbers that read back as the same doubles. Names are made legal and unique; a changed name stays in a comment.
-std::string write_obj(std::span<const NamedMesh> meshes);
+/// `note`: a sentence for the header, none where empty.
+std::string write_obj(std::span<const NamedMesh> meshes, const std::string& note = {});
 
 }  // namespace bl

@@ -25,6 +25,10 @@ TEST(WavefrontObj, ObjectsShareOneCount) {
             "# two words o evil\no two_words_o_evil\nv 0 0 0\nv 1 0 0\nv 0 0.1 1e-20\nf 7 8 9\n");
 }
 
+TEST(WavefrontObj, ANoteIsOneLineOfTheHeader) {
+  EXPECT_EQ(write_obj({}, "coarse\nmeshes"), "# BehaviourLinks: lengths in metres, z up\n# coarse meshes\n");
+}
+
 TEST(CsvTable, QuotesWhereNeeded) {
   const std::vector<std::string> header = {"name", "floor_area [m2]", "count"};
   const std::vector<std::vector<CsvCell>> rows = {{"a, \"b\"", 0.1, 3}, {" padded", 1e6, std::size_t{2}}, {"two\nlines"}};

@@ -442,5 +442,36 @@ TEST(ReportParts, LabelsNeverCoverEachOther) {
   EXPECT_LT(without, 60u);
 }
 
+TEST(Report, SumsAreThoseOfTheFiguresBesideThem) {
+  std::string scene = kBlock;
+  scene.replace(scene.find("{\"id\": \"site\""), 0, "{\"id\": \"sums\", \"types\": {\"statistics\": {}}},\n");
+  World world = World::from_text(scene);
+  world.tick();
+  write_and_read("sums", data_of(world.state()));
+  double volumes = 0;
+  for (const char* id : {"home_a", "home_b", "office"}) volumes += world.number(id, "smart_volume.volume");
+  ASSERT_GT(std::abs(world.number("sums", "statistics.sum") - volumes), 1) << "the state itself lags";
+  const auto statistics = read_file(folder_for("sums") + "/statistics.csv");
+  ASSERT_TRUE(statistics) << statistics.error().text();
+  std::istringstream row(statistics->substr(statistics->find('\n') + 1));
+  std::string cell;
+  for (int column = 0; column < 5; ++column) std::getline(row, cell, ',');
+  EXPECT_NEAR(std::stod(cell), volumes, 1e-9 * volumes) << *statistics;
+}
+
+TEST(Report, MeshesSayHowFineTheyAreAndWhatThatMeans) {
+  World world = World::from_text(kBlock);
+  const Files none = write_and_read("no_mesh", data_of(world.state()));
+  EXPECT_EQ(none.obj.find("tessellation"), std::string::npos) << "no mesh, no note";
+  world.tick(3);
+  const Files files = write_and_read("mesh_note", data_of(world.state()));
+  const std::string note = "Meshes are of tessellation depth 1. A mesh lies within its shape and encloses less than it";
+  EXPECT_EQ(files.obj.find("# " + note), files.obj.find('\n') + 1);
+  EXPECT_NE(files.html.find(note), std::string::npos);
+  ASSERT_EQ(world.submit(command<SetPort>({"solver", {"smart_volumes_solver.tessellation_depth"}, {"3"}})), "");
+  world.tick();
+  EXPECT_NE(write_and_read("finer_note", data_of(world.state())).obj.find("tessellation depth 3."), std::string::npos);
+}
+
 }  // namespace
 }  // namespace bl

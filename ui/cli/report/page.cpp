@@ -115,6 +115,7 @@ void write_footer(Markup& page, const ReportModel& model, const ReportData& data
   row("Made by",
       "BehaviourLinks, behaviourlinks run --report; beside this page lie shapes in volumes.obj and a table for spreadsheets "
       "of everything on it: volumes.csv, uses.csv, conflicts.csv and others");
+  if (!model.mesh_note.empty()) row("Meshes", model.mesh_note);
   page.close().close();
 }
 

@@ -7,6 +7,7 @@
 #include "core/exchange/csv_table.h"
 #include "core/exchange/wavefront_obj.h"
 #include "core/file/file_io.h"
+#include "core/graph/sums_of_now.h"
 #include "ui/cli/report/figure_tables.h"
 #include "ui/cli/report/page.h"
 
@@ -144,7 +145,7 @@ report::CsvFile facades_csv_of(const ReportModel& model, const State& state) {
 std::string obj_of(const ReportModel& model) {
   std::vector<NamedMesh> meshes;
   for (const VolumeRow& volume : model.volumes) meshes.push_back({volume.name, volume.mesh});
-  return write_obj(meshes);
+  return write_obj(meshes, model.mesh_note);
 }
 
 Result<void> make_directory(const std::string& directory) {
@@ -155,12 +156,7 @@ Result<void> make_directory(const std::string& directory) {
   return Error{ErrorCode::io, directory, "the folder for the report cannot be made (" + why + "): choose another one"};
 }
 
-}  // namespace
-
-Result<void> write_report(const std::string& directory, const ReportData& data) {
-  if (data.state == nullptr || data.state->plan == nullptr)
-    return Error{ErrorCode::missing, directory, "there is no state to report on: run the scene first"};
-  if (auto made = make_directory(directory); !made) return made;
+Result<void> write_files(const std::string& directory, const ReportData& data) {
   ReportModel model;
   report::read_model(*data.state, model);
   const report::Palette palette(model.use_names());
@@ -179,6 +175,16 @@ Result<void> write_report(const std::string& directory, const ReportData& data) 
   }
   if (auto written = write_file((folder / "volumes.obj").string(), obj_of(model)); !written) return written;
   return write_file((folder / "report.html").string(), report::write_page(model, data, palette));
+}
+
+}  // namespace
+
+Result<void> write_report(const std::string& directory, const ReportData& data) {
+  if (data.state == nullptr || data.state->plan == nullptr)
+    return Error{ErrorCode::missing, directory, "there is no state to report on: run the scene first"};
+  if (auto made = make_directory(directory); !made) return made;
+  const State seen = with_sums_of_now(*data.state);
+  return write_files(directory, {&seen, data.history, data.scene_path, data.outcome});
 }
 
 }  // namespace bl

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/base/hash.h"
 
@@ -90,6 +91,21 @@ void add_totals(ReportModel& model) {
   }
 }
 
+// Meshes are for the eye; who measures one has to know what it is.
+std::string mesh_note_of(const State& state, const ReportModel& model) {
+  if (std::none_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& row) { return row.mesh != nullptr; }))
+    return "";
+  std::set<int> depths;
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    if (has_type(state, n, "smart_volumes_solver"))
+      depths.insert(static_cast<int>(number_at(state, n, "smart_volumes_solver", "tessellation_depth")));
+  std::string said;
+  for (const int depth : depths) said += (said.empty() ? "" : " and ") + std::to_string(depth);
+  return "Meshes are of tessellation depth " + said +
+         ". A mesh lies within its shape and encloses less than it, most where a volume is round. The figures in volumes.csv are "
+         "those of the shapes. Raise tessellation_depth of the solver (4 is the finest) to bring the meshes nearer to them.";
+}
+
 }  // namespace
 
 std::size_t link_index(const Plan& plan, std::string_view id) {
@@ -163,6 +179,7 @@ void read_model(const State& state, ReportModel& model) {
     if (has_type(state, n, "boundary")) model.sites.push_back(read_site(state, n));
   model.surroundings = read_surroundings(state);
   add_totals(model);
+  model.mesh_note = mesh_note_of(state, model);
   read_conflicts(state, model);
   read_problems(state, model);
 }

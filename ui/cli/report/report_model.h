@@ -87,6 +87,7 @@ struct ReportModel {
   std::vector<ProblemRow> problems;
   double plan_area = 0, site_volume = 0;
   std::size_t shapes = 0;
+  std::string mesh_note;             ///< how fine the meshes are, and what that means; empty where there are none
   const VolumeRow* worst = nullptr;  ///< the largest error; nothing where there are no volumes
 
   std::vector<std::string> use_names() const;
