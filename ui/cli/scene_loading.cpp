@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/exchange/foreign_bytes.h"
 #include "core/file/file_io.h"
 #include "ui/cli/terminal.h"
 
@@ -12,6 +13,11 @@ std::optional<SceneReading> load_scene(const std::string& file, bool gets_script
   const auto text = read_file(file);
   if (!text) {
     print_error(file, text.error());
+    return std::nullopt;
+  }
+  // Of noise the reader itself says where it begins.
+  if (const std::string kind = foreign_kind(*text); !kind.empty() && !kind.starts_with("binary")) {
+    print_error(file, {ErrorCode::parse, "", "this is no scene but " + kind + "; a scene is JSON text"});
     return std::nullopt;
   }
   SceneReading reading = read_scene(*text, full_registry());
