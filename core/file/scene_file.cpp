@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/packed_kind.h"
 #include "core/base/text.h"
 #include "core/define/bounded_json.h"
 #include "core/define/codec.h"
@@ -46,12 +47,13 @@ std::string joined_lines(const Json& lines) {
 
 constexpr const char* kBeginning = "starts with {\"format\": \"behaviourlinks\", \"version\": 1, ...}";
 
-// What is no JSON at all, such as a table, is told as what it is not, and what is empty as that.
+// What is no JSON at all, such as a table, is told as what it is not, and what is empty as that. Of archives the parser says
+// more.
 std::optional<Error> why_no_scene(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n", text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
   if (first == std::string_view::npos)
     return Error{ErrorCode::parse, "", std::string("the file is empty; a scene ") + kBeginning};
-  if (text[first] == '{' || text[first] == '[' || text[first] == '\0') return std::nullopt;
+  if (text[first] == '{' || text[first] == '[' || text[first] == '\0' || !packed_kind(text).empty()) return std::nullopt;
   return Error{ErrorCode::parse, place_in_text(text, first),
                std::string("this is not a scene, which is JSON text: it ") + kBeginning};
 }

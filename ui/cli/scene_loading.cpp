@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/base/packed_kind.h"
 #include "core/exchange/foreign_bytes.h"
 #include "core/file/file_io.h"
 #include "ui/cli/terminal.h"
@@ -15,8 +16,8 @@ std::optional<SceneReading> load_scene(const std::string& file, bool gets_script
     print_error(file, text.error());
     return std::nullopt;
   }
-  // Of noise the reader itself says where it begins.
-  if (const std::string kind = foreign_kind(*text); !kind.empty() && !kind.starts_with("binary")) {
+  // Of noise and of archives the reader itself says more.
+  if (const std::string kind = foreign_kind(*text); !kind.empty() && !kind.starts_with("binary") && packed_kind(*text).empty()) {
     print_error(file, {ErrorCode::parse, "", "this is no scene but " + kind + "; a scene is JSON text"});
     return std::nullopt;
   }
