@@ -5,9 +5,9 @@ namespace bl::mathematics {
 
 // The C library chooses other code for sin, exp and the like by the processor (with or without fused multiply-add), and their
 // last bits differ. These are SLEEF's scalar functions of the consistent kind without FMA (`Sleef_cinz_*d1_u10purec`): plain
-// double operations in a fixed order, within 1.0 ULP of the true result, the hypotenuse within 0.5 ULP. What IEEE 754 rounds
-// exactly is the same everywhere already and is taken from the standard library: + - * /, sqrt, fma, floor, ceil, round, fmod,
-// remainder, ldexp, nextafter. Infinities, zeros and NaN are as in the C standard.
+// double operations in a fixed order, within 1.0 ULP of the true result (sinh and cosh 1.5 from 709 on), the hypotenuse 0.5. What
+// IEEE 754 rounds exactly is the same everywhere already and is taken from the standard library: + - * /, sqrt, fma, floor,
+// ceil, round, fmod, remainder, ldexp, nextafter. Infinities, zeros and NaN are as in the C standard.
 
 double sine(double radians);
 double cosine(double radians);

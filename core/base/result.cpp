@@ -19,18 +19,20 @@ std::string without_middle(std::string_view text, std::size_t head, std::size_t 
          std::string(text.substr(begin));
 }
 
-// Sentences quote data between `` or "".
+// Sentences quote data between `` or "". A mark without its partner quotes nothing: an inch, or a text that data have cut.
 std::string with_short_quotes(std::string_view message) {
   std::string out;
   for (std::size_t at = 0; at < message.size();) {
     const std::size_t open = std::min(message.find_first_of("`\"", at), message.size());
     out += message.substr(at, open - at);
     if (open == message.size()) break;
-    const std::size_t close = std::min(message.find(message[open], open + 1), message.size());
-    const std::string_view quote = message.substr(open + 1, close - open - 1);
     out += message[open];
+    at = open + 1;
+    const std::size_t close = message.find(message[open], at);
+    if (close == std::string_view::npos) continue;
+    const std::string_view quote = message.substr(at, close - at);
     out += quote.size() > kLongestQuote ? without_middle(quote, kLongestQuote / 2, kLongestQuote / 6) : std::string(quote);
-    if (close < message.size()) out += message[close];
+    out += message[close];
     at = close + 1;
   }
   return out;

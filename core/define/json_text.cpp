@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,25 @@
 namespace bl {
 
 namespace {
+
+// The first key in a text that its object has already, and where it stands. The parser tells no places: this walk is for texts in
+// which it has found such a key, and sound up to there.
+std::pair<std::string, std::size_t> first_doubled_key(std::string_view text) {
+  std::vector<std::set<std::string>> open;  // keys of the objects around, from the outermost in
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '{') open.emplace_back();
+    if (text[i] == '}' && !open.empty()) open.pop_back();
+    if (text[i] != '"') continue;
+    const std::size_t begin = i;
+    for (++i; i < text.size() && text[i] != '"'; ++i)
+      if (text[i] == '\\') ++i;
+    const std::size_t next = text.find_first_not_of(" \t\r\n", i + 1);
+    if (open.empty() || next == std::string_view::npos || text[next] != ':') continue;
+    const Json key = Json::parse(text.substr(begin, i + 1 - begin), nullptr, false);  // with its escapes resolved
+    if (!open.back().insert(key.get<std::string>()).second) return {key.get<std::string>(), begin};
+  }
+  return {"", text.size()};
+}
 
 // Takes the parser's events and builds the value of them. The library's own builder looks through all siblings at each end of an
 // object when it is watched, and through all keys at each field of an ordered object: both cost n².
@@ -41,11 +61,11 @@ class JsonBuilder {
     return true;
   }
   bool end_object() {
-    if (const std::string twice = doubled_key(*open_.back()); !twice.empty()) {
-      error = Error{ErrorCode::parse, "", "the key \"" + twice + "\" stands twice in one object; keep one of them"};
-      return false;
-    }
-    return close();
+    if (!has_doubled_key(*open_.back())) return close();
+    const auto [name, at] = first_doubled_key(text_);
+    error = Error{ErrorCode::parse, place_in_text(text_, at),
+                  "the key \"" + name + "\" stands twice in one object; keep one of them"};
+    return false;
   }
 
   bool parse_error(std::size_t position, const std::string& last_token, const Json::exception& what) {
@@ -83,21 +103,18 @@ class JsonBuilder {
     return true;
   }
 
-  // The first key that an object has twice; empty where none is.
-  static std::string doubled_key(const Json& object) {
+  static bool has_doubled_key(const Json& object) {
     const auto& fields = object.get_ref<const Json::object_t&>();
     if (fields.size() <= kFewKeys) {
       for (auto field = fields.begin(); field != fields.end(); ++field)
-        if (std::any_of(fields.begin(), field, [&](const auto& other) { return other.first == field->first; }))
-          return field->first;
-      return "";
+        if (std::any_of(fields.begin(), field, [&](const auto& other) { return other.first == field->first; })) return true;
+      return false;
     }
     std::vector<std::string_view> keys;
     keys.reserve(fields.size());
     for (const auto& [key, value] : fields) keys.emplace_back(key);
     std::sort(keys.begin(), keys.end());
-    const auto twice = std::adjacent_find(keys.begin(), keys.end());
-    return twice == keys.end() ? "" : std::string(*twice);
+    return std::adjacent_find(keys.begin(), keys.end()) != keys.end();
   }
 
   // So many are compared with each other sooner than sorted.
@@ -122,6 +139,9 @@ void append_fields(Json& object, Json&& more) {
 }
 
 Result<Json> parse_json(std::string_view text) {
+  const std::string_view content = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+  if (content.find_first_not_of(" \t\r\n") == std::string_view::npos)
+    return Error{ErrorCode::parse, "", "the text is empty; JSON is expected"};
   // The library's parser recurses nowhere, but its destructor and ours would on a hostile depth: looked at first.
   if (auto bounded = check_json_bounds(text); !bounded) return bounded.error();
   JsonBuilder builder(text);

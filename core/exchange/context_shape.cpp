@@ -50,8 +50,7 @@ Result<LocalFrame> context_frame(const ContextOptions& options, const std::strin
   if (crs.empty())
     return Error{ErrorCode::missing, "crs",
                  "The file does not say in which CRS its coordinates are. Give it by --crs, such as EPSG:28992, or `--crs local` "
-                 "where they "
-                 "are metres of a model that has no place on Earth."};
+                 "where they are metres of a model that has no place on Earth."};
   const std::array<double, 2> about = options.origin.value_or(middle);
   if (is_longitude_latitude(crs) && !(std::abs(about[0]) <= 180 && std::abs(about[1]) <= 90))
     return Error{

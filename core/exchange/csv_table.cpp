@@ -25,8 +25,9 @@ bool is_like_a_formula(std::string_view text, bool marks) {
 void append_field(std::string& out, std::string_view text, bool alone) {
   const bool blank_ends =
       !text.empty() && (text.front() == ' ' || text.back() == ' ' || text.front() == '\t' || text.back() == '\t');
-  // An empty line is no record for many readers: a lone empty field is written as quotes.
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos && !blank_ends && !(alone && text.empty())) {
+  // An empty line is no record for many readers: a lone empty field is written as quotes. Semicolons part cells where commas
+  // stand in numbers.
+  if (text.find_first_of(",;\"\r\n") == std::string_view::npos && !blank_ends && !(alone && text.empty())) {
     out += text;
     return;
   }
@@ -36,6 +37,15 @@ void append_field(std::string& out, std::string_view text, bool alone) {
     out += c;
   }
   out += '"';
+}
+
+// Where a spreadsheet may begin a cell in the middle of a text: behind a semicolon where these part cells, and behind a line end,
+// because a quote that does not begin a cell quotes nothing for it.
+bool may_begin_a_cell(std::string_view text, std::size_t at) { return at == 0 || text[at - 1] == ';' || text[at - 1] == '\n'; }
+
+// What looks as if a mark had been put before it gets one more, so that the mark can be taken away again.
+bool needs_a_mark(std::string_view text) {
+  return is_like_a_formula(text, true) && (text.starts_with('\'') || is_like_a_formula(text, false));
 }
 
 void append_cell(std::string& out, const CsvCell& cell, bool alone) {
@@ -55,13 +65,19 @@ std::string harmless_text(std::string_view text) {
     if (byte == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
     out += is_second_half || (byte < 0x20 && byte != '\n') || byte == 0x7F ? ' ' : text[i];
   }
-  // What looks as if a mark had been put before it gets one more, so that the mark can be taken away again.
-  return is_like_a_formula(out, true) && (out.starts_with('\'') || is_like_a_formula(out, false)) ? "'" + out : out;
+  std::string marked;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (may_begin_a_cell(out, i) && needs_a_mark(std::string_view(out).substr(i))) marked += '\'';
+    marked += out[i];
+  }
+  return marked;
 }
 
 std::string text_of_harmless(std::string_view text) {
-  if (text.starts_with('\'') && is_like_a_formula(text, true)) text.remove_prefix(1);
-  return std::string(text);
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (!(text[i] == '\'' && may_begin_a_cell(text, i) && is_like_a_formula(text.substr(i), true))) plain += text[i];
+  return plain;
 }
 
 std::string write_csv(std::span<const std::string> header, std::span<const std::vector<CsvCell>> rows) {

@@ -30,7 +30,7 @@ struct CsvCell {
 std::string write_csv(std::span<const std::string> header, std::span<const std::vector<CsvCell>> rows);
 
 /// A text as tables carry it: control characters but line ends are blanks, and an apostrophe stands before what spreadsheets
-/// would take for the beginning of a formula.
+/// would take for the beginning of a formula, also behind a semicolon or a line end.
 std::string harmless_text(std::string_view text);
 /// The text that `harmless_text` was made of, but for its control characters.
 std::string text_of_harmless(std::string_view text);

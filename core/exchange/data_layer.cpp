@@ -240,7 +240,7 @@ Result<DataLayer> read_layer_csv(std::string_view bytes, const ContextOptions& o
 Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOptions& options, const std::string& value) {
   auto text = unpacked(bytes);
   if (!text) return text.error();
-  auto document = read_geojson_polygons(*text);
+  auto document = read_geojson_polygons(*text, !options.crs.empty());
   if (!document) return document.error();
   DataLayer layer;
   layer.notes = document->notes;
@@ -257,7 +257,7 @@ Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOption
     const GeoFeature& feature = document->features[i];
     const std::string place = feature.place.empty() ? "the feature" : feature.place;
     if (feature.fault) {
-      layer.report.skip("feature", place, "its geometry cannot be read", feature.fault->text());
+      layer.report.skip("feature", place, feature.unread(), feature.fault->text());
       continue;
     }
     if (feature.points.empty()) {

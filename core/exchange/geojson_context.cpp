@@ -84,7 +84,7 @@ class GeoImporter {
     id_ = properties.get("id");
     if (id_.empty()) id_ = std::to_string(index);
     const std::string shown = feature.place.empty() ? "the feature" : feature.place;
-    if (feature.fault) context_.report.skip("feature", shown, "its geometry cannot be read", feature.fault->text());
+    if (feature.fault) context_.report.skip("feature", shown, feature.unread(), feature.fault->text());
     else if (!feature.polygons.empty()) polygons(feature, properties, shown);
     else if (!feature.lines.empty()) lines(feature, properties, shown);
     else if (!feature.points.empty()) context_.report.skip("feature", shown, "a single place: points are not read");
@@ -319,7 +319,7 @@ std::vector<std::string> context_property_names() {
 Result<Context> read_geojson_context(std::string_view bytes, const ContextOptions& options) {
   auto text = unpacked(bytes);
   if (!text) return text.error();
-  auto document = read_geojson_polygons(*text);
+  auto document = read_geojson_polygons(*text, !options.crs.empty());
   if (!document) return document.error();
   const auto centre = middle(*document);
   if (!centre) return Error{ErrorCode::missing, "features", "The file holds no positions: there is nothing to import."};

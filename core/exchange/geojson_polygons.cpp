@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
@@ -56,6 +57,7 @@ const std::vector<std::string> kTypes = {"FeatureCollection",  "Feature", "Polyg
 
 class PolygonReader {
  public:
+  explicit PolygonReader(bool has_crs) : has_crs_(has_crs) {}
   Result<GeoDocument> read(const SortedJson& root);
 
  private:
@@ -68,13 +70,15 @@ class PolygonReader {
   Result<std::array<double, 2>> read_position(const SortedJson& position, const std::string& place);
 
   GeoDocument document_;
+  bool has_crs_;
   bool heights_ = false;
+  bool is_crs_at_fault_ = false;
 };
 
 // The member `crs` of the 2008 format: {"type": "name", "properties": {"name": ...}} or {"type": "EPSG", ... "code"}.
 Result<std::string> PolygonReader::crs_of(const SortedJson& object, const std::string& place, const std::string& inherited) {
   const SortedJson* crs = member(object, "crs");
-  if (crs == nullptr) return inherited;
+  if (crs == nullptr || has_crs_) return inherited;
   if (crs->is_null()) {
     document_.notes.push_back(
         "The member `crs` is null, which says that the CRS is not known; WGS84 longitude and latitude were assumed.");
@@ -87,6 +91,7 @@ Result<std::string> PolygonReader::crs_of(const SortedJson& object, const std::s
     if (name && name->is_string()) return tidy_crs_name(name->get<std::string>());
     if (code && (code->is_number_integer() || code->is_string())) return tidy_crs_name("EPSG:" + plain_text(*code));
   }
+  is_crs_at_fault_ = true;
   return Error{ErrorCode::parse, join(place, "crs"),
                "The member `crs` is not understood. Write {\"type\": \"name\", \"properties\": {\"name\": \"EPSG:28992\"}}, or "
                "give the CRS as an option."};
@@ -114,6 +119,7 @@ Result<GeoDocument> PolygonReader::read(const SortedJson& root) {
       if (auto done = read_feature((*features)[i], place, *crs, feature); !done) {
         feature.polygons.clear(), feature.lines.clear(), feature.points.clear();
         feature.fault = done.error();
+        feature.is_fault_of_crs = std::exchange(is_crs_at_fault_, false);
         ++faults;
       }
       document_.features.push_back(std::move(feature));
@@ -253,7 +259,7 @@ Result<std::array<double, 2>> PolygonReader::read_position(const SortedJson& pos
 
 }  // namespace
 
-Result<GeoDocument> read_geojson_polygons(std::string_view text) {
+Result<GeoDocument> read_geojson_polygons(std::string_view text, bool has_crs) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
     return Error{ErrorCode::missing, "line 1, column 1", "The file is empty: GeoJSON is needed."};
@@ -261,7 +267,7 @@ Result<GeoDocument> read_geojson_polygons(std::string_view text) {
   const auto json = read_bounded_json(text, "GeoJSON");
   if (!json) return json.error();
   try {
-    return PolygonReader().read(*json);
+    return PolygonReader(has_crs).read(*json);
   } catch (const SortedJson::exception&) {
     return Error{ErrorCode::parse, "", "The text cannot be read as JSON: a number or a character in it is out of range."};
   }

@@ -38,7 +38,10 @@ struct GeoFeature {
   std::vector<GeoPolygon> polygons;
   std::vector<GeoLine> lines;
   std::vector<GeoPoint> points;
-  std::optional<Error> fault;  ///< why its geometry cannot be read; it has none then
+  std::optional<Error> fault;  ///< why it cannot be read; it has no geometry then
+  bool is_fault_of_crs = false;
+  /// What cannot be read of it, as a reason in reports.
+  const char* unread() const { return is_fault_of_crs ? "its CRS is not understood" : "its geometry cannot be read"; }
 };
 
 struct GeoDocument {
@@ -48,6 +51,7 @@ struct GeoDocument {
 
 /// Understands FeatureCollection, Feature, all geometries of RFC 7946 and the older `crs` member of the 2008 format. A fault of
 /// one feature of several is told with it, and leaves the others as they are; only where every one has a fault is it an error.
-Result<GeoDocument> read_geojson_polygons(std::string_view text);
+/// Whoever knows the CRS (`has_crs`) does not ask the text, whatever that says of it.
+Result<GeoDocument> read_geojson_polygons(std::string_view text, bool has_crs = false);
 
 }  // namespace bl

@@ -153,9 +153,18 @@ Result<void> check_degrees(const RawRing& ring, const std::string& place) {
   return {};
 }
 
+// A place by the coordinates that stand in the file, and by those of the scene.
+std::string meeting_place(const LocalFrame& frame, const std::string& crs, const Point3& where) {
+  const std::string local = point_text(where.x, where.y) + " in local metres";
+  const Point3 written = frame.from_local(where.x, where.y);
+  if (!is_finite(written)) return local;
+  const int decimals = is_longitude_latitude(crs) ? 7 : 3;  // the seventh decimal of a degree is a centimetre
+  return "(" + fixed(written.x, decimals) + ", " + fixed(written.y, decimals) + ") in the file, which is " + local;
+}
+
 // Local points without the closing point and without repeated ones, in the wanted direction.
-Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, bool counter_clockwise, const std::string& place,
-                        std::vector<std::string>& notes) {
+Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, const std::string& crs, bool counter_clockwise,
+                        const std::string& place, std::vector<std::string>& notes) {
   Ring ring;
   const bool closed = raw.size() > 1 && raw.front() == raw.back();
   if (!closed) notes.push_back("The ring " + place + " does not end where it starts; it was closed.");
@@ -182,9 +191,8 @@ Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, bool counte
       return "edge " + std::to_string(i) + " from " + point_text(a.x, a.y) + " to " + point_text(b.x, b.y);
     };
     return Error{ErrorCode::geometry, place,
-                 "The ring meets itself at " + point_text(crossing->where.x, crossing->where.y) +
-                     " in local metres: " + edge(crossing->first_edge) + " and " + edge(crossing->second_edge) +
-                     ". Redraw it without crossing or touching itself."};
+                 "The ring meets itself at " + meeting_place(frame, crs, crossing->where) + ": " + edge(crossing->first_edge) +
+                     " and " + edge(crossing->second_edge) + ". Redraw it without crossing or touching itself."};
   }
   const double area = signed_area(ring);
   if (std::abs(area) < kSmallestArea)
@@ -195,7 +203,7 @@ Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, bool counte
   return ring;
 }
 
-Result<void> check_hole(const PlanBoundary& plan, const Ring& hole, const std::string& place) {
+Result<void> check_hole(const PlanBoundary& plan, const LocalFrame& frame, const Ring& hole, const std::string& place) {
   auto crossing = find_crossing(plan.outer, hole);
   std::string other = "the outer ring";
   for (std::size_t i = 0; i < plan.holes.size() && !crossing; ++i) {
@@ -207,8 +215,8 @@ Result<void> check_hole(const PlanBoundary& plan, const Ring& hole, const std::s
   }
   if (crossing)
     return Error{ErrorCode::geometry, place,
-                 "The hole meets " + other + " at " + point_text(crossing->where.x, crossing->where.y) +
-                     " in local metres. Cut it out of the outer ring, or draw it apart."};
+                 "The hole meets " + other + " at " + meeting_place(frame, plan.source_crs, crossing->where) +
+                     ". Cut it out of the outer ring, or draw it apart."};
   if (!ring_contains(plan.outer, hole[0]))
     return Error{ErrorCode::geometry, place, "The hole lies outside the outer ring. Remove it, or make it a polygon of its own."};
   return {};
@@ -217,13 +225,13 @@ Result<void> check_hole(const PlanBoundary& plan, const Ring& hole, const std::s
 Result<void> read_rings(const GeoPolygon& polygon, const LocalFrame& frame, PlanBoundary& plan) {
   for (std::size_t r = 0; r < polygon.rings.size(); ++r) {
     const std::string place = polygon.place + "/" + std::to_string(r);
-    auto ring = clean_ring(polygon.rings[r], frame, r == 0, place, plan.notes);
+    auto ring = clean_ring(polygon.rings[r], frame, plan.source_crs, r == 0, place, plan.notes);
     if (!ring) return ring.error();
     if (r == 0) {
       plan.outer = std::move(*ring);
       continue;
     }
-    if (auto sound = check_hole(plan, *ring, place); !sound) return sound;
+    if (auto sound = check_hole(plan, frame, *ring, place); !sound) return sound;
     plan.holes.push_back(std::move(*ring));
   }
   plan.outer_area = plan.area = signed_area(plan.outer);
@@ -258,7 +266,7 @@ Result<void> check_extent(PlanBoundary& plan, const std::string& place) {
 }  // namespace
 
 Result<PlanBoundary> read_plan_boundary(std::string_view geojson_text, const PlanOptions& options) {
-  auto document = read_geojson_polygons(geojson_text);
+  auto document = read_geojson_polygons(geojson_text, !options.crs.empty());
   if (!document) return document.error();
   PlanBoundary plan;
   plan.notes = document->notes;

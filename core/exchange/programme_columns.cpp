@@ -10,8 +10,6 @@ namespace bl {
 
 namespace {
 
-using ProgrammeColumn = ProgrammeColumn;
-
 // Ways to write a unit in a header → the symbol of the unit table.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kUnits = {{{"m2", "m2"},
                                                                                    {"sqm", "m2"},
@@ -64,6 +62,15 @@ std::string list_of(const std::vector<std::string>& names) {
   return list;
 }
 
+// How the command line is told that a header is one of our columns; in quotation marks where the shell would part it.
+std::string column_option(std::string_view ours, const std::string& header) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+  };
+  const std::string choice = std::string(ours) + "=" + header;
+  return "--column " + (std::all_of(header.begin(), header.end(), is_plain) ? choice : "\"" + choice + "\"");
+}
+
 const ProgrammeColumnInfo* column_called(std::string_view name) {
   for (const ProgrammeColumnInfo& info : programme_columns())
     if (info.name == name || info.aliases.front() == name) return &info;
@@ -92,7 +99,7 @@ Result<void> Matcher::take(const ProgrammeColumnInfo& info, std::size_t index) {
   if (found)
     return Error{ErrorCode::duplicate, place_of(record_, index),
                  "The columns `" + found->header + "` and `" + text + "` both read as " + std::string(info.name) +
-                     ". Rename one, or say which by the column option: " + std::string(info.name) + "=" + text + "."};
+                     ". Rename one, or say which by " + column_option(info.name, text) + "."};
   const NormalHeader normal = normal_header(text);
   const UnitInfo* unit = normal.unit.empty() ? nullptr : find_unit(normal.unit);
   const bool wrong = unit != nullptr && !(unit->dimension == bl::info(info.unit).dimension);
@@ -157,9 +164,15 @@ Error Matcher::missing(const std::string& what, const std::vector<ProgrammeColum
   std::vector<std::string> names;
   for (const ProgrammeColumn column : accepted)
     for (const std::string_view alias : programme_columns()[static_cast<std::size_t>(column)].aliases) names.emplace_back(alias);
-  return Error{ErrorCode::missing, "line " + std::to_string(record_.line),
+  const std::string place = "line " + std::to_string(record_.line);
+  for (std::size_t i = 0; i < record_.fields.size(); ++i)
+    if (!taken_[i] && !nearest_name(normal_header(record_.fields[i]).name, names).empty())
+      return Error{ErrorCode::missing, place,
+                   "There is no column " + what + ". If `" + record_.fields[i] + "` is meant, correct it, or give " +
+                       column_option(what, record_.fields[i]) + ". The header has: " + list_of(record_.fields) + "."};
+  return Error{ErrorCode::missing, place,
                "There is no column " + what + ". The header has: " + list_of(record_.fields) +
-                   ". Accepted are: " + list_of(names) + ", or name the column by the column option: " + what + "=..."};
+                   ". Accepted are: " + list_of(names) + ", or name the column by " + column_option(what, "HEADER")};
 }
 
 Result<ProgrammeHeader> Matcher::finish() {
@@ -173,8 +186,8 @@ Result<ProgrammeHeader> Matcher::finish() {
   for (std::size_t i = 0; i < record_.fields.size(); ++i) {
     if (taken_[i]) continue;
     const std::string hint = did_you_mean(normal_header(record_.fields[i]).name, ours);
-    header_.notes.push_back("ProgrammeColumn " + std::to_string(i + 1) + " `" + record_.fields[i] + "` was left out" +
-                            (hint.empty() ? "." : hint));
+    (hint.empty() ? header_.notes : header_.warnings)
+        .push_back("Column " + std::to_string(i + 1) + " `" + record_.fields[i] + "` was left out" + (hint.empty() ? "." : hint));
   }
   return std::move(header_);
 }

@@ -55,6 +55,7 @@ struct FoundColumn {
 struct ProgrammeHeader {
   std::array<std::optional<FoundColumn>, kProgrammeColumns> columns;
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;  ///< of columns whose names are near to one of ours
   const std::optional<FoundColumn>& at(ProgrammeColumn column) const { return columns[static_cast<std::size_t>(column)]; }
 };
 

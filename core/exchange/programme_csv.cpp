@@ -9,16 +9,15 @@
 #include "core/base/text.h"
 #include "core/exchange/csv_reader.h"
 #include "core/exchange/number_column.h"
+#include "core/exchange/plural.h"
 #include "core/exchange/programme_columns.h"
 
 namespace bl {
 
 namespace {
 
-using BriefColumn = ProgrammeColumn;
-
-constexpr std::array kNumbers = {BriefColumn::floor_area, BriefColumn::floor_area_min, BriefColumn::floor_area_max,
-                                 BriefColumn::count, BriefColumn::storey_height};
+constexpr std::array kNumbers = {ProgrammeColumn::floor_area, ProgrammeColumn::floor_area_min, ProgrammeColumn::floor_area_max,
+                                 ProgrammeColumn::count, ProgrammeColumn::storey_height};
 constexpr double kMostItems = 100000;    // of one row: more is a number in the wrong column
 constexpr double kTallestStorey = 1000;  // [m]
 constexpr double kLargestArea = 1e9;     // [m²] of one item
@@ -40,10 +39,10 @@ class ProgrammeImporter {
   Result<ProgrammeImport> read(std::string_view text);
 
  private:
-  std::string field(const CsvRecord& record, BriefColumn column) const;
-  std::string place(const CsvRecord& record, BriefColumn column) const;
+  std::string field(const CsvRecord& record, ProgrammeColumn column) const;
+  std::string place(const CsvRecord& record, ProgrammeColumn column) const;
   Result<void> decide_decimals();
-  Result<std::optional<double>> number(const CsvRecord& record, BriefColumn column) const;
+  Result<std::optional<double>> number(const CsvRecord& record, ProgrammeColumn column) const;
   Result<void> check_width(const CsvRecord& record) const;
   Result<ProgrammeRow> read_row(const CsvRecord& record);
   Result<void> settle_area(const CsvRecord& record, ProgrammeRow& row);
@@ -59,12 +58,12 @@ class ProgrammeImporter {
   ProgrammeImport import_;
 };
 
-std::string ProgrammeImporter::field(const CsvRecord& record, BriefColumn column) const {
+std::string ProgrammeImporter::field(const CsvRecord& record, ProgrammeColumn column) const {
   const auto& found = header_.at(column);
   return found && found->index < record.fields.size() ? record.fields[found->index] : std::string();
 }
 
-std::string ProgrammeImporter::place(const CsvRecord& record, BriefColumn column) const {
+std::string ProgrammeImporter::place(const CsvRecord& record, ProgrammeColumn column) const {
   const auto& found = header_.at(column);
   const std::string line = "line " + std::to_string(record.line);
   return found ? line + ", column " + std::to_string(found->index + 1) + " `" + found->header + "`" : line;
@@ -76,7 +75,7 @@ Result<void> ProgrammeImporter::decide_decimals() {
     return Error{ErrorCode::parse, "decimal", "The decimal mark must be a point or a comma."};
   char of_file = 0;
   bool mixed = false;
-  for (const BriefColumn column : kNumbers) {
+  for (const ProgrammeColumn column : kNumbers) {
     const auto& found = header_.at(column);
     if (!found) continue;
     std::vector<NumberField> fields;
@@ -97,7 +96,7 @@ Result<void> ProgrammeImporter::decide_decimals() {
   return {};
 }
 
-Result<std::optional<double>> ProgrammeImporter::number(const CsvRecord& record, BriefColumn column) const {
+Result<std::optional<double>> ProgrammeImporter::number(const CsvRecord& record, ProgrammeColumn column) const {
   const std::string text = field(record, column);
   if (text.empty()) return std::optional<double>();
   const auto index = static_cast<std::size_t>(column);
@@ -132,41 +131,41 @@ Result<void> ProgrammeImporter::check_width(const CsvRecord& record) const {
 // Area and its bounds: the target may be missing where both bounds are given.
 Result<void> ProgrammeImporter::settle_area(const CsvRecord& record, ProgrammeRow& row) {
   std::array<std::optional<double>, 3> areas;
-  const std::array columns = {BriefColumn::floor_area, BriefColumn::floor_area_min, BriefColumn::floor_area_max};
+  const std::array columns = {ProgrammeColumn::floor_area, ProgrammeColumn::floor_area_min, ProgrammeColumn::floor_area_max};
   for (std::size_t k = 0; k < 3; ++k) {
     auto value = number(record, columns[k]);
     if (!value) return value.error();
     areas[k] = *value;
     if (areas[k] && !(*areas[k] > 0 && *areas[k] <= kLargestArea))
       return Error{ErrorCode::out_of_range, place(record, columns[k]),
-                   "The floor area is " + shortest(*areas[k]) + " m². It must be greater than zero and at most 1e9 m²."};
+                   "The floor area is " + written_out(*areas[k]) + " m². It must be greater than zero and at most 1e9 m²."};
   }
   row.floor_area_min = areas[1];
   row.floor_area_max = areas[2];
   if (!areas[0] && areas[1] && areas[2]) {
     areas[0] = *areas[1] / 2 + *areas[2] / 2;
     import_.notes.push_back("Line " + std::to_string(record.line) + " has no floor area; the middle of its bounds was taken, " +
-                            shortest(*areas[0]) + " m².");
+                            written_out(*areas[0]) + " m².");
   }
   if (!areas[0])
-    return Error{ErrorCode::missing, place(record, BriefColumn::floor_area),
+    return Error{ErrorCode::missing, place(record, ProgrammeColumn::floor_area),
                  "The floor area is empty. Give one, or remove the row."};
   row.floor_area = *areas[0];
   if ((areas[1] && *areas[1] > row.floor_area) || (areas[2] && *areas[2] < row.floor_area))
     return Error{ErrorCode::conflict, place(record, areas[1] && *areas[1] > row.floor_area ? columns[1] : columns[2]),
-                 "The floor area " + shortest(row.floor_area) + " m² lies outside its own bounds (" +
-                     (areas[1] ? shortest(*areas[1]) : "none") + " to " + (areas[2] ? shortest(*areas[2]) : "none") +
+                 "The floor area " + written_out(row.floor_area) + " m² lies outside its own bounds (" +
+                     (areas[1] ? written_out(*areas[1]) : "none") + " to " + (areas[2] ? written_out(*areas[2]) : "none") +
                      "). Correct one of them."};
   return {};
 }
 
 // Empty fields leave what rows without this column have.
 Result<void> ProgrammeImporter::read_standing(const CsvRecord& record, ProgrammeRow& row) const {
-  const std::string written = field(record, BriefColumn::standing), word = lower_case(written);
+  const std::string written = field(record, ProgrammeColumn::standing), word = lower_case(written);
   if (word.empty()) return {};
   const std::vector<std::string> words = {"ground", "stack", "bridge"};
   if (std::find(words.begin(), words.end(), word) == words.end())
-    return Error{ErrorCode::parse, place(record, BriefColumn::standing),
+    return Error{ErrorCode::parse, place(record, ProgrammeColumn::standing),
                  "`" + written + "` is not understood" + (did_you_mean(word, words).empty() ? "." : did_you_mean(word, words)) +
                      " Write `ground` for what must stand on the ground, `stack` for what may stand on others, or `bridge` for "
                      "what may also hang between others."};
@@ -178,26 +177,27 @@ Result<ProgrammeRow> ProgrammeImporter::read_row(const CsvRecord& record) {
   if (auto fits = check_width(record); !fits) return fits.error();
   ProgrammeRow row;
   row.line = record.line;
-  row.use = field(record, BriefColumn::use);
+  row.use = field(record, ProgrammeColumn::use);
   if (row.use.empty())
-    return Error{ErrorCode::missing, place(record, BriefColumn::use), "The use is empty. Name it, or remove the row."};
-  row.name = field(record, BriefColumn::name);
+    return Error{ErrorCode::missing, place(record, ProgrammeColumn::use), "The use is empty. Name it, or remove the row."};
+  row.name = field(record, ProgrammeColumn::name);
   if (auto area = settle_area(record, row); !area) return area.error();
-  auto count = number(record, BriefColumn::count);
+  auto count = number(record, ProgrammeColumn::count);
   if (!count) return count.error();
   const double items = count->value_or(1);
   if (!(items >= 1 && items <= kMostItems && items == std::floor(items)))
-    return Error{ErrorCode::out_of_range, place(record, BriefColumn::count),
-                 "The count is " + shortest(items) + ". It must be a whole number from 1 to 100000."};
+    return Error{ErrorCode::out_of_range, place(record, ProgrammeColumn::count),
+                 "The count is " + written_out(items) + ". It must be a whole number from 1 to 100000."};
   row.count = static_cast<int>(items);
-  auto height = number(record, BriefColumn::storey_height);
+  auto height = number(record, ProgrammeColumn::storey_height);
   if (!height) return height.error();
   row.storey_height = height->value_or(options_.storey_height);
   if (!(row.storey_height > 0 && row.storey_height <= kTallestStorey))
-    return Error{ErrorCode::out_of_range, place(record, BriefColumn::storey_height),
-                 "The storey height is " + shortest(row.storey_height) + " m. It must be greater than zero and at most 1000 m."};
-  row.adjacent_to = split_list(field(record, BriefColumn::adjacent_to), "|;");
-  row.tags = split_list(field(record, BriefColumn::tags), "|;,");
+    return Error{
+        ErrorCode::out_of_range, place(record, ProgrammeColumn::storey_height),
+        "The storey height is " + written_out(row.storey_height) + " m. It must be greater than zero and at most 1000 m."};
+  row.adjacent_to = split_list(field(record, ProgrammeColumn::adjacent_to), "|;");
+  row.tags = split_list(field(record, ProgrammeColumn::tags), "|;,");
   if (auto standing = read_standing(record, row); !standing) return standing.error();
   return row;
 }
@@ -236,7 +236,7 @@ Result<void> ProgrammeImporter::join_neighbours() {
     for (const std::string& name : row.adjacent_to) {
       const auto found = rows_of.find(lower_case(name));
       if (found == rows_of.end())
-        return Error{ErrorCode::not_found, place(csv_.records[i + 1], BriefColumn::adjacent_to),
+        return Error{ErrorCode::not_found, place(csv_.records[i + 1], ProgrammeColumn::adjacent_to),
                      "`" + name + "` is no use of this table" +
                          (did_you_mean(name, uses).empty() ? ". Write the name of another row." : did_you_mean(name, uses))};
       for (const std::size_t other : found->second) {
@@ -265,6 +265,7 @@ Result<ProgrammeImport> ProgrammeImporter::read(std::string_view text) {
   if (!header) return header.error();
   header_ = *std::move(header);
   import_.notes.insert(import_.notes.end(), header_.notes.begin(), header_.notes.end());
+  import_.warnings = header_.warnings;
   if (csv_.records.size() == 1)
     return Error{ErrorCode::missing, "line " + std::to_string(csv_.records.front().line),
                  "The table has a header but no rows. Add one row per use."};

@@ -42,7 +42,8 @@ struct ProgrammeImport {
   std::size_t items = 0;  ///< sum of the counts
   double floor_area = 0;  ///< sum of count · floor area [m²]
   char separator = ',';
-  std::vector<std::string> notes;  ///< what was assumed, renamed or left out, one sentence each
+  std::vector<std::string> notes;     ///< what was assumed, renamed or left out, one sentence each
+  std::vector<std::string> warnings;  ///< what was left out and was probably meant, one sentence each
 };
 
 Result<ProgrammeImport> read_programme_csv(std::string_view text, const ProgrammeOptions& options = {});

@@ -2,6 +2,7 @@
 #include "core/file/state_json.h"
 
 #include <charconv>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -99,6 +100,25 @@ class StateReader {
     return type != nullptr && type->find_port(parsed->port) == nullptr;
   }
 
+  // A typification that this program keeps as a ghost: nothing here could go on with what a run has made of it. Told once for
+  // each of them.
+  bool is_of_a_ghost(const std::string& node, const std::string& typification, const std::string& place) {
+    const auto record = scene_.nodes.find(node);
+    if (record == scene_.nodes.end() || !record->second.ghosts.contains(typification)) return false;
+    if (told_ghosts_.insert(typification).second)
+      problems_.push_back(
+          {false,
+           {ErrorCode::unknown_type, place,
+            "`" + typification +
+                "` is unknown to this program, so that what the run had made of it is left out: keep the file for "
+                "the program that knows it"}});
+    return true;
+  }
+  bool is_port_of_a_ghost(const std::string& node, const std::string& path, const std::string& place) {
+    const auto parsed = parse_port_path(path);
+    return parsed && is_of_a_ghost(node, parsed->typification, place);
+  }
+
   bool read_tick(const Json& json, const char* key, const std::string& place, std::int64_t& tick) {
     const auto it = json.find(key);
     if (it == json.end()) return true;
@@ -115,6 +135,7 @@ class StateReader {
       if (!values.is_object()) return fail({ErrorCode::wrong_kind, place + "/" + node, "expects an object"});
       for (const auto& [path, content] : values.items()) {
         const std::string here = place + "/" + node + "/" + path;
+        if (is_port_of_a_ghost(node, path, here)) continue;
         if (is_of_older_program(path)) {
           problems_.push_back(
               {false,
@@ -138,6 +159,7 @@ class StateReader {
       for (const auto& [target, content] : voices.items()) {
         const std::size_t slash = target.find('/');
         const std::string node = target.substr(0, slash), path = slash == std::string::npos ? "" : target.substr(slash + 1);
+        if (is_port_of_a_ghost(node, path, place + "/" + target)) continue;
         auto value = value_of(node, path, content, place + "/" + target);
         if (!note(value)) return false;
         state.voices[link].push_back({node, path, std::move(*value)});
@@ -165,6 +187,7 @@ class StateReader {
     for (const auto& [name, json] : errors.items()) {
       const std::string place = "state/errors/" + name;
       const auto type = type_name_of(name);
+      if (type && is_of_a_ghost(type->first, type->second, place)) continue;
       const auto record = type ? scene_.nodes.find(type->first) : scene_.nodes.end();
       if (record == scene_.nodes.end() || !record->second.types.contains(type->second))
         return fail({ErrorCode::not_found, place, "expects `node/typification` of a node of this scene"});
@@ -188,6 +211,7 @@ class StateReader {
     for (const auto& [name, json] : analyses.items()) {
       const std::string place = "state/analyses/" + name;
       const auto type = type_name_of(name);
+      if (type && is_of_a_ghost(type->first, type->second, place)) continue;
       if (!type || !json.is_object()) return fail({ErrorCode::wrong_kind, place, "expects the results of `node/typification`"});
       if (!note(check_keys(json, {"as_of", "taken", "inputs", "begun", "due", "running", "error", "outputs"}, place)))
         return false;
@@ -228,6 +252,8 @@ class StateReader {
     for (auto node = nodes.begin(); node != nodes.end(); ++node) {
       bool is_good = node->is_object();
       for (auto path = node->begin(); is_good && path != node->end(); ++path) {
+        if (node->is_object() && is_port_of_a_ghost(node.key(), path.key(), "state/meshes/" + node.key() + "/" + path.key()))
+          continue;
         MeshPointer mesh = mesh_from_json(*path);
         is_good = mesh != nullptr;
         state.meshes[{node.key(), path.key()}] = std::move(mesh);
@@ -241,6 +267,7 @@ class StateReader {
   const Scene& scene_;
   const Registry& types_;
   std::vector<Problem>& problems_;
+  std::set<std::string> told_ghosts_;
 };
 
 Json analysis_to_json(const SavedAnalysis& saved, const Registry& types) {

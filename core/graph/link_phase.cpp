@@ -106,16 +106,20 @@ class LinkRun {
 
   // Ascending, as the targets are. A wanted value of the last good tick stays in force where all that has failed; a push must not
   // go on for ever.
-  std::vector<Voice> voices(const std::vector<Voice>& last) const {
+  std::vector<Voice> voices(const std::vector<Voice>& last) {
     std::vector<Voice> voices;
     for (std::size_t i = 0; i < collected_.size(); ++i) {
       const PortRef target = plan_.targets[i];
       const PortDefinition& port = frozen_.plan->port(target);
+      bool is_missing = collected_[i].count == 0 && has_failed_[i];
       if (collected_[i].count > 0) {
         // Means of numbers that are finite may be none, and zeros may get a sign.
-        if (Voice voice = collected_[i].voice(target, port, plan_.strength); take_in(voice.value))
-          voices.push_back(std::move(voice));
-      } else if (has_failed_[i] && port.rule != CombineRule::sum) {
+        Voice voice = collected_[i].voice(target, port, plan_.strength);
+        is_missing = !take_in(voice.value);
+        if (is_missing) note_overflow(target);
+        else voices.push_back(std::move(voice));
+      }
+      if (is_missing && port.rule != CombineRule::sum) {
         const auto held = std::lower_bound(last.begin(), last.end(), target,
                                            [](const Voice& voice, const PortRef& ref) { return voice.target < ref; });
         if (held != last.end() && held->target == target) voices.push_back(still_said(*held, plan_));
@@ -132,6 +136,13 @@ class LinkRun {
     ++failures_;
     is_stopped_ = error.code == ErrorCode::cancelled;
     fail(f, t);
+  }
+
+  void note_overflow(PortRef target) {
+    if (!first_error_)
+      first_error_ =
+          Error{ErrorCode::not_finite, "",
+                "what its pairs propose for `" + frozen_.plan->nodes[target.node].id + "` adds up to more than any number"};
   }
 
   void fail(std::size_t f, std::size_t t) {

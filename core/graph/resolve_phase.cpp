@@ -160,11 +160,27 @@ std::vector<Heard> gather(const State& next) {
 struct Unrest {
   double move = 0, change = 0;
   PortRef restless;
+  std::vector<PortRef> unsound;  // ports that could not be followed
 };
 
-// What huge voices add up to may lie beyond all numbers: then the port stays as it is.
-void keep_sound(const Value& before, Value& value) {
-  if (!take_in(value)) value = before;
+// What huge voices add up to may lie beyond all numbers: then the port stays as it is, and whoever spoke is told.
+void keep_sound(const Value& before, PortRef port, Value& value, Unrest& unrest) {
+  if (take_in(value)) return;
+  value = before;
+  unrest.unsound.push_back(port);
+}
+
+// Links that spoke to a port which could not be followed; each of them may be sound for itself.
+void tell_of_overflow(State& next, PortRef port) {
+  for (std::size_t l = 0; l < next.links.size(); ++l) {
+    LinkState& link = next.links[l];
+    const bool has_spoken = std::any_of(link.voices.begin(), link.voices.end(), [&](const Voice& v) { return v.target == port; });
+    if (!has_spoken || next.plan->links[l].is_muted || link.has_failed()) continue;
+    link.error = Error{ErrorCode::not_finite, "links/" + next.plan->links[l].id,
+                       "together with other links it proposes more than any number for `" + next.plan->path_text(port) +
+                           "` of `" + next.plan->nodes[port.node].id + "`, which stays as it is"};
+    link.remark.reset();
+  }
 }
 
 void resolve_node(const State& frozen, State& next, std::uint32_t n, const Stillness& rest, std::span<const Heard> heard,
@@ -183,13 +199,13 @@ void resolve_node(const State& frozen, State& next, std::uint32_t n, const Still
       const Value& before = frozen.nodes[n].types[t].values[p];
       if (port.rule == CombineRule::sum) {
         if (!voices.empty()) resolve_sum(port, type.is_locked[p], rest, voices, state.values[p], tension, move);
-        keep_sound(before, state.values[p]);
+        keep_sound(before, {n, t, p}, state.values[p], unrest);
         if (port.unit == Unit::metre) unrest.move = std::max(unrest.move, move);
       } else if (port.rule != CombineRule::none) {
         if (port.rule == CombineRule::collect)
           resolve_texts(type.set_values[p], type.is_locked[p], voices, state.values[p], tension);
         else resolve_value(port, type, p, before, rest, voices, state.values[p], tension);
-        keep_sound(before, state.values[p]);
+        keep_sound(before, {n, t, p}, state.values[p], unrest);
         if (const double change = relative_change(before, state.values[p]); change > unrest.change) {
           unrest.change = change;
           unrest.restless = {n, t, p};
@@ -219,6 +235,7 @@ void resolve_proposals(const State& frozen, State& next, ThreadPool& pool) {
   next.largest_move = next.largest_change = 0;
   for (const Unrest& node : unrest) {
     next.largest_move = std::max(next.largest_move, node.move);
+    for (const PortRef port : node.unsound) tell_of_overflow(next, port);
     if (node.change <= next.largest_change) continue;
     next.largest_change = node.change;
     next.restless = node.restless;

@@ -28,17 +28,18 @@ TypeDefinition declare_settings() {
       .unit(Unit::metre)
       .min(0)
       .soft(0, 1)
+      // What kWakingPush and kHeldShare of the phases say.
       .doc(
           "Settled means that no link moves a node by more than this in a tick. From then on it stands still until one wants "
-          "more.");
+          "more than twice as much.");
   port(&Settings::change_limit, "change_limit")
       .unit(Unit::ratio)
       .min(0)
       .soft(0.0001, 0.1)
       .doc(
-          "Settled means that no link changes a value by more than this share of it in a tick. From then on it stays as it is "
-          "until "
-          "one wants more.");
+          "Settled means that no link changes a value by more than this share of it in a tick. From then on changes of up to "
+          "half "
+          "of this share are not made.");
   port(&Settings::calm_ticks, "calm_ticks").range(1, 1000).soft(1, 50).doc("Settled means calm for this many ticks in a row.");
   port(&Settings::coordinate_system, "coordinate_system")
       .doc(

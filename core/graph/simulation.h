@@ -30,11 +30,13 @@ class Simulation {
   Result<void> restore_state(const SavedState& saved);
   /// Goes on from an earlier state of this scene, as far as that still fits the scene.
   void return_to(std::shared_ptr<const State> earlier);
+  /// Takes back what set_scene() has made of `earlier`, its plan among it, where the tick for which it was made has not been.
+  void put_back(std::shared_ptr<const State> earlier) { state_ = std::move(earlier); }
   /// What is to be seen of a state before its next tick: with what nodes make of their own settings where no tick has asked them
   /// yet, such as the shape of a boundary in a scene that was just opened, or edited while the clock stands. The state itself
   /// where there is nothing of that kind. No tick goes on from it.
   std::shared_ptr<const State> shown(std::shared_ptr<const State> state);
-  /// One tick. False where the work was stopped on the way (core/base/stop): then nothing has happened.
+  /// One tick. False where the work was stopped on the way (core/base/stop): then the state is that from before step().
   bool step();
 
   /// The last published state; stays valid and unchanged for as long as somebody holds it.

@@ -20,10 +20,22 @@ Result<std::unique_ptr<Session>> Session::start(const Registry& registry, const 
   return session;
 }
 
+std::shared_ptr<const State> Session::coming_state() const {
+  const Ledger::Changes changes = ledger_.changes();
+  return changes.is_logic_changed ? simulation_.with_scene(ledger_.scene(), changes.placed) : simulation_.state();
+}
+
 bool Session::tick() {
-  if (const Ledger::Changes changes = ledger_.take_changes(); changes.is_logic_changed)
+  const std::shared_ptr<const State> before = simulation_.state();
+  // Taken only once they have really taken part: a replay meets the last state without them.
+  if (const Ledger::Changes changes = ledger_.changes(); changes.is_logic_changed)
     simulation_.set_scene(ledger_.scene(), changes.placed);
-  return simulation_.step();
+  if (!simulation_.step()) {
+    simulation_.put_back(before);
+    return false;
+  }
+  (void)ledger_.take_changes();
+  return true;
 }
 
 namespace {

@@ -29,11 +29,13 @@ class Session {
   Result<void> replay(const LogEntry& entry) { return ledger_.replay(entry); }
 
   /// One tick; the commands since the last one take part. False where the work was stopped on the way (core/base/stop): the state
-  /// is the one before.
+  /// is the one before, and the commands wait for the next tick.
   bool tick();
 
   const Scene& scene() const { return ledger_.scene(); }
   std::shared_ptr<const State> state() const { return simulation_.state(); }
+  /// The state as the next tick will begin with it, under the scene as people have it now: what is saved beside that scene.
+  std::shared_ptr<const State> coming_state() const;
   const std::vector<LogEntry>& log() const { return ledger_.log(); }
   const PhaseTimes& times() const { return simulation_.times(); }
   /// Called with each new entry, to write it down at once.

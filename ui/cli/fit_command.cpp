@@ -141,6 +141,8 @@ class FitRun {
 
   // Why a case is not met, and who goes without.
   void tell(const SiteCase& c, const VolumeFit& fit) {
+    // Of cases that were stopped nobody may know it: then there is no largest one.
+    is_error_known_ = is_error_known_ && std::isfinite(fit.max_relative_error);
     worst_error_ = std::max(worst_error_, fit.max_relative_error);
     evaluations_ += fit.evaluations;
     iterations_ += fit.iterations;
@@ -194,8 +196,8 @@ class FitRun {
 
   void summarise() const {
     const std::string effort = counted(static_cast<std::size_t>(iterations_), "step") + " and " +
-                               counted(static_cast<std::size_t>(evaluations_), "evaluation") + ", largest relative error " +
-                               rough(worst_error_);
+                               counted(static_cast<std::size_t>(evaluations_), "evaluation") +
+                               (is_error_known_ ? ", largest relative error " + rough(worst_error_) : "");
     const bool is_met = met_ == fits_.size();
     const std::string head = fits_.size() == 1 ? std::string(name_of(fits_.front().status))
                                                : std::to_string(met_) + " of " + counted(fits_.size(), "case") + " met";
@@ -208,6 +210,7 @@ class FitRun {
   std::size_t met_ = 0;
   long long iterations_ = 0, evaluations_ = 0;
   double worst_error_ = 0;
+  bool is_error_known_ = true;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "ui/cli/interrupt.h"
 
 #include <unistd.h>
+#include <atomic>
 #include <csignal>
 #include <ctime>
 
@@ -12,8 +13,11 @@ namespace {
 // Launchers tend to send a signal to a program and to its group, so that it arrives twice at once; nobody presses that fast.
 constexpr double kSameRequest = 0.3;  // [s]
 
-volatile std::sig_atomic_t received_signal = 0;
-double received_at = 0;  // read and written by the handler alone
+// Asked by the threads of a pool, too, which a variable that is only volatile is not made for; without a lock, so that a handler
+// may touch it.
+std::atomic<int> received_signal{0};
+std::atomic<double> received_at{0};  // [s]
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
 
 void remember(int number) {
   struct timespec time {};
@@ -40,6 +44,6 @@ void catch_interrupts() {
 
 bool is_interrupted() { return received_signal != 0; }
 
-int interrupt_exit_code() { return 128 + static_cast<int>(received_signal); }
+int interrupt_exit_code() { return 128 + received_signal; }
 
 }  // namespace bl::cli

@@ -47,6 +47,8 @@ int new_command(const NewOptions& options) {
     print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
   const MadeScene made = make_scene(options, registry);
   for (const std::string& note : made.notes) print_line("note: " + note);
+  for (const auto& [file, warning] : made.warnings)
+    print_error(file, {warning.code, warning.place, "warning: " + warning.message});
   for (const auto& [file, error] : made.errors) print_error(file, error);
   if (is_taken || !made.scene) return kBadInput;
   print_problems(options.out, check_scene(*made.scene, registry));

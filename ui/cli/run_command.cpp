@@ -153,9 +153,11 @@ class Run {
       is_saved &= write(options_.log, log_.close());
     }
     if (!options_.save.empty()) {
+      // What people changed before a tick that was stopped is in the scene already: the state has to fit it.
+      const std::shared_ptr<const State> coming = session_->coming_state();
       // An analysis that is under way would be waited for.
       const StopScope scope(is_interrupted);
-      const SavedState saved = save(*state);
+      const SavedState saved = save(*coming);
       is_saved &= write(options_.save, write_file(options_.save, write_scene(session_->scene(), full_registry(), &saved)));
     }
     if (!options_.json.empty())

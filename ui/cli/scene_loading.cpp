@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "core/base/packed_kind.h"
+#include "core/exchange/foreign_bytes.h"
 #include "core/file/file_io.h"
 #include "ui/cli/terminal.h"
 
@@ -12,6 +14,11 @@ std::optional<SceneReading> load_scene(const std::string& file, bool gets_script
   const auto text = read_file(file);
   if (!text) {
     print_error(file, text.error());
+    return std::nullopt;
+  }
+  // Of noise and of archives the reader itself says more.
+  if (const std::string kind = foreign_kind(*text); !kind.empty() && !kind.starts_with("binary") && packed_kind(*text).empty()) {
+    print_error(file, {ErrorCode::parse, "", "this is no scene but " + kind + "; a scene is JSON text"});
     return std::nullopt;
   }
   SceneReading reading = read_scene(*text, full_registry());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/exchange/plural.h"
 #include "core/file/file_io.h"
 #include "core/session/ledger.h"
 
@@ -44,9 +45,7 @@ class Maker {
 
  private:
   void fail(const std::string& file, Error error) { made_.errors.emplace_back(file, std::move(error)); }
-  void refuse(const std::string& place, const std::string& sentence) {
-    fail("", {ErrorCode::out_of_range, place, sentence});
-  }
+  void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
 
   static std::string file_stem(const std::string& path) {
     const std::string name = path.substr(path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1);
@@ -56,12 +55,12 @@ class Maker {
 
   void check_numbers() {
     if (!(o_.height > 0) || !(o_.height <= kLargestHeight))
-      refuse("--height", "must be a height in m, more than 0 and at most " + shortest(kLargestHeight) + ", found " +
-                             shortest(o_.height));
+      refuse("--height", "must be a height in m, more than 0 and at most " + written_out(kLargestHeight) + ", found " +
+                             written_out(o_.height));
     if (!(o_.storey_height >= 1) || !(o_.storey_height <= 50))
-      refuse("--storey-height", "must be between 1 and 50 m, found " + shortest(o_.storey_height));
+      refuse("--storey-height", "must be between 1 and 50 m, found " + written_out(o_.storey_height));
     if (!(o_.margin >= 0) || !std::isfinite(o_.margin))
-      refuse("--margin", "must be 0 m or more, found " + shortest(o_.margin));
+      refuse("--margin", "must be 0 m or more, found " + written_out(o_.margin));
   }
 
   std::optional<std::string> text_of(const std::string& file) {
@@ -102,6 +101,8 @@ class Maker {
       return std::nullopt;
     }
     for (const std::string& note : programme->notes) made_.notes.push_back(o_.programme + ": " + note);
+    for (const std::string& warning : programme->warnings)
+      made_.warnings.emplace_back(o_.programme, Error{ErrorCode::unknown_field, "", warning});
     return std::move(*programme);
   }
 

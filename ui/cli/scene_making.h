@@ -29,7 +29,8 @@ struct MadeScene {
   double plan_area = 0;  ///< [m²] of the plan that was taken
   double demand = 0;     ///< [m³] of all volumes
   std::vector<std::string> notes;
-  std::vector<std::pair<std::string, Error>> errors;  ///< each with the file that it is in; empty: in the options
+  std::vector<std::pair<std::string, Error>> warnings;  ///< each with the file that it is in
+  std::vector<std::pair<std::string, Error>> errors;    ///< each with the file that it is in; empty: in the options
 
   /// Demanded volume as a share of the boundary's.
   double fill() const { return demand / (plan_area * parts.height); }

@@ -32,25 +32,25 @@ struct FunctionPair {
 TEST(Mathematics, StaysWithinOneUnitOfTheLastPlace) {
   using namespace mathematics;
   const FunctionPair pairs[] = {{"sine", sine, std::sin, -200, 200},
-                        {"cosine", cosine, std::cos, -200, 200},
-                        {"tangent", tangent, std::tan, -200, 200},
-                        {"arc_sine", arc_sine, std::asin, -1, 1},
-                        {"arc_cosine", arc_cosine, std::acos, -1, 1},
-                        {"arc_tangent", arc_tangent, std::atan, -50, 50},
-                        {"hyperbolic_sine", hyperbolic_sine, std::sinh, -30, 30},
-                        {"hyperbolic_cosine", hyperbolic_cosine, std::cosh, -30, 30},
-                        {"hyperbolic_tangent", hyperbolic_tangent, std::tanh, -5, 5},
-                        {"inverse_hyperbolic_sine", inverse_hyperbolic_sine, std::asinh, -50, 50},
-                        {"inverse_hyperbolic_cosine", inverse_hyperbolic_cosine, std::acosh, 1, 50},
-                        {"inverse_hyperbolic_tangent", inverse_hyperbolic_tangent, std::atanh, -1, 1},
-                        {"exponential", exponential, std::exp, -300, 300},
-                        {"exponential_of_two", exponential_of_two, std::exp2, -300, 300},
-                        {"exponential_less_one", exponential_less_one, std::expm1, -2, 2},
-                        {"logarithm", logarithm, std::log, 0, 1e6},
-                        {"logarithm_of_two", logarithm_of_two, std::log2, 0, 1e6},
-                        {"logarithm_of_ten", logarithm_of_ten, std::log10, 0, 1e6},
-                        {"logarithm_of_one_more", logarithm_of_one_more, std::log1p, -0.9, 2},
-                        {"cube_root", cube_root, std::cbrt, -1e6, 1e6}};
+                                {"cosine", cosine, std::cos, -200, 200},
+                                {"tangent", tangent, std::tan, -200, 200},
+                                {"arc_sine", arc_sine, std::asin, -1, 1},
+                                {"arc_cosine", arc_cosine, std::acos, -1, 1},
+                                {"arc_tangent", arc_tangent, std::atan, -50, 50},
+                                {"hyperbolic_sine", hyperbolic_sine, std::sinh, -30, 30},
+                                {"hyperbolic_cosine", hyperbolic_cosine, std::cosh, -30, 30},
+                                {"hyperbolic_tangent", hyperbolic_tangent, std::tanh, -5, 5},
+                                {"inverse_hyperbolic_sine", inverse_hyperbolic_sine, std::asinh, -50, 50},
+                                {"inverse_hyperbolic_cosine", inverse_hyperbolic_cosine, std::acosh, 1, 50},
+                                {"inverse_hyperbolic_tangent", inverse_hyperbolic_tangent, std::atanh, -1, 1},
+                                {"exponential", exponential, std::exp, -300, 300},
+                                {"exponential_of_two", exponential_of_two, std::exp2, -300, 300},
+                                {"exponential_less_one", exponential_less_one, std::expm1, -2, 2},
+                                {"logarithm", logarithm, std::log, 0, 1e6},
+                                {"logarithm_of_two", logarithm_of_two, std::log2, 0, 1e6},
+                                {"logarithm_of_ten", logarithm_of_ten, std::log10, 0, 1e6},
+                                {"logarithm_of_one_more", logarithm_of_one_more, std::log1p, -0.9, 2},
+                                {"cube_root", cube_root, std::cbrt, -1e6, 1e6}};
   Random random(1);
   for (const FunctionPair& pair : pairs)
     for (int i = 0; i < 20000; ++i) {
@@ -67,6 +67,55 @@ TEST(Mathematics, StaysWithinOneUnitOfTheLastPlace) {
     ASSERT_EQ(hypotenuse(x, y, z), hypotenuse(z, x, y));
     ASSERT_EQ(hypotenuse(x, y, z), hypotenuse(y, x, z));
   }
+}
+
+// Where arguments or results come near the largest and smallest numbers.
+TEST(Mathematics, HoldsItsBoundsAtTheFarEnds) {
+  using namespace mathematics;
+  const FunctionPair pairs[] = {{"inverse_hyperbolic_sine", inverse_hyperbolic_sine, std::asinh, -308, 308.25},
+                                {"inverse_hyperbolic_cosine", inverse_hyperbolic_cosine, std::acosh, 0, 308.25},
+                                {"logarithm_of_one_more", logarithm_of_one_more, std::log1p, -300, 308.25},
+                                {"logarithm", logarithm, std::log, -307, 308.25},
+                                {"logarithm_of_two", logarithm_of_two, std::log2, -307, 308.25},
+                                {"logarithm_of_ten", logarithm_of_ten, std::log10, -307, 308.25},
+                                {"arc_tangent", arc_tangent, std::atan, -300, 308.25},
+                                {"hyperbolic_tangent", hyperbolic_tangent, std::tanh, -300, 308.25},
+                                {"cube_root", cube_root, std::cbrt, -307, 308.25}};
+  Random random(2);
+  for (const FunctionPair& pair : pairs)
+    for (int i = 0; i < 20000; ++i) {
+      const double x = std::pow(10, random.uniform(pair.low, pair.high));
+      ASSERT_LE(ulps(pair.ours(x), pair.theirs(x)), 1.0) << pair.name << " of " << x;
+    }
+  const FunctionPair steep[] = {{"hyperbolic_sine", hyperbolic_sine, std::sinh, 0, 0},
+                                {"hyperbolic_cosine", hyperbolic_cosine, std::cosh, 0, 0}};
+  for (const FunctionPair& pair : steep)
+    for (int i = 0; i < 20000; ++i) {
+      const double x = random.uniform(700, 710.4758);
+      ASSERT_LE(ulps(pair.ours(x), pair.theirs(x)), x < 709 ? 1.0 : 1.5) << pair.name << " of " << x;
+    }
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  EXPECT_LT(hyperbolic_cosine(710.4758), kBeyondAll);
+  EXPECT_NEAR(inverse_hyperbolic_sine(kLargest), 710.4758600739439, 1e-12);
+  EXPECT_NEAR(inverse_hyperbolic_sine(-kLargest), -710.4758600739439, 1e-12);
+  EXPECT_NEAR(inverse_hyperbolic_cosine(kLargest), 710.4758600739439, 1e-12);
+  EXPECT_NEAR(logarithm_of_one_more(kLargest), 709.782712893384, 1e-12);
+  EXPECT_EQ(inverse_hyperbolic_sine(kBeyondAll), kBeyondAll);
+  EXPECT_EQ(inverse_hyperbolic_sine(-kBeyondAll), -kBeyondAll);
+  EXPECT_EQ(inverse_hyperbolic_cosine(kBeyondAll), kBeyondAll);
+  EXPECT_EQ(logarithm_of_one_more(kBeyondAll), kBeyondAll);
+  EXPECT_TRUE(std::isnan(inverse_hyperbolic_cosine(-kLargest)));
+  EXPECT_TRUE(std::isnan(logarithm_of_one_more(-kLargest)));
+  for (double (*const function)(double) :
+       {hyperbolic_sine, hyperbolic_cosine, inverse_hyperbolic_sine, inverse_hyperbolic_cosine, logarithm_of_one_more})
+    EXPECT_TRUE(std::isnan(function(std::nan(""))));
+  for (const double x : {710.5, 711.0, 1000.0, 1e300, kBeyondAll}) {
+    EXPECT_EQ(hyperbolic_cosine(x), kBeyondAll) << x;
+    EXPECT_EQ(hyperbolic_cosine(-x), kBeyondAll) << x;
+    EXPECT_EQ(hyperbolic_sine(x), kBeyondAll) << x;
+    EXPECT_EQ(hyperbolic_sine(-x), -kBeyondAll) << x;
+  }
+  EXPECT_EQ(hyperbolic_sine(-710), -hyperbolic_sine(710));
 }
 
 TEST(Mathematics, IsExactWhereTheResultIsADouble) {

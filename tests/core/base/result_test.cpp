@@ -57,6 +57,19 @@ TEST(Error, QuotationsAreCut) {
   EXPECT_EQ(bounded(bounded(bad.error())), bounded(bad.error())) << "once is enough";
 }
 
+// A mark without its partner quotes nothing: an inch, an apostrophe, a text that data have cut.
+TEST(Error, OneLoneMarkIsNoQuotation) {
+  const std::string rest(500, 'y');
+  const auto said = [](const std::string& message) { return bounded({ErrorCode::parse, "", message}).message; };
+  EXPECT_EQ(said("a pipe of 3\" is too wide " + rest), "a pipe of 3\" is too wide " + rest);
+  EXPECT_EQ(said("a lone ` stands here " + rest), "a lone ` stands here " + rest);
+  const std::string cut = said("a pipe of 3\" is no `" + rest + "`, did you mean `pipe`?");
+  EXPECT_TRUE(cut.starts_with("a pipe of 3\" is no `yyy")) << cut;
+  EXPECT_NE(cut.find(" ... (500 bytes) ... "), std::string::npos) << cut;
+  EXPECT_TRUE(cut.ends_with("yyy`, did you mean `pipe`?")) << cut;
+  EXPECT_LT(cut.size(), 400u);
+}
+
 TEST(Result, OfNothingIsSuccessOrAnError) {
   EXPECT_TRUE(positive(1).ok());
   EXPECT_TRUE(static_cast<bool>(positive(1)));

@@ -68,6 +68,16 @@ TEST(CsvTable, NoTextIsAFormulaAndNumbersStayNumbers) {
             "1,\r\n''=1,a-b\r\n\"a  [2J b \",'plain\r\n");
 }
 
+TEST(CsvTable, NoTextIsAFormulaBehindASemicolon) {
+  const std::vector<std::vector<CsvCell>> rows = {
+      {"a;=1+1", "b"}, {"a; +1;-2;c", "a;b"}, {"two\n=lines", "-"}, {"a;'=1", "a;'b"}};
+  EXPECT_EQ(write_csv(std::vector<std::string>{"n;=1", "b"}, rows),
+            "\"n;'=1\",b\r\n\"a;'=1+1\",b\r\n\"a;' +1;'-2;c\",\"a;b\"\r\n\"two\n'=lines\",'-\r\n\"a;''=1\",\"a;'b\"\r\n");
+  for (const char* text : {"a;=1+1", "a; +1;-2;c", "two\n=lines", "a;'=1", ";=1", "=;=", "';'=1", "\n=1"})
+    EXPECT_EQ(text_of_harmless(harmless_text(text)), text);
+  EXPECT_EQ(text_of_harmless("'\n=1"), "\n=1") << "as tables were written before";
+}
+
 // The law: whatever people write, no text cell begins with a sign of a formula or holds a control character but a line end, and
 // the text comes back.
 TEST(CsvTable, EveryTextIsHarmlessAndComesBack) {
@@ -81,8 +91,12 @@ TEST(CsvTable, EveryTextIsHarmlessAndComesBack) {
     ASSERT_TRUE(read) << read.error().text();
     ASSERT_EQ(read->records.size(), 2u);
     const std::string& cell = read->records[1].fields[0];
-    const std::size_t first = cell.find_first_not_of(" \n");
-    EXPECT_TRUE(first == std::string::npos || std::string("=+-@").find(cell[first]) == std::string::npos) << cell;
+    // Where lists are separated by semicolons, a spreadsheet begins a cell behind each of them, and a row behind a line end.
+    for (std::size_t begin = 0; begin <= cell.size(); ++begin) {
+      if (begin > 0 && cell[begin - 1] != ';' && cell[begin - 1] != '\n') continue;
+      const std::size_t first = cell.find_first_not_of(" \n", begin);
+      EXPECT_TRUE(first == std::string::npos || std::string("=+-@").find(cell[first]) == std::string::npos) << cell;
+    }
     EXPECT_TRUE(std::none_of(cell.begin(), cell.end(), [](char c) {
       return (static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7F;
     })) << cell;

@@ -77,6 +77,28 @@ TEST(GeoJsonContext, KindsAreToldByTheOptionAndFaultsAreRows) {
   EXPECT_EQ(context->report.total("feature"), 4u);
 }
 
+// What a file says of its CRS hinders nobody who gives it; else the fault is told as what it is.
+TEST(GeoJsonContext, AFaultOfTheCrsIsToldAsSuchAndTheOptionHelps) {
+  const std::string square = R"("geometry": {"type": "Polygon", "coordinates": [[[0,0],[30,0],[30,20],[0,20],[0,0]]]})";
+  const std::string text =
+      R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"name": "a"}, )" + square +
+      R"(}, {"type": "Feature", "crs": {"type": "foo"}, "properties": {"name": "b"}, )" + square +
+      R"(}, {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[[0,"x"]]]}}]})";
+  const auto without = read_geojson_context(text, {});
+  ASSERT_TRUE(without.ok()) << without.error().text();
+  EXPECT_EQ(reason_of(without->report, "features/1"), "skipped: its CRS is not understood");
+  EXPECT_EQ(reason_of(without->report, "features/2"), "skipped: its geometry cannot be read");
+  ContextOptions options;
+  options.crs = "local";
+  const auto given = read_geojson_context(text, options);
+  ASSERT_TRUE(given.ok()) << given.error().text();
+  EXPECT_EQ(given->buildings.size(), 2u);
+  EXPECT_EQ(reason_of(given->report, "features/2"), "skipped: its geometry cannot be read");
+  const std::string whole = R"({"type": "Feature", "crs": 7, "properties": {}, )" + square + "}";
+  EXPECT_EQ(read_geojson_context(whole, {}).error().place, "crs");
+  EXPECT_TRUE(read_geojson_context(whole, options).ok());
+}
+
 TEST(GeoJsonContext, HostileInputIsAnErrorWithAPlace) {
   const std::pair<std::string, std::string> rows[] = {
       {"", "line 1, column 1"},

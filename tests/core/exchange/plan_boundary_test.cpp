@@ -193,9 +193,14 @@ TEST(PlanBoundary, ChoiceErrors) {
 TEST(PlanBoundary, RingErrors) {
   EXPECT_EQ(
       boundary_error_of(polygon("[[[85000,446000],[85010,446010],[85010,446000],[85000,446010],[85000,446000]]]", "EPSG:28992")),
-      "coordinates/0: The ring meets itself at (0.000, 0.000) in local metres: edge 0 from (-5.000, -5.000) to (5.000, "
-      "5.000) and edge 2 "
-      "from (5.000, -5.000) to (-5.000, 5.000). Redraw it without crossing or touching itself.");
+      "coordinates/0: The ring meets itself at (85005.000, 446005.000) in the file, which is (0.000, 0.000) in local metres: "
+      "edge "
+      "0 from (-5.000, -5.000) to (5.000, 5.000) and edge 2 from (5.000, -5.000) to (-5.000, 5.000). Redraw it without crossing "
+      "or "
+      "touching itself.");
+  const std::string degrees = boundary_error_of(polygon("[[[4.3,52],[4.301,52.001],[4.301,52],[4.3,52.001],[4.3,52]]]"));
+  EXPECT_NE(degrees.find("The ring meets itself at (4.3005000, 52.0005000) in the file, which is ("), std::string::npos)
+      << degrees;
   EXPECT_EQ(boundary_error_of(polygon("[[[85000,446000],[85010,446010],[85000,446000]]]", "EPSG:28992")),
             "coordinates/0: A ring needs at least 3 different points; this one has 2.");
   EXPECT_EQ(boundary_error_of(polygon("[[]]")), "coordinates/0: A ring needs at least 3 different points; this one has 0.");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "core/exchange/csv_reader.h"
@@ -36,6 +37,10 @@ bool brief_has_note(const ProgrammeImport& import, const std::string& part) {
   for (const std::string& note : import.notes)
     if (note.find(part) != std::string::npos) return true;
   return false;
+}
+
+bool brief_has_whole_note(const std::vector<std::string>& notes, const std::string& whole) {
+  return std::find(notes.begin(), notes.end(), whole) != notes.end();
 }
 
 std::string error_of(const std::string& text, const ProgrammeOptions& options = {}) {
@@ -166,6 +171,10 @@ TEST(ProgrammeCsv, NumberErrors) {
             "line 2, column 3 `count`: The count is 1.5. It must be a whole number from 1 to 100000.");
   EXPECT_EQ(error_of("use,area,count\na,5,0\n"),
             "line 2, column 3 `count`: The count is 0. It must be a whole number from 1 to 100000.");
+  EXPECT_EQ(error_of("use,area,count\na,5,1000000\n"),
+            "line 2, column 3 `count`: The count is 1000000. It must be a whole number from 1 to 100000.");
+  EXPECT_EQ(error_of("use,area\na,2000000000\n"),
+            "line 2, column 2 `area`: The floor area is 2000000000 m². It must be greater than zero and at most 1e9 m².");
   EXPECT_EQ(error_of("use,area,height\na,5,-3\n"),
             "line 2, column 3 `height`: The storey height is -3 m. It must be greater than zero and at most 1000 m.");
   EXPECT_EQ(error_of("use,area,min area\na,5,6\n"),
@@ -173,19 +182,24 @@ TEST(ProgrammeCsv, NumberErrors) {
 }
 
 TEST(ProgrammeCsv, HeaderErrors) {
-  EXPECT_EQ(
-      error_of("use,surface\nhall,5\n"),
-      "line 1: There is no column floor_area_m2. The header has: `use`, `surface`. Accepted are: `floor_area`, `area`, "
-      "`floorarea`, `target_area`, "
-      "`area_target`, `floor_area_target`, `floor_space`, `size`, or name the column by the column option: floor_area_m2=...");
+  EXPECT_EQ(error_of("use,surface\nhall,5\n"),
+            "line 1: There is no column floor_area_m2. The header has: `use`, `surface`. Accepted are: `floor_area`, `area`, "
+            "`floorarea`, `target_area`, "
+            "`area_target`, `floor_area_target`, `floor_space`, `size`, or name the column by --column floor_area_m2=HEADER");
   EXPECT_EQ(error_of("what,area\nhall,5\n"),
             "line 1: There is no column use. The header has: `what`, `area`. Accepted are: `use`, `function`, `usage`, "
             "`program`, `programme`, `activity`, "
-            "`name`, `room`, `room_name`, `space`, `space_name`, `title`, or name the column by the column option: use=...");
-  EXPECT_EQ(error_of("use,area,floor area\nhall,5,6\n"),
-            "line 1, column 3: The columns `area` and `floor area` both read as floor_area_m2. Rename one, or say which by the "
-            "column option: "
-            "floor_area_m2=floor area.");
+            "`name`, `room`, `room_name`, `space`, `space_name`, `title`, or name the column by --column use=HEADER");
+  EXPECT_EQ(error_of("use,floor_aria_m2\nhall,5\n"),
+            "line 1: There is no column floor_area_m2. If `floor_aria_m2` is meant, correct it, or give --column "
+            "floor_area_m2=floor_aria_m2. The header has: `use`, `floor_aria_m2`.");
+  EXPECT_EQ(error_of("use,flor area\nhall,5\n"),
+            "line 1: There is no column floor_area_m2. If `flor area` is meant, correct it, or give --column "
+            "\"floor_area_m2=flor area\". The header has: `use`, `flor area`.");
+  EXPECT_EQ(
+      error_of("use,area,floor area\nhall,5,6\n"),
+      "line 1, column 3: The columns `area` and `floor area` both read as floor_area_m2. Rename one, or say which by --column "
+      "\"floor_area_m2=floor area\".");
   EXPECT_EQ(error_of("use,area (sq ft)\nhall,5\n"),
             "line 1, column 2: The unit `sq ft` in the header `area (sq ft)` is not read for floor_area_m2. Use m2, ha or km2.");
   EXPECT_EQ(error_of("use,area\n"), "line 1: The table has a header but no rows. Add one row per use.");
@@ -225,11 +239,16 @@ TEST(ProgrammeCsv, DuplicatesUnknownColumnsAndBounds) {
   EXPECT_EQ(import->rows[1].use, "Shop 3");
   EXPECT_EQ(import->rows[3].floor_area, 15);
   EXPECT_EQ(import->rows[3].adjacent_to, (std::vector<std::string>{"shop", "Shop 3"}));
-  EXPECT_TRUE(brief_has_note(*import, "Line 3: the use `Shop` exists already; this one became `Shop 3`."));
-  EXPECT_TRUE(brief_has_note(*import, "Column 5 `colour` was left out."));
-  EXPECT_TRUE(brief_has_note(*import, "Column 6 `cuont` was left out, did you mean `count`?"));
-  EXPECT_TRUE(brief_has_note(*import, "Line 5 has no floor area; the middle of its bounds was taken, 15 m²."));
-  EXPECT_TRUE(brief_has_note(*import, "Line 6: `bar` cannot be adjacent to itself alone; this was left out."));
+  for (const char* note : {"Line 3: the use `Shop` exists already; this one became `Shop 3`.", "Column 5 `colour` was left out.",
+                           "Line 5 has no floor area; the middle of its bounds was taken, 15 m².",
+                           "Line 6: `bar` cannot be adjacent to itself alone; this was left out."})
+    EXPECT_TRUE(brief_has_whole_note(import->notes, note)) << note;
+  EXPECT_EQ(import->notes.size(), 4u);
+  // What was probably meant as one of ours is lost, and that may be much.
+  EXPECT_EQ(import->warnings, (std::vector<std::string>{"Column 6 `cuont` was left out, did you mean `count`?"}));
+  const auto standing = read_programme_csv("use,area,standng\nshop,5,ground\n");
+  ASSERT_TRUE(standing);
+  EXPECT_EQ(standing->warnings, (std::vector<std::string>{"Column 3 `standng` was left out, did you mean `standing`?"}));
 }
 
 TEST(ProgrammeCsvData, RoomLists) {

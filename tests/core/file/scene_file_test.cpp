@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/base/stop.h"
 #include "core/define/typification_builder.h"
 #include "core/file/file_io.h"
 #include "tests/support/world.h"
@@ -36,7 +37,12 @@ TEST_P(BadSceneTest, IsRefusedWithAPlaceAndASentence) { EXPECT_EQ(first_error(Ge
 INSTANTIATE_TEST_SUITE_P(
     SceneFile, BadSceneTest,
     testing::Values(
-        BadScene{"empty", "", "line 1, column 1: the text ends in the middle of a JSON value; the file is cut off"},
+        BadScene{"empty", "", "the file is empty; a scene starts with {\"format\": \"behaviourlinks\", \"version\": 1, ...}"},
+        BadScene{"only_a_mark", "\xEF\xBB\xBF \n",
+                 "the file is empty; a scene starts with {\"format\": \"behaviourlinks\", \"version\": 1, ...}"},
+        BadScene{"table", "use;area\nhall;5\n",
+                 "line 1, column 1: this is not a scene, which is JSON text: it starts with {\"format\": \"behaviourlinks\", "
+                 "\"version\": 1, ...}"},
         BadScene{"truncated", with_nodes("").substr(0, 50),
                  "line 1, column 51: the text ends in the middle of a JSON value; the file is cut off"},
         BadScene{"no_json", "{\"format\": behaviourlinks}",
@@ -67,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "nodes/a/types/smart_volume/demand: must be between 0 and 1e+09 m³, found -1"},
         BadScene{"twice", with_nodes(R"({"id": "a"}, {"id": "a"})"), "nodes/a: two nodes have the id `a`; ids must be unique"},
         BadScene{"key_twice", with_nodes(R"({"id": "a", "id": "b"})"),
-                 "the key \"id\" stands twice in one object; keep one of them"},
+                 "line 1, column 66: the key \"id\" stands twice in one object; keep one of them"},
         BadScene{"no_id", with_nodes(R"({"name": "a"})"), "nodes/0: `id` is missing"},
         BadScene{"bad_id", with_nodes(R"({"id": "Tower 1"})"), "nodes/0/id: `Tower 1` is no id: use 1 to 64 of a-z 0-9 _ - . #"},
         BadScene{
@@ -87,8 +93,9 @@ TEST(SceneFile, ListsAllErrorsNotOnlyTheFirst) {
 }
 
 TEST(SceneFile, DeepNestingIsAnError) {
-  EXPECT_EQ(first_error(std::string(100000, '[')),
-            "line 1, column 65: The text is nested deeper than 64 levels from here on: no file of this kind is, and it is not read.");
+  EXPECT_EQ(
+      first_error(std::string(100000, '[')),
+      "line 1, column 65: The text is nested deeper than 64 levels from here on: no file of this kind is, and it is not read.");
 }
 
 TEST(SceneFile, GhostsAreKeptToTheLetterAndReported) {
@@ -108,9 +115,53 @@ TEST(SceneFile, GhostsAreKeptToTheLetterAndReported) {
   ASSERT_EQ(reading.problems.size(), 2u);
   EXPECT_EQ(reading.problems[0].error.text(),
             "nodes/a/hologram: unknown typification `hologram`: kept as it is and saved back, not run");
-  EXPECT_EQ(reading.problems[1].error.text(), "links/l: unknown link kind `teleport`: kept as it is, not run; a Lua file of yours is put into the scene by `script` or "
-            "--script, a library is named by --plugins FOLDER");
+  EXPECT_EQ(
+      reading.problems[1].error.text(),
+      "links/l: unknown link kind `teleport`: kept as it is, not run; a Lua file of yours is put into the scene by `script` or "
+      "--script, a library is named by --plugins FOLDER");
   EXPECT_EQ(write_scene(reading.scene, full_registry()), text);
+}
+
+// A scene that was saved in mid-run by a program with more typifications: what it says of them cannot be gone on with here.
+TEST(SceneFile, WhatARunSaysOfUnknownTypificationsIsLeftOutWithAWarning) {
+  const auto with_state = [](const std::string& state) {
+    return with_nodes(
+        R"({"id": "a", "types": {"hologram": {"v": 1}, "smart_volume": {}}}, {"id": "b"})",
+        R"(, "links": [{"id": "l", "kind": "teleport", "from": "a", "to": "b"}], "state": {"tick": 3, "calm": 0, )" + state +
+            "}");
+  };
+  const std::string warning =
+      "`hologram` is unknown to this program, so that what the run had made of it is left out: keep the file for the program "
+      "that knows it";
+  const std::pair<const char*, const char*> rows[] = {
+      {R"("nodes": {"a": {"hologram.v": 3, "smart_volume.demand": 40}})", "state/nodes/a/hologram.v"},
+      {R"("errors": {"a/hologram": {"code": "io", "message": "x"}})", "state/errors/a/hologram"},
+      {R"("voices": {"l": {"a/hologram.v": 3}})", "state/voices/l/a/hologram.v"},
+      {R"("analyses": {"a/hologram": {"as_of": 1}})", "state/analyses/a/hologram"},
+      {R"("meshes": {"a": {"hologram.mesh": {"vertices": [], "triangles": []}}})", "state/meshes/a/hologram.mesh"},
+      {R"("nodes": {"a": {"hologram.v": 3, "hologram.w": {"x": []}}}, "errors": {"a/hologram": {"message": "x"}})",
+       "state/nodes/a/hologram.v"}};
+  for (const auto& [state, place] : rows) {
+    const SceneReading reading = read_scene(with_state(state), full_registry());
+    ASSERT_TRUE(reading.is_usable()) << reading.first_error().text();
+    ASSERT_TRUE(reading.state.has_value()) << state;
+    ASSERT_EQ(reading.problems.size(), 3u) << "the ghost, the unknown link, and this once: " << state;
+    EXPECT_FALSE(reading.problems.back().is_error);
+    EXPECT_EQ(reading.problems.back().error.text(), std::string(place) + ": " + warning);
+    const World world = World::from_text(with_state(state));
+    EXPECT_EQ(world.state().tick, 3) << state;
+  }
+  EXPECT_EQ(World::from_text(with_state(rows[0].first)).number("a", "smart_volume.demand"), 40);
+  EXPECT_FALSE(read_scene(with_state(R"("errors": {"b/hologram": {"message": "x"}})"), full_registry()).is_usable());
+}
+
+// An interrupted run writes what it has come to: all of it.
+TEST(SceneFile, AWishToStopLosesNothingOfWhatIsWritten) {
+  const SceneReading reading = read_scene(with_nodes(R"({"id": "a"})", R"(, "view": {"boxes": {"a": [1, 2]}})"), full_registry());
+  const std::string whole = write_scene(reading.scene, full_registry());
+  ASSERT_NE(whole.find("boxes"), std::string::npos);
+  const StopScope scope([] { return true; });
+  EXPECT_EQ(write_scene(reading.scene, full_registry()), whole);
 }
 
 TEST(SceneFile, DefaultsAreNotWritten) {

@@ -1,7 +1,8 @@
 // Sites at one place: who lives, by the words of the header, and how long it takes where very many lie there.
 #include "core/geometry/coincidence.h"
 
-#include <chrono>
+#include <algorithm>
+#include <ctime>
 
 #include "core/geometry/none.h"
 #include "tests/core/geometry/geometry_support.h"
@@ -39,20 +40,28 @@ TEST(Coincidence, IsWhatItsWordsSay) {
   }
 }
 
-TEST(Coincidence, ManySitesOnOnePlaceCostLittle) {
-  constexpr std::uint32_t kCount = 30000;
-  std::vector<PowerSite> sites(kCount, {{5, 5, 5}, 4});
-  sites[kCount / 2].weight = 5;
+// Of the processor, and the shortest of a few: others work on this machine, too [s].
+double seconds_for_sites_on_one_place(std::uint32_t count) {
+  std::vector<PowerSite> sites(count, {{5, 5, 5}, 4});
+  sites[count / 2].weight = 5;
   sites.push_back({{2, 2, 2}, 4});
-  const auto began = std::chrono::steady_clock::now();
-  const auto cells = cells_of(box({0, 0, 0}, {10, 10, 10}), sites);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  const CellTotals totals = totals_of(cells);
-  EXPECT_EQ(totals.alive, 2u);
-  EXPECT_EQ(totals.coincident, kCount - 1);
-  EXPECT_EQ(cells[kCount / 2].state, SiteState::alive);
-  // Pair by pair this takes minutes and gigabytes.
-  EXPECT_LT(seconds, 5);
+  double least = 1e9;
+  for (int round = 0; round < 3; ++round) {
+    const std::clock_t begin = std::clock();
+    const auto cells = cells_of(box({0, 0, 0}, {10, 10, 10}), sites);
+    least = std::min(least, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    const CellTotals totals = totals_of(cells);
+    EXPECT_EQ(totals.alive, 2u);
+    EXPECT_EQ(totals.coincident, count - 1);
+    EXPECT_EQ(cells[count / 2].state, SiteState::alive);
+  }
+  return least;
+}
+
+// Four times as many may take a little more than four times as long; pair by pair it would be sixteen times, and gigabytes.
+TEST(Coincidence, ManySitesOnOnePlaceCostLittle) {
+  const double some = seconds_for_sites_on_one_place(7500), many = seconds_for_sites_on_one_place(30000);
+  EXPECT_LT(many, 9 * some + 0.1) << some << " s for 7 500, " << many << " s for 30 000";
 }
 
 }  // namespace

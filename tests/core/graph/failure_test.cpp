@@ -258,5 +258,47 @@ TEST(Failure, LinksHoldWhatTheyWantedWhileTheirSourceHasAnError) {
   }
 }
 
+// A scene in which links of a kind "shout" propose `said`, in Lua, to the node `b`.
+std::string shouting_scene(const std::string& port, const std::string& said, const std::string& links) {
+  return R"({"format": "behaviourlinks", "version": 1, "scripts": [{"id": "shout", "lines": [
+    "return {id = 'shout', doc = 'Says much.', reads = {x = {at = 'from', port = 'node.position'}},",
+    "proposes = {y = {at = 'to', port = ')" +
+         port + R"('}},", "evaluate = function(p, ends) return {y = )" + said + R"(} end}"]}],
+    "nodes": [{"id": "a", "tags": ["t"]}, {"id": "a2", "tags": ["t"]}, {"id": "b", "position": [1, 0, 0], "types": {"smart_volume": {}}}],
+    "links": [)" +
+         links + "]}";
+}
+
+// Each of the pairs says a number; what they come to is none.
+TEST(Failure, PairsThatAddUpBeyondAllNumbersAreAnErrorOfTheirLink) {
+  World world = World::from_text(shouting_scene("node.position", "point(1.7e308, 0, 0)",
+                                                R"({"id": "l", "kind": "shout", "from": {"tag": "t"}, "to": "b"})"));
+  world.tick(2);
+  EXPECT_EQ(world.link_error("l"), "links/l: what its pairs propose for `b` adds up to more than any number");
+  EXPECT_EQ(world.point("b", "node.position").x, 1);
+  EXPECT_TRUE(has_failure(world.state()));
+}
+
+// Each of the links says a number; the port takes none of it, and each of them is told.
+TEST(Failure, LinksThatAddUpBeyondAllNumbersAreErrorsOfTheseLinks) {
+  const std::string two =
+      R"({"id": "l1", "kind": "shout", "from": "a", "to": "b"}, {"id": "l2", "kind": "shout", "from": "a2", "to": "b"},
+    {"id": "l3", "kind": "shout", "from": "b", "to": "a"})";
+  World world = World::from_text(shouting_scene("node.position", "point(1.7e308, 0, 0)", two));
+  world.tick(2);
+  for (const char* link : {"l1", "l2"})
+    EXPECT_EQ(world.link_error(link),
+              std::string("links/") + link +
+                  ": together with other links it proposes more than any number for `node.position` of `b`, "
+                  "which stays as it is");
+  EXPECT_EQ(world.link_error("l3"), "") << "alone it can be followed, as far as the step limit goes";
+  EXPECT_EQ(world.point("b", "node.position").x, 1);
+  const State before = world.state();
+  EXPECT_EQ(loaded(world).state().hash, before.hash);
+  ASSERT_EQ(world.submit(command<RemoveLink>({"l2"})), "");
+  world.tick();
+  EXPECT_EQ(world.link_error("l1"), "");
+}
+
 }  // namespace
 }  // namespace bl

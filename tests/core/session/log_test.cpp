@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/stop.h"
 #include "core/session/gestures.h"
 #include "tests/support/world.h"
 
@@ -53,6 +54,59 @@ TEST(Log, WhatCannotBeIsRefusedWithItsLine) {
             "line 3/undoes: an entry takes something back or brings it back, not both");
   EXPECT_EQ(why_refused(entry(1, 5, 1) + entry(2, 3, 2)), "line 3/seq: the entries are not in order");
   EXPECT_EQ(why_refused(R"({"check": {"tick": 3, "hash": "green"}})"), "line 2/hash: expects 16 hexadecimal digits");
+}
+
+// A check says what the state was after its tick: what people do before that tick cannot stand behind it.
+TEST(Log, EntriesAndChecksStandInOneOrder) {
+  EXPECT_EQ(why_refused(mark("check", 60) + entry(1, 30, 1)),
+            "line 3/tick: the lines are not in order: an entry of tick 30 comes after a check of tick 60");
+  EXPECT_EQ(why_refused(entry(1, 60, 1) + mark("check", 30)),
+            "line 3/tick: the lines are not in order: a check of tick 30 comes after an entry of tick 60");
+  EXPECT_EQ(why_refused(entry(1, 60, 1) + mark("end", 30)),
+            "line 3/tick: the lines are not in order: a check of tick 30 comes after an entry of tick 60");
+  EXPECT_EQ(why_refused(mark("check", 60) + entry(1, 60, 1) + mark("end", 60)), "");
+  EXPECT_EQ(why_refused(mark("check", 60) + entry(1, 30, 1), LogUse::recovery), "") << "who recovers compares nothing";
+}
+
+// Stopped anywhere on the way, a tick has not been: not for the state, not for the log, and not for the tick after it.
+TEST(Log, AnInterruptedTickLeavesALogThatReplays) {
+  const auto change = [](World& world) {
+    ASSERT_EQ(world.submit(command<SetPort>({"a", {"smart_volume.demand"}, {"77"}})), "");
+    ASSERT_EQ(world.submit(command<RemoveNode>({"b"})), "");
+    ASSERT_EQ(world.submit(command<AddNode>({"c", {R"({"types": {"smart_volume": {}}})"}})), "");
+  };
+  World world = World::from_text(kScene), whole = World::from_text(kScene);
+  std::string log = log_header(kScene);
+  world.session().on_entry([&](const LogEntry& e) { log += log_line(e, full_registry()); });
+  for (World* each : {&world, &whole}) {
+    each->tick(3);
+    change(*each);
+  }
+  const std::uint64_t before = world.state().hash;
+  int stops = 0;
+  for (bool is_done = false; !is_done; ++stops) {
+    int asked = 0;
+    {
+      const StopScope scope([&] { return ++asked > stops; });
+      is_done = world.session().tick();
+    }
+    if (is_done) break;
+    ASSERT_EQ(world.state().hash, before) << stops;
+    ASSERT_EQ(world.state().tick, 3) << stops;
+    const auto read = read_log(log + log_line(LogCheck{3, hex_digits(world.state().hash), true}), full_registry());
+    ASSERT_TRUE(read.ok()) << read.error().text();
+    const auto report = replay(*read, full_registry(), 1);
+    ASSERT_TRUE(report.ok()) << report.error().text();
+    ASSERT_FALSE(report->first_mismatch.has_value()) << stops;
+    // What is saved then fits the scene that it is saved with, and goes on in the same way.
+    const SavedState saved = save(*world.session().coming_state());
+    World loaded = World::from_text(write_scene(world.session().scene(), full_registry(), &saved));
+    ASSERT_EQ(loaded.state().tick, 3);
+    ASSERT_EQ(loaded.state().hash, world.session().coming_state()->hash);
+  }
+  EXPECT_GT(stops, 3);
+  whole.tick();
+  EXPECT_EQ(world.state().hash, whole.state().hash);
 }
 
 TEST(Log, LinesBeforeItsSceneAreRefused) {

@@ -218,6 +218,9 @@ TEST(Fit, InterruptWritesEveryCase) {
   ASSERT_EQ(fits.size(), 20u);
   EXPECT_EQ(fits.back()["status"], "cancelled");
   EXPECT_EQ(fits.back()["weights"].size(), 400u);
+  // Of cases that were not begun nobody knows the error, so that there is no largest one.
+  EXPECT_TRUE(fits.back()["max_relative_error"].is_null());
+  EXPECT_EQ(outcome.last_line().find("largest relative error"), std::string::npos) << outcome.last_line();
 }
 
 TEST(Fit, TheReferenceFileIsReadAsItIs) {

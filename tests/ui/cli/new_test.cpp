@@ -42,6 +42,21 @@ class New : public testing::Test {
   Workplace place;
 };
 
+TEST_F(New, AColumnThatIsProbablyMisspeltIsAWarning) {
+  place.write("brief.csv", "use,floor_area_m2,standng,colour\nhousing,400,ground,red\n");
+  const Outcome made = make();
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.err.find("brief.csv: warning: Column 3 `standng` was left out, did you mean `standing`?"), std::string::npos)
+      << made.err;
+  EXPECT_NE(made.out.find("note: brief.csv: Column 4 `colour` was left out."), std::string::npos) << made.out;
+}
+
+TEST_F(New, NumbersAreWrittenOut) {
+  const Outcome made = place.run(
+      {"new", "--boundary", "site.geojson", "--height", "1000000000", "--programme", "brief.csv", "--out", "scene.json"});
+  EXPECT_NE(made.err.find("found 1000000000"), std::string::npos) << made.err;
+}
+
 TEST_F(New, MakesASceneThatSettles) {
   const Outcome made = make({"--title", "A corner of Delft"});
   ASSERT_EQ(made.code, 0) << made.err;

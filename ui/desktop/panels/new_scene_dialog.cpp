@@ -63,6 +63,7 @@ void Dialogs::make_scene() {
   const cli::MadeScene made = cli::make_scene(fresh_, editor_->program);
   told_ = made.notes;
   is_told_error_ = !made.scene;
+  for (const auto& [file, warning] : made.warnings) told_.push_back(file + ": " + warning.text());
   for (const auto& [file, error] : made.errors) told_.push_back((file.empty() ? "" : file + ": ") + error.text());
   if (!made.scene) return;
   std::vector<Problem> problems;
@@ -74,6 +75,7 @@ void Dialogs::make_scene() {
     return editor_->list_problems("", std::move(problems));
   }
   for (const std::string& note : made.notes) problems.push_back({false, {ErrorCode::missing, "import", note}});
+  for (const auto& [file, warning] : made.warnings) problems.push_back({false, warning.within("import")});
   editor_->list_problems("", std::move(problems));
   editor_->take(std::move(document));
   editor_->document->session().play(true);
