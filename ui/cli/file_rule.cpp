@@ -138,7 +138,7 @@ std::string cannot_be_written(const NamedFile& output) {
   const std::string where = output.option + ": " + output.path + ": ";
   const fs::path folder = fs::path(output.path).parent_path();
   std::error_code none;
-  if (fs::is_directory(output.path, none)) return where + "is a folder; choose the name of a file";
+  if (fs::is_directory(output.path, none)) return where + "is a folder, not a file; choose another name";
   if (!folder.empty() && !fs::is_directory(folder, none))
     return where + "cannot be written: there is no folder " + folder.string();
   const auto may = may_write_file(output.path);

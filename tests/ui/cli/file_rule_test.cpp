@@ -170,7 +170,7 @@ TEST_F(FileRule, WhatCannotBeWrittenIsToldAtOnce) {
   };
   refused_at_once({"--report", "rows.csv"}, "rows.csv is a file, not a folder");
   refused_at_once({"--report", "rows.csv/deeper"}, "rows.csv is a file, not a folder");
-  refused_at_once({"--json", "folder"}, "--json: folder: is a folder; choose the name of a file");
+  refused_at_once({"--json", "folder"}, "--json: folder: is a folder, not a file; choose another name");
   refused_at_once({"--log", "folder"}, "--log: folder: is a folder");
   // Nobody makes files there, not even who may do everything.
   refused_at_once({"--json", "/proc/o.json"}, "--json: /proc/o.json: cannot be written");
