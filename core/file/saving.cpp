@@ -74,6 +74,14 @@ Result<SavePlace> place_to_save(const std::string& path) {
   return io_error(path, "cannot be written");
 }
 
+// The same, where no folder has that name.
+Result<SavePlace> place_to_file(const std::string& path) {
+  auto place = place_to_save(path);
+  if (!place || !place->is_there || !S_ISDIR(place->status.st_mode)) return place;
+  errno = EISDIR;
+  return io_error(path, "cannot be written");
+}
+
 // Devices and pipes cannot be renamed over: they are written as they are. Their links may lead to no path (/dev/stdout).
 bool is_device(const std::string& path) {
   struct stat status {};
@@ -230,18 +238,25 @@ Result<void> sync_folder(const SavePlace& place, const std::string& path) {
 
 }  // namespace
 
+Result<void> may_write_file(const std::string& path) {
+  // What takes it as it comes is not opened for nothing: a pipe would tell its reader that all is over.
+  if (is_device(path)) return {};
+  const auto place = place_to_file(path);
+  if (!place) return place.error();
+  const auto made = new_temporary(*place, path);
+  if (!made) return made.error();
+  ::unlinkat(place->folder.number(), made->name.c_str(), 0);
+  return {};
+}
+
 Result<void> write_file(const std::string& path, std::string_view content) {
   if (is_device(path)) {
     const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
     if (!device.is_open() || !write_all(device.number(), content)) return io_error(path, "cannot be written");
     return {};
   }
-  const auto place = place_to_save(path);
+  const auto place = place_to_file(path);
   if (!place) return place.error();
-  if (place->is_there && S_ISDIR(place->status.st_mode)) {
-    errno = EISDIR;
-    return io_error(path, "cannot be written");
-  }
   clear_leftovers(*place);
   const auto made = new_temporary(*place, path);
   if (!made) return made.error();

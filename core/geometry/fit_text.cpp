@@ -16,13 +16,16 @@ std::string with_names(std::string sentence, std::span<const std::string> names)
   return sentence.replace(at, end - at, "`" + names[static_cast<std::size_t>(site)] + "`");
 }
 
-std::string losses_text(std::span<const DemandLoss> losses, double total_demand, std::span<const std::string> names) {
+namespace {
+
+constexpr std::string_view kShortOfIt = "; short of it fall ";
+
+// The greatest loss first; `missing` is all of them together.
+std::string who_is_short(std::span<const DemandLoss> losses, std::span<const std::string> names, double& missing) {
   constexpr std::size_t kNamed = 5;
-  if (losses.empty()) return "";
   std::vector<DemandLoss> sorted(losses.begin(), losses.end());
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.demand - a.granted > b.demand - b.granted; });
-  double missing = 0;
   std::string who;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const double loss = sorted[i].demand - sorted[i].granted;
@@ -30,7 +33,26 @@ std::string losses_text(std::span<const DemandLoss> losses, double total_demand,
     if (i < kNamed) who += (i > 0 ? ", `" : "`") + names[sorted[i].site] + "` by " + fixed(loss, 1) + " m³";
   }
   if (sorted.size() > kNamed) who += " and " + std::to_string(sorted.size() - kNamed) + " more";
-  return fixed(total_demand, 1) + " m³ are wanted, " + fixed(missing, 1) + " m³ more than can be had; short of it fall " + who;
+  return who;
+}
+
+}  // namespace
+
+std::string losses_text(std::span<const DemandLoss> losses, double total_demand, std::span<const std::string> names) {
+  if (losses.empty()) return "";
+  double missing = 0;
+  const std::string who = who_is_short(losses, names, missing);
+  return fixed(total_demand, 1) + " m³ are wanted, " + fixed(missing, 1) + " m³ more than can be had" + std::string(kShortOfIt) +
+         who;
+}
+
+std::string with_losses(std::string sentence, std::span<const DemandLoss> losses, std::span<const std::string> names) {
+  const std::size_t at = sentence.find(kShortOfIt);
+  if (at == std::string::npos) return sentence;
+  const std::size_t end = std::min(sentence.find("; ", at + kShortOfIt.size()), sentence.size());
+  double missing = 0;
+  const std::string who = who_is_short(losses, names, missing);
+  return sentence.replace(at, end - at, who.empty() ? "" : std::string(kShortOfIt) + who);
 }
 
 }  // namespace bl

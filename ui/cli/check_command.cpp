@@ -40,7 +40,8 @@ void try_scripts(const Scene& scene, std::vector<Problem>& problems) {
       return entry.second.kind == id && entry.second.is_enabled;
     });
     if (definition == nullptr || is_used) continue;
-    if (const auto fault = fault_of_kind(*definition, types)) problems.push_back({true, fault->within("scripts/" + name)});
+    if (const auto fault = fault_of_kind(*definition, types))
+      problems.push_back({fault->is_certain, fault->error.within("scripts/" + name)});
   }
 }
 
@@ -94,7 +95,7 @@ Checked check_file(const std::string& file, bool is_writing) {
   if (file.ends_with(".lua")) {
     auto kind = read_link_script(script_name(file), *text, full_registry());
     if (!kind) checked.problems.push_back({true, kind.error()});
-    else if (auto fault = fault_of_kind(*kind, full_registry())) checked.problems.push_back({true, *fault});
+    else if (auto fault = fault_of_kind(*kind, full_registry())) checked.problems.push_back({fault->is_certain, fault->error});
     return checked;
   }
   SceneReading reading = read_scene(*text, full_registry());

@@ -71,6 +71,8 @@ void print_comparison(const report::Comparison& comparison) {
   std::copy_if(comparison.totals.begin(), comparison.totals.end(), std::back_inserter(totals),
                [](const report::IndicatorRow& row) { return row.is_seen(kLeastShare); });
   print_line();
+  if (totals.empty() && comparison.nodes.empty())
+    return print_line("No difference: all " + std::to_string(comparison.same) + " numbers of nodes in both are the same.");
   print_rows(totals, totals.size());
   print_line();
   print_rows(comparison.nodes, kMostRows);

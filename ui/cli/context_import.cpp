@@ -102,8 +102,13 @@ class Import {
     result_.nodes = nodes_.made();
     tell_of_ground();
     if (!result_.errors.empty()) return std::move(result_);
-    if (result_.nodes.empty() && !result_.reports.empty()) {
+    // A site that was to be cleared and had all of a file's buildings is cleared: nothing is missing then.
+    if (result_.nodes.empty() && !result_.reports.empty() && !sites_.has_cleared()) {
       fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
+      return std::move(result_);
+    }
+    if (nodes_.is_empty()) {
+      result_.scene = scene_;
       return std::move(result_);
     }
     (void)goes_on(context_.watch, "adding to the scene", 0, 0);
@@ -167,6 +172,11 @@ class Import {
   // A name that no feature has would be passed over in silence, with all that it should have said.
   void check_properties() {
     for (const auto& [ours, theirs] : context_.properties) {
+      if (properties_.empty() && has_layer_) {
+        refuse("--property", "a data layer has one value at each place, and no `" + ours +
+                                 "`: name the column or property with the values by --value " + theirs);
+        continue;
+      }
       const bool is_there = std::any_of(properties_.begin(), properties_.end(),
                                         [&theirs = theirs](const std::string& name) { return lower(name) == lower(theirs); });
       if (is_there) continue;
@@ -286,6 +296,7 @@ class Import {
                        : format == Format::geojson ? read_layer_geojson(text, context_, o_.value)
                                                    : read_layer_csv(text, context_, o_.value);
     if (!told(file, layer)) return;
+    has_layer_ = true;
     take(file, layer->report, layer->notes, layer->reference);
     nodes_.add(*layer, making_, result_.reports.back().second);
   }
@@ -297,6 +308,7 @@ class Import {
   ContextNodes nodes_;
   SiteBuildings sites_;
   std::set<std::string> properties_;  // of all features
+  bool has_layer_ = false;            // some file was read as a data layer, which looks for no properties
   NodeMaking making_;
   std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea
   ImportedScene result_;

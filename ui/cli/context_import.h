@@ -31,7 +31,7 @@ struct ImportOptions {
 /// What came of it. Without a scene there are errors, each with the file that it is in.
 struct ImportedScene {
   std::optional<Scene> scene;
-  Command command;                           ///< leads from the scene that was added to to that one, as one step
+  Command command;  ///< leads from the scene that was added to to that one, as one step; without an id where both are the same
   std::pair<Point3, Point3> bounds;          ///< around all that was added [m]; the first is above the second where nothing was
   ImportReports reports;                     ///< of a file that could not be read: one row that says so
   std::map<std::string, std::size_t> nodes;  ///< how many were made, by typification

@@ -41,6 +41,8 @@ class ContextNodes {
 
   /// All as one command.
   Command batch() const;
+  /// Is there nothing to change?
+  bool is_empty() const { return commands_.empty(); }
   /// How many nodes of which sort were added.
   const std::map<std::string, std::size_t>& made() const { return made_; }
   /// Around all that was added [m]; the lower corner is above the upper one where nothing was.

@@ -1,4 +1,5 @@
 // The words of the commands that make scenes: new, import, place and script.
+#include "core/base/text.h"
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 
@@ -26,7 +27,8 @@ void declare_new(CLI::App& app, NewOptions& o) {
       ->type_name("FILE")
       ->required();
   c.add_option("--height", o.height, "Height of the boundary above the ground, in m.")->type_name("METRES")->required();
-  c.add_option("--programme", o.programme, "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, standing, ...")
+  c.add_option("--programme", o.programme,
+               "Table of uses as CSV: use, floor_area_m2, count, storey_height_m, adjacent_to, standing, ...")
       ->type_name("FILE")
       ->required();
   c.add_option("--out", o.out, "The scene file to write.")->type_name("FILE")->required();
@@ -62,7 +64,7 @@ void declare_import(CLI::App& app, ImportOptions& o) {
       ->required();
   c.add_option("--into", o.into, "The scene that is added to. Default: an empty one.")->type_name("SCENE");
   c.add_option("--out", o.out, "The scene file to write.")->type_name("SCENE")->required();
-  c.add_flag("--force", o.is_forced, "Replaces --out where it exists.");
+  c.add_flag("--force", o.is_forced, "Replaces --out where it exists; no other file.");
   c.add_option("--as", o.kind,
                "What the features or the grid are, where the file does not say: building, street, plot, area, terrain, layer.")
       ->type_name("KIND")
@@ -131,7 +133,14 @@ void declare_place(CLI::App& app, PlaceOptions& o) {
       ->check(CLI::IsMember({"unknown", "given", "not_needed", "refused"}));
   c.add_option("--licence", o.media.licence, "Terms of its use. Default: what the picture says.")->type_name("TEXT");
   c.add_option("--author", o.media.author, "Who made it. Default: what the picture says.")->type_name("TEXT");
-  c.add_option("--size", o.media.size, "Width in m, of a billboard or on the ground. Default: 10.")->type_name("METRES");
+  c.add_option("--size", o.media.size, "Width in m, of a billboard or on the ground. Default: 10.")
+      ->type_name("METRES")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            const auto width = parse_number(text);
+            return !width || *width > 0 ? "" : "must be a width of more than 0 m, found " + text;
+          },
+          ""));
   c.footer("Example:\n  behaviourlinks place site.jpg --into scene.json --consent given");
 }
 

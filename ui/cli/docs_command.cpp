@@ -100,12 +100,18 @@ Result<void> make_folder(const std::string& path) {
                errno == EEXIST ? "is a file, not a folder" : std::string("cannot be made: ") + std::strerror(errno)};
 }
 
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
 Result<std::size_t> write_pages(const std::string& folder, const Registry& registry) {
   std::vector<std::pair<std::string, std::string>> files{{"README.md", catalogue_index(registry)}};
   for (const auto& [id, type] : registry.typifications())
     files.emplace_back("nodes/" + id + ".md", catalogue_page(type, registry));
   for (const auto& [id, kind] : registry.links()) files.emplace_back("links/" + id + ".md", catalogue_page(kind, registry));
   for (const auto& [id, command] : registry.commands()) files.emplace_back("commands/" + id + ".md", catalogue_page(command));
+  for (const auto& [name, text] : files)
+    if (const auto there = read_file(folder + "/" + name); there && !there->empty() && first_line(*there) != first_line(text))
+      return Error{ErrorCode::conflict, folder + "/" + name,
+                   "is there already and is no page of the catalogue; choose another folder, or remove it first"};
   for (const char* part : {"", "/nodes", "/links", "/commands"})
     if (auto made = make_folder(folder + part); !made) return made.error();
   for (const auto& [name, text] : files)

@@ -8,6 +8,8 @@
 #include <set>
 #include <string_view>
 
+#include "core/file/file_io.h"
+
 namespace bl::cli {
 
 namespace {
@@ -132,20 +134,42 @@ std::string meets_another(const CLI::App& task, const std::vector<NamedFile>& na
 }
 
 // Better told before the work than after it.
-std::string lacks_its_folder(const NamedFile& output) {
+std::string cannot_be_written(const NamedFile& output) {
+  const std::string where = output.option + ": " + output.path + ": ";
   const fs::path folder = fs::path(output.path).parent_path();
   std::error_code none;
-  if (output.role->use != Use::writes || folder.empty() || fs::is_directory(folder, none)) return "";
-  return output.option + ": " + output.path + ": cannot be written: there is no folder " + folder.string();
+  if (fs::is_directory(output.path, none)) return where + "is a folder, not a file; choose another name";
+  if (!folder.empty() && !fs::is_directory(folder, none))
+    return where + "cannot be written: there is no folder " + folder.string();
+  const auto may = may_write_file(output.path);
+  return may ? "" : where + may.error().message + "; choose another place";
 }
 
+// The folder itself, or the nearest above it that is there, in which it would be made.
+std::string cannot_be_filled(const NamedFile& output) {
+  const std::string where = output.option + ": " + output.path + ": ";
+  std::error_code none;
+  fs::path folder = fs::absolute(output.path, none).lexically_normal();
+  while (!fs::exists(folder, none) && folder.has_relative_path()) folder = folder.parent_path();
+  if (!fs::is_directory(folder, none)) return where + folder.string() + " is a file, not a folder; choose another name";
+  if (const auto may = may_write_file((folder / "probe").string()); !may)
+    return where + "nothing can be written there; choose another place";
+  if (!output.role->objection) return "";
+  const auto objection = output.role->objection(output.path);
+  return objection ? "" : output.option + ": " + objection.error().text();
+}
+
+// What --force replaces is --out, whose help says so: other outputs of the same call are somebody's files all the same.
+constexpr std::string_view kForced = "--out";
+
 std::string replaces_another_kind(const NamedFile& output, bool has_force) {
-  if (output.role->use != Use::writes || !is_plain_file(output.path) || output.path.starts_with("/dev/")) return "";
+  if (!is_plain_file(output.path) || output.path.starts_with("/dev/")) return "";
   const std::string_view found = what_lies_in(output.path), wanted = name_of(output.role->kind);
   if (found.empty() || found == wanted) return "";
   return output.option + ": " + output.path + ": exists already and holds " + std::string(found) + ", not " +
          std::string(wanted) +
-         (has_force ? "; choose another name, or replace it with --force" : "; choose another name, or remove it first");
+         (has_force && output.option == kForced ? "; choose another name, or replace it with --force"
+                                                : "; choose another name, or remove it first");
 }
 
 }  // namespace
@@ -155,11 +179,11 @@ TaskFiles& TaskFiles::reads(std::initializer_list<const char*> options) {
   return *this;
 }
 TaskFiles& TaskFiles::writes(const char* option, FileKind kind, const char* changed) {
-  roles_[option] = {Role::Use::writes, kind, changed == nullptr ? "" : changed, {}};
+  roles_[option] = {Role::Use::writes, kind, changed == nullptr ? "" : changed, {}, {}};
   return *this;
 }
-TaskFiles& TaskFiles::fills(const char* option, std::vector<std::string> endings) {
-  roles_[option] = {Role::Use::fills, FileKind::figures, "", std::move(endings)};
+TaskFiles& TaskFiles::fills(const char* option, std::vector<std::string> endings, Objection objection) {
+  roles_[option] = {Role::Use::fills, FileKind::figures, "", std::move(endings), std::move(objection)};
   return *this;
 }
 
@@ -169,13 +193,18 @@ std::string wrong_files(const CLI::App& task) {
   std::string defect;
   const std::vector<NamedFile> named = files_named(task, all_task_files()[&task], defect);
   if (!defect.empty()) return "a defect of the program: nothing says what " + defect + " does with its file (files_of)";
+  for (const NamedFile& file : named)
+    if (file.path.empty())
+      return file.option + ": names no " + (file.role->use == Use::fills ? "folder" : "file") + "; say which one";
   const CLI::Option* force = task.get_option_no_throw("--force");
   for (std::size_t i = 0; i < named.size(); ++i) {
-    if (named[i].role->use == Use::reads || named[i].path.empty()) continue;
-    if (const std::string sentence = meets_another(task, named, i); !sentence.empty()) return sentence;
-    if (const std::string sentence = lacks_its_folder(named[i]); !sentence.empty()) return sentence;
-    if (force == nullptr || force->count() == 0)
-      if (const std::string sentence = replaces_another_kind(named[i], force != nullptr); !sentence.empty()) return sentence;
+    const NamedFile& file = named[i];
+    if (file.role->use == Use::reads) continue;
+    std::string sentence = meets_another(task, named, i);
+    if (sentence.empty()) sentence = file.role->use == Use::fills ? cannot_be_filled(file) : cannot_be_written(file);
+    const bool is_forced = force != nullptr && force->count() > 0 && file.option == kForced;
+    if (sentence.empty() && file.role->use == Use::writes && !is_forced) sentence = replaces_another_kind(file, force != nullptr);
+    if (!sentence.empty()) return sentence;
   }
   return "";
 }

@@ -1,11 +1,14 @@
-// The one rule on files of all tasks: what a task writes is nothing that it reads, no other output, and no file of another kind.
+// The one rule on files of all tasks: what a task writes is nothing that it reads, no other output, and no file of another
+// kind; and it can be written, which is known before the work and not after it.
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
 #include "ui/cli/declarations.h"
 
 namespace bl::cli {
@@ -22,14 +25,17 @@ class TaskFiles {
   /// An option that names a file which the task writes. It may name the file of `changed`, too: then that one is changed in
   /// place.
   TaskFiles& writes(const char* option, FileKind kind, const char* changed = nullptr);
+  /// What speaks against filling a folder: what of others lies in it under the names that are written.
+  using Objection = std::function<Result<void>(const std::string& folder)>;
   /// An option that names a folder into which files with these endings are written.
-  TaskFiles& fills(const char* option, std::vector<std::string> endings);
+  TaskFiles& fills(const char* option, std::vector<std::string> endings, Objection objection = {});
 
   struct Role {
     enum class Use { reads, writes, fills } use = Use::reads;
     FileKind kind = FileKind::figures;
     std::string changed;
     std::vector<std::string> endings;
+    Objection objection;
   };
   const std::map<std::string, Role>& roles() const { return roles_; }
 

@@ -1,4 +1,5 @@
 // `import`: adds the surroundings of a site to a scene, and says what became of every element.
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -95,6 +96,18 @@ class ImportDisplay {
   std::thread thread_;
 };
 
+// Waits until there is something to read, or somebody has pressed Ctrl-C: a read that waits would begin again after the signal.
+bool is_answered() {
+  constexpr int kLookEvery = 100;  // [ms]
+  struct pollfd line {
+    STDIN_FILENO, POLLIN, 0
+  };
+  while (!is_interrupted())
+    if (::poll(&line, 1, kLookEvery) > 0) return true;
+  std::fputc('\n', stderr);
+  return false;
+}
+
 // Asks on the terminal what becomes of buildings that stand inside a site.
 bool asks_to_clear(std::size_t buildings, const std::string& site) {
   std::fflush(stdout);
@@ -105,7 +118,7 @@ bool asks_to_clear(std::size_t buildings, const std::string& site) {
   std::fputs("keep / clear [keep]: ", stderr);
   std::fflush(stderr);
   char answer[16] = "";
-  if (std::fgets(answer, sizeof answer, stdin) == nullptr) return false;
+  if (!is_answered() || std::fgets(answer, sizeof answer, stdin) == nullptr) return false;
   return answer[0] == 'c' || answer[0] == 'C';
 }
 
@@ -115,6 +128,13 @@ bool write_report(const ImportOptions& options, const ImportReports& reports) {
   auto written = write_file(options.report, import_csv(reports));
   if (!written) print_error(options.report, written.error());
   return written.ok();
+}
+
+// Why none of the files was imported, in a row for each.
+bool write_refusal(const ImportOptions& options, const std::string& why) {
+  ImportReports nothing;
+  for (const std::string& file : options.files) nothing.emplace_back(file, ImportReport()).second.skip("file", "", why);
+  return write_report(options, nothing);
 }
 
 // Pictures alone: as `place` does it.
@@ -147,31 +167,32 @@ int import_command(const ImportOptions& given) {
   if (!options.into.empty()) {
     auto reading = load_scene(options.into);
     if (!reading) {
-      ImportReports nothing;
-      for (const std::string& file : options.files)
-        nothing.emplace_back(file, ImportReport()).second.skip("file", "", "the scene that it was to be added to cannot be read");
-      (void)write_report(options, nothing);
+      (void)write_refusal(options, "the scene that it was to be added to cannot be read");
       return kBadInput;
     }
     scene = std::move(reading->scene);
   }
-  const bool is_taken = !options.is_forced && is_there(options.out);
-  if (is_taken)
+  if (!options.is_forced && is_there(options.out)) {
+    // Nothing is imported: accounts of what would have been are easily taken for done.
     print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
+    (void)write_refusal(options, "the scene that it was to be written to exists already");
+    return kBadInput;
+  }
   ImportWatch watch;
   options.context.watch = &watch;
   std::optional<ImportDisplay> display(std::in_place, options.files, watch);
   if (::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1)
-    options.ask_to_clear = [&display](std::size_t buildings, const std::string& site) {
+    options.ask_to_clear = [&display, &watch](std::size_t buildings, const std::string& site) {
       display->pause(true);
       const bool is_clearing = asks_to_clear(buildings, site);
+      if (is_interrupted()) watch.is_stopped = true;
       display->pause(false);
       return is_clearing;
     };
   const ImportedScene imported = import_context(scene, options, registry);
   std::vector<Problem> problems;
   std::string text;
-  if (!is_taken && imported.scene) {
+  if (imported.scene) {
     (void)goes_on(&watch, "checking the scene", 0, 0);
     problems = check_scene(*imported.scene, registry);
     (void)goes_on(&watch, "writing the scene", 0, 0);
@@ -183,7 +204,7 @@ int import_command(const ImportOptions& given) {
   for (const auto& [file, error] : imported.errors) print_error(file, error);
   if (!write_report(options, imported.reports)) return kBadInput;
   if (is_interrupted()) return interrupt_exit_code();
-  if (is_taken || !imported.scene) return kBadInput;
+  if (!imported.scene) return kBadInput;
   print_problems(options.out, problems);
   if (auto written = write_file(options.out, text); !written) {
     print_error(options.out, written.error());

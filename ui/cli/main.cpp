@@ -13,7 +13,9 @@
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 #include "ui/cli/plugin_choice.h"
+#include "ui/cli/report/report.h"
 #include "ui/cli/terminal.h"
+#include "ui/cli/usage.h"
 
 namespace bl::cli {
 
@@ -75,7 +77,7 @@ void declare_run(CLI::App& app, RunOptions& o) {
   c.add_option("--save", o.save, "Saves the scene with its running state, to continue later; may be the scene itself.")
       ->type_name("FILE");
   files_of(c).reads({"scene", "--script"}).writes("--log", FileKind::log).writes("--json", FileKind::figures);
-  files_of(c).writes("--save", FileKind::scene, "scene").fills("--report", {".html", ".csv", ".obj"});
+  files_of(c).writes("--save", FileKind::scene, "scene").fills("--report", {".html", ".csv", ".obj"}, may_fill_with_report);
   c.footer(
       "Example:\n  behaviourlinks run scenes/start/quarter.json --set site/boundary.height=\"60 m\" --report proposal\n\n"
       "Exit codes: 0 settled, or all ticks done; 2 bad input; 3 not settled; 130 stopped by Ctrl-C, with everything written.");
@@ -92,7 +94,7 @@ void declare_open(CLI::App& app) {
 void declare_compare(CLI::App& app, CompareOptions& o) {
   CLI::App& c = *app.add_subcommand("compare", "Runs two scenes and tells every indicator that differs between them.");
   c.add_option("first", o.first, "The scene that is compared with.")->type_name("SCENE_A")->required();
-  c.add_option("second", o.second, "The scene that is compared.")->type_name("SCENE_B")->required();
+  c.add_option("second", o.second, "A second scene, which is compared with the first.")->type_name("SCENE_B")->required();
   c.add_option("--ticks", o.ticks, "Runs both for so many ticks, settled or not; 0 compares them as they were saved.")
       ->type_name("N")
       ->check(CLI::Range(0ll, 1000000000ll));
@@ -239,7 +241,7 @@ int run_program(int count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     const auto chosen = app.get_subcommands();
-    complain(error.what());
+    complain(usage_sentence(chosen.empty() ? app : *chosen.front(), error));
     const auto is_plugins = [](const char* argument) { return std::string_view(argument).starts_with("--plugins"); };
     if (!chosen.empty() && plugins.empty() && std::any_of(arguments + 1, arguments + count, is_plugins))
       complain("--plugins FOLDER stands before the task: behaviourlinks --plugins FOLDER " + chosen.front()->get_name() + " ...");

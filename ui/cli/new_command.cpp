@@ -42,15 +42,16 @@ void print_figures(const NewOptions& o, const MadeScene& made) {
 int new_command(const NewOptions& options) {
   const Registry& registry = full_registry();
   struct stat status {};
-  const bool is_taken = !options.is_forced && ::stat(options.out.c_str(), &status) == 0;
-  if (is_taken)
+  if (!options.is_forced && ::stat(options.out.c_str(), &status) == 0) {
     print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
+    return kBadInput;
+  }
   const MadeScene made = make_scene(options, registry);
   for (const std::string& note : made.notes) print_line("note: " + note);
   for (const auto& [file, warning] : made.warnings)
     print_error(file, {warning.code, warning.place, "warning: " + warning.message});
   for (const auto& [file, error] : made.errors) print_error(file, error);
-  if (is_taken || !made.scene) return kBadInput;
+  if (!made.scene) return kBadInput;
   print_problems(options.out, check_scene(*made.scene, registry));
   if (auto written = write_file(options.out, write_scene(*made.scene, registry)); !written) {
     print_error(options.out, written.error());

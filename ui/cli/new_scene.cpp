@@ -98,7 +98,7 @@ class Builder {
   void general_links() {
     const Json all = {{"typification", "smart_volume"}};
     link("demands", {{"kind", "demand"}, {"from", kProgramme}, {"to", all}});
-    link("inside", {{"kind", "inside_boundary"}, {"from", kSite}, {"to", all}, {"parameters", {{"margin", parts_.margin}}}});
+    link(kInsideLink, {{"kind", "inside_boundary"}, {"from", kSite}, {"to", all}, {"parameters", {{"margin", parts_.margin}}}});
     // Wishes to touch pull volumes together and down; these keep each of them a body of its own that stands on something.
     link("room", {{"kind", "make_room"}, {"from", kSolver}, {"to", all}});
     link("standing", {{"kind", "stand"}, {"from", kSolver}, {"to", all}});
@@ -133,7 +133,7 @@ class Builder {
   const SceneParts& parts_;
   const Registry& registry_;
   Json commands_ = Json::array();
-  std::set<std::string> link_ids_{"demands", "inside", "room", "standing"};
+  std::set<std::string> link_ids_{"demands", kInsideLink, "room", "standing"};
 };
 
 }  // namespace

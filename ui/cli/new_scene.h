@@ -11,6 +11,9 @@
 
 namespace bl::cli {
 
+/// The link that keeps positions inside the site.
+inline constexpr const char* kInsideLink = "inside";
+
 /// What a new scene is made of.
 struct SceneParts {
   std::string title;

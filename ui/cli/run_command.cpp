@@ -131,10 +131,11 @@ class Run {
     const std::string without = idle == 0   ? ""
                                 : idle == 1 ? " (1 link does not run)"
                                             : " (" + std::to_string(idle) + " links do not run)";
-    if (state.is_settled())
-      return "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " +
-             fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash);
     const std::string stopped = is_interrupted() ? "stopped at tick " + std::to_string(state.tick) + "; " : "";
+    if (state.tick == 0) return stopped + "not settled: " + std::string(kNothingComputed);
+    if (state.is_settled())
+      return stopped + "settled after " + std::to_string(state.tick) + " ticks" + without + ", worst error " +
+             fixed(100 * survey.worst_error, 3) + " %, hash " + hex_digits(state.hash);
     return "not settled: " + stopped + why_not_settled(state, before_.get());
   }
 

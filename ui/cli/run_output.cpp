@@ -115,6 +115,8 @@ void print_tensions(const Survey& survey) {
 }  // namespace
 
 void print_survey(const Survey& survey, const State& state) {
+  // What volumes have before a solver has seen them is nobody's result, and no reason for anything.
+  if (state.tick == 0) return;
   print_volumes(survey, state.plan->settings.tolerance);
   print_totals(survey);
   print_tensions(survey);
@@ -143,6 +145,7 @@ Json volume_json(const VolumeRow& row) {
           {"cell_volume", row.cell_volume},
           {"asked_floor_area", row.asked_area},
           {"floor_area", row.floor_area},
+          {"short_floor_area", row.missing_area()},
           {"surface_area", row.surface_area},
           {"spherical_area", row.spherical_area},
           {"footprint", row.footprint},
@@ -196,6 +199,11 @@ Json survey_json(const Survey& survey, const State& state, const std::string& ou
   json["settled"] = state.is_settled();
   json["hash"] = hex_digits(state.hash);
   json["outcome"] = outcome;
+  // Volumes, totals and figures are what was computed: before the first tick there is nothing of the kind.
+  if (state.tick == 0) {
+    for (const char* list : {"volumes", "tensions", "conflicts_by", "problems"}) json[list] = Json::array();
+    return json;
+  }
   json["worst_error"] = survey.worst_error;
   json["worst"] = survey.worst;
   json["worst_short_share"] = survey.worst_short;

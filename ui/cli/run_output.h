@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/define/json_text.h"
 #include "core/graph/state.h"
@@ -9,6 +10,10 @@
 
 namespace bl::cli {
 
+/// Why there are no figures: they are those of the last tick.
+inline constexpr std::string_view kNothingComputed = "nothing has been computed yet; run a tick or more";
+
+/// Nothing of a scene that has not run a tick.
 void print_survey(const Survey& survey, const State& state);
 
 /// The content of --json. `outcome`: the last line of the run.

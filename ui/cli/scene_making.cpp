@@ -7,6 +7,7 @@
 #include "core/exchange/plural.h"
 #include "core/file/file_io.h"
 #include "core/session/ledger.h"
+#include "core/session/session.h"
 
 namespace bl::cli {
 
@@ -40,10 +41,33 @@ class Maker {
     if (!command) return fail(o_.out, command.error());
     Ledger ledger(registry, Scene{});
     if (auto done = ledger.submit(*command, "new", 0); !done) return fail(o_.out, done.error());
+    if (const auto room = room_inside(ledger.scene(), registry); !room) return fail("", room.error());
     made_.scene = ledger.scene();
   }
 
  private:
+  // Is there room inside the margin? The link that keeps it knows: it is asked with the site and one volume alone, and without
+  // anybody who computes. Its answer comes in the second tick, when it sees the boundary.
+  static Result<void> room_inside(Scene scene, const Registry& registry) {
+    const auto inside = scene.links.find(kInsideLink);
+    if (inside == scene.links.end()) return {};
+    const std::map<std::string, LinkRecord> kept{*inside};
+    scene.links = kept;
+    bool has_volume = false;
+    std::erase_if(scene.nodes, [&has_volume](const auto& entry) {
+      if (entry.second.types.contains("boundary")) return false;
+      const bool is_dropped = has_volume || !entry.second.types.contains("smart_volume");
+      has_volume = has_volume || !is_dropped;
+      return is_dropped;
+    });
+    const auto session = Session::start(registry, scene, nullptr, 1);
+    if (!session) return {};
+    for (int tick = 0; tick < 2; ++tick) (*session)->tick();
+    for (const LinkState& link : (*session)->state()->links)
+      if (link.error) return Error{link.error->code, "--margin", link.error->message};
+    return {};
+  }
+
   void fail(const std::string& file, Error error) { made_.errors.emplace_back(file, std::move(error)); }
   void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
 

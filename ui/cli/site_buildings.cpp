@@ -148,9 +148,10 @@ void SiteBuildings::judge(const Context& context) {
     for (const auto& [name, whole] : wholes) {
       const double share = whole.inside / whole.footprint;
       const bool is_own = share >= kOwnShare, is_cleared = is_own && is_clearing;
-      ++(is_cleared ? sites_[s].cleared : is_own ? sites_[s].kept : sites_[s].reaching);
+      const std::size_t number = ++judged_;
+      sites_[s].cleared += is_cleared ? 1 : 0;
       for (const std::size_t b : whole.buildings)
-        if (is_cleared || areas.contains(b)) stays_[b].push_back({s, share, is_cleared});
+        if (is_cleared || areas.contains(b)) stays_[b].push_back({s, share, number, is_own, is_cleared});
     }
   }
 }
@@ -159,6 +160,10 @@ bool SiteBuildings::is_cleared(std::size_t building) const {
   const auto stays = stays_.find(building);
   return stays != stays_.end() &&
          std::any_of(stays->second.begin(), stays->second.end(), [](const Stay& stay) { return stay.is_cleared; });
+}
+
+bool SiteBuildings::has_cleared() const {
+  return std::any_of(sites_.begin(), sites_.end(), [](const Site& site) { return site.cleared > 0; });
 }
 
 void SiteBuildings::keep(std::size_t building, const ContextBuilding& made, const std::string& node, ImportReport& report) {
@@ -181,6 +186,8 @@ void SiteBuildings::keep(std::size_t building, const ContextBuilding& made, cons
                                              : bottom);
     }
     ++site.barred;
+    // Only now: another site may have cleared what this one would keep.
+    (stay.is_own ? site.kept : site.reaching).insert(stay.whole);
   }
 }
 
@@ -198,15 +205,15 @@ std::vector<std::string> SiteBuildings::notes() const {
     if (site.cleared > 0)
       notes.push_back(how_many(site.cleared, "building") + by_number(site.cleared, " that stands", " that stand") + where +
                       by_number(site.cleared, " was left out.", " were left out."));
-    if (site.kept > 0)
-      notes.push_back(how_many(site.kept, "building") + by_number(site.kept, " stands", " stand") + where +
-                      by_number(site.kept, " and stays", " and stay") +
-                      ": the site leaves out the ground under them, courts included, up to their roofs." +
+    if (const std::size_t kept = site.kept.size(); kept > 0)
+      notes.push_back(how_many(kept, "building") + by_number(kept, " stands", " stand") + where +
+                      by_number(kept, " and stays", " and stay") + ": the site leaves out the ground under " +
+                      by_number(kept, "it", "them") + ", courts included, up to " + by_number(kept, "its roof.", "their roofs.") +
                       (is_assumed_ ? " That is what --keep does; --clear leaves such buildings out of the scene." : ""));
-    if (site.reaching > 0)
-      notes.push_back(how_many(site.reaching, "building") + by_number(site.reaching, " reaches", " reach") + " into the site `" +
-                      site.id + "` with less than half of " + by_number(site.reaching, "its", "their") + " ground and " +
-                      by_number(site.reaching, "stays", "stay") + ": the site leaves that ground out.");
+    if (const std::size_t reaching = site.reaching.size(); reaching > 0)
+      notes.push_back(how_many(reaching, "building") + by_number(reaching, " reaches", " reach") + " into the site `" + site.id +
+                      "` with less than half of " + by_number(reaching, "its", "their") + " ground and " +
+                      by_number(reaching, "stays", "stay") + ": the site leaves that ground out.");
   }
   return notes;
 }

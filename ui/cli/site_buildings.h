@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,8 @@ class SiteBuildings {
   void keep(std::size_t building, const ContextBuilding& made, const std::string& node, ImportReport& report);
   static constexpr const char* kClearedReason = "it stands inside the site, which is cleared";
 
+  /// Was any building left out?
+  bool has_cleared() const;
   /// The new values of the sites' exclusions, by node.
   std::vector<std::pair<std::string, Table>> exclusions() const;
   /// Sentences about what was done; after all files.
@@ -45,12 +48,15 @@ class SiteBuildings {
     std::string id;
     std::vector<std::vector<Ring>> grounds;  // each an outline with its holes
     double bottom = 0, top = 0;
-    Table rows;  // its exclusions
-    std::size_t kept = 0, reaching = 0, cleared = 0, barred = 0;
+    Table rows;                            // its exclusions
+    std::set<std::size_t> kept, reaching;  // whole buildings that stay, by their number in `judged_`
+    std::size_t cleared = 0, barred = 0;
   };
   struct Stay {
     std::size_t site = 0;
-    double share = 0;  // [ratio] of the footprint that lies inside
+    double share = 0;       // [ratio] of the footprint that lies inside
+    std::size_t whole = 0;  // the number of its whole building
+    bool is_own = false;    // the site is its place
     bool is_cleared = false;
   };
 
@@ -58,6 +64,7 @@ class SiteBuildings {
   bool clears(std::size_t buildings, const std::string& site);
 
   std::vector<Site> sites_;
+  std::size_t judged_ = 0;  // whole buildings of all files
   InsideChoice choice_;
   bool is_assumed_ = false;
   AskToClear ask_;

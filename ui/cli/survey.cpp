@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/geometry/fit_text.h"
 #include "ui/cli/report/place_problems.h"
 #include "ui/cli/report/report_model.h"
 
@@ -90,6 +91,25 @@ std::vector<TensionRow> tensions_of(const State& state) {
   return rows;
 }
 
+bool takes_care_of(const Plan& plan, std::uint32_t solver, std::uint32_t volume) {
+  return std::any_of(plan.sets.begin(), plan.sets.end(), [&](const SetPlan& set) {
+    return set.node == solver && !set.writes.empty() && std::binary_search(set.members.begin(), set.members.end(), volume);
+  });
+}
+
+// What a solver says, with the shortages of the table: two accounts of one thing would be one too many.
+std::string told_by(const State& state, const report::ReportModel& model, std::uint32_t solver) {
+  std::vector<DemandLoss> losses;
+  std::vector<std::string> names;
+  for (const report::VolumeRow& volume : model.volumes) {
+    if (!takes_care_of(*state.plan, solver, volume.node)) continue;
+    if (volume.limited - volume.volume > model.accounts.tolerance * volume.limited)
+      losses.push_back({static_cast<std::uint32_t>(names.size()), volume.limited, volume.volume});
+    names.push_back(volume.id);
+  }
+  return with_losses(report::text_at(state, solver, kSolver, "message"), losses, names);
+}
+
 }  // namespace
 
 std::vector<VolumeRow> volumes_of(const State& state) {
@@ -100,9 +120,10 @@ std::vector<VolumeRow> volumes_of(const State& state) {
 
 std::string solver_message(const State& state) {
   std::string message;
+  report::ReportModel model;
+  report::read_figures(state, model);
   for (std::uint32_t n = 0; n < count_of(state); ++n)
-    if (const std::string said = report::text_at(state, n, kSolver, "message"); !said.empty())
-      message += (message.empty() ? "" : "; ") + said;
+    if (const std::string said = told_by(state, model, n); !said.empty()) message += (message.empty() ? "" : "; ") + said;
   return message;
 }
 
@@ -140,7 +161,7 @@ Survey survey_of(const State& state) {
   for (std::uint32_t n = 0; n < count_of(state); ++n)
     if (report::has_type(state, n, kSolver)) {
       const auto number = [&](const char* port) { return report::number_at(state, n, kSolver, port); };
-      survey.solvers.push_back({state.plan->nodes[n].id, report::text_at(state, n, kSolver, "message"), number("boundary_volume"),
+      survey.solvers.push_back({state.plan->nodes[n].id, told_by(state, model, n), number("boundary_volume"),
                                 number("total_demand"), number("total_volume")});
     }
   for (const VolumeRow& volume : survey.volumes)

@@ -121,6 +121,84 @@ TEST_F(FileRule, TheSameKindIsReplaced) {
   }
 }
 
+// A folder of a report may hold other things; what lies under a name of the report is of one, or the run does not begin.
+TEST_F(FileRule, ReportsLeaveWhatIsSomebodyElses) {
+  std::filesystem::create_directory(place.path("out"));
+  for (const char* name :
+       {"plots.csv", "uses.csv", "volumes.csv", "conflicts.csv", "sun_map.csv", "report.html", "volumes.obj"}) {
+    place.write(std::string("out/") + name, "id\n1\n");
+    expect_refused({"run", "s.json", "--ticks", "1", "--report", "out"},
+                   std::string("--report: out/") + name + ": is there already and is no ");
+    std::filesystem::remove(place.path(std::string("out/") + name));
+  }
+  place.write("out/report.html", "<!DOCTYPE html>\n<html><head><title>Mine</title></head></html>\n");
+  expect_refused({"run", "s.json", "--ticks", "1", "--report", "out"}, "out/report.html: is there already and is no page");
+  std::filesystem::remove(place.path("out/report.html"));
+  // What is ours is replaced, and emptied where there is nothing to tell any more; all else stays.
+  place.write("out/mine.csv", "id\n1\n");
+  place.write("out/uses.csv", "");
+  place.write("out/streets.csv", "id,name,used_length [m],lanes\r\nold,Old street,5,1\r\n");
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(place.run({"run", "s.json", "--ticks", "1", "--report", "out"}).code, 0);
+  EXPECT_EQ(place.text("out/streets.csv").find("Old street"), std::string::npos);
+  EXPECT_EQ(place.text("out/mine.csv"), "id\n1\n");
+  EXPECT_NE(place.text("out/uses.csv").find("housing"), std::string::npos);
+  // A page that compares is no page of a run.
+  EXPECT_EQ(place.run({"compare", "s.json", "b.json", "--ticks", "1", "--report", "out/difference.html"}).code, 0);
+  std::filesystem::rename(place.path("out/difference.html"), place.path("out/report.html"));
+  expect_refused({"run", "s.json", "--ticks", "1", "--report", "out"}, "out/report.html: is there already");
+}
+
+TEST_F(FileRule, TheCatalogueLeavesWhatIsSomebodyElses) {
+  std::filesystem::create_directory(place.path("pages"));
+  place.write("pages/README.md", "# Mine\n");
+  expect_refused({"docs", "--out", "pages"}, "pages/README.md: is there already and is no page of the catalogue");
+  EXPECT_FALSE(std::filesystem::exists(place.path("pages/nodes"))) << "all or nothing";
+  place.write("pages/README.md", "");
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(place.run({"docs", "--out", "pages"}).code, 0);
+}
+
+// Told before the work, not after it: nothing has been computed that could be shown.
+TEST_F(FileRule, WhatCannotBeWrittenIsToldAtOnce) {
+  std::filesystem::create_directory(place.path("folder"));
+  const auto refused_at_once = [&](const std::vector<std::string>& options, const std::string& said) {
+    std::vector<std::string> arguments{"run", "s.json", "--ticks", "1"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = place.run(arguments);
+    EXPECT_EQ(outcome.code, 2) << options.back();
+    EXPECT_EQ(outcome.out, "") << options.back();
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  };
+  refused_at_once({"--report", "rows.csv"}, "rows.csv is a file, not a folder");
+  refused_at_once({"--report", "rows.csv/deeper"}, "rows.csv is a file, not a folder");
+  refused_at_once({"--json", "folder"}, "--json: folder: is a folder, not a file; choose another name");
+  refused_at_once({"--log", "folder"}, "--log: folder: is a folder");
+  // Nobody makes files there, not even who may do everything.
+  refused_at_once({"--json", "/proc/o.json"}, "--json: /proc/o.json: cannot be written");
+  refused_at_once({"--report", "/proc/out"}, "--report: /proc/out: nothing can be written there");
+  EXPECT_TRUE(std::filesystem::is_empty(place.path("folder")));
+  // Trying leaves nothing behind.
+  EXPECT_EQ(place.run({"run", "s.json", "--ticks", "1", "--json", "folder/o.json"}).code, 0);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(place.path("folder")), {}), 1);
+}
+
+TEST_F(FileRule, EmptyNamesAreRefusedWithTheirOption) {
+  expect_refused({"run", "", "--report", "out"}, "SCENE: names no file; say which one");
+  expect_refused({"run", "s.json", "--script", "", "--report", "out"}, "--script: names no file");
+  expect_refused({"run", "s.json", "--report", ""}, "--report: names no folder");
+  expect_refused({"script", "s.json", "", "--extract", "lua"}, "FILE.lua: names no file");
+  expect_refused({"docs", "--from", "", "--out", "d"}, "--from: names no file");
+  expect_refused({"cells", "", "--json", "x.json"}, "FILE: names no file");
+  expect_refused({"cells", "case.json", "--json", ""}, "--json: names no file");
+}
+
+// --force is for --out, as its help says: the report of an import is another file.
+TEST_F(FileRule, ForceReplacesNothingButTheOutput) {
+  expect_refused({"import", "rows.csv", "--as", "layer", "--value", "value", "--crs", "EPSG:28992", "--out", "o.json", "--force",
+                  "--report", "b.json"},
+                 "--report: b.json: exists already and holds a scene, not a table; choose another name, or remove it first");
+  expect_refused({"import", "rows.csv", "--out", "case.json"}, "or replace it with --force");
+}
+
 TEST_F(FileRule, ExtractedScriptsThatWereChangedStay) {
   EXPECT_EQ(place.run({"script", "s.json", "f.lua", "--out", "s.json"}).code, 0);
   EXPECT_EQ(place.run({"script", "s.json", "--extract", "lua"}).code, 0);

@@ -66,7 +66,8 @@ class ImportSite : public testing::Test {
 TEST_F(ImportSite, WithoutATerminalTheyAreKeptAndItIsSaid) {
   const Outcome done = import();
   ASSERT_EQ(done.code, 0) << done.err;
-  EXPECT_NE(done.out.find("1 building stands inside the site `site` and stays: the site leaves out the ground under them"),
+  EXPECT_NE(done.out.find("1 building stands inside the site `site` and stays: the site leaves out the ground under it, courts "
+                          "included, up to its roof."),
             std::string::npos)
       << done.out;
   EXPECT_NE(done.out.find("That is what --keep does; --clear leaves such buildings out"), std::string::npos) << done.out;
@@ -140,14 +141,59 @@ TEST_F(ImportSite, PartsShareTheFateOfTheirBuilding) {
       0);
   const Outcome done =
       place.run({"import", "parts.osm", "--into", "scene.json", "--clear", "--out", "all.json", "--report", "rows.csv"});
-  EXPECT_EQ(done.code, 2) << "nothing else is in the file";
+  EXPECT_EQ(done.code, 0) << "nothing else is in the file, and the site is cleared: " << done.err;
+  EXPECT_EQ(done.err, "") << "there is nothing to ask about";
+  EXPECT_NE(done.out.find("wrote all.json: no new nodes"), std::string::npos) << done.out;
   EXPECT_NE(place.text("rows.csv").find("skipped,way,w1,"), std::string::npos) << place.text("rows.csv");
   EXPECT_NE(place.text("rows.csv").find("skipped,way,w3,"), std::string::npos);
-  const Outcome kept = place.run({"import", "parts.osm", "--into", "scene.json", "--keep", "--out", "all.json"});
+  const Outcome kept = place.run({"import", "parts.osm", "--into", "scene.json", "--keep", "--out", "all.json", "--force"});
   ASSERT_EQ(kept.code, 0) << kept.err;
   EXPECT_NE(kept.out.find("1 building stands inside the site `site` and stays"), std::string::npos) << kept.out;
   EXPECT_EQ(node("site")["types"]["boundary"]["exclusions"].size(), 8u) << "both parts";
   EXPECT_EQ(place.run({"import", "parts.osm", "--into", "scene.json", "--keep", "--clear", "--out", "no.json"}).code, 2);
+}
+
+// One site is cleared of what reaches into the other: it is gone from both, and nobody is told that it stays.
+TEST_F(ImportSite, WhatOneSiteClearsDoesNotStayInTheOther) {
+  const auto site = [](const std::string& id, int west, int east) {
+    const std::string w = std::to_string(west), e = std::to_string(east);
+    return R"({"id": ")" + id + R"(", "types": {"boundary": {"form": "plan", "height": 30, "plan": [[)" + w + ", 0, 0], [" + e +
+           ", 0, 0], [" + e + ", 50, 0], [" + w + ", 50, 0]]}}}";
+  };
+  place.write("two.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [)" + site("site_a", 0, 50) + "," +
+                              site("site_b", 50, 100) + R"(], "links": []})");
+  // Two thirds in the one, one third in the other.
+  place.write("house.geojson",
+              R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"height": 12}, "geometry":
+      {"type": "Polygon", "coordinates": [[[30, 10], [60, 10], [60, 30], [30, 30], [30, 10]]]}}]})");
+  const std::vector<std::string> call{"import", "house.geojson", "--into", "two.json", "--out",  "all.json",
+                                      "--crs",  "local",         "--as",   "building", "--force"};
+  std::vector<std::string> clearing = call, keeping = call;
+  clearing.push_back("--clear");
+  keeping.push_back("--keep");
+  const Outcome cleared = place.run(clearing);
+  EXPECT_EQ(cleared.code, 0) << cleared.err;
+  EXPECT_NE(cleared.out.find("1 building that stands inside the site `site_a` was left out."), std::string::npos) << cleared.out;
+  EXPECT_EQ(cleared.out.find("stays"), std::string::npos) << cleared.out;
+  const Outcome kept = place.run(keeping);
+  EXPECT_EQ(kept.code, 0) << kept.err;
+  EXPECT_NE(kept.out.find("1 building stands inside the site `site_a` and stays"), std::string::npos) << kept.out;
+  EXPECT_NE(kept.out.find("1 building reaches into the site `site_b`"), std::string::npos) << kept.out;
+}
+
+// Layers have one value at each place, which has an option of its own.
+TEST_F(ImportSite, LayersTakeTheirValuesByAnotherOption) {
+  place.write("points.geojson",
+              R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"pop": 5, "h": 3},
+      "geometry": {"type": "Point", "coordinates": [5.0, 52.0]}}]})");
+  const std::vector<std::string> call{"import", "points.geojson", "--as", "layer", "--value", "pop", "--out", "l.json"};
+  std::vector<std::string> with_property = call;
+  with_property.insert(with_property.end(), {"--property", "height=h"});
+  const Outcome refused = place.run(with_property);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("by --value h"), std::string::npos) << refused.err;
+  EXPECT_EQ(refused.err.find("none of the files has features"), std::string::npos) << refused.err;
+  EXPECT_EQ(place.run(call).code, 0);
 }
 
 TEST_F(ImportSite, PropertiesThatNobodyHasAreToldOnBothSides) {

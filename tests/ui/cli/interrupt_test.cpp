@@ -1,6 +1,11 @@
 // One Ctrl-C ends each task within a second, and what was asked for is written.
 #include <gtest/gtest.h>
 
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -63,6 +68,69 @@ TEST(Interrupt, EndsARunAndWritesAllThatWasAskedFor) {
 }
 
 // A tick of a script that has minutes of work in it is dropped: what is saved is the tick before.
+// A run of so many ticks that has settled long before its end was still stopped, and says so.
+TEST(Interrupt, ASettledRunSaysThatItWasStopped) {
+  const Workplace place;
+  place.write("s.json", moving_scene());
+  const auto found = interrupt(place, "run s.json --ticks 100000000", "3");
+  expect_at_once(found);
+  EXPECT_TRUE(found.outcome.last_line().starts_with("stopped at tick ")) << found.outcome.last_line();
+}
+
+// Somebody is asked on a terminal, and answers with Ctrl-C.
+TEST(Interrupt, EndsAQuestion) {
+  const Workplace place;
+  place.write("site.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "site", "types": {"boundary":
+    {"form": "plan", "height": 30, "plan": [[0, 0, 0], [50, 0, 0], [50, 50, 0], [0, 50, 0]]}}}], "links": []})");
+  place.write("house.geojson",
+              R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"height": 12}, "geometry":
+      {"type": "Polygon", "coordinates": [[[10, 10], [30, 10], [30, 30], [10, 30], [10, 10]]]}}]})");
+  const std::string program = program_path().string(), folder = place.path("").string();
+  int terminal = -1;
+  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (::chdir(folder.c_str()) == 0)
+      ::execl(program.c_str(), "behaviourlinks", "import", "house.geojson", "--into", "site.json", "--out", "all.json", "--crs",
+              "local", "--as", "building", static_cast<char*>(nullptr));
+    ::_exit(99);
+  }
+  // What the program writes, until it waits for an answer or says nothing more.
+  const auto read_until = [terminal](const std::string& words, int milliseconds) {
+    std::string text;
+    struct pollfd line {
+      terminal, POLLIN, 0
+    };
+    for (int waited = 0; waited < milliseconds && text.find(words) == std::string::npos; waited += 100) {
+      char some[4096];
+      if (::poll(&line, 1, 100) <= 0) continue;
+      const ssize_t count = ::read(terminal, some, sizeof some);
+      if (count <= 0) break;
+      text.append(some, static_cast<std::size_t>(count));
+    }
+    return text;
+  };
+  const std::string question = read_until("keep / clear", 20000);
+  EXPECT_NE(question.find("keep / clear"), std::string::npos) << question;
+  ASSERT_EQ(::write(terminal, "\x03", 1), 1);
+  (void)read_until("no such words", 5000);
+  int status = 0;
+  bool has_ended = false;
+  for (int tries = 0; tries < 50 && !has_ended; ++tries) {
+    has_ended = ::waitpid(child, &status, WNOHANG) == child;
+    if (!has_ended) ::usleep(100'000);
+  }
+  EXPECT_TRUE(has_ended) << "it still waits for an answer";
+  if (!has_ended) {
+    ::kill(child, SIGKILL);
+    ::waitpid(child, &status, 0);
+  } else {
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << status;
+  }
+  ::close(terminal);
+  EXPECT_FALSE(std::filesystem::exists(place.path("all.json")));
+}
+
 TEST(Interrupt, EndsAScriptInTheMiddleOfATick) {
   const Workplace place;
   std::string links;

@@ -62,6 +62,37 @@ TEST(Script, CheckTriesEvaluate) {
     }
 }
 
+// A trial with values that no scene could have says nothing of a script: sound ones pass, and doubts are no errors.
+TEST(Script, CheckTriesWhatAPortCanHold) {
+  const Workplace place;
+  const auto check = [&](const std::string& reads, const std::string& body) {
+    place.write("mine.lua",
+                "return {id = 'mine', doc = 'A try.',\n"
+                "  params = {{id = 'word', default = '', doc = 'A word that people have to give.'}},\n  reads = {" +
+                    reads +
+                    "},\n  proposes = {demand = {at = 'to', port = 'smart_volume.demand', unit = 'm3'}},\n"
+                    "  evaluate = function(params, ends)\n    " +
+                    body + "\n    return {demand = 100}\n  end}\n");
+    return place.run({"check", "mine.lua"});
+  };
+  const std::string open = "open = {at = 'from', port = 'street.open', unit = 'ratio'}",
+                    place_read = "p = {at = 'from', port = 'node.position', unit = 'm'}";
+  for (const auto& [reads, body] :
+       {std::pair<std::string, std::string>{open, "if not (ends.open > 0 and ends.open <= 1) then error('no share') end"},
+        {open, "if not (ends.open > 0 and ends.open < 1) then error('no share between') end"},
+        {place_read, "if params.word == '' then error('say the word first') end"}}) {
+    const Outcome sound = check(reads, body);
+    EXPECT_EQ(sound.code, 0) << body << sound.err;
+    EXPECT_EQ(sound.err, "") << body;
+  }
+  // Nobody knows the only word that it takes: a doubt. A name that does not exist: an error.
+  const Outcome doubt = check(place_read, "if params.word ~= 'sesame' then error('another word') end");
+  EXPECT_EQ(doubt.code, 0) << doubt.err;
+  EXPECT_NE(doubt.err.find("warning: "), std::string::npos) << doubt.err;
+  EXPECT_NE(doubt.err.find("another word"), std::string::npos) << doubt.err;
+  EXPECT_EQ(check(place_read, "nothing.here = 1").code, 2);
+}
+
 TEST(Script, IsTriedForOneRunAndReplayed) {
   const Workplace place;
   place.write("scene.json", kScene);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -141,7 +142,7 @@ TEST_F(UrbanReport, ThePlanShowsWhatStandsAround) {
 TEST(FigureTables, NothingOlderIsLeftBehind) {
   const std::string folder = (std::filesystem::path(testing::TempDir()) / "report_older").string();
   std::filesystem::create_directories(folder);
-  ASSERT_TRUE(write_file(folder + "/streets.csv", "id,name\r\nold,Old street\r\n").ok());
+  ASSERT_TRUE(write_file(folder + "/streets.csv", "id,name,used_length [m]\r\nold,Old street,5\r\n").ok());
   World world = World::from_text(
       R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "v", "types": {"smart_volume": {}}}], "links": []})");
   world.tick(2);
@@ -184,6 +185,58 @@ TEST(FigureTables, NoTableOfAReportHoldsAFormula) {
   EXPECT_GE(tables, 4u);
   EXPECT_GT(cells, 40u);
   EXPECT_NE(read_file(folder + "/volumes.csv")->find(",-3,"), std::string::npos) << "negative numbers stay numbers";
+}
+
+// A table of somebody else is not written over, whoever asks for the report: the window does it as well.
+TEST(FigureTables, WhatIsSomebodyElsesStays) {
+  const std::string folder = (std::filesystem::path(testing::TempDir()) / "report_foreign").string();
+  std::filesystem::create_directories(folder);
+  ASSERT_TRUE(write_file(folder + "/plots.csv", "id\n1\n").ok());
+  World world = World::from_text(
+      R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "v", "types": {"smart_volume": {}}}], "links": []})");
+  world.tick(2);
+  const auto written = write_report(folder, {&world.state(), {}, "v.json", "ticked"});
+  ASSERT_FALSE(written.ok());
+  EXPECT_NE(written.error().text().find("plots.csv: is there already and is no table of a report"), std::string::npos)
+      << written.error().text();
+  EXPECT_EQ(*read_file(folder + "/plots.csv"), "id\n1\n");
+  std::filesystem::remove(folder + "/plots.csv");
+}
+
+// Large numbers are numbers: a dash stands for what is none, and for a limit that nobody has set.
+TEST(FigureParts, LargeNumbersAreShown) {
+  const PortDefinition& most =
+      full_registry().typification("data_layer")->ports[full_registry().typification("data_layer")->port_index("maximum")];
+  EXPECT_NE(report::figure_text(3e9, most, false).find('3'), std::string::npos) << report::figure_text(3e9, most, false);
+  EXPECT_NE(report::figure_text(-2.5e12, most, false).find("500"), std::string::npos);
+  EXPECT_EQ(report::figure_text(std::numeric_limits<double>::infinity(), most, false), "\xE2\x80\x93");
+  const TypificationDefinition& volume = *full_registry().typification("smart_volume");
+  const PortDefinition& limit = volume.ports[volume.port_index("demand_limit")];
+  EXPECT_EQ(report::figure_text(1e9, limit, false), "\xE2\x80\x93") << "its default, which is no limit";
+  EXPECT_NE(report::figure_text(9e8, limit, false), "\xE2\x80\x93");
+}
+
+// Buildings are cut at the frame of the plan: one whose middle lies beyond it has no name on the sheet.
+TEST(Surroundings, WhatLiesBeyondTheFrameHasNoName) {
+  const auto plan_with = [](double west) {
+    const std::string x = std::to_string(west), east = std::to_string(west + 5);
+    World world = World::from_text(
+        R"({"format": "behaviourlinks", "version": 1, "nodes": [
+      {"id": "site", "types": {"boundary": {"form": "plan", "plan": [[0, 0, 0], [40, 0, 0], [40, 20, 0], [0, 20, 0]], "height": 30}}},
+      {"id": "solver", "types": {"smart_volumes_solver": {}}},
+      {"id": "v", "position": [10, 10, 8], "types": {"smart_volume": {"demand": 1000}}},
+      {"id": "j1", "position": [-200, -5, 0], "types": {"junction": {}}}, {"id": "j2", "position": [200, -5, 0], "types": {"junction": {}}},
+      {"id": "s", "types": {"street": {"start": "j1", "end": "j2"}}},
+      {"id": "tower", "name": "Tower", "types": {"existing_building": {"height": 20, "outline": [[)" +
+        x + ", 8, 0], [" + east + ", 8, 0], [" + east + ", 13, 0], [" + x + R"(, 13, 0]]}}}], "links": []})");
+    world.tick(3);
+    report::ReportModel model;
+    report::read_model(world.state(), model);
+    return report::draw_plan(world.state(), model, report::Palette(model.use_names())).svg;
+  };
+  EXPECT_NE(plan_with(-15).find(">Tower</text>"), std::string::npos);
+  EXPECT_EQ(plan_with(-33).find(">Tower</text>"), std::string::npos);
+  EXPECT_EQ(plan_with(-300).find(">Tower</text>"), std::string::npos);
 }
 
 TEST(FigureParts, PercentagesOfNothingAreDashes) {

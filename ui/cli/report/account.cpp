@@ -116,9 +116,10 @@ double Account::missing() const { return std::max(0.0, asked - volume); }
 double Account::missing_area() const { return std::max(0.0, asked_area - floor_area); }
 double Account::withheld() const { return std::max(0.0, asked - limited); }
 
-double Account::short_share() const {
-  return std::max(share_missing(asked, volume), is_by_area ? share_missing(asked_area, floor_area) : 0.0);
-}
+double Account::missing_share() const { return share_missing(asked, volume); }
+double Account::missing_area_share() const { return share_missing(asked_area, floor_area); }
+
+double Account::short_share() const { return std::max(missing_share(), is_by_area ? missing_area_share() : 0.0); }
 
 double Account::difference() const { return asked > kNothing ? (volume - asked) / asked : 0; }
 double Account::standing() const { return short_share() > 0 ? -short_share() : difference(); }
@@ -139,6 +140,7 @@ std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
     const Table* table = table_at(state, n, "programme", "rows");
     for (std::size_t r = 0; table != nullptr && r < table->rows.size(); ++r) {
+      if (table->text(r, "use").empty()) continue;  // nobody is asked by it, which the programme itself says
       const auto [found, is_new] = index.emplace(table->text(r, "use"), brief.size());
       if (is_new) brief.emplace_back(found->first, BriefRow{});
       BriefRow& row = brief[found->second].second;
@@ -222,8 +224,26 @@ std::string why_short(const State& state, const Accounts& accounts, const Volume
   return causes_of(volume, who_limits(state, volume), accounts.tolerance);
 }
 
+namespace {
+
+// What others of a use have too much makes up in its sum for what some go short of, and for nobody else.
+std::string why_some_are_short(const State& state, const Accounts& accounts, const UseAccount& use) {
+  const VolumeAccount* worst = nullptr;
+  for (const VolumeAccount& volume : accounts.volumes)
+    if (volume.use == use.use && volume.is_short(accounts.tolerance) &&
+        (worst == nullptr || volume.short_share() > worst->short_share()))
+      worst = &volume;
+  if (worst == nullptr) return "";
+  const std::string name = name_at(state, worst->node);
+  return (use.short_volumes > 1 ? std::to_string(use.short_volumes) + " of its volumes are short, `" + name + "` most: "
+                                : "`" + name + "` alone is short: ") +
+         why_short(state, accounts, *worst);
+}
+
+}  // namespace
+
 std::string why_short(const State& state, const Accounts& accounts, const UseAccount& use) {
-  if (!use.is_short(accounts.tolerance)) return "";
+  if (!use.is_short(accounts.tolerance)) return why_some_are_short(state, accounts, use);
   if (use.volumes == 0) return "no volume has this use: add one, or give one that use";
   std::vector<std::string> limiters;
   double unasked = use.asked;

@@ -24,9 +24,12 @@ struct Account {
   /// What of the volume, and of the floor area, is missing against what was asked for; never below 0.
   double missing() const;
   double missing_area() const;
+  /// The same as shares of what was asked for, from 0 to 1.
+  double missing_share() const;
+  double missing_area_share() const;
   /// What limits hold back of the volume asked for.
   double withheld() const;
-  /// What is missing as a share of what was asked for, from 0 to 1: the larger of both where floor area was asked for.
+  /// The larger of both shares where floor area was asked for, else that of the volume.
   double short_share() const;
   /// What there is against what was asked for, below 0 where it is less; 0 where nothing was asked for.
   double difference() const;
@@ -75,6 +78,7 @@ std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state);
 /// Who holds a volume below what it asks for: "link `cap`", "people"; empty where nobody does.
 std::vector<std::string> who_limits(const State& state, const VolumeAccount& volume);
 /// Why a volume or a use has less than was asked for, as parts of a sentence with what helps; empty where it is not short.
+/// Of a use that has enough as a whole: why single volumes of it have not.
 std::string why_short(const State& state, const Accounts& accounts, const VolumeAccount& volume);
 std::string why_short(const State& state, const Accounts& accounts, const UseAccount& use);
 

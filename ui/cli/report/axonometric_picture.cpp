@@ -82,7 +82,7 @@ std::vector<const VolumeRow*> back_to_front(const ReportModel& model, const View
 }
 
 // The plot with a grid of round metres, so that the eye has a measure for depth too.
-double draw_ground(Markup& svg, const Sheet& sheet, const ReportModel& model) {
+double draw_ground(Markup& svg, const Sheet& sheet, const ReportModel& model, const std::string& id) {
   PathText ground;
   double low_x = 0, high_x = 0, low_y = 0, high_y = 0, z = 0;
   bool is_first = true;
@@ -100,14 +100,14 @@ double draw_ground(Markup& svg, const Sheet& sheet, const ReportModel& model) {
     }
   if (ground.empty()) return 0;
   const double step = round_length(std::max(high_x - low_x, high_y - low_y) / 5);
-  svg.open("clipPath", {{"id", "plot"}}).path(ground, {{"clip-rule", "evenodd"}}).close();
+  svg.open("clipPath", {{"id", id + "-plot"}}).path(ground, {{"clip-rule", "evenodd"}}).close();
   svg.path(ground, {{"fill", hex(mix(kPaper, {0.78, 0.76, 0.70}, 0.42))}, {"fill-rule", "evenodd"}});
   PathText grid;
   for (double x = std::ceil(low_x / step) * step; x < high_x; x += step)
     grid.polyline({sheet.at({x, low_y, z}), sheet.at({x, high_y, z})}, false);
   for (double y = std::ceil(low_y / step) * step; y < high_y; y += step)
     grid.polyline({sheet.at({low_x, y, z}), sheet.at({high_x, y, z})}, false);
-  svg.path(grid, {{"clip-path", "url(#plot)"}, {"fill", "none"}, {"stroke", hex(kPaper)}, {"stroke-width", ".9"}});
+  svg.path(grid, {{"clip-path", "url(#" + id + "-plot)"}, {"fill", "none"}, {"stroke", hex(kPaper)}, {"stroke-width", ".9"}});
   svg.path(ground, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.3"}, {"stroke-linejoin", "round"}});
   return step;
 }
@@ -150,7 +150,7 @@ void draw_envelope(Markup& svg, const Sheet& sheet, const ReportModel& model, bo
 }
 
 void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const Palette& palette, const Scenery& scenery,
-                 bool has_storeys) {
+                 bool has_storeys, const std::string& id) {
   svg.open("g");
   svg.element("title", std::to_string(volume.number) + ". " + volume.name + (volume.use.empty() ? "" : ", " + volume.use) + ": " +
                            quantity(volume.floor_area, Unit::square_metre) + " floor area, " +
@@ -158,7 +158,8 @@ void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const
   const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.storey_height : 0, volume.bottom,
                          volume.bottom + volume.height};
   if (volume.exact.radius > 0)
-    draw_ball(svg, sheet, volume.exact, style, "shade-" + palette.letter(volume.use), "ball-" + std::to_string(volume.number));
+    draw_ball(svg, sheet, volume.exact, style, id + "-shade-" + palette.letter(volume.use),
+              id + "-ball-" + std::to_string(volume.number));
   else draw_solid(svg, sheet, *volume.mesh, style);
   svg.close();
 }
@@ -242,11 +243,11 @@ std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<cons
 
 }  // namespace
 
-Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
+Picture draw_axonometry(const ReportModel& model, const Palette& palette, const std::string& id) {
   const View view = axonometric_view(kAzimuth, kElevation);
   const Scenery scenery = scenery_of(model, view);
   if (scenery.content.empty())
-    return {empty_picture("axonometry", "Axonometry", "Nothing to draw: there is no boundary, and no volume has a shape."), ""};
+    return {empty_picture(id, "Axonometry", "Nothing to draw: there is no boundary, and no volume has a shape."), ""};
   const std::vector<Point3> frame = framed(scenery.content, model.surroundings, kAroundAside);
   std::vector<Point3> content = scenery.content;
   Point3 middle;
@@ -257,18 +258,18 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette) {
   const Sheet sheet(view, content, kAxonometryWidth, kMostAxonometryHeight, {40, 34, 40, 52});
   const std::vector<const VolumeRow*> order = back_to_front(model, view);
   Markup svg;
-  open_picture(svg, sheet.width(), sheet.height(), "axonometry", "Axonometry",
+  open_picture(svg, sheet.width(), sheet.height(), id, "Axonometry",
                "The proposal seen from above and aside: " + counted(order.size(), "volume") +
                    " on the site, coloured and lettered by use.");
-  draw_ground_aside(svg, sheet, model.surroundings, frame, scenery.ground);
-  const double grid = draw_ground(svg, sheet, model);
+  draw_ground_aside(svg, sheet, model.surroundings, frame, scenery.ground, id);
+  const double grid = draw_ground(svg, sheet, model, id);
   draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, false);
   draw_shadows(svg, sheet, model, scenery);
   draw_envelope(svg, sheet, model, false);
   for (const UseAccount& use : model.accounts.uses)
-    define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, "shade-" + palette.letter(use.use));
+    define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, id + "-shade-" + palette.letter(use.use));
   const bool has_storeys = order.size() <= kMostStoreys;
-  for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys);
+  for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys, id);
   draw_envelope(svg, sheet, model, true);
   draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, true);
   const std::string missing = write_labels(svg, sheet, order, palette);

@@ -13,9 +13,22 @@ namespace {
 
 constexpr std::size_t kMostBars = 40;
 constexpr double kPageWidth = 1000, kLine = 22, kLabels = 400, kFigures = 190;
+constexpr double kBarTextSize = 10;  // of the class `figure` [px]
 
 std::string who(const IndicatorRow& row) { return row.node.empty() ? "All" : row.name; }
 
+// Who and what, cut at a letter where there is no room for all of it.
+std::string fitting(const IndicatorRow& row) {
+  std::string label = who(row) + " \xC2\xB7 " + row.label;
+  if (text_width(label, kBarTextSize) <= kLabels - 16) return label;
+  while (!label.empty() && text_width(label + "...", kBarTextSize) > kLabels - 16) {
+    while (label.size() > 1 && (static_cast<unsigned char>(label.back()) & 0xC0u) == 0x80u) label.pop_back();
+    label.pop_back();
+  }
+  return label + "...";
+}
+
+// Of what changed its sign the difference is more than the larger value: such a bar ends where the chart does.
 // Bars from the middle: to the right what became more, to the left what became less, as a share of the larger value.
 std::string bars(const std::vector<IndicatorRow>& rows, const std::string& id, const std::string& title) {
   const std::size_t count = std::min(rows.size(), kMostBars);
@@ -23,24 +36,22 @@ std::string bars(const std::vector<IndicatorRow>& rows, const std::string& id, c
   const double left = kLabels, right = kPageWidth - kFigures, middle = 0.5 * (left + right), half = 0.5 * (right - left) - 4;
   Markup svg;
   open_picture(svg, kPageWidth, height, id, title, "Bars to the right: more in the second proposal; to the left: less.");
-  svg.leaf("line", {{"class", "axis"}, {"x1", pixels(middle)}, {"x2", pixels(middle)}, {"y1", "18"}, {"y2", pixels(height - 6)}});
-  svg.element("text", "less", {{"x", pixels(left)}, {"y", "12"}, {"class", "small"}});
-  svg.element("text", "more", {{"x", pixels(right)}, {"y", "12"}, {"class", "small"}, {"text-anchor", "end"}});
+  svg.leaf("line",
+           {{"class", "leader"}, {"x1", pixels(middle)}, {"x2", pixels(middle)}, {"y1", "18"}, {"y2", pixels(height - 6)}});
+  svg.element("text", "less", {{"x", pixels(left)}, {"y", "12"}, {"class", "figure start"}});
+  svg.element("text", "more", {{"x", pixels(right)}, {"y", "12"}, {"class", "figure end"}});
   for (std::size_t k = 0; k < count; ++k) {
     const IndicatorRow& row = rows[k];
-    const double y = 22 + kLine * static_cast<double>(k), length = half * row.share();
+    const double y = 22 + kLine * static_cast<double>(k), length = half * std::min(1.0, row.share());
     const bool is_more = row.after > row.before;
-    std::string label = who(row) + " \xC2\xB7 " + row.label;
-    constexpr std::size_t kMostLetters = 62;
-    if (label.size() > kMostLetters) label = label.substr(0, kMostLetters - 3) + "...";
-    svg.element("text", label, {{"x", pixels(left - 8)}, {"y", pixels(y + 14)}, {"text-anchor", "end"}, {"class", "small"}});
+    svg.element("text", fitting(row), {{"x", pixels(left - 8)}, {"y", pixels(y + 14)}, {"class", "figure end"}});
     svg.leaf("rect", {{"x", pixels(is_more ? middle : middle - length)},
                       {"y", pixels(y + 3)},
                       {"width", pixels(std::max(1.0, length))},
                       {"height", pixels(kLine - 6)},
                       {"fill", is_more ? "#0072b2" : "#d55e00"}});
     svg.element("text", row.figure(row.before) + " \xE2\x86\x92 " + row.figure(row.after),
-                {{"x", pixels(right + 8)}, {"y", pixels(y + 14)}, {"class", "small"}});
+                {{"x", pixels(right + 8)}, {"y", pixels(y + 14)}, {"class", "figure start"}});
   }
   svg.close();
   return svg.str();
@@ -54,24 +65,25 @@ void list(Markup& page, const std::string& heading, const std::vector<std::strin
 }
 
 void table(Markup& page, const std::vector<IndicatorRow>& rows, const std::string& first, const std::string& second) {
-  page.open("div", {{"class", "scroll"}}).open("table").open("thead").open("tr");
+  page.open("div", {{"class", "wide"}}).open("table").open("thead").open("tr");
   for (const std::string& head : {std::string("Node"), std::string("Indicator")}) page.element("th", head, {{"scope", "col"}});
   for (const std::string& head : {first, second, std::string("Difference")})
-    page.element("th", head, {{"scope", "col"}, {"class", "number"}});
+    page.element("th", head, {{"scope", "col"}, {"class", "n"}});
   page.close().close().open("tbody");
   for (const IndicatorRow& row : rows) {
     page.open("tr").element("td", who(row)).element("td", row.label);
     for (const std::string& cell : {row.figure(row.before), row.figure(row.after), row.difference()})
-      page.element("td", cell, {{"class", "number"}});
+      page.element("td", cell, {{"class", "n"}});
     page.close();
   }
   page.close().close().close();
 }
 
-void drawing(Markup& page, const State& state, const std::string& name) {
+// `id`: two drawings of one page must not mean each other's parts.
+void drawing(Markup& page, const State& state, const std::string& name, const std::string& id) {
   ReportModel model;
   read_model(state, model);
-  page.element("h3", name).open("figure").raw(draw_axonometry(model, Palette(model.use_names())).svg).close();
+  page.element("h3", name).open("figure").raw(draw_axonometry(model, Palette(model.use_names()), id).svg).close();
 }
 
 }  // namespace
@@ -86,8 +98,8 @@ std::string comparison_page(const State& before, const State& after, const Compa
       .leaf("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   page.element("title", title).open("style").raw(page_style()).close().close();
   page.open("body").open("header").element("h1", title).close().open("main");
-  drawing(page, before, name_before);
-  drawing(page, after, name_after);
+  drawing(page, before, name_before, "first");
+  drawing(page, after, name_after, "second");
   list(page, "What was set differently", comparison.inputs);
   list(page, "Only in the first", comparison.only_before);
   list(page, "Only in the second", comparison.only_after);

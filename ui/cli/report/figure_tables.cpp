@@ -77,6 +77,13 @@ CsvFile part_file(const State& state, const FigureTable& table, const FigurePart
   return {std::string(part.id) + ".csv", write_csv(header, rows), !rows.empty()};
 }
 
+// A limit that nobody has set stands at a default that nothing reaches; what was measured or computed can be as large.
+bool is_no_limit(double number, const PortDefinition& port) {
+  constexpr double kBeyondReach = 1e9;
+  const double* fallback = std::get_if<double>(&port.default_value);
+  return !port.is_computed && fallback != nullptr && std::abs(*fallback) >= kBeyondReach && number == *fallback;
+}
+
 bool is_text(const PortDefinition& port) {
   return port.kind == ValueKind::text || port.kind == ValueKind::choice || port.kind == ValueKind::port;
 }
@@ -144,8 +151,7 @@ std::string figure_text(const Value& value, const PortDefinition& port, bool is_
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
   const double number = as_number(value);
-  const bool is_endless = !std::isfinite(number) || std::abs(number) >= 1e9;
-  if (is_endless) return "\xE2\x80\x93";
+  if (!std::isfinite(number) || is_no_limit(number, port)) return "\xE2\x80\x93";
   if (port.unit == Unit::count && number == std::floor(number)) return grouped(number);
   if (!port.unit_from.empty()) return readable(number);
   if (is_share) return percent(number);

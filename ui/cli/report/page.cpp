@@ -130,6 +130,13 @@ std::string write_page(const ReportModel& model, const ReportData& data, const P
   page.element("title", title_of(model, data) + ": report");
   page.open("style").raw(page_style()).close().close();
   page.open("body");
+  if (model.tick == 0) {
+    // Nothing has been computed: figures would be those that volumes are born with.
+    page.open("main").element("h1", title_of(model, data)).element("p", data.outcome).close();
+    write_footer(page, model, data);
+    page.close().close();
+    return page.str();
+  }
   write_header(page, model, data);
   page.open("main");
   page.element("h2", "The proposal");

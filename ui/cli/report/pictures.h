@@ -16,8 +16,9 @@ struct Picture {
   std::string caption;  ///< what it shows, how, and what it had to leave out
 };
 
-/// The whole proposal from above and aside, orthographic, so that lengths can be compared everywhere.
-Picture draw_axonometry(const ReportModel& model, const Palette& palette);
+/// The whole proposal from above and aside, orthographic, so that lengths can be compared everywhere. All ids in it begin with
+/// `id`: a page may hold several.
+Picture draw_axonometry(const ReportModel& model, const Palette& palette, const std::string& id = "axonometry");
 /// Seen from above, with what is cut at eye height, the positions of all nodes, and the links between them.
 Picture draw_plan(const State& state, const ReportModel& model, const Palette& palette);
 /// Errors and moves over the ticks, on logarithmic scales.

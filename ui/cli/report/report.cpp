@@ -30,12 +30,14 @@ std::string csv_of(const ReportModel& model, const State& state) {
                                            "asked [m3]",
                                            "limited_to [m3]",
                                            "volume [m3]",
-                                           "short [m3]",
-                                           "short [%]",
+                                           "short_of_volume [m3]",
+                                           "short_of_volume [%]",
                                            "asked_floor_area [m2]",
                                            "floor_area [m2]",
+                                           "short_of_floor_area [m2]",
+                                           "short_of_floor_area [%]",
                                            "cell_volume [m3]",
-                                           "error [%]",
+                                           "error",
                                            "surface_area [m2]",
                                            "footprint [m2]",
                                            "bottom [m]",
@@ -63,11 +65,13 @@ std::string csv_of(const ReportModel& model, const State& state) {
                     v.limited,
                     v.volume,
                     v.missing(),
-                    v.short_share() * 100,
+                    v.missing_share() * 100,
                     v.asked_area,
                     v.floor_area,
+                    v.missing_area(),
+                    v.missing_area_share() * 100,
                     v.cell_volume,
-                    v.limited > 1e-3 ? CsvCell(v.error() * 100) : CsvCell(),
+                    report::number_at(state, v.node, "smart_volume", "error"),
                     v.surface_area,
                     v.footprint,
                     v.bottom,
@@ -95,15 +99,16 @@ std::string uses_csv_of(const ReportModel& model, const State& state) {
                                            "asked [m3]",
                                            "limited_to [m3]",
                                            "volume [m3]",
-                                           "short [m3]",
-                                           "short [m2]",
-                                           "short [%]",
+                                           "short_of_volume [m3]",
+                                           "short_of_volume [%]",
+                                           "short_of_floor_area [m2]",
+                                           "short_of_floor_area [%]",
                                            "why_short"};
   std::vector<std::vector<CsvCell>> rows;
   for (const report::UseAccount& use : model.accounts.uses)
     rows.push_back({use.use, use.is_in_programme ? "yes" : "no", use.volumes, use.short_volumes, use.asked_area, use.limited_area,
-                    use.floor_area, use.asked, use.limited, use.volume, use.missing(), use.missing_area(),
-                    use.short_share() * 100, report::why_short(state, model.accounts, use)});
+                    use.floor_area, use.asked, use.limited, use.volume, use.missing(), use.missing_share() * 100,
+                    use.missing_area(), use.missing_area_share() * 100, report::why_short(state, model.accounts, use)});
   return write_csv(header, rows);
 }
 
@@ -159,6 +164,11 @@ Result<void> make_directory(const std::string& directory) {
 Result<void> write_files(const std::string& directory, const ReportData& data) {
   ReportModel model;
   report::read_model(*data.state, model);
+  if (data.state->tick == 0) {
+    // As the page: what volumes are born with is nobody's result.
+    model.volumes.clear();
+    model.accounts = {};
+  }
   const report::Palette palette(model.use_names());
   const std::filesystem::path folder(directory);
   std::vector<report::CsvFile> tables = report::figure_files(*data.state);
@@ -183,6 +193,7 @@ Result<void> write_report(const std::string& directory, const ReportData& data) 
   if (data.state == nullptr || data.state->plan == nullptr)
     return Error{ErrorCode::missing, directory, "there is no state to report on: run the scene first"};
   if (auto made = make_directory(directory); !made) return made;
+  if (auto may = may_fill_with_report(directory); !may) return may;
   const State seen = with_sums_of_now(*data.state);
   return write_files(directory, {&seen, data.history, data.scene_path, data.outcome});
 }

@@ -26,8 +26,13 @@ struct ReportData {
 };
 
 /// Writes report.html, volumes.obj and tables (volumes.csv, uses.csv, conflicts.csv, and one for each kind of thing that the
-/// scene has, such as streets.csv) into `directory`, which is made where it is missing. The files depend on `data` alone: no
+/// scene has, such as streets.csv) into `directory`, which is made where it is missing; what others have put there is not
+/// written over (`may_fill_with_report`). The files depend on `data` alone: no
 /// clock, no locale, no machine.
 Result<void> write_report(const std::string& directory, const ReportData& data);
+
+/// Is nothing in `directory` lost by a report? What lies there under a name of a report is one of an earlier one, or empty.
+/// Nothing is wrong with a folder that is not there yet.
+Result<void> may_fill_with_report(const std::string& directory);
 
 }  // namespace bl

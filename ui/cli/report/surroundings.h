@@ -70,10 +70,11 @@ void draw_plots(Markup& svg, const Sheet& sheet, const Surroundings& surrounding
 std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& surroundings, const Box& frame);
 /// Samples with their words, in rows of the sheet's width from `at` on; returns the height that they take.
 double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundings& surroundings, Pixel at);
-/// The same seen from aside: streets and sun on the ground at height `ground` inside the frame, then the buildings behind the
-/// middle of the core, and, after the volumes, those before it, which are pale so that they hide nothing.
+/// The same seen from aside, whose picture has the `id`: streets and sun on the ground at height `ground` inside the frame, then
+/// the buildings behind the middle of the core, and, after the volumes, those before it, which are pale so that they hide
+/// nothing.
 void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
-                       double ground);
+                       double ground, const std::string& id);
 void draw_buildings_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
                           const Point3& middle, const Vector3& to_sun, bool before);
 

@@ -141,13 +141,17 @@ void draw_load(Markup& svg, const Sheet& sheet, const StreetLine& street) {
   svg.close();
 }
 
+bool is_within(const Box& frame, Pixel at) {
+  return at.x >= frame.left && at.x <= frame.right && at.y >= frame.top && at.y <= frame.bottom;
+}
+
 // The middle of what of a line is inside the frame; streets lead out of it.
 bool middle_in(const Sheet& sheet, const std::vector<Point3>& line, const Box& frame, Pixel& middle) {
   constexpr int kParts = 64;
   std::vector<Pixel> inside;
   for (int k = 0; k <= kParts; ++k) {
     const Pixel at = sheet.at(point_on_line(line, static_cast<double>(k) / kParts));
-    if (at.x >= frame.left && at.x <= frame.right && at.y >= frame.top && at.y <= frame.bottom) inside.push_back(at);
+    if (is_within(frame, at)) inside.push_back(at);
   }
   if (inside.empty()) return false;
   middle = inside[inside.size() / 2];
@@ -254,6 +258,8 @@ std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& s
     for (const BuildingShape& building : surroundings.buildings) {
       Point3 middle;
       for (const Point3& corner : building.rings.front()) middle += corner / static_cast<double>(building.rings.front().size());
+      // What is cut away at the frame is not on the sheet.
+      if (!is_within(frame, sheet.at(middle))) continue;
       labels.push_back({sheet.at(middle), building.name,
                         quantity(building.height, Unit::metre) + (building.is_assumed ? ", assumed" : ""),
                         readable(building.height)});
@@ -261,6 +267,7 @@ std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& s
   for (const SunField& field : surroundings.sun) {
     Point3 middle;
     for (const auto& [point, sun] : field.points) middle += point / static_cast<double>(field.points.size());
+    if (!is_within(frame, sheet.at(middle))) continue;
     labels.push_back(
         {sheet.at(middle), field.name, "sun " + quantity(field.mean, Unit::second), quantity(field.mean, Unit::second)});
   }
@@ -298,14 +305,14 @@ double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundi
 }
 
 void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
-                       double ground) {
+                       double ground, const std::string& id) {
   if (frame.size() != 2 || surroundings.is_empty()) return;
   PathText edge;
   edge.polyline({sheet.at({frame[0].x, frame[0].y, ground}), sheet.at({frame[1].x, frame[0].y, ground}),
                  sheet.at({frame[1].x, frame[1].y, ground}), sheet.at({frame[0].x, frame[1].y, ground})},
                 true);
-  svg.open("clipPath", {{"id", "around"}}).path(edge, {}).close();
-  svg.open("g", {{"clip-path", "url(#around)"}});
+  svg.open("clipPath", {{"id", id + "-around"}}).path(edge, {}).close();
+  svg.open("g", {{"clip-path", "url(#" + id + "-around)"}});
   for (const SunField& field : surroundings.sun)
     if (!field.is_upright) draw_sun(svg, sheet, field, surroundings.most_sun);
   for (const StreetLine& street : surroundings.streets) draw_street(svg, sheet, street);

@@ -64,7 +64,9 @@ void Dialogs::make_scene() {
   told_ = made.notes;
   is_told_error_ = !made.scene;
   for (const auto& [file, warning] : made.warnings) told_.push_back(file + ": " + warning.text());
-  for (const auto& [file, error] : made.errors) told_.push_back((file.empty() ? "" : file + ": ") + error.text());
+  // Errors of files that cannot be read have the file as their place.
+  for (const auto& [file, error] : made.errors)
+    told_.push_back((file.empty() || error.place == file ? "" : file + ": ") + error.text());
   if (!made.scene) return;
   std::vector<Problem> problems;
   const std::string text = write_scene(*made.scene, editor_->program);
