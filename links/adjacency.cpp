@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "core/base/text.h"
 #include "core/define/link_builder.h"
+#include "core/define/link_remark.h"
 #include "core/define/registry.h"
 #include "core/geometry/touching_balls.h"
 
@@ -19,7 +21,7 @@ struct Adjacency {
   };
   struct Ends {
     Shared<Table> neighbours;
-    std::string to_id;
+    std::string from_id, to_id;
     Point3 from, to, from_centroid, to_centroid;
     double from_radius = 0, to_radius = 0, from_wanted = 0, to_wanted = 0;
   };
@@ -33,7 +35,9 @@ struct Adjacency {
         .doc(
             "Draws two volumes together until the facet that they share has the wanted area, but never nearer than their bodies "
             "allow. Volumes that share enough are left alone; one that is pressed against others is pulled no further, so that "
-            "others in between have to give way (see `make_room`) or stay between them.");
+            "others in between have to give way (see `make_room`) or stay between them. Pulls are straight: they lead round no "
+            "court "
+            "and no corner. Who does not touch is named.");
     l.param(&In::area, "area")
         .unit(Unit::square_metre)
         .min(0)
@@ -44,7 +48,8 @@ struct Adjacency {
         .range(0, 1)
         .soft(0, 0.5)
         .doc("How much of the way that seems to be missing is gone in one tick; each volume goes half of it.");
-    l.reads(&Ends::neighbours, End::from, "smart_volume.neighbours").reads(&Ends::to_id, End::to, "node.id");
+    l.reads(&Ends::neighbours, End::from, "smart_volume.neighbours");
+    l.reads(&Ends::from_id, End::from, "node.id").reads(&Ends::to_id, End::to, "node.id");
     l.reads(&Ends::from, End::from, "node.position", Unit::metre).reads(&Ends::to, End::to, "node.position", Unit::metre);
     l.reads(&Ends::from_radius, End::from, "smart_volume.radius", Unit::metre);
     l.reads(&Ends::to_radius, End::to, "smart_volume.radius", Unit::metre);
@@ -55,14 +60,15 @@ struct Adjacency {
     l.proposes(&Out::from, End::from, "node.position", Unit::metre).proposes(&Out::to, End::to, "node.position", Unit::metre);
   }
 
-  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     const Vector3 between = ends.to - ends.from;
-    const double length = norm(between),
-                 missing = in.area - ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area");
+    const double length = norm(between), shared = ends.neighbours->number(ends.neighbours->row_of("node", ends.to_id), "area"),
+                 missing = in.area - shared;
     if (!(missing > 0) || !(length > 1e-9)) return Out{};
     // The clear distance, and a way that grows with the missing area. A facet grows by about one and a half times its distance
     // for each metre that the volumes come nearer, so that a small area calls for a short way only.
     const double clear = std::max(0.0, length - ends.from_radius - ends.to_radius);
+    if (!(shared > 0)) tell(ends, clear, tick);
     const double reach = std::min(std::sqrt(in.area), 0.5 * in.area / (length * std::max(in.stiffness, 0.01)));
     // Others may cut into the facet, so that it takes a little less distance than two bodies alone would need: that at which
     // these would share twice the area.
@@ -80,6 +86,19 @@ struct Adjacency {
   }
 
  private:
+  static constexpr double kLeastClear = 0.05;  // [m] what is less reads as nothing
+
+  // A wish hinders nobody from settling, but whoever goes without is named. That somebody has no body is said elsewhere.
+  static void tell(const Ends& ends, double clear, const Tick& tick) {
+    if (!(ends.from_radius > 0) || !(ends.to_radius > 0) || !(ends.from_wanted > 0) || !(ends.to_wanted > 0)) return;
+    const std::string between =
+        clear < kLeastClear ? "others or the boundary part them" : fixed(clear, 1) + " m are between them";
+    remark(tick, LinkRemark::short_of,
+           {ErrorCode::infeasible, "",
+            "`" + ends.from_id + "` and `" + ends.to_id + "` do not touch: " + between +
+                "; move one of them, or what stands in the way"});
+  }
+
   // A body that others keep from following stays behind its position. The pull takes a share of the way that is left until the
   // middle is so far behind, in radii of the body. That is less than the play of `make_room`: a pull that cannot be satisfied
   // ends before the others begin to give way to each other for ever. A ball that is cut in half has its middle 3/8 of the radius

@@ -92,8 +92,15 @@ class LinkRun {
       for (std::size_t t = 0; t < to_count; ++t) {
         if (is_pairwise && plan_.nodes[0][f] == plan_.nodes[1][t] && (from_count > 1 || to_count > 1)) continue;
         if (is_pairwise && plan_.is_symmetric && f > t) continue;
-        if (is_stopped_) fail(f, t);
-        else if (auto done = evaluate(f, t, tick); !done) note(f, t, done.error());
+        if (is_stopped_) {
+          fail(f, t);
+          continue;
+        }
+        LinkRemarks remarks;
+        Tick one = tick;
+        one.remarks = &remarks;
+        if (auto done = evaluate(f, t, one); !done) note(f, t, done.error());
+        hear(remarks);
       }
   }
 
@@ -102,6 +109,13 @@ class LinkRun {
     std::optional<Error> error = first_error_;
     if (failures_ > 1 && !is_stopped_) error->message += " (and " + std::to_string(failures_ - 1) + " more of its pairs fail)";
     return error;
+  }
+
+  // The gravest that a pair has remarked; of several that are as grave the first, and how many others there are.
+  LinkRemarks remarks() const {
+    LinkRemarks remarks = remarks_;
+    if (remarked_ > 1) remarks.said->message += " (and " + std::to_string(remarked_ - 1) + " more of its pairs)";
+    return remarks;
   }
 
   // Ascending, as the targets are. A wanted value of the last good tick stays in force where all that has failed; a push must not
@@ -143,6 +157,16 @@ class LinkRun {
       first_error_ =
           Error{ErrorCode::not_finite, "",
                 "what its pairs propose for `" + frozen_.plan->nodes[target.node].id + "` adds up to more than any number"};
+  }
+
+  void hear(const LinkRemarks& remarks) {
+    if (!remarks.said || (remarks_.said && remarks.kind < remarks_.kind)) return;
+    if (remarks_.said && remarks.kind == remarks_.kind) {
+      ++remarked_;
+      return;
+    }
+    remarks_ = remarks;
+    remarked_ = 1;
   }
 
   void fail(std::size_t f, std::size_t t) {
@@ -208,7 +232,8 @@ class LinkRun {
   std::vector<Collected> collected_;  // by target
   std::vector<bool> has_failed_;      // by target: a pair that would have spoken to it
   std::optional<Error> first_error_;
-  std::size_t failures_ = 0;
+  LinkRemarks remarks_;
+  std::size_t failures_ = 0, remarked_ = 0;
   bool is_stopped_ = false;
 };
 
@@ -225,13 +250,13 @@ void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
   }
   LinkRun run(frozen, plan);
   Memo memo;
-  LinkRemarks remarks;
-  run.run(Tick{.index = frozen.tick, .memo = &memo, .remarks = &remarks});
+  run.run(Tick{.index = frozen.tick, .memo = &memo});
   next.voices = run.voices(last);
   if (const auto error = run.error()) {
     next.error = error->within("links/" + plan.id);
     return;
   }
+  const LinkRemarks remarks = run.remarks();
   if (!remarks.said) return;
   const Error said = remarks.said->within("links/" + plan.id);
   if (remarks.kind == LinkRemark::at_work) {

@@ -59,7 +59,7 @@ std::string what_of(const State& state, const std::string& link) {
   for (std::size_t l = 0; l < state.links.size(); ++l)
     if (state.plan->links[l].id == link && state.links[l].remark)
       return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met"
-                                                        : "Not everything that is asked for has a volume";
+                                                        : "Somebody goes without what is asked for";
   return "Link " + link + " fails";
 }
 
