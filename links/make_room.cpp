@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
 
+#include "core/base/direction.h"
 #include "core/define/link_builder.h"
 #include "core/define/registry.h"
 #include "core/geometry/touching_balls.h"
@@ -17,8 +19,9 @@ struct MakeRoom {
   };
   struct Ends {
     std::int64_t count = 0;
+    std::string id, standing;
     Point3 position, centroid;
-    double volume = 0;
+    double volume = 0, drop = 0;
   };
   struct Out {
     std::optional<Vector3> move;
@@ -29,7 +32,9 @@ struct MakeRoom {
         .label("Make room")
         .doc(
             "Makes volumes that press on each other part. A body that others or the boundary cut has its middle away from its "
-            "position; the position follows it, until the bodies have room. A volume whose body is round stays where it is.");
+            "position; the position follows it, until the bodies have room. A volume whose body is round stays where it is. One "
+            "that "
+            "has to stand on the ground, and does not yet, goes aside where others press it up.");
     l.param(&In::stiffness, "stiffness")
         .unit(Unit::ratio)
         .range(0, 1)
@@ -44,6 +49,8 @@ struct MakeRoom {
             "that "
             "volume: neighbours that share a facet on purpose are left alone, and pulls that cannot be satisfied come to rest.");
     l.reads(&Ends::count, End::from, "smart_volumes_solver.count");
+    l.reads(&Ends::id, End::to, "node.id").reads(&Ends::standing, End::to, "smart_volume.standing");
+    l.reads(&Ends::drop, End::to, "smart_volume.drop", Unit::metre);
     l.reads(&Ends::position, End::to, "node.position", Unit::metre);
     l.reads(&Ends::centroid, End::to, "smart_volume.centroid", Unit::metre);
     l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
@@ -55,7 +62,26 @@ struct MakeRoom {
     const double length = norm(off), beyond = length - in.play * ball_radius(ends.volume);
     // Where the solver has given nobody room there are no bodies to follow.
     if (ends.count == 0 || !(ends.volume > 0) || !(beyond > 0)) return Out{};
-    return Out{off * (in.stiffness * beyond / length)};
+    const double aside = off.z > 0 ? share_aside(ends) : 0;
+    return Out{(off / length * (1 - aside) + level_way(off, ends.id) * aside) * (in.stiffness * beyond)};
+  }
+
+ private:
+  static constexpr double kFooting = 0.1;  // of a radius; `stand` lets down a little further
+  static constexpr double kTurn = 0.25;
+
+  // How much of a way up is barred: what has to come down to the ground would be lifted by those that it came down on, and let
+  // down again, for ever. It goes to nothing with the footing.
+  static double share_aside(const Ends& ends) {
+    if (ends.standing != "ground") return 0;
+    return std::clamp(1 + ends.drop / (kFooting * ball_radius(ends.volume)), 0.0, 1.0);
+  }
+
+  // Its name turns it a little: what is piled up in one plane, or straight above another one, would never leave that.
+  static Vector3 level_way(const Vector3& off, const std::string& id) {
+    const Vector3 by_name = direction_by_name(id, ""), level = Vector3{off.x, off.y, 0} / norm(off) + by_name * kTurn;
+    const double length = norm(level);
+    return length > 1e-9 ? level / length : by_name;
   }
 };
 
