@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "core/base/demand_limit.h"
+#include "core/base/text.h"
 #include "core/define/link_builder.h"
+#include "core/define/link_remark.h"
 #include "core/define/registry.h"
 
 namespace bl {
@@ -20,7 +22,8 @@ struct CongestionFeedback {
     Shared<Table> loads;
     std::string id;
     std::vector<std::string> access;
-    double demand = 0, demand_limit = 0, served = 0, lost = 0;
+    double demand = 0, demand_limit = 0, wanted = 0, volume = 0, served = 0, lost = 0;
+    bool is_locked = false;
   };
   struct Out {
     std::optional<double> demand_limit;
@@ -54,17 +57,22 @@ struct CongestionFeedback {
     l.param(&In::least, "least")
         .unit(Unit::ratio)
         .range(0.001, 1)
-        .doc("Share of the demand that no congestion takes away: it may be caused by others.");
+        .doc(
+            "Share of the demand that no congestion takes away: it may be caused by others. Where that is not enough, the limit "
+            "cannot be met, and says so.");
     l.reads(&Ends::loads, End::from, "traffic_network.loads");
     l.reads(&Ends::id, End::to, "node.id").reads(&Ends::access, End::to, "traffic_zone.access");
     l.reads(&Ends::served, End::to, "traffic_zone.trips_served", Unit::per_hour);
     l.reads(&Ends::lost, End::to, "traffic_zone.trips_lost", Unit::per_hour);
     l.reads(&Ends::demand, End::to, "smart_volume.demand", Unit::cubic_metre);
     l.reads(&Ends::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
+    l.reads(&Ends::wanted, End::to, "smart_volume.wanted", Unit::cubic_metre);
+    l.reads(&Ends::volume, End::to, "smart_volume.volume", Unit::cubic_metre);
+    l.reads_lock(&Ends::is_locked, End::to, "smart_volume.demand_limit");
     l.proposes(&Out::demand_limit, End::to, "smart_volume.demand_limit", Unit::cubic_metre);
   }
 
-  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
+  static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     const std::vector<std::string> own{ends.id};
     double load = 0;
     for (const std::string& junction : ends.access.empty() ? own : ends.access)
@@ -73,10 +81,33 @@ struct CongestionFeedback {
     if (!(ends.demand > 0)) return Out{};
     // From the share that the limit leaves now; one tick answers to at most a halving or a doubling. Where most trips find no way
     // at all, the access is as bad as can be.
+    if (ends.lost > ends.served || load > in.limit) tell(in, ends, load, tick);
     const double room = ends.lost > ends.served ? 0.5 : std::max(0.5, answer_within(in.limit, load, in.tolerance));
     const double answer = 1 + in.gain * (room - 1);
     const double share = granted_share(ends.demand, ends.demand_limit) * answer;
     return Out{limit_that_grants(ends.demand, std::max(share, in.least))};
+  }
+
+ private:
+  // The access is too full: on its way, or held up by a volume that gives way no further. Drivers try other ways for ever, so
+  // that a load within the tolerance of the limit is nothing to be waited for.
+  static void tell(const In& in, const Ends& ends, double load, const Tick& tick) {
+    const std::vector<std::string> ids{ends.id};
+    const std::vector<double> demands{ends.demand}, limits{ends.demand_limit}, wanted{ends.wanted}, volumes{ends.volume};
+    const std::vector<bool> locked{ends.is_locked};
+    const std::vector<std::size_t> it{0};
+    const HeldBack held{ids, demands, limits, wanted, volumes, locked};
+    const bool is_lost = ends.lost > ends.served;
+    const std::string found =
+        is_lost ? "of the trips of `" + ends.id + "` " + fixed(100 * ends.lost / (ends.lost + ends.served), 0) + " % find no way"
+                : "the street at the access of `" + ends.id + "` carries " + found_of_allowed(load, in.limit, 2);
+    if (is_exhausted(held, it, in.least))
+      return remark(tick, LinkRemark::unmet,
+                    {ErrorCode::infeasible, "limit",
+                     "cannot be met: " + found + ", " + held_by(held, it, in.least) + "; raise `limit`," +
+                         unlocking(held, it, in.least) + " or lower what is insisted on or `least`"});
+    if (is_lost || load > in.limit * (1 + in.tolerance))
+      remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "limit", found});
   }
 };
 

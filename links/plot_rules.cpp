@@ -109,29 +109,59 @@ struct PlotRules {
   static double granted(const Ends& ends, std::size_t i) { return granted_share(ends.demands.values[i], ends.limits.values[i]); }
   static double top(const Ends& ends, std::size_t i) { return ends.bottoms.values[i] + ends.heights.values[i] - ends.ground; }
 
+  static constexpr std::size_t kMostHeights = 4;
+
+  // Rules that are broken, in words, by those who could mend them.
+  struct Broken {
+    std::vector<std::string> found;
+    std::vector<std::size_t> who;
+  };
+
+  static std::string listed(const Broken& broken) {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(kMostHeights, broken.found.size()); ++k) text += (k == 0 ? "" : ", ") + broken.found[k];
+    if (broken.found.size() > kMostHeights) text += " and " + std::to_string(broken.found.size() - kMostHeights) + " more";
+    return text;
+  }
+
+  static std::string joined(const std::string& a, const std::string& b, const char* with) {
+    return a.empty() || b.empty() ? a + b : a + with + b;
+  }
+
+  // What nobody can mend any more, and who holds it; what holds both is said once.
+  static std::string unmet(const HeldBack& held, const Broken& all, const Broken& heights, double least) {
+    const std::string by = all.found.empty() ? "" : held_by(held, all.who, least);
+    const std::string heights_by = heights.found.empty() ? "" : held_by(held, heights.who, least);
+    if (by == heights_by || by.empty() || heights_by.empty())
+      return joined(joined(listed(all), listed(heights), ", "), by.empty() ? heights_by : by, ", ");
+    return listed(all) + ", " + by + "; " + listed(heights) + ", " + heights_by;
+  }
+
   // Every rule that is broken: on its way, or held up by volumes that give way no further.
   static void tell(const In& in, const Ends& ends, const HeldBack& held, const std::vector<std::size_t>& on_plot,
                    const Tick& tick) {
-    std::string unmet, work, unlock;
-    const auto judge = [&](const std::string& found, const std::vector<std::size_t>& who) {
-      if (!is_exhausted(held, who, in.least)) {
-        work += (work.empty() ? "" : ", ") + found;
-        return;
-      }
-      unmet += (unmet.empty() ? "" : "; ") + found + ", " + held_by(held, who, in.least);
-      if (unlock.empty()) unlock = unlocking(held, who, in.least);
-    };
-    if (in.hold_fsi && ends.fsi > ends.fsi_max) judge("FSI " + fixed(ends.fsi, 2) + " of " + fixed(ends.fsi_max, 2), on_plot);
-    if (in.hold_gsi && ends.gsi > ends.gsi_max) judge("GSI " + fixed(ends.gsi, 2) + " of " + fixed(ends.gsi_max, 2), on_plot);
+    Broken all{{}, on_plot}, stuck, sinking;
+    if (in.hold_fsi && ends.fsi > ends.fsi_max) all.found.push_back("FSI " + found_of_allowed(ends.fsi, ends.fsi_max, 2));
+    if (in.hold_gsi && ends.gsi > ends.gsi_max) all.found.push_back("GSI " + found_of_allowed(ends.gsi, ends.gsi_max, 2));
     for (const std::size_t i : on_plot)
-      if (in.hold_height && ends.volumes.values[i] > 0 && top(ends, i) > ends.height_max)
-        judge("height " + fixed(top(ends, i), 1) + " m of " + fixed(ends.height_max, 1) + " m at `" + ends.ids.values[i] + "`",
-              {i});
-    if (!unmet.empty())
-      return remark(tick, LinkRemark::unmet,
-                    {ErrorCode::infeasible, "from",
-                     "cannot be met: " + unmet + "; loosen the rule," + unlock + " or lower what is insisted on or `least`"});
-    if (!work.empty()) remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "from", work});
+      if (in.hold_height && ends.volumes.values[i] > 0 && top(ends, i) > ends.height_max) {
+        Broken& height = is_at_least(held, i, in.least) ? stuck : sinking;
+        height.found.push_back("height " + found_of_allowed(top(ends, i), ends.height_max, 1, " m") + " at `" +
+                               ends.ids.values[i] + "`");
+        height.who.push_back(i);
+      }
+    const Broken none;
+    const bool is_all_stuck = is_exhausted(held, on_plot, in.least);
+    const std::string found = unmet(held, is_all_stuck ? all : none, stuck, in.least);
+    const std::string work = joined(is_all_stuck ? "" : listed(all), listed(sinking), ", ");
+    if (!found.empty()) {
+      const std::string unlock = unlocking(held, is_all_stuck && !all.found.empty() ? on_plot : stuck.who, in.least);
+      remark(tick, LinkRemark::unmet,
+             {ErrorCode::infeasible, "from",
+              "cannot be met: " + found + "; loosen the rule," + unlock + " or lower what is insisted on or `least`"});
+    } else if (!work.empty()) {
+      remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "from", work});
+    }
   }
 };
 

@@ -86,7 +86,7 @@ struct SetCap {
 
  private:
   static void tell(const In& in, double total, const HeldBack& held, const std::vector<std::size_t>& all, const Tick& tick) {
-    const std::string found = "a sum of " + fixed(total, 0) + " of " + fixed(in.cap, 0);
+    const std::string found = "a sum of " + found_of_allowed(total, in.cap, 0);
     if (!is_exhausted(held, all, in.least)) return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "cap", found});
     remark(tick, LinkRemark::unmet,
            {ErrorCode::infeasible, "cap",

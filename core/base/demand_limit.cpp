@@ -12,6 +12,8 @@ namespace {
 constexpr double kGrantRounding = 1e-6;  // of a demand
 constexpr double kShapeFollowed = 0.02;  // how near a shape is to what is wanted of it, once it has followed
 constexpr std::size_t kMostHolders = 4;
+constexpr int kMostDecimals = 9;
+constexpr double kAsTyped = 0.01;  // how near a limit has to read to what it is, as a share of it
 
 // Above the least share, whoever holds it there.
 bool is_above_least(const HeldBack& held, std::size_t i, double least) {
@@ -25,6 +27,15 @@ bool is_locked_up(const HeldBack& held, std::size_t i, double least) {
 
 }  // namespace
 
+std::string found_of_allowed(double found, double allowed, int decimals, std::string_view unit) {
+  const auto is_clear = [&](int digits) {
+    const std::string text = fixed(allowed, digits);
+    return text != fixed(found, digits) && std::abs(std::stod(text) - allowed) <= kAsTyped * std::abs(allowed);
+  };
+  while (decimals < kMostDecimals && !is_clear(decimals)) ++decimals;
+  return fixed(found, decimals) + std::string(unit) + " of " + fixed(allowed, decimals) + std::string(unit);
+}
+
 double share_granted(const HeldBack& held, const std::vector<std::size_t>& which) {
   const bool is_any_free = std::any_of(which.begin(), which.end(), [&](std::size_t i) { return !held.locked[i]; });
   double share = kLeastGranted;
@@ -36,7 +47,9 @@ double share_granted(const HeldBack& held, const std::vector<std::size_t>& which
 bool is_at_least(const HeldBack& held, std::size_t i, double least) {
   const double bottom = least * held.demands[i];
   const bool is_down = held.locked[i] || held.limits[i] <= bottom * (1 + kGrantRounding) || held.demands[i] <= 0;
-  return is_down && std::abs(held.volumes[i] - held.wanted[i]) <= kShapeFollowed * held.wanted[i];
+  // Whoever has nothing, outside of the boundary or below others, has nothing to give.
+  const bool has_followed = held.volumes[i] <= 0 || std::abs(held.volumes[i] - held.wanted[i]) <= kShapeFollowed * held.wanted[i];
+  return is_down && has_followed;
 }
 
 bool is_exhausted(const HeldBack& held, const std::vector<std::size_t>& which, double least) {

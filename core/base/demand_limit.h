@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bl {
@@ -37,6 +38,10 @@ inline double answer_within(double most, double now, double tolerance, double li
   return most > 0 ? 2 : 1;
 }
 
+/// "9000 of 8000": what there is and what is allowed, with as many decimals from `decimals` on as tell the two apart and show
+/// small limits as they were typed. The unit follows each number, with its space.
+std::string found_of_allowed(double found, double allowed, int decimals, std::string_view unit = "");
+
 /// Volumes that a rule holds back, side by side.
 struct HeldBack {
   std::span<const std::string> ids;
@@ -49,7 +54,7 @@ struct HeldBack {
 double share_granted(const HeldBack& held, const std::vector<std::size_t>& which);
 
 /// Can one give way no further: has it come down to the least share that a rule leaves it or to what is insisted on, or is its
-/// limit locked, and has its shape followed?
+/// limit locked, and has its shape followed, if it has one?
 bool is_at_least(const HeldBack& held, std::size_t i, double least);
 /// Have all of `which` come down to that, and their shapes with them? Then the rule has no more to give.
 bool is_exhausted(const HeldBack& held, const std::vector<std::size_t>& which, double least);

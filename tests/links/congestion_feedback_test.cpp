@@ -1,4 +1,6 @@
 // Congestion feedback: limits by hand, and offices that their street holds back.
+#include <algorithm>
+
 #include "tests/links/link_case.h"
 
 namespace bl {
@@ -14,6 +16,7 @@ LinkCase feedback(double load, double demand, double limit) {
   link.to("traffic_zone.access", Shared(std::vector<std::string>{"gate", "unknown"}));
   link.to("traffic_zone.trips_served", 10.0).to("traffic_zone.trips_lost", 0.0);
   link.to("smart_volume.demand", demand).to("smart_volume.demand_limit", limit);
+  link.to("smart_volume.wanted", std::min(demand, limit)).to("smart_volume.volume", std::min(demand, limit));
   return link;
 }
 
@@ -64,6 +67,41 @@ TEST(CongestionFeedback, WithoutAccessTheNodeItselfIsTheJunction) {
   link.to("traffic_zone.access", Shared(std::vector<std::string>{}));
   ASSERT_EQ(link.run(), "");
   EXPECT_FALSE(link.proposed(End::to, "smart_volume.demand_limit").has_value()) << "there is room at its own junction";
+}
+
+// At the least share there is nothing left to give: the streets are as full as they are, and that is said.
+TEST(CongestionFeedback, SaysWhatTheLeastShareCannotMend) {
+  auto least = feedback(1.2, 1000, 200);
+  ASSERT_EQ(least.run(), "");
+  EXPECT_EQ(
+      least.remarked(LinkRemark::unmet),
+      "limit: cannot be met: the street at the access of `it` carries 1.20 of 0.80, held by `it`, which is down to 20 % of its "
+      "demand; raise `limit`, or lower what is insisted on or `least`");
+  auto lost = feedback(0.1, 1000, 200);
+  lost.to("traffic_zone.trips_served", 1.0).to("traffic_zone.trips_lost", 9.0);
+  ASSERT_EQ(lost.run(), "");
+  EXPECT_NE(lost.remarked(LinkRemark::unmet).find("of the trips of `it` 90 % find no way, held by `it`"), std::string::npos)
+      << lost.remarked(LinkRemark::unmet);
+  auto locked = feedback(1.2, 1000, 600);
+  ASSERT_EQ(locked.lock(End::to, "smart_volume.demand_limit").run(), "");
+  EXPECT_NE(
+      locked.remarked(LinkRemark::unmet).find("held by `it` (600 m³, its limit is locked); raise `limit`, unlock the limits, "),
+      std::string::npos)
+      << locked.remarked(LinkRemark::unmet);
+  auto on_its_way = feedback(1.2, 1000, 600), within = feedback(0.8, 1000, 200);
+  ASSERT_EQ(on_its_way.run(), "");
+  ASSERT_EQ(within.run(), "");
+  EXPECT_EQ(on_its_way.remarked(LinkRemark::unmet), "");
+  EXPECT_EQ(within.remarked(LinkRemark::unmet), "");
+}
+
+TEST(CongestionFeedback, ALimitThatCannotBeMetKeepsASceneFromSettling) {
+  World world = World::from_file("scenes/links/congestion_feedback.json");
+  ASSERT_EQ(world.submit(command<SetLinkParameter>({.id = "l2_feedback", .parameter = "limit", .value = {"0.01"}})), "");
+  EXPECT_FALSE(world.settle(300));
+  EXPECT_NE(world.link_error("l2_feedback").find("cannot be met: the street at the access of `offices` carries "),
+            std::string::npos)
+      << world.link_error("l2_feedback");
 }
 
 TEST(CongestionFeedback, SceneHoldsTheOfficesBack) {

@@ -67,6 +67,38 @@ TEST(PlotRules, LeaveTheLeastShareAndSayWhoHoldsTheRule) {
             std::string::npos);
 }
 
+// What holds several rules is said once, and what has no end is counted.
+TEST(PlotRules, SayOnceWhatHoldsSeveralRules) {
+  LinkCase link = rules(4.136, 0.62, 15);
+  link.from("plot.height_max", 4.0).read(End::to, "smart_volume.centroid", std::vector<Value>(2, Vector3{5, 5, 5}));
+  link.read(End::to, "smart_volume.demand_limit", {200.0, 200.0});
+  link.read(End::to, "smart_volume.wanted", {200.0, 200.0}).read(End::to, "smart_volume.volume", {200.0, 200.0});
+  ASSERT_EQ(link.set("least", 0.2).run(), "");
+  EXPECT_EQ(
+      link.remarked(LinkRemark::unmet),
+      "from: cannot be met: FSI 4.14 of 2.00, GSI 0.62 of 0.50, height 15.0 m of 4.0 m at `here`, height 15.0 m of 4.0 m at "
+      "`beside`, all are down to 20 % of their demands; loosen the rule, or lower what is insisted on or `least`");
+  LinkCase near = rules(1, 0.1, 20.0004);
+  ASSERT_EQ(near.run(), "");
+  EXPECT_EQ(near.remarked(LinkRemark::at_work), "from: height 20.0004 m of 20.0000 m at `here`");
+}
+
+TEST(PlotRules, CountTheHeightsOfManyVolumes) {
+  LinkCase link = rules(1, 0.1, 15);
+  const std::size_t count = 7;
+  const auto all = [&](const char* path, const Value& value) { link.read(End::to, path, std::vector<Value>(count, value)); };
+  link.from("plot.height_max", 4.0);
+  all("smart_volume.centroid", Vector3{5, 5, 5});
+  for (const char* path : {"smart_volume.demand", "smart_volume.wanted", "smart_volume.volume"}) all(path, 1000.0);
+  all("smart_volume.demand_limit", 1e9);
+  all("smart_volume.bottom", 0.0);
+  all("smart_volume.height", 15.0);
+  all("node.id", std::string("one"));
+  ASSERT_EQ(link.run(), "");
+  const std::string said = link.remarked(LinkRemark::at_work);
+  EXPECT_EQ(said.substr(said.size() - 10), "and 3 more") << said;
+}
+
 // People have locked what could give way.
 TEST(PlotRules, LockedLimitsAreNamedAtOnce) {
   World world = World::from_file("scenes/links/plot_rules.json");

@@ -81,6 +81,29 @@ TEST(SetCap, LeavesTheLeastShareAndSaysWhoHoldsTheCap) {
   EXPECT_NE(link.remarked(LinkRemark::at_work), "");
 }
 
+// One that lies outside of the boundary has nothing, and can give nothing: the others alone decide whether the cap can be met.
+TEST(SetCap, WhoHasNothingDoesNotHideThatTheCapCannotBeMet) {
+  auto link = cap(9000, {4000.0, 6000.0}, {1000.0, 1500.0});
+  link.read(End::to, "smart_volume.wanted", {1000.0, 1500.0}).read(End::to, "smart_volume.volume", {1000.0, 0.0});
+  ASSERT_EQ(link.set("least", 0.25).run(), "");
+  EXPECT_NE(link.remarked(LinkRemark::unmet).find("all are down to 25 % of their demands"), std::string::npos)
+      << link.remarked(LinkRemark::at_work);
+}
+
+// As many digits as tell what is there from what is allowed, and as show the cap as it was typed.
+TEST(SetCap, SaysNumbersThatDiffer) {
+  const auto said = [](double total, double most) {
+    auto link = cap(total, {4000.0}, {3200.0});
+    link.set("cap", most);
+    EXPECT_EQ(link.run(), "");
+    return link.remarked(LinkRemark::at_work);
+  };
+  EXPECT_EQ(said(10000.04, 10000), "cap: a sum of 10000.04 of 10000.00");
+  EXPECT_EQ(said(4.04, 0.4), "cap: a sum of 4.0 of 0.4");
+  EXPECT_EQ(said(5, 0), "cap: a sum of 5 of 0");
+  EXPECT_EQ(said(9000, 8000), "cap: a sum of 9000 of 8000");
+}
+
 // One limit is locked by people: the others come down to the least share, and then it is named.
 TEST(SetCap, ALockedLimitDoesNotHoldUpTheOthersAndIsNamed) {
   auto link = cap(9000, {4000.0, 6000.0}, {1e9, 3000.0});
