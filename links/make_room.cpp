@@ -62,8 +62,10 @@ struct MakeRoom {
     const double length = norm(off), beyond = length - in.play * ball_radius(ends.volume);
     // Where the solver has given nobody room there are no bodies to follow.
     if (ends.count == 0 || !(ends.volume > 0) || !(beyond > 0)) return Out{};
+    const Vector3 straight = off * (in.stiffness * beyond / length);
     const double aside = off.z > 0 ? share_aside(ends) : 0;
-    return Out{(off / length * (1 - aside) + level_way(off, ends.id) * aside) * (in.stiffness * beyond)};
+    if (!(aside > 0)) return Out{straight};
+    return Out{straight * (1 - aside) + level_way(off, ends.id) * (aside * in.stiffness * beyond)};
   }
 
  private:
