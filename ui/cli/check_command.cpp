@@ -63,6 +63,13 @@ bool waits_for_sensor(const State& state, const Scene& scene, const Error& error
   return std::any_of(from.begin(), from.end(), is_silent);
 }
 
+// That somebody goes without is no fault of the scene, and after so few ticks mostly only not reached yet.
+bool is_wish(const State& state, const Error& error) {
+  for (std::size_t l = 0; l < state.links.size(); ++l)
+    if (state.links[l].remark == LinkRemark::short_of && state.links[l].error == error) return true;
+  return false;
+}
+
 // What only shows when the scene runs: a boundary that crosses itself, a volume outside, demands that cannot be met.
 void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
   auto session = Session::start(full_registry(), reading.scene, reading.state ? &*reading.state : nullptr, 1);
@@ -72,7 +79,7 @@ void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
   for (Error& error : problems_of(state)) {
     const bool is_known = std::any_of(problems.begin(), problems.end(), [&](const Problem& p) { return p.error == error; });
     if (is_known) continue;
-    const bool is_error = !waits_for_sensor(state, reading.scene, error);
+    const bool is_error = !waits_for_sensor(state, reading.scene, error) && !is_wish(state, error);
     problems.push_back({is_error, std::move(error)});
   }
   for (Error& error : unusable_sensors(reading.scene)) problems.push_back({true, std::move(error)});
