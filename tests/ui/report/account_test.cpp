@@ -176,5 +176,24 @@ TEST(AccountLaw, FiguresFitTogetherInEveryScene) {
   }
 }
 
+// A plot has several rules: which one takes the volume is said.
+TEST(Account, SaysWhichRuleOfAPlotLimitsAVolume) {
+  World world = World::from_file("scenes/links/plot_rules.json");
+  const auto why = [&] {
+    world.tick(20);
+    EXPECT_TRUE(world.settle());
+    const report::Accounts accounts = report::accounts_of(world.state());
+    return report::why_short(world.state(), accounts, accounts.volumes.front());
+  };
+  const std::string by_area = why();
+  EXPECT_EQ(by_area.find("link `l1_rules` (FSI) leaves "), 0u) << by_area;
+  ASSERT_EQ(world.submit(command<SetPort>({.node = "plot", .port = {"plot.height_max"}, .value = {"15.5"}})), "");
+  const std::string by_height = why();
+  EXPECT_EQ(by_height.find("link `l1_rules` (height) leaves "), 0u) << by_height;
+  ASSERT_EQ(world.submit(command<SetLinkParameter>({.id = "l1_rules", .parameter = "hold_height", .value = {"false"}})), "");
+  const std::string without = why();
+  EXPECT_EQ(without.find("link `l1_rules` (FSI) leaves "), 0u) << without;
+}
+
 }  // namespace
 }  // namespace bl

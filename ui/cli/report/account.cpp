@@ -92,6 +92,25 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > kMost ? text + " and " + std::to_string(names.size() - kMost) + " more" : text;
 }
 
+// Which of the rules that a link holds are used up, or nearly: a plot has several, and one of them limits the volume.
+std::string rules_used_up(const State& state, const LinkPlan& link, std::uint32_t volume) {
+  constexpr double kNearly = 0.98;
+  if (link.definition == nullptr || link.definition->id != "plot_rules" || link.nodes[0].size() != 1) return "";
+  const std::uint32_t plot = link.nodes[0].front();
+  const auto allowed = [&](const char* port) { return number_at(state, plot, "plot", port, 0); };
+  const auto is_held = [&](const char* parameter) {
+    const auto& parameters = state.plan->scene.links.at(link.id).parameters;
+    const auto found = parameters.find(parameter);
+    return found == parameters.end() || as_number(found->second) != 0;
+  };
+  std::vector<std::string> rules;
+  if (is_held("hold_fsi") && allowed("fsi") >= kNearly * allowed("fsi_max")) rules.emplace_back("FSI");
+  if (is_held("hold_gsi") && allowed("gsi") >= kNearly * allowed("gsi_max")) rules.emplace_back("GSI");
+  const double top = number_at(state, volume, kVolumeType, "bottom", 0) + number_at(state, volume, kVolumeType, "height", 0);
+  if (is_held("hold_height") && top - allowed("ground") >= kNearly * allowed("height_max")) rules.emplace_back("height");
+  return rules.empty() ? "" : " (" + listed(rules) + ")";
+}
+
 // The parts that all share: what limits take, what the room takes, what the shape takes.
 std::string causes_of(const Account& account, const std::vector<std::string>& limiters, double tolerance) {
   std::string text;
@@ -212,7 +231,7 @@ std::vector<std::string> who_limits(const State& state, const VolumeAccount& vol
     const auto voice =
         std::lower_bound(voices.begin(), voices.end(), *ref, [](const Voice& v, PortRef r) { return v.target < r; });
     if (voice != voices.end() && voice->target == *ref && voice->strength > 0 && holds(voice->value))
-      who.push_back("link `" + state.plan->links[l].id + "`");
+      who.push_back("link `" + state.plan->links[l].id + "`" + rules_used_up(state, state.plan->links[l], volume.node));
   }
   const TypePlan& type = state.plan->nodes[volume.node].types[ref->type];
   if (type.is_set[ref->port] && holds(type.set_values[ref->port])) who.emplace_back("a limit set by hand");
