@@ -62,6 +62,29 @@ TEST(PlaceProblems, TellsACollapseAsOneWithThosePulling) {
   EXPECT_EQ(report::place_problems(world.state()).front().subject, collapsed[0].subject);
 }
 
+TEST(PlaceProblems, WhereAStandRunsItSaysWhatHoldsTheVolumeUp) {
+  const std::string volumes = volume_at("lifted", "[20, 20, 20]", R"(, "standing": "ground")") + "," +
+                              volume_at("high", "[20, 20, 38]", R"(, "standing": "ground")");
+  const std::string stand = R"({"id": "standing", "kind": "stand", "from": "solver", "to": "lifted"})";
+  const std::string pull =
+      R"({"id": "hoist", "kind": "attract", "from": "lifted", "to": "high", "parameters": {"stiffness": 1}})";
+  World world = World::from_text(placed_scene(volumes, stand + "," + pull));
+  world.tick(3);
+  const auto text_of = [](const State& state, const std::string& id) {
+    for (const report::PlaceProblem& problem : report::hanging_volumes(state))
+      if (problem.nodes.front() == id) return problem.text;
+    return std::string();
+  };
+  const std::string running = text_of(world.state(), "lifted");
+  EXPECT_EQ(running.find("lay a `stand`"), std::string::npos) << running;
+  EXPECT_NE(running.find("`standing` lets it down, but `hoist` holds it up"), std::string::npos) << running;
+  EXPECT_NE(text_of(world.state(), "high").find("lay a `stand`"), std::string::npos) << "nothing lets that one down";
+  World alone = World::from_text(placed_scene(volumes, stand));
+  alone.tick(1);
+  const std::string sinking = text_of(alone.state(), "lifted");
+  EXPECT_NE(sinking.find("`standing` still lets it down"), std::string::npos) << sinking;
+}
+
 TEST(PlaceProblems, SaysNothingBeforeTheFirstTick) {
   World world = World::from_text(placed_scene(volume_at("a", "[20, 20, 26]") + "," + volume_at("b", "[20, 20, 26]")));
   EXPECT_TRUE(report::place_problems(world.state()).empty());

@@ -13,6 +13,7 @@
 #include "tests/ui/desktop/canvas_support.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
+#include "ui/desktop/panels/canvas/stored_places.h"
 
 namespace bl::desktop {
 namespace {
@@ -98,6 +99,24 @@ TEST_F(CanvasStored, LayingOutWhatIsLaidOutChangesNothingAndSaysSo) {
   EXPECT_EQ(editor().document->history().size(), 1u);
   ASSERT_FALSE(editor().notices.empty());
   EXPECT_NE(editor().notices.back().text.find("lies where"), std::string::npos) << editor().notices.back().text;
+}
+
+// Thousands of places would be read and written with every drag: laying out forgets what was stored, and the layout stands again.
+TEST(CanvasStoredMany, LayingOutALargeSceneStoresNoPlaces) {
+  std::string text = R"({"format": "behaviourlinks", "version": 1, "view": {"boxes": {"n7": [9000, 4000]}}, "nodes": [)";
+  for (int k = 0; k < 3100; ++k) text += (k > 0 ? "," : "") + std::string(R"({"id": "n)") + std::to_string(k) + R"("})";
+  const std::string path = path_of("many_places");
+  ASSERT_TRUE(write_file(path, text + R"(], "links": []})").ok());
+  NullDesktop desktop;
+  ASSERT_TRUE(desktop.editor().open(path));
+  desktop.frames(2);
+  canvas::Board& board = desktop.editor().canvas->board();
+  ASSERT_EQ(board.model.view.boxes.size(), 1u);
+  canvas::lay_out_all(board);
+  desktop.frames(3);
+  EXPECT_EQ(board.model.view.boxes.size(), 0u);
+  EXPECT_NE(places_on(board.model).at("n7"), (std::pair<float, float>(9000, 4000)));
+  std::filesystem::remove(path);
 }
 
 TEST_F(CanvasStored, TheFirstChangeStoresWhatIsSeenAndUndoForgetsIt) {

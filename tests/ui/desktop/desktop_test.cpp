@@ -77,6 +77,32 @@ TEST(Desktop, PanesTakeTurnsWithTheKeys) {
   EXPECT_EQ(editor.area, Area::canvas);
 }
 
+TEST(Desktop, DelFromTheListsRemovesWhatIsChosenAndFromAFieldDoesNot) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  Editor& editor = desktop.editor();
+  editor.picks.only_node("library");
+  editor.area = Area::panels;
+  desktop.frames(3);
+  desktop.key(GLFW_KEY_DOWN);
+  ASSERT_TRUE(ImGui::GetIO().NavVisible);
+  desktop.key(GLFW_KEY_DELETE);
+  EXPECT_TRUE(editor.scene().nodes.contains("library")) << "keys walk over the fields";
+  desktop.click({1350, 880});  // below the fields: nobody walks over them any more
+  editor.area = Area::panels;
+  editor.picks.only_node("library");
+  desktop.frames(2);
+  ASSERT_FALSE(ImGui::GetIO().NavVisible);
+  desktop.key(GLFW_KEY_DELETE);
+  EXPECT_FALSE(editor.scene().nodes.contains("library"));
+  desktop.key(GLFW_KEY_Z, true);
+  EXPECT_TRUE(editor.scene().nodes.contains("library")) << "one step";
+  editor.picks.only_node("library");
+  editor.is_beamer = true;
+  desktop.frames(2);
+  desktop.key(GLFW_KEY_DELETE);
+  EXPECT_TRUE(editor.scene().nodes.contains("library")) << "who shows a scene changes nothing";
+}
+
 TEST(Desktop, AWindowOpensNoLargerThanItsScreen) {
   const auto opens = [](Extent wished, Extent room) {
     const Extent size = fitting_window(wished, room);

@@ -58,6 +58,62 @@ TEST(Dialogs, PaletteRunsWhatIsTyped) {
   EXPECT_EQ(desktop.editor().state().tick, 1);
 }
 
+TEST(Dialogs, PaletteAddsNodesByTheirRole) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  const std::size_t before = desktop.editor().scene().nodes.size();
+  desktop.key(GLFW_KEY_K, true);
+  desktop.frames(3);
+  desktop.type("volume");
+  desktop.frames(1);
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(3);
+  ASSERT_EQ(desktop.editor().scene().nodes.size(), before + 1);
+  ASSERT_EQ(desktop.editor().picks.nodes.size(), 1u);
+  EXPECT_TRUE(desktop.editor().scene().nodes.at(*desktop.editor().picks.nodes.begin()).types.contains("smart_volume"));
+  NullDesktop start;  // nothing is open that anything could be added to
+  start.key(GLFW_KEY_K, true);
+  start.frames(3);
+  start.type("smartvolume");
+  start.frames(1);
+  start.key(GLFW_KEY_ENTER);
+  start.frames(3);
+  EXPECT_FALSE(start.editor().document);
+}
+
+TEST(Dialogs, AFileThatCannotBeOpenedPointsToWhereItIsSaidWhy) {
+  const std::string path = ::testing::TempDir() + "wrong_kind.json";
+  ASSERT_TRUE(write_file(path, R"({"type": "FeatureCollection"})"));
+  NullDesktop start, open("scenes/start/quarter.json");
+  const auto told = [&](NullDesktop& desktop) {
+    desktop.frames(1);
+    EXPECT_FALSE(desktop.editor().open(path));
+    desktop.frames(1);
+    return desktop.editor().notices.empty() ? std::string() : desktop.editor().notices.back().text;
+  };
+  EXPECT_EQ(told(start), "This scene could not be opened; the start page says why.");
+  EXPECT_EQ(told(open), "This scene could not be opened; the problems list says why.");
+}
+
+TEST(Dialogs, AFileThatIsNotThereIsNamedOnce) {
+  NullDesktop desktop;
+  desktop.key(GLFW_KEY_N, true);
+  desktop.frames(3);
+  desktop.type(BL_SOURCE_DIR "/tests/data/plan_dutch.geojson");
+  desktop.key(GLFW_KEY_TAB);
+  desktop.frames(2);
+  const std::string missing = "/nowhere/programme.csv";
+  desktop.type(missing);
+  desktop.frames(1);
+  desktop.key(GLFW_KEY_ENTER);
+  desktop.frames(3);
+  ASSERT_FALSE(desktop.editor().document);
+  std::string told;
+  for (const std::string& line : desktop.editor().dialogs->told()) told += line + "\n";
+  const std::size_t first = told.find(missing);
+  ASSERT_NE(first, std::string::npos) << told;
+  EXPECT_EQ(told.find(missing, first + 1), std::string::npos) << told;
+}
+
 TEST(Dialogs, NewSceneFromFilesByKeyboard) {
   NullDesktop desktop;
   desktop.key(GLFW_KEY_N, true);

@@ -1,10 +1,13 @@
 // A volume that is added in the window fits the brief: a use from its list, and no size of its own that would pull against it.
+#include <algorithm>
+
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
 #include "tests/ui/desktop/panels_support.h"
+#include "ui/cli/report/account.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 
@@ -32,6 +35,10 @@ class NewVolumeDesktop : public PanelDesktop {
   bool says(const std::string& node, const std::string& port) {
     return editor().scene().nodes.at(node).types.at("smart_volume").contains(port);
   }
+  bool is_told(const std::string& words) {
+    return std::any_of(editor().notices.begin(), editor().notices.end(),
+                       [&](const Notice& notice) { return notice.text.find(words) != std::string::npos; });
+  }
   std::set<std::string> ids() {
     std::set<std::string> all;
     for (const auto& [id, node] : editor().scene().nodes) all.insert(id);
@@ -49,6 +56,45 @@ TEST(NewVolume, TakesTheUseThatIsMostShort) {
   const std::string next = desktop.add();
   EXPECT_NE(desktop.use_of(next), "theatre") << "the theatre is seen to, also before a tick has passed";
   EXPECT_NE(desktop.use_of(next), "");
+}
+
+TEST(NewVolume, SaysWhichUseItTakes) {
+  NewVolumeDesktop desktop("scenes/start/quarter.json");
+  desktop.ticks(30);
+  ASSERT_TRUE(desktop.editor().submit(command<RemoveNode>({"theatre"})));
+  desktop.ticks(2);
+  desktop.add();
+  EXPECT_TRUE(desktop.is_told("use `theatre`, which lacks most"));
+  EXPECT_TRUE(desktop.is_told("inspector"));
+  NewVolumeDesktop without("scenes/studies/sixty_volumes.json");
+  without.ticks(1);
+  without.add();
+  EXPECT_FALSE(without.is_told("takes the use"));
+}
+
+TEST(NewVolume, AUseWhoseOnlyVolumeStarvesLacksMost) {
+  NewVolumeDesktop desktop("scenes/start/quarter.json");
+  std::string members;
+  for (const auto& [id, node] : desktop.editor().scene().nodes)
+    if (node.types.contains("smart_volume") && id != "theatre") members += (members.empty() ? "\"" : ", \"") + id + "\"";
+  ASSERT_TRUE(desktop.editor().submit(command<SetPort>({"solver", {"smart_volumes_solver.members"}, {"[" + members + "]"}})));
+  desktop.ticks(30);
+  ASSERT_EQ(uses_by_need(desktop.editor()).front(), "theatre") << "it has a volume, and that has nothing";
+  EXPECT_EQ(desktop.use_of(desktop.add()), "theatre");
+  EXPECT_NE(desktop.use_of(desktop.add()), "theatre") << "that one is seen to now";
+}
+
+TEST(NewVolume, BeforeTheFirstTickTheLargestUseLacksMost) {
+  NewVolumeDesktop desktop("scenes/start/quarter.json");
+  const std::vector<std::string> uses = uses_by_need(desktop.editor());
+  const auto brief = report::brief_of(desktop.editor().state());
+  const auto area_of = [&](const std::string& use) {
+    for (const auto& [name, row] : brief)
+      if (name == use) return row.area;
+    return 0.0;
+  };
+  ASSERT_GT(uses.size(), 3u);
+  for (std::size_t k = 1; k < uses.size(); ++k) EXPECT_GE(area_of(uses[k - 1]), area_of(uses[k])) << uses[k];
 }
 
 TEST(NewVolume, SaysNothingOfItsSize) {

@@ -9,6 +9,23 @@ namespace {
 
 constexpr const char* kInspectedQuarter = "scenes/start/quarter.json";
 
+// A limit at the end of its range holds nobody back: the number that stands for it tells people nothing.
+TEST(Quantities, ALimitThatIsNoneSaysSo) {
+  const PortDefinition& limit = *full_registry().typification("smart_volume")->find_port("demand_limit");
+  EXPECT_EQ(value_text(Value(1e9), limit, limit.unit), "none");
+  EXPECT_EQ(value_text(Value(5000.0), limit, limit.unit), shown_number(5000, limit.unit));
+  EXPECT_NE(facts_of(limit, limit.unit).find("default  none"), std::string::npos) << facts_of(limit, limit.unit);
+  const PortDefinition& demand = *full_registry().typification("smart_volume")->find_port("demand");
+  EXPECT_NE(value_text(Value(1e9), demand, demand.unit), "none") << "that much is asked for";
+  PanelDesktop desktop(kInspectedQuarter);
+  desktop.choose("library");
+  ASSERT_TRUE(desktop.has("smart_volume.demand_limit"));
+  desktop.type_into("smart_volume.demand_limit", "5000");
+  EXPECT_EQ(desktop.number("library", "smart_volume", "demand_limit"), 5000);
+  desktop.type_into("smart_volume.demand_limit", "none");
+  EXPECT_EQ(desktop.number("library", "smart_volume", "demand_limit"), 1e9) << desktop.complaint();
+}
+
 TEST(Quantities, LongTimesAreSaidInMinutesAndHours) {
   const std::string blank = "\xC2\xA0";
   EXPECT_EQ(report::quantity(90, Unit::second), "90.0" + blank + "s");

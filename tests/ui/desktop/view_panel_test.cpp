@@ -77,6 +77,38 @@ TEST_F(ViewPanel, ClicksChooseAddAndToggle) {
   EXPECT_TRUE(editor().picks.nodes.empty());
 }
 
+TEST_F(ViewPanel, DelRemovesWhatWasChosenHere) {
+  desktop.click(spot_of("theatre"));
+  ASSERT_EQ(editor().picks.nodes, std::set<std::string>{"theatre"});
+  ASSERT_EQ(editor().area, Area::view);
+  desktop.key(GLFW_KEY_DELETE);
+  EXPECT_FALSE(editor().scene().nodes.contains("theatre"));
+  desktop.key(GLFW_KEY_Z, true);
+  EXPECT_TRUE(editor().scene().nodes.contains("theatre"));
+}
+
+// The clock goes on between the look and the press, and between the press and its release.
+class ViewPanelGoesOn : public ViewPanel, public ::testing::WithParamInterface<bool> {};
+
+TEST_P(ViewPanelGoesOn, AClickTakesWhatWasShown) {
+  const ImVec2 spot = spot_of("theatre");
+  desktop.move_to(spot);
+  ASSERT_EQ(editor().view->pointed_at(), "theatre");
+  const bool moves_while_pressed = GetParam();
+  if (moves_while_pressed) desktop.press();
+  ASSERT_TRUE(editor().submit(command<SetPort>({"theatre", {"node.position"}, {"[900, 900, 10]"}})));
+  editor().document->session().step(20);
+  editor().document->session().settle();
+  if (!moves_while_pressed) desktop.press();
+  desktop.release();
+  EXPECT_EQ(editor().picks.nodes, std::set<std::string>{"theatre"});
+  editor().picks.clear();
+  desktop.frames(2);
+  EXPECT_NE(editor().view->pointed_at(), "theatre") << "somebody else is there by now";
+}
+
+INSTANTIATE_TEST_SUITE_P(BeforeAndWhilePressed, ViewPanelGoesOn, ::testing::Values(false, true));
+
 TEST_F(ViewPanel, PointingLightsTheNode) {
   desktop.move_to(spot_of("theatre"));
   EXPECT_EQ(editor().picks.hovered_node, "theatre");

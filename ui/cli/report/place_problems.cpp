@@ -15,6 +15,8 @@ namespace {
 
 constexpr const char* kVolumeType = "smart_volume";
 constexpr std::size_t kNamedVolumes = 4, kNamedLinks = 6;
+// [m] a tick: less lifts nobody that anybody sees.
+constexpr double kLeastLift = 0.005;
 
 struct PlacedVolume {
   std::uint32_t node = 0;
@@ -103,6 +105,42 @@ PlaceProblem collapse_of(const State& state, const std::vector<std::uint32_t>& n
   return problem;
 }
 
+// Links that say something to where a node is, by whether they are a `stand`, and which of the others lift it.
+struct Holding {
+  std::string stand;
+  std::vector<std::string> lifting;
+};
+
+Holding who_holds(const State& state, std::uint32_t node) {
+  Holding holding;
+  for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
+    const LinkPlan& link = state.plan->links[l];
+    if (link.definition == nullptr || !link.is_enabled || link.is_muted || link.error) continue;
+    if (link.definition->id == "stand") {
+      if (std::find(link.nodes[1].begin(), link.nodes[1].end(), node) != link.nodes[1].end()) holding.stand = link.id;
+      continue;
+    }
+    const bool lifts = std::any_of(state.links[l].voices.begin(), state.links[l].voices.end(), [&](const Voice& voice) {
+      const auto* move = std::get_if<Vector3>(&voice.value);
+      return voice.target.node == node && move != nullptr && move->z > kLeastLift &&
+             state.plan->path_text(voice.target) == "node.position";
+    });
+    if (lifts) holding.lifting.push_back(link.id);
+  }
+  return holding;
+}
+
+// What helps who hangs: a `stand`, or where one runs already, whatever keeps it from its work.
+std::string help_for(const State& state, std::uint32_t node) {
+  const Holding holding = who_holds(state, node);
+  if (holding.stand.empty()) return "lay a `stand` from the solver to it, or let its `standing` allow it";
+  if (holding.lifting.empty())
+    return "`" + holding.stand +
+           "` still lets it down: let more ticks run; if it stays, unlock its place, or let its `standing` allow it";
+  return "`" + holding.stand + "` lets it down, but " + quoted_list(holding.lifting, kNamedLinks) +
+         (holding.lifting.size() == 1 ? " holds" : " hold") + " it up: weaken that, or let its `standing` allow it";
+}
+
 PlaceProblem hanging(const State& state, std::uint32_t node, double height) {
   const std::string rule = text_at(state, node, kVolumeType, "standing"), on = text_at(state, node, kVolumeType, "stands_on");
   PlaceProblem problem;
@@ -112,7 +150,7 @@ PlaceProblem hanging(const State& state, std::uint32_t node, double height) {
     problem.text = (on.empty() ? "it" : "it stands on `" + on + "`, and") + std::string(" has to stand on the ground");
   else if (rule == "bridge") problem.text = "nothing that stands carries it, and fewer than two volumes that stand hold it";
   else problem.text = "nothing that stands carries it";
-  problem.text += "; lay a `stand` from the solver to it, or let its `standing` allow it";
+  problem.text += "; " + help_for(state, node);
   return problem;
 }
 

@@ -74,6 +74,7 @@ void run_pressed_actions(Editor& editor) {
   for (const Action& action : actions()) {
     if (is_elsewhere && !action.is_always) continue;
     if (action.area != Area::none && action.area != editor.area) continue;
+    if (action.yields_to_fields && editor.area == Area::panels && ImGui::GetIO().NavVisible) continue;
     if (is_pressed(action.chord, action.repeats) || is_pressed(action.other, action.repeats)) run(action, editor);
   }
 }

@@ -35,6 +35,7 @@ struct Action {
   unsigned targets = 0;                    ///< the context menus that it stands in, where it can be done
   bool begins_group = false;               ///< a line goes before it in menus
   const char* submenu = nullptr;           ///< of `menu`, where it stands in one; actions of one submenu stand together
+  bool yields_to_fields = false;           ///< its keys are not meant for the choice while keys walk over fields
 };
 
 /// All actions, menu by menu, in the order of the menus.

@@ -100,7 +100,8 @@ bool Editor::open(const std::string& wanted, bool plays) {
   }
   list_problems(path, std::move(found));
   if (!fresh) {
-    tell(NoticeKind::error, "This scene could not be opened; the problems list says why.");
+    tell(NoticeKind::error, document ? "This scene could not be opened; the problems list says why."
+                                     : "This scene could not be opened; the start page says why.");
     return false;
   }
   person.remember(person.recent, path);

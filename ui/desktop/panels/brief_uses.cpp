@@ -67,14 +67,25 @@ std::vector<std::string> uses_by_need(Editor& editor) {
   const report::ReportModel& figures = memory_of(editor).record->figures(editor);
   std::map<std::string, double> missing;  // [m²]
   for (const report::UseAccount& use : figures.accounts.uses) missing[use.use] = use.missing_area();
-  // A volume that has nothing yet was added a moment ago: its use is seen to.
-  std::set<std::string> grown;
-  for (const report::VolumeRow& volume : figures.volumes)
-    if (volume.volume > 0) grown.insert(volume.id);
+  // A volume that no tick knows yet was added a moment ago: its use is seen to. One that ticks have left with nothing is not.
+  const Plan& known = *editor.moment->ticked->plan;
   for (const auto& [id, node] : editor.scene().nodes)
-    if (const std::string use = use_of_volume(node); !use.empty() && !grown.contains(id)) missing[use] = 0;
+    if (const std::string use = use_of_volume(node); !use.empty() && known.node_index(id) >= known.nodes.size()) missing[use] = 0;
   std::stable_sort(uses.begin(), uses.end(), [&](const auto& a, const auto& b) { return missing[a] > missing[b]; });
   return uses;
+}
+
+void tell_uses(Editor& editor, const std::vector<std::string>& nodes) {
+  std::set<std::string> uses;
+  for (const std::string& id : nodes)
+    if (const auto node = editor.scene().nodes.find(id); node != editor.scene().nodes.end())
+      if (const std::string use = use_of_volume(node->second); !use.empty()) uses.insert(use);
+  if (uses.empty()) return;
+  std::string names;
+  for (const std::string& use : uses) names += (names.empty() ? "`" : ", `") + use + "`";
+  editor.tell(NoticeKind::told, (uses.size() == 1 ? "It takes the use " + names + ", which lacks most, and a share of its demand"
+                                                  : "They take the uses that lack most, " + names) +
+                                    "; choose another in the inspector.");
 }
 
 std::string first_values(Editor& editor, const std::string& type, std::size_t number) {

@@ -16,4 +16,7 @@ std::vector<std::string> uses_by_need(Editor& editor);
 /// nothing of its size, which would be a voice against the brief. `number`: the how manieth one in the same step.
 std::string first_values(Editor& editor, const std::string& type, std::size_t number = 0);
 
+/// What a volume is for was not asked: says which uses nodes have got by `first_values`; nothing where none has one.
+void tell_uses(Editor& editor, const std::vector<std::string>& nodes);
+
 }  // namespace bl::desktop

@@ -236,7 +236,9 @@ Dialogs::Recovered Dialogs::recover(const Journal::Remains& remains) {
   auto document = Document::recover(editor_->program, remains, kTickThreads, problems);
   editor_->list_problems(remains.path, std::move(problems));
   if (!document) {
-    editor_->tell(NoticeKind::error, "The journal's scene could not be opened; the problems list says why. The journal is kept.");
+    editor_->tell(NoticeKind::error, std::string("The journal's scene could not be opened; the ") +
+                                         (editor_->document ? "problems list" : "start page") +
+                                         " says why. The journal is kept.");
     return Recovered::nothing;
   }
   editor_->take(std::move(document));

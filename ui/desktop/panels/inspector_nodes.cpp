@@ -165,7 +165,7 @@ void draw_add_role(Editor& editor, const InspectorView& view) {
     std::vector<Command> commands;
     for (const std::string& node : lacking)
       commands.push_back(command<Typify>({node, id, {first_values(editor, id, commands.size())}}));
-    editor.submit(commands);
+    if (editor.submit(commands) && id == "smart_volume") tell_uses(editor, lacking);
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndPopup();

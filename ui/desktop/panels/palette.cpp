@@ -1,36 +1,57 @@
-// The command palette and the list of keys: every action by its name, with its key.
+// The command palette and the list of keys: every action by its name, with its key; and every role that a new node can have.
 #include "ui/desktop/panels/dialogs.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <imgui_stdlib.h>
 
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/app/fuzzy.h"
+#include "ui/desktop/panels/canvas/additions.h"
+#include "ui/desktop/panels/canvas/canvas.h"
 
 namespace bl::desktop {
 
 namespace {
 
 struct PaletteHit {
-  const Action* action;
-  int score;
+  std::string label, note;
+  bool is_possible = true;
+  std::function<void(Editor&)> run;
+  int score = 0;
 };
-
-// Actions that fit what was typed, the best first; those that cannot be done now stand at the end.
-std::vector<PaletteHit> hits_of(const std::string& query, const Editor& editor) {
-  std::vector<PaletteHit> hits;
-  for (const Action& action : actions()) {
-    const int score = fuzzy_score(query, std::string(action.label) + " " + action.menu);
-    if (score >= 0) hits.push_back({&action, score - (action.can != nullptr && !action.can(editor) ? 100000 : 0)});
-  }
-  std::stable_sort(hits.begin(), hits.end(), [](const PaletteHit& a, const PaletteHit& b) { return a.score > b.score; });
-  return hits;
-}
 
 std::string keys_of(const Action& action) {
   const std::string other = text_of(action.other);
   return text_of(action.chord) + (other.empty() ? "" : "  " + other);
+}
+
+// In the middle of what is seen of the canvas.
+void add_in_sight(Editor& editor, const std::string& role) {
+  canvas::Board& board = editor.canvas->board();
+  canvas::add_node(board, role, board.camera.sight().centre());
+}
+
+// Actions and roles of new nodes that fit what was typed, the best first; what cannot be done now stands at the end.
+std::vector<PaletteHit> hits_of(const std::string& query, const Editor& editor) {
+  constexpr int kImpossible = 100000;
+  std::vector<PaletteHit> hits;
+  for (const Action& action : actions()) {
+    const int score = fuzzy_score(query, std::string(action.label) + " " + action.menu);
+    const bool is_possible = action.can == nullptr || action.can(editor);
+    if (score >= 0)
+      hits.push_back({action.label, std::string(action.menu) + "   " + keys_of(action), is_possible, action.run,
+                      score - (is_possible ? 0 : kImpossible)});
+  }
+  if (editor.document && !editor.is_beamer)
+    for (const auto& [id, type] : editor.types().typifications()) {
+      const std::string label = "Add " + type.label;
+      const int score = id == kBaseNode ? -1 : fuzzy_score(query, label + " " + id);
+      if (score >= 0) hits.push_back({label, "new node", true, [role = id](Editor& e) { add_in_sight(e, role); }, score});
+    }
+  std::stable_sort(hits.begin(), hits.end(), [](const PaletteHit& a, const PaletteHit& b) { return a.score > b.score; });
+  return hits;
 }
 
 bool was_pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
@@ -53,24 +74,22 @@ void Dialogs::draw_palette() {
   if (was_pressed(ImGuiKey_DownArrow)) ++marked_;
   if (was_pressed(ImGuiKey_UpArrow)) --marked_;
   marked_ = std::clamp(marked_, 0, std::max(0, count - 1));
-  const Action* chosen = is_entered && count > 0 ? hits[static_cast<std::size_t>(marked_)].action : nullptr;
+  const PaletteHit* chosen = is_entered && count > 0 ? &hits[static_cast<std::size_t>(marked_)] : nullptr;
   ImGui::BeginChild("hits");
   for (int k = 0; k < count; ++k) {
-    const Action& action = *hits[static_cast<std::size_t>(k)].action;
-    const bool is_possible = action.can == nullptr || action.can(*editor_);
+    const PaletteHit& hit = hits[static_cast<std::size_t>(k)];
     ImGui::PushID(k);
-    ImGui::BeginDisabled(!is_possible);
-    if (ImGui::Selectable(action.label, k == marked_, ImGuiSelectableFlags_DontClosePopups)) chosen = &action;
+    ImGui::BeginDisabled(!hit.is_possible);
+    if (ImGui::Selectable(hit.label.c_str(), k == marked_, ImGuiSelectableFlags_DontClosePopups)) chosen = &hit;
     ImGui::EndDisabled();
     if (k == marked_ && (was_pressed(ImGuiKey_DownArrow) || was_pressed(ImGuiKey_UpArrow))) ImGui::SetScrollHereY();
-    const std::string note = std::string(action.menu) + "   " + keys_of(action);
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(note.c_str()).x - theme.px(8));
-    ImGui::TextDisabled("%s", note.c_str());
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(hit.note.c_str()).x - theme.px(8));
+    ImGui::TextDisabled("%s", hit.note.c_str());
     ImGui::PopID();
   }
   if (count == 0) ImGui::TextDisabled("There is no command like that.");
   ImGui::EndChild();
-  if (chosen != nullptr && (chosen->can == nullptr || chosen->can(*editor_))) {
+  if (chosen != nullptr && chosen->is_possible) {
     close();
     ImGui::EndPopup();
     chosen->run(*editor_);

@@ -107,7 +107,7 @@ void draw_item(Editor& editor, ProblemItem& item, int index, float height) {
   if (is_pressed) go_to(editor, item);
 }
 
-void draw_nothing(Editor& editor, const ProblemList& problems) {
+void draw_nothing(Editor& editor) {
   const Colours& c = editor.theme.colours();
   ImGui::Dummy({0, editor.theme.px(6)});
   ImGui::PushStyleColor(ImGuiCol_Text, c.good);
@@ -115,7 +115,7 @@ void draw_nothing(Editor& editor, const ProblemList& problems) {
   ImGui::PopStyleColor();
   ImGui::SameLine();
   const bool has_run = editor.moment && editor.state().tick > 0;
-  ImGui::TextUnformatted(all_is_well(problems.accounts(), has_run).c_str());
+  ImGui::TextUnformatted(all_is_well(has_run).c_str());
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ void draw_nothing(Editor& editor, const ProblemList& problems) {
 void draw_problems(Editor& editor) {
   PanelMemory& memory = memory_of(editor);
   ProblemList& problems = *memory.problems;
-  if (problems.items().empty()) return draw_nothing(editor, problems);
+  if (problems.items().empty()) return draw_nothing(editor);
   draw_filters(editor, problems);
   ImGui::BeginChild("problem list", {0, 0});
   std::vector<std::size_t> shown;

@@ -13,10 +13,8 @@ namespace bl::desktop {
 
 namespace {
 
-// A row changes its band when it is this far beyond the edge, in powers of two; it comes in at 0 and goes at -1.
+// A row changes its band when it is this far beyond the edge, in powers of two.
 constexpr double kMargin = 0.35;
-// Who is short by the account stays listed until only this share of the tolerance is missing.
-constexpr double kStaysShort = 0.5;
 
 int band_of(double severity, const int* before) {
   const double exact = std::log2(severity / report::kMinorSeverity);
@@ -56,10 +54,8 @@ std::string lower_first(std::string text) {
 
 // A link that fails, or one that runs and says what it cannot reach.
 std::string what_of(const State& state, const std::string& link) {
-  for (std::size_t l = 0; l < state.links.size(); ++l)
-    if (state.plan->links[l].id == link && state.links[l].remark)
-      return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met"
-                                                        : "Somebody goes without what is asked for";
+  if (const std::size_t l = report::link_index(*state.plan, link); l < state.links.size() && state.links[l].remark)
+    return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met" : "Somebody goes without what is asked for";
   return "Link " + link + " fails";
 }
 
@@ -78,10 +74,9 @@ const char* label_of(ProblemKind kind) {
   return "";
 }
 
-std::string all_is_well(const report::Accounts& accounts, bool has_run) {
-  if (!has_run) return "Nothing is in the way so far; conflicts show once it runs.";
-  if (accounts.worst_short <= accounts.tolerance) return "Nothing is in the way: no conflicts, no failures, everybody has room.";
-  return "No conflicts and no failures; but " + accounts.worst + " is short by " + report::percent(accounts.worst_short) + ".";
+std::string all_is_well(bool has_run) {
+  return has_run ? "Nothing is in the way: no conflicts, no failures, everybody has room."
+                 : "Nothing is in the way so far; conflicts show once it runs.";
 }
 
 std::size_t ProblemList::pressing() const { return items_.size() - count(ProblemKind::idle); }
@@ -90,10 +85,10 @@ void ProblemList::add_conflicts(const State& state) {
   std::map<PortRef, int> bands;
   std::vector<std::size_t> order;
   for (const report::TensePort& tense : report::tense_ports(state)) {
+    // What was before decides on places in the list alone, never on what is listed.
+    if (tense.severity < report::kMinorSeverity) continue;
     const auto before = bands_.find(tense.ref);
-    const bool was_there = before != bands_.end();
-    if (tense.severity < report::kMinorSeverity * (was_there ? 0.5 : 1)) continue;
-    const int band = std::max(0, band_of(tense.severity, was_there ? &before->second : nullptr));
+    const int band = std::max(0, band_of(tense.severity, before != bands_.end() ? &before->second : nullptr));
     bands.emplace(tense.ref, band);
     ProblemItem item;
     item.kind = ProblemKind::conflict;
@@ -136,12 +131,11 @@ void ProblemList::write(const State& state, ProblemItem& item) const {
 void ProblemList::add_shortages(const State& state, const report::ReportModel& figures) {
   accounts_ = figures.accounts;
   if (state.tick == 0) return;
-  std::set<std::string> now_short, listed_uses;
+  std::set<std::string> listed_uses;
   const bool is_too_small = std::any_of(items_.begin(), items_.end(),
                                         [](const ProblemItem& i) { return i.kind == ProblemKind::shortage && i.is_error; });
   const auto add = [&](const std::string& key, const report::Account& account, const std::string& subject) -> ProblemItem* {
-    if (!account.is_short(accounts_.tolerance * (short_.contains(key) ? kStaysShort : 1))) return nullptr;
-    now_short.insert(key);
+    if (!account.is_short(accounts_.tolerance)) return nullptr;
     ProblemItem item;
     item.kind = ProblemKind::shortage;
     item.key = key;
@@ -166,7 +160,6 @@ void ProblemList::add_shortages(const State& state, const report::ReportModel& f
     if (is_told) continue;
     if (ProblemItem* item = add("volume/" + volume.id, volume, volume.name + " falls short")) item->nodes = {volume.id};
   }
-  short_ = std::move(now_short);
 }
 
 void ProblemList::add_failures(const State& state, const report::ReportModel& problems) {

@@ -58,12 +58,11 @@ class ProblemList {
   const Plan* plan_ = nullptr;
   std::uint64_t revision_ = static_cast<std::uint64_t>(-1);  ///< of the file's problems
   std::map<PortRef, int> bands_;
-  std::set<std::string> short_;  ///< keys of the uses and volumes that were short
   report::Accounts accounts_;
 };
 
-/// What stands where the list is empty: that everybody has room, only where everybody has what was asked for.
-std::string all_is_well(const report::Accounts& accounts, bool has_run);
+/// What stands where the list is empty: whoever is short is listed, so that everybody has room there.
+std::string all_is_well(bool has_run);
 /// "Conflicts", "Shortages", ...
 const char* label_of(ProblemKind kind);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -29,7 +30,8 @@ void SceneView::draw(ImVec2 size) {
   follow_document();
   follow_state();
   advance_camera();
-  pointed_at_.clear();
+  shown_node_ = std::exchange(pointed_at_, {});
+  shown_link_ = std::exchange(pointed_link_, {});
   take_keys();
   take_mouse();
   choices_.held.clear();
@@ -56,6 +58,7 @@ void SceneView::draw(ImVec2 size) {
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(picture), at_, {at_.x + size.x, at_.y + size.y}, {0, 1},
                                          {1, 0});
   draw_overlay();
+  shown_for_ = is_hovered_ ? ImGui::GetIO().MousePos : ImVec2{-1, -1};
   last_frame_ = editor_->now;
 }
 
@@ -104,6 +107,7 @@ void SceneView::follow_document() {
   forget();
   document_ = editor_->document->id();
   hit_.reset();
+  shown_for_ = {-1, -1};
   drag_ = Drag::none;
   is_walking_ = false;
   pin_.reset();

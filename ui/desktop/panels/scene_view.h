@@ -157,6 +157,7 @@ class SceneView {
   Seen visible_anchor(std::uint32_t node, const Seen& middle) const;
   void draw_scale_and_north();
   std::string street_under(const ImVec2& mouse) const;
+  void note_pressed();
   void draw_hint(const std::string& text);
   void draw_tools();
   void draw_layers_popup();
@@ -224,7 +225,11 @@ class SceneView {
   ImVec2 pressed_at_{};
   std::string pressed_on_;  ///< a node: pulling moves it, with all that is chosen if it is
   std::optional<Hit> hit_;
-  std::string pointed_at_;
+  std::string pointed_at_, pointed_link_;
+  // What the last frame has shown below the mouse, and where that was: a click takes it though the picture goes on.
+  std::string shown_node_, shown_link_;
+  ImVec2 shown_for_{-1, -1};
+  std::string clicked_node_, clicked_link_;  ///< of the press that may become a click
   std::optional<Move> move_;
   int hot_handle_ = -1;
   std::optional<std::pair<Point3, Point3>> wanted_box_;  ///< to be brought into sight once its nodes are known

@@ -129,8 +129,8 @@ void SceneView::take_left_button() {
     if (handle >= 0) return begin_move(handle, false);
     drag_ = Drag::pressed;
     pressed_at_ = io.MousePos;
-    point_at();
-    pressed_on_ = io.KeyShift || io.KeyCtrl ? "" : pointed_at_;
+    note_pressed();
+    pressed_on_ = io.KeyShift || io.KeyCtrl ? "" : clicked_node_;
     return;
   }
   if (drag_ == Drag::pressed) {
@@ -160,6 +160,15 @@ void SceneView::take_left_button() {
   }
 }
 
+// What people saw when they pressed: the clock may have put something else there in this very frame.
+void SceneView::note_pressed() {
+  point_at();
+  const bool is_where_shown = shown_for_.x == pressed_at_.x && shown_for_.y == pressed_at_.y;
+  const auto still_there = [&](const std::string& id) { return id.empty() || seen_index(id) < facts_->places.size(); };
+  clicked_node_ = is_where_shown && still_there(shown_node_) ? shown_node_ : pointed_at_;
+  clicked_link_ = is_where_shown && editor_->scene().links.contains(shown_link_) ? shown_link_ : pointed_link_;
+}
+
 void SceneView::choose(const std::string& id, bool is_node) {
   const ImGuiIO& io = ImGui::GetIO();
   Picks& picks = editor_->picks;
@@ -184,8 +193,8 @@ void SceneView::click(bool is_double) {
     camera.target = place;
     return go_to(camera);
   }
-  if (!pointed_at_.empty()) return choose(pointed_at_, true);
-  if (!editor_->picks.hovered_link.empty()) return choose(editor_->picks.hovered_link, false);
+  if (editor_->scene().nodes.contains(clicked_node_)) return choose(clicked_node_, true);
+  if (editor_->scene().links.contains(clicked_link_)) return choose(clicked_link_, false);
   if (!io.KeyShift && !io.KeyCtrl) editor_->picks.clear();
 }
 
@@ -249,7 +258,7 @@ void SceneView::point_at() {
     const double far = distance_to_segment(mouse, on_screen(a), on_screen(b));
     if (far >= reach) continue;
     reach = far;
-    editor_->picks.hovered_link = link.id;
+    pointed_link_ = editor_->picks.hovered_link = link.id;
   }
 }
 

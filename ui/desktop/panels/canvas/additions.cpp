@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t kMostBundled = 40;
 // More than any recency.
 constexpr int kAfterVolumes = 5000;
+constexpr const char* kVolumeRole = "smart_volume";
 
 int recency_of(const Editor& editor, const std::string& id) {
   const auto& recent = editor.person.recent_additions;
@@ -46,7 +47,7 @@ Command new_node(Board& board, const TypificationDefinition& role, const std::st
   Json node = Json::object();
   const std::size_t number = id.rfind('-');
   node["name"] = role.label + (number == std::string::npos ? "" : " " + id.substr(number + 1));
-  if (role.id == "smart_volume") {
+  if (role.id == kVolumeRole) {
     const Point3 place = place_volume(board.editor.types(), board.editor.scene());
     node["position"] = Json::array({place.x, place.y, place.z});
   }
@@ -67,6 +68,8 @@ Command new_link(const Board& board, const LinkDefinition& kind, const std::stri
   return command<AddLink>({id, {write_json_line(link_to_json(link, board.editor.types()))}});
 }
 
+}  // namespace
+
 void add_node(Board& board, const std::string& type, ImVec2 at) {
   Editor& editor = board.editor;
   const TypificationDefinition& role = *editor.types().typification(type);
@@ -78,7 +81,10 @@ void add_node(Board& board, const std::string& type, ImVec2 at) {
   if (!editor.submit(commands, editor.new_gesture())) return;
   remember(editor, type);
   editor.picks.only_node(id);
+  if (type == kVolumeRole) tell_uses(editor, {id});
 }
+
+namespace {
 
 bool lacks_role(const Scene& scene, const std::string& node, const std::string& type) {
   const auto found = scene.nodes.find(node);
@@ -88,10 +94,15 @@ bool lacks_role(const Scene& scene, const std::string& node, const std::string& 
 void add_role(Board& board, const std::string& type) {
   Editor& editor = board.editor;
   std::vector<Command> commands;
+  std::vector<std::string> nodes;
   for (const std::string& id : editor.picks.nodes)
-    if (lacks_role(editor.scene(), id, type))
+    if (lacks_role(editor.scene(), id, type)) {
       commands.push_back(command<Typify>({id, type, {first_values(editor, type, commands.size())}}));
-  if (editor.submit(commands, editor.new_gesture())) remember(editor, type);
+      nodes.push_back(id);
+    }
+  if (!editor.submit(commands, editor.new_gesture())) return;
+  remember(editor, type);
+  if (type == kVolumeRole) tell_uses(editor, nodes);
 }
 
 std::string short_name(const Board& board, const Selection& selection) {
@@ -134,6 +145,7 @@ void add_linked_node(Board& board, const std::string& kind, const std::string& t
   remember(editor, kind);
   remember(editor, type);
   editor.picks.only_node(node);
+  if (type == kVolumeRole) tell_uses(editor, {node});
 }
 
 // Links between the chosen nodes: from the first that was chosen to each of the others, or the other way round where only that
@@ -270,7 +282,7 @@ void open_drop_menu(Board& board, std::size_t from, ImVec2 screen) {
     for (const auto& [role, type] : editor.types().typifications()) {
       if (!is_role(type) || misfit_with_new(editor.types(), editor.scene(), kind, a, type)) continue;
       // Every node has a place, but only a volume's is seen: moving a table of numbers about helps nobody.
-      const bool is_volume = role == "smart_volume";
+      const bool is_volume = role == kVolumeRole;
       if (!is_volume && knows_places_only(kind, End::to)) continue;
       // What was used last decides among volumes and among the rest, never between them.
       const int taste = is_volume ? 0 : kAfterVolumes;

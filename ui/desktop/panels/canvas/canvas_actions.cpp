@@ -29,6 +29,14 @@ bool has_choice(const Editor& e) {
          (has_picks(e) || !e.canvas->board().picked_comments.empty() || !e.canvas->board().picked_frames.empty());
 }
 
+bool can_remove(const Editor& e) { return !e.is_beamer && has_choice(e); }
+bool can_reconnect(const Editor& e) { return !e.is_beamer && has_nodes(e); }
+
+void remove(Editor& e, bool reconnects) {
+  bring_up_to_date(board_of(e));
+  remove_chosen(board_of(e), reconnects);
+}
+
 bool has_choice_or_pin(const Editor& e) { return has_choice(e) || (has_document(e) && !e.canvas->board().pinned.empty()); }
 
 ImVec2 search_place(const Board& board) {
@@ -155,12 +163,14 @@ void add_edit_commands(std::vector<Action>& list) {
   offer(list, on_node | on_comment, {"Canvas", "Duplicate", {GLFW_KEY_D, true}, {}, area, has_choice, [](Editor& e) {
                                        duplicate_chosen(board_of(e), {30, 30});
                                      }});
-  begin_group(
-      list, on_node | on_link | on_comment | on_frame,
-      {"Canvas", "Delete", {GLFW_KEY_DELETE}, {}, area, has_choice, [](Editor& e) { remove_chosen(board_of(e), false); }});
-  offer(list, on_node, {"Canvas", "Delete and reconnect", {GLFW_KEY_DELETE, true}, {}, area, has_nodes, [](Editor& e) {
-                          remove_chosen(board_of(e), true);
+  // Wherever it was chosen: in 3D and in the lists as well.
+  begin_group(list, on_node | on_link | on_comment | on_frame,
+              {"Canvas", "Delete", {GLFW_KEY_DELETE}, {}, Area::none, can_remove, [](Editor& e) { remove(e, false); }});
+  list.back().yields_to_fields = true;
+  offer(list, on_node, {"Canvas", "Delete and reconnect", {GLFW_KEY_DELETE, true}, {}, Area::none, can_reconnect, [](Editor& e) {
+                          remove(e, true);
                         }});
+  list.back().yields_to_fields = true;
   begin_group(list, on_node | on_link,
               {"Canvas", "Mute", {GLFW_KEY_M}, {}, area, has_picks, [](Editor& e) { mute_chosen(board_of(e)); }});
   offer(list, on_node | on_link,

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "ui/cli/report/figures.h"
+#include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/stream_text.h"
 
 namespace bl::desktop::canvas {
@@ -148,6 +149,7 @@ std::string text_of(const Editor& editor, const NodeBox& box, const Section& sec
   if (const auto* table = std::get_if<Shared<Table>>(value)) return counted((*table)->rows.size(), "row");
   if (const auto* selection = std::get_if<Shared<Selection>>(value)) return text_of(editor, **selection);
   if (std::holds_alternative<MeshPointer>(*value)) return "a mesh";
+  if (is_no_limit(definition, as_number(*value))) return kNoLimit;
   if (definition.unit == Unit::ratio) {
     const double share = as_number(*value);
     return share != 0 && std::abs(share) < kLeastShare ? "< 0.01 %" : report::percent(share);

@@ -30,10 +30,16 @@ void lay_out_all(Board& board) {
   const std::vector<ImVec2> places = model.automatic_places(board.editor);
   const auto is_new = [](bool is_stored, ImVec2 from, ImVec2 to) { return !is_stored || length(to - from) > 0.01f; };
   Json patch = Json::object();
-  for (std::size_t k = 0; k < model.boxes.size(); ++k)
+  const bool is_too_large = model.boxes.size() + model.pills.size() > kMostStored;
+  // Without stored places the layout gives its own: a scene that is too large forgets those that it has.
+  if (is_too_large)
+    for (const auto& [id, at] : model.view.boxes) patch["boxes"][id] = nullptr;
+  for (std::size_t k = 0; k < model.boxes.size() && !is_too_large; ++k)
     if (const NodeBox& box = model.boxes[k]; is_new(box.is_stored, box.box.at, places[k]))
       patch["boxes"][box.id] = place_json(places[k]);
-  for (std::size_t k = 0; k < model.pills.size(); ++k)
+  if (is_too_large)
+    for (const auto& [key, at] : model.view.sets) patch["sets"][key] = nullptr;
+  for (std::size_t k = 0; k < model.pills.size() && !is_too_large; ++k)
     if (const Pill& pill = model.pills[k]; is_new(pill.is_stored, pill.box.at, places[model.boxes.size() + k]))
       patch["sets"][pill.key] = place_json(places[model.boxes.size() + k]);
   drop_stale(model, patch);
