@@ -35,11 +35,20 @@ struct Mesh {
   std::shared_ptr<const MeshWrap> wrap = {};
   /// Of a wrapped mesh: the coarse one that it follows from, for those who divide and wrap it themselves; may be null.
   std::shared_ptr<const Mesh> coarse = {};
+  /// Of a coarse mesh whose cell was cut near to its ball: the one of the whole cell, whose faces are those of its neighbours
+  /// too. Null where the coarse mesh is that itself.
+  std::shared_ptr<const Mesh> whole = {};
   bool operator==(const Mesh&) const = default;
 };
 
 /// Meshes are shared between snapshots and never changed after they were made.
 using MeshPointer = std::shared_ptr<const Mesh>;
+
+/// The coarse mesh of the whole cell, where `mesh` brings it along; else `mesh` itself.
+inline const Mesh& whole_cell(const Mesh& mesh) {
+  const Mesh& coarse = mesh.coarse && mesh.coarse->wrap ? *mesh.coarse : mesh;
+  return coarse.whole ? *coarse.whole : coarse;
+}
 
 /// Signed volume [m³] enclosed by a closed mesh (divergence theorem); positive when oriented outward.
 double enclosed_volume(const Mesh& mesh);

@@ -7,9 +7,6 @@ namespace bl {
 
 namespace {
 
-// Meshes of snapshots bring the coarse one along, whose faces are whole.
-const Mesh& coarse_of(const Mesh& mesh) { return mesh.coarse && mesh.coarse->wrap ? *mesh.coarse : mesh; }
-
 double size_of(const Mesh& mesh) {
   double size = 0;
   for (const Point3& vertex : mesh.vertices) size = std::max(size, distance(vertex, mesh.vertices.front()));
@@ -17,10 +14,10 @@ double size_of(const Mesh& mesh) {
 }
 
 FacadeSurvey survey_of(const SurveyCase& one) {
-  const Mesh& mesh = coarse_of(*one.mesh);
+  const Mesh& mesh = whole_cell(*one.mesh);
   std::vector<ShapeFace> faces = faces_of(mesh);
   const double size = size_of(mesh);
-  for (const MeshPointer& neighbour : one.neighbours) mark_shared(faces, faces_of(coarse_of(*neighbour)), size);
+  for (const MeshPointer& neighbour : one.neighbours) mark_shared(faces, faces_of(whole_cell(*neighbour)), size);
   return survey_facade(mesh, faces, one.options);
 }
 

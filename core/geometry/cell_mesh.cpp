@@ -108,8 +108,8 @@ Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> 
   return whole;
 }
 
-MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes,
-                             std::span<const OpenPart> open, const PowerSite& site, const Point3& centroid) {
+Mesh make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, std::span<const OpenPart> open,
+                      const PowerSite& site, const Point3& centroid) {
   Mesh whole;
   MeshWrap wrap{site.position, std::sqrt(site.weight), {}, {}};
   const OpenPart whole_cell;
@@ -128,7 +128,7 @@ MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const 
     wrap.parts.push_back(std::move(part));
   }
   whole.wrap = std::make_shared<const MeshWrap>(std::move(wrap));
-  return std::make_shared<const Mesh>(std::move(whole));
+  return whole;
 }
 
 MeshPointer mesh_of_depth(const MeshPointer& mesh, int depth) {

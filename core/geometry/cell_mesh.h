@@ -23,8 +23,8 @@ Mesh make_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> 
                const PowerSite& site, int depth, const Point3& centroid);
 /// The same parts as fans of triangles, a face's centre first, not wrapped; `wrap` says how make_mesh would go on. The
 /// triangles come in the order in which make_mesh divides them.
-MeshPointer make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes,
-                             std::span<const OpenPart> open, const PowerSite& site, const Point3& centroid);
+Mesh make_coarse_mesh(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, std::span<const OpenPart> open,
+                      const PowerSite& site, const Point3& centroid);
 
 /// Faces of shapes that studies measure with are split in four so many times.
 inline constexpr int kStudyDepth = 1;

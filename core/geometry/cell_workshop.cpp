@@ -122,7 +122,15 @@ void measure_parts(const CellGround& ground, std::uint32_t index, const CellOpti
   std::vector<OpenPart> open;
   if (near.size() > 1) open = open_parts(near, bench.shapes, site.weight);
   Mesh mesh = make_mesh(near, bench.shapes, open, site, options.tessellation_depth, centroid);
-  if (options.with_coarse_mesh && options.with_shape) mesh.coarse = make_coarse_mesh(near, bench.shapes, open, site, centroid);
+  if (options.with_coarse_mesh && options.with_shape) {
+    auto coarse = make_coarse_mesh(near, bench.shapes, open, site, centroid);
+    // Façades are measured on whole faces, which two neighbours have in common.
+    if (trimmed) {
+      if (parts.size() > 1) open = open_parts(parts, bench.shapes, site.weight);
+      coarse.whole = std::make_shared<const Mesh>(make_coarse_mesh(parts, bench.shapes, open, site, centroid));
+    }
+    mesh.coarse = std::make_shared<const Mesh>(std::move(coarse));
+  }
   out.mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 

@@ -62,7 +62,7 @@ TEST_P(SettledLaws, ASettledSceneStaysSettledAndComesToAStandstill) {
   const auto small = small_scenes();
   const bool is_large = std::find(small.begin(), small.end(), GetParam()) == small.end();
   world.tick(10);  // files of older versions say by their own rules that they have settled
-  ASSERT_TRUE(world.settle(is_large ? kToSettle / 2 : kToSettle));
+  ASSERT_TRUE(world.settle(is_large ? 3 * kToSettle / 4 : kToSettle));
   const double total = total_volume(world.state());
   const auto settled = volumes(world.state());
   for (int i = 0; i < (is_large ? kSettledLarge : kStill); ++i) {

