@@ -103,8 +103,9 @@ class LogReader {
       return Error{ErrorCode::conflict, "tick",
                    "the checks are not in order: tick " + std::to_string(check.tick) + " comes after tick " +
                        std::to_string(log.checks.back().tick)};
-    // An end may lie before entries for a tick that failed and was never made.
-    if (!log.entries.empty() && check.tick < log.entries.back().tick && use_ == LogUse::replay && !check.is_end)
+    // The tick for which the last entries came may have failed, and then the end is the tick before.
+    const std::int64_t reached = check.tick + (check.is_end ? 1 : 0);
+    if (!log.entries.empty() && reached < log.entries.back().tick && use_ == LogUse::replay)
       return out_of_order("a check", check.tick, "an entry", log.entries.back().tick);
     if (auto near = reach(check.tick); !near) return near;
     log.has_end = check.is_end;

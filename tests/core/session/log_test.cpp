@@ -65,6 +65,7 @@ TEST(Log, EntriesAndChecksStandInOneOrder) {
   EXPECT_EQ(why_refused(entry(1, 60, 1) + mark("end", 30)),
             "line 3/tick: the lines are not in order: a check of tick 30 comes after an entry of tick 60");
   EXPECT_EQ(why_refused(mark("check", 60) + entry(1, 60, 1) + mark("end", 60)), "");
+  EXPECT_EQ(why_refused(entry(1, 60, 1) + mark("end", 59)), "") << "the tick of the entry has failed";
   EXPECT_EQ(why_refused(mark("check", 60) + entry(1, 30, 1), LogUse::recovery), "") << "who recovers compares nothing";
 }
 
