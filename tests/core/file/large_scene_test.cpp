@@ -1,26 +1,14 @@
 // Large scenes take time in proportion to their size, to read, to write, and to say no to.
 #include <algorithm>
-#include <ctime>
-#include <functional>
 
 #include <gtest/gtest.h>
 
 #include "core/session/ledger.h"
+#include "tests/support/processor_time.h"
 #include "tests/support/world.h"
 
 namespace bl {
 namespace {
-
-// Of the processor, and the shortest of a few: others work on this machine, too [s].
-double seconds(const std::function<void()>& work) {
-  double least = 1e9;
-  for (int round = 0; round < 3; ++round) {
-    const std::clock_t begin = std::clock();
-    work();
-    least = std::min(least, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-  return least;
-}
 
 std::string nodes_of(int count) {
   std::string text = R"({"format": "behaviourlinks", "version": 1, "nodes": [)";
@@ -48,11 +36,13 @@ constexpr double kMostGrowth = 9;
 TEST(LargeScene, IsReadAndWrittenInProportionToItsNodes) {
   const std::string small = nodes_of(5000), large = nodes_of(20000);
   for (const std::string* text : {&small, &large}) ASSERT_TRUE(read_scene(*text, full_registry()).is_usable());
-  const auto read = [](const std::string& text) { return seconds([&] { (void)read_scene(text, full_registry()); }); };
+  const auto read = [](const std::string& text) {
+    return test::processor_time([&] { (void)read_scene(text, full_registry()); });
+  };
   EXPECT_LT(read(large), kMostGrowth * read(small));
   const auto write = [](const std::string& text) {
     const SceneReading reading = read_scene(text, full_registry());
-    return seconds([&] { (void)write_scene(reading.scene, full_registry(), &*reading.state); });
+    return test::processor_time([&] { (void)write_scene(reading.scene, full_registry(), &*reading.state); });
   };
   EXPECT_LT(write(large), kMostGrowth * write(small));
 }
@@ -61,7 +51,9 @@ TEST(LargeScene, ALayerIsReadInProportionToItsPoints) {
   const std::string small = layer_of(5000), large = layer_of(20000);
   const SceneReading reading = read_scene(large, full_registry());
   ASSERT_TRUE(reading.is_usable()) << reading.first_error().text();
-  const auto read = [](const std::string& text) { return seconds([&] { (void)read_scene(text, full_registry()); }); };
+  const auto read = [](const std::string& text) {
+    return test::processor_time([&] { (void)read_scene(text, full_registry()); });
+  };
   EXPECT_LT(read(large), kMostGrowth * read(small));
 }
 
@@ -79,7 +71,9 @@ TEST(LargeScene, ManyMistakesAreToldInProportionToTheirNumber) {
   };
   const std::string small = broken(1000), large = broken(4000);
   EXPECT_EQ(read_scene(small, full_registry()).problems.size(), 1000u);
-  const auto read = [](const std::string& text) { return seconds([&] { (void)read_scene(text, full_registry()); }); };
+  const auto read = [](const std::string& text) {
+    return test::processor_time([&] { (void)read_scene(text, full_registry()); });
+  };
   EXPECT_LT(read(large), kMostGrowth * read(small));
 }
 
@@ -90,7 +84,7 @@ TEST(LargeScene, ARefusalCostsNoMoreThanInASmallOne) {
     Ledger ledger(full_registry(), reading.scene);
     const Command misspelt = command<RenameNode>({"n17x", "Seventeen"});
     EXPECT_EQ(ledger.submit(misspelt, "test", 0).error().message, "there is no node `n17x`, did you mean `n17`?") << count;
-    return seconds([&] {
+    return test::processor_time([&] {
       for (int k = 0; k < 500; ++k) (void)ledger.submit(misspelt, "test", 0);
     });
   };

@@ -1,7 +1,5 @@
 // The view's merge patch: however many keys a patch has, it comes to the same as its keys one by one, and is taken back exactly.
 #include <algorithm>
-#include <ctime>
-#include <functional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 
 #include "core/session/commands.h"
 #include "core/session/ledger.h"
+#include "tests/support/processor_time.h"
 #include "tests/support/world.h"
 
 namespace bl {
@@ -51,17 +50,6 @@ TEST(SetViewMerge, APatchComesToTheSameAsItsKeysOneByOne) {
   }
 }
 
-// Of the processor, and the shortest of a few: others work on this machine, too [s].
-double shortest_time(const std::function<void()>& work) {
-  double least = 1e9;
-  for (int round = 0; round < 3; ++round) {
-    const std::clock_t begin = std::clock();
-    work();
-    least = std::min(least, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-  return least;
-}
-
 // In descending order, so that none of them goes to the end of what is there.
 Json patch_of(int count, int shift) {
   Json boxes = Json::object();
@@ -76,7 +64,7 @@ Json patch_of(int count, int shift) {
 TEST(SetViewMerge, ManyBoxesAreMovedInProportionToTheirNumber) {
   const auto seconds = [](int count, bool is_whole) {
     const std::string first = patch_of(count, 0).dump(), second = patch_of(count, 7).dump();
-    return shortest_time([&] {
+    return test::processor_time([&] {
       Ledger ledger(full_registry(), Scene());
       ASSERT_TRUE(ledger.submit(command<SetView>({{first}, false}), "test", 0));
       ASSERT_TRUE(ledger.submit(command<SetView>({{second}, is_whole}), "test", 0));

@@ -15,18 +15,26 @@ namespace bl::desktop {
 
 namespace {
 
-std::vector<std::string> uses_of_briefs(const Scene& scene) {
-  std::vector<std::string> uses;
+// All briefs of a scene that have a table.
+std::vector<const Table*> briefs_of(const Scene& scene) {
+  std::vector<const Table*> briefs;
   for (const auto& [id, node] : scene.nodes) {
     const auto programme = node.types.find("programme");
     if (programme == node.types.end()) continue;
     const auto rows = programme->second.find("rows");
-    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
-    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row)
-      if (const std::string& use = (*table)->text(row, "use");
+    if (rows == programme->second.end()) continue;
+    if (const auto* table = std::get_if<Shared<Table>>(&rows->second)) briefs.push_back(&**table);
+  }
+  return briefs;
+}
+
+std::vector<std::string> uses_of_briefs(const Scene& scene) {
+  std::vector<std::string> uses;
+  for (const Table* brief : briefs_of(scene))
+    for (std::size_t row = 0; row < brief->rows.size(); ++row)
+      if (const std::string& use = brief->text(row, "use");
           !use.empty() && std::find(uses.begin(), uses.end(), use) == uses.end())
         uses.push_back(use);
-  }
   return uses;
 }
 
@@ -40,14 +48,9 @@ std::string use_of_volume(const NodeRecord& node) {
 
 // What the first brief that speaks of a use lets its volumes stand on; empty where none does.
 std::string standing_of_use(const Scene& scene, const std::string& use) {
-  for (const auto& [id, node] : scene.nodes) {
-    const auto programme = node.types.find("programme");
-    if (programme == node.types.end()) continue;
-    const auto rows = programme->second.find("rows");
-    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
-    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row)
-      if ((*table)->text(row, "use") == use) return (*table)->text(row, "standing");
-  }
+  for (const Table* brief : briefs_of(scene))
+    for (std::size_t row = 0; row < brief->rows.size(); ++row)
+      if (brief->text(row, "use") == use) return brief->text(row, "standing");
   return "";
 }
 
