@@ -7,22 +7,13 @@
 
 #include "core/geometry/domain_makers.h"
 #include "tests/core/geometry/geometry_support.h"
+#include "tests/support/sanitized.h"
 
 namespace bl::test {
 
 /// How many rounds of a law are run: all of them, a twentieth under sanitizers; BL_LAW_SHARE (a number) says otherwise.
 inline int rounds(int all) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  double share = 0.05;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-  double share = 0.05;
-#else
-  double share = 1;
-#endif
-#else
-  double share = 1;
-#endif
+  double share = kIsSanitized ? 0.05 : 1;
   if (const char* given = std::getenv("BL_LAW_SHARE")) share = std::atof(given);
   return std::max(1, static_cast<int>(all * share));
 }

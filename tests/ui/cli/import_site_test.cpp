@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tests/support/sanitized.h"
 #include "tests/ui/cli/program.h"
 
 namespace bl::test {
@@ -259,19 +260,6 @@ TEST_F(ImportSite, ModelsWithoutACrsComeInAsLocal) {
   EXPECT_EQ(place.json("all.json")["settings"]["coordinate_system"], "EPSG:28992");
   EXPECT_EQ(node("building_b")["types"]["existing_building"]["outline"][0], nlohmann::json::array({1.0, 2.0, 0.0}));
 }
-
-// Sanitizers take ten times as long, and more address space than any limit leaves.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kIsSanitized = true;
-#else
-constexpr bool kIsSanitized = false;
-#endif
-#else
-constexpr bool kIsSanitized = false;
-#endif
 
 // A row of many houses: no step of an import may cost more the more there are before it.
 TEST_F(ImportSite, ThousandsOfHousesComeInQuickly) {

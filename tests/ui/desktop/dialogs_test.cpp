@@ -94,13 +94,18 @@ TEST(Dialogs, AFileThatCannotBeOpenedPointsToWhereItIsSaidWhy) {
   EXPECT_EQ(told(open), "This scene could not be opened; the problems list says why.");
 }
 
-TEST(Dialogs, AFileThatIsNotThereIsNamedOnce) {
-  NullDesktop desktop;
+// The plan is typed; the field of the brief has the keys.
+void begin_new_scene(NullDesktop& desktop) {
   desktop.key(GLFW_KEY_N, true);
   desktop.frames(3);
   desktop.type(BL_SOURCE_DIR "/tests/data/plan_dutch.geojson");
   desktop.key(GLFW_KEY_TAB);
   desktop.frames(2);
+}
+
+TEST(Dialogs, AFileThatIsNotThereIsNamedOnce) {
+  NullDesktop desktop;
+  begin_new_scene(desktop);
   const std::string missing = "/nowhere/programme.csv";
   desktop.type(missing);
   desktop.frames(1);
@@ -116,11 +121,7 @@ TEST(Dialogs, AFileThatIsNotThereIsNamedOnce) {
 
 TEST(Dialogs, NewSceneFromFilesByKeyboard) {
   NullDesktop desktop;
-  desktop.key(GLFW_KEY_N, true);
-  desktop.frames(3);
-  desktop.type(BL_SOURCE_DIR "/tests/data/plan_dutch.geojson");
-  desktop.key(GLFW_KEY_TAB);
-  desktop.frames(2);
+  begin_new_scene(desktop);
   desktop.type(BL_SOURCE_DIR "/tests/data/functions.csv");
   desktop.frames(1);
   desktop.key(GLFW_KEY_ENTER);

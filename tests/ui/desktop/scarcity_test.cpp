@@ -9,18 +9,13 @@
 
 #include "core/base/scarcity.h"
 #include "core/file/file_io.h"
+#include "tests/support/sanitized.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/app/window.h"
 
 namespace bl::desktop {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsWatched = true;
-#else
-constexpr bool kIsWatched = false;
-#endif
 
 // No more address space than there is now, and a little.
 void allow_only(std::size_t more) {
@@ -45,7 +40,7 @@ void work_until_memory_ends(const std::string& folder) noexcept {
 }
 
 TEST(WindowScarcity, MemoryThatRunsOutInAFrameEndsInASentenceAndKeepsTheJournal) {
-  if (kIsWatched) GTEST_SKIP() << "sanitizers need more address space than any limit leaves";
+  if (test::kIsSanitized) GTEST_SKIP() << "sanitizers need more address space than any limit leaves";
   const std::string folder = ::testing::TempDir() + "scarce-" + std::to_string(getpid());
   EXPECT_EXIT(work_until_memory_ends(folder), ::testing::ExitedWithCode(1),
               "behaviourlinks: memory ran out: .*What you did since the last save is kept");
@@ -70,7 +65,7 @@ void open_more_than_there_is_room_for(const std::string& path) {
 }
 
 TEST(WindowScarcity, AFileThatIsTooLargeLeavesTheOpenSceneAlone) {
-  if (kIsWatched) GTEST_SKIP() << "sanitizers need more address space than any limit leaves";
+  if (test::kIsSanitized) GTEST_SKIP() << "sanitizers need more address space than any limit leaves";
   const std::string path = ::testing::TempDir() + "too_large-" + std::to_string(getpid()) + ".json";
   std::string text = R"({"format": "behaviourlinks", "version": 1, "nodes": [)";
   for (int k = 0; k < 200000; ++k)
