@@ -11,6 +11,7 @@
 #include <set>
 #include <system_error>
 
+#include "core/define/bounded_json.h"
 #include "core/exchange/foreign_bytes.h"
 #include "core/exchange/inflate.h"
 #include "core/exchange/osm_store.h"
@@ -134,8 +135,30 @@ std::string format_of(std::string_view bytes) {
   return head.find("<osm") != std::string_view::npos || head.find("<?xml") != std::string_view::npos ? "osm" : "";
 }
 
+// libosmium multiplies by ten for each step of an exponent, beyond what its integers hold. No degree needs a positive one, and none
+// is written with character references.
+Result<void> check_coordinates(std::string_view xml) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  for (const std::string_view name : {"lat", "lon"})
+    for (std::size_t at = xml.find(name); at != std::string_view::npos; at = xml.find(name, at + 1)) {
+      const std::size_t equals = xml.find_first_not_of(kSpace, at + name.size());
+      if (equals == std::string_view::npos || xml[equals] != '=') continue;
+      const std::size_t quote = xml.find_first_not_of(kSpace, equals + 1);
+      if (quote == std::string_view::npos || (xml[quote] != '"' && xml[quote] != '\'')) continue;
+      const std::string_view value = xml.substr(quote + 1, std::min(xml.find(xml[quote], quote + 1), xml.size()) - quote - 1);
+      const std::size_t exponent = value.find_first_of("eE");
+      const bool is_large = exponent != std::string_view::npos && exponent + 1 < value.size() && value[exponent + 1] != '-';
+      if (is_large || value.find('&') != std::string_view::npos)
+        return Error{ErrorCode::parse, place_in_text(xml, quote + 1),
+                     "`" + std::string(value.substr(0, 40)) + "` is no coordinate in degrees: the file is damaged."};
+    }
+  return {};
+}
+
 Result<OsmStore> read(const std::string& bytes, const std::string& format, ImportWatch* watch) {
   OsmStore store;
+  if (format == "osm")
+    if (auto sound = check_coordinates(bytes); !sound) return sound.error();
   const Names unwanted = format == "osm" ? unwanted_of(bytes) : Names();
   osmium::thread::Pool pool{1};
   osmium::io::File file{bytes.data(), bytes.size(), format};

@@ -122,8 +122,10 @@ std::string solver_message(const State& state) {
   std::string message;
   report::ReportModel model;
   report::read_figures(state, model);
-  for (std::uint32_t n = 0; n < count_of(state); ++n)
+  for (std::uint32_t n = 0; n < count_of(state); ++n) {
+    if (!report::has_type(state, n, kSolver)) continue;
     if (const std::string said = told_by(state, model, n); !said.empty()) message += (message.empty() ? "" : "; ") + said;
+  }
   return message;
 }
 
