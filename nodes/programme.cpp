@@ -31,6 +31,7 @@ struct Programme {
         .column({.id = "use",
                  .is_text = true,
                  .is_required = true,
+                 .is_key = true,
                  .default_value = std::string(),
                  .doc = "What the row is about, such as `housing`."})
         .column({.id = "floor_area",

@@ -96,27 +96,34 @@ Result<Scalar> field_from_json(const ColumnDefinition& column, const Json& json,
   return Scalar(std::get<double>(*number));
 }
 
+Result<TableRow> read_row(const PortDefinition& port, const std::vector<std::string>& columns, const Json& json,
+                          const std::string& place, ReadNumber read) {
+  if (!json.is_object())
+    return Error{ErrorCode::wrong_kind, place, "expects a row {\"column\": value, ...}, found " + shown(json)};
+  if (auto keys = check_keys(json, columns, place); !keys) return keys.error();
+  TableRow row;
+  for (const ColumnDefinition& column : port.columns) {
+    const auto it = json.find(column.id);
+    if (it == json.end()) {
+      if (column.is_required) return Error{ErrorCode::missing, place, "the column `" + column.id + "` is missing"};
+      row.push_back(column.default_value);
+      continue;
+    }
+    auto field = field_from_json(column, *it, place + "/" + column.id, read);
+    if (!field) return field.error();
+    row.push_back(std::move(*field));
+  }
+  return row;
+}
+
 Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& json, const std::string& place, ReadNumber read) {
   if (!json.is_array()) return wrong_kind(port, json, place);
   Table table;
   table.columns = column_ids(port);
   for (std::size_t r = 0; r < json.size(); ++r) {
-    const std::string row_place = place + "/" + std::to_string(r);
-    if (!json[r].is_object())
-      return Error{ErrorCode::wrong_kind, row_place, "expects a row {\"column\": value, ...}, found " + shown(json[r])};
-    if (auto keys = check_keys(json[r], table.columns, row_place); !keys) return keys.error();
-    auto& row = table.rows.emplace_back();
-    for (const ColumnDefinition& column : port.columns) {
-      const auto it = json[r].find(column.id);
-      if (it == json[r].end()) {
-        if (column.is_required) return Error{ErrorCode::missing, row_place, "the column `" + column.id + "` is missing"};
-        row.push_back(column.default_value);
-        continue;
-      }
-      auto field = field_from_json(column, *it, row_place + "/" + column.id, read);
-      if (!field) return field.error();
-      row.push_back(std::move(*field));
-    }
+    auto row = read_row(port, table.columns, json[r], place + "/" + std::to_string(r), read);
+    if (!row) return row.error();
+    table.rows.push_back(std::move(*row));
   }
   return Shared<Table>(std::move(table));
 }
@@ -227,19 +234,26 @@ Result<void> check_keys(const Json& json, std::initializer_list<std::string_view
   return check_keys_among(json, known, place);
 }
 
+Json row_to_json(const PortDefinition& port, const TableRow& row) {
+  const auto& columns = port.columns;
+  Json object = Json::object();
+  for (std::size_t c = 0; c < row.size() && c < columns.size(); ++c) {
+    if (!columns[c].is_required && row[c] == columns[c].default_value) continue;
+    if (const double* number = std::get_if<double>(&row[c])) object[columns[c].id] = *number;
+    else object[columns[c].id] = std::get<std::string>(row[c]);
+  }
+  return object;
+}
+
+Result<TableRow> row_from_json(const PortDefinition& port, const Json& json, const std::string& place) {
+  return read_row(port, column_ids(port), json, place, value_from_json);
+}
+
 namespace {
 
-Json table_to_json(const Table& table, const std::vector<ColumnDefinition>& columns) {
+Json table_to_json(const Table& table, const PortDefinition& port) {
   Json rows = Json::array();
-  for (const auto& row : table.rows) {
-    Json object = Json::object();
-    for (std::size_t c = 0; c < row.size() && c < columns.size(); ++c) {
-      if (!columns[c].is_required && row[c] == columns[c].default_value) continue;
-      if (const double* number = std::get_if<double>(&row[c])) object[columns[c].id] = *number;
-      else object[columns[c].id] = std::get<std::string>(row[c]);
-    }
-    rows.push_back(std::move(object));
-  }
+  for (const TableRow& row : table.rows) rows.push_back(row_to_json(port, row));
   return rows;
 }
 
@@ -254,7 +268,7 @@ Json value_to_json(const Value& value, const PortDefinition& port) {
   if (const auto* vector = std::get_if<Vector3>(&value)) return vector_to_json(*vector);
   if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&value)) return **texts;
   if (const auto* selection = std::get_if<Shared<Selection>>(&value)) return selection_to_json(**selection);
-  if (const auto* table = std::get_if<Shared<Table>>(&value)) return table_to_json(**table, port.columns);
+  if (const auto* table = std::get_if<Shared<Table>>(&value)) return table_to_json(**table, port);
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) {
     Json list = Json::array();
     for (const Point3& p : **points) list.push_back(vector_to_json(p));

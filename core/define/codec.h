@@ -40,6 +40,10 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
 /// The values that differ from their defaults, in the order of the declaration.
 Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value>& values);
 
+/// A row of a table port as an object, and the other way round; columns are left out where they are at their defaults.
+Json row_to_json(const PortDefinition& port, const TableRow& row);
+Result<TableRow> row_from_json(const PortDefinition& port, const Json& json, const std::string& place);
+
 /// {"command": id, "arguments": {...}}
 Json command_to_json(const Registry& registry, const Command& command);
 Result<Command> command_from_json(const Registry& registry, const Json& json, const std::string& place);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +13,8 @@
 namespace bl {
 
 class SceneEdit;
+struct Scene;
+struct Touch;
 
 /// One change that a person makes to a scene: the command's id and the arguments that differ from their defaults.
 struct Command {
@@ -21,29 +25,21 @@ struct Command {
 
 /// A command kind. `apply` leaves the scene as it was when it returns an error.
 struct CommandDefinition : TypeDefinition {
-  bool keeps_logic = false;   ///< changes by itself nothing that the tick reads
-  bool keeps_namers = false;  ///< nobody is named by it who was not before, or it notes that itself
   std::function<Result<std::vector<Command>>(SceneEdit&, std::span<const Value>)> apply;
+  /// What is left of a command that may touch only some of its places, given the scene as all of it leaves it; empty where a
+  /// command goes as a whole or not at all.
+  std::function<Command(const Scene& done, const std::set<Touch>& places)> narrow;
 };
 
 /// T has `struct In` (arguments), `declare(CommandBuilder<T>&)` and
-/// `static Result<std::vector<Command>> apply(SceneEdit&, const In&)`, which returns the inverse, in the order to apply.
+/// `static Result<std::vector<Command>> apply(SceneEdit&, const In&)`, which returns the inverse, in the order to apply. It may
+/// have `static Command narrow(const Scene& done, const std::set<Touch>& places)` (CommandDefinition).
 template <class T>
 class CommandBuilder : public TypeBuilder<CommandDefinition> {
  public:
   using TypeBuilder::TypeBuilder;
   using In = typename T::In;
 
-  /// The command changes nothing that the tick reads.
-  CommandBuilder& keeps_logic() {
-    definition_->keeps_logic = true;
-    return *this;
-  }
-  /// By the command nobody is named who was not named before, or it notes that in the edit.
-  CommandBuilder& keeps_namers() {
-    definition_->keeps_namers = true;
-    return *this;
-  }
   template <class M>
   PortBuilder<M> argument(M In::*member, std::string id) {
     return add_port(definition_->ports, member, std::move(id));
@@ -59,6 +55,7 @@ class CommandBuilder : public TypeBuilder<CommandDefinition> {
       for (std::size_t p = 0; p < ports->size(); ++p) (*ports)[p].set(&in, values[p]);
       return T::apply(edit, in);
     };
+    if constexpr (requires { &T::narrow; }) definition.narrow = &T::narrow;
     return definition;
   }
 

@@ -56,6 +56,7 @@ struct ColumnDefinition {
   std::string id;
   bool is_text = false;
   bool is_required = false;
+  bool is_key = false;  ///< a text that names the row: people who change different rows do not get in each other's way
   Unit unit = Unit::none;
   Scalar default_value = 0.0;
   double minimum = -std::numeric_limits<double>::infinity(), maximum = std::numeric_limits<double>::infinity();

@@ -45,10 +45,12 @@ struct Selection {
 /// A number or a text: one field of a table.
 using Scalar = std::variant<double, std::string>;
 
+using TableRow = std::vector<Scalar>;
+
 /// Rows under named columns; the columns are those that the port declares, in that order.
 struct Table {
   std::vector<std::string> columns;
-  std::vector<std::vector<Scalar>> rows;
+  std::vector<TableRow> rows;
   bool operator==(const Table&) const = default;
 
   /// Index of a column, or the number of columns where there is none.

@@ -22,9 +22,12 @@ Namers::Namers(const Scene& scene) {
 
 void Namers::note(const std::string& id, const NodeRecord& node) {
   for (const auto& [type, values] : node.types)
-    for (const auto& [port, value] : values)
-      if (const auto* selection = std::get_if<Shared<Selection>>(&value))
-        for (const std::string& named : (*selection)->ids) nodes_[named].insert(id);
+    for (const auto& [port, value] : values) note(id, value);
+}
+
+void Namers::note(const std::string& id, const Value& value) {
+  if (const auto* selection = std::get_if<Shared<Selection>>(&value))
+    for (const std::string& named : (*selection)->ids) nodes_[named].insert(id);
 }
 
 void Namers::note(const std::string& id, const LinkRecord& link) {

@@ -5,6 +5,8 @@
 #include <set>
 #include <string>
 
+#include "core/define/value.h"
+
 namespace bl {
 
 struct LinkRecord;
@@ -19,6 +21,8 @@ class Namers {
 
   void note(const std::string& id, const NodeRecord& node);
   void note(const std::string& id, const LinkRecord& link);
+  /// A value of a node.
+  void note(const std::string& id, const Value& value);
   /// Ids of links, and of nodes, that may name the node.
   const std::set<std::string>& links_to(const std::string& node) const;
   const std::set<std::string>& nodes_to(const std::string& node) const;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/base/near_names.h"
 #include "core/base/text.h"
 #include "core/define/port_builder.h"
 
@@ -189,24 +188,6 @@ Unit unit_of(const Registry& registry, const NodeRecord& node, const Typificatio
   }
   const UnitInfo* row = find_unit(*text);
   return row ? row->unit : Unit::none;
-}
-
-const Namers& SceneEdit::namers() {
-  auto& namers = namers_slot();
-  if (!namers) namers.emplace(*scene_);
-  return *namers;
-}
-
-Result<NodeRecord*> SceneEdit::node(const std::string& id) {
-  const auto it = scene_->nodes.find(id);
-  if (it != scene_->nodes.end()) return &it->second;
-  return Error{ErrorCode::not_found, "nodes/" + id, "there is no node `" + id + "`" + did_you_mean_among(id, scene_->nodes)};
-}
-
-Result<LinkRecord*> SceneEdit::link(const std::string& id) {
-  const auto it = scene_->links.find(id);
-  if (it != scene_->links.end()) return &it->second;
-  return Error{ErrorCode::not_found, "links/" + id, "there is no link `" + id + "`" + did_you_mean_among(id, scene_->links)};
 }
 
 }  // namespace bl

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/define/registry.h"
-#include "core/graph/namers.h"
 #include "core/graph/scripts.h"
 
 namespace bl {
@@ -78,50 +77,6 @@ inline bool is_said(const PortValues& values, const PortDefinition& port, const 
 }
 /// The unit of a node's port, following `unit_from` to the port that names it.
 Unit unit_of(const Registry& registry, const NodeRecord& node, const TypificationDefinition& type, const PortDefinition& port);
-
-/// A scene being changed by a command: knows the types, and collects which ports were placed by hand.
-class SceneEdit {
- public:
-  /// `kept`, where given, outlives the edit: who names whom in the scene as it is, or nothing where nobody has asked.
-  SceneEdit(Scene& scene, const Registry& registry, std::optional<Namers>* kept = nullptr)
-      : scene_(&scene), registry_(&registry), kept_(kept) {}
-  Scene& scene() { return *scene_; }
-  const Scene& scene() const { return *scene_; }
-  /// The types that this scene knows: those of the program, and the kinds of its scripts.
-  const Registry& registry() const { return scene_->scripts.types(*registry_); }
-  /// The types of the program alone.
-  const Registry& program() const { return *registry_; }
-  /// A port that accumulates (a position) starts again from its set value after this.
-  void place(std::string node, std::string path) { placed_.emplace(std::move(node), std::move(path)); }
-  const std::set<std::pair<std::string, std::string>>& placed() const { return placed_; }
-  /// Said of every command that may have changed more than the view; without it the running scene need not be compiled again.
-  void touch_logic() { is_logic_touched_ = true; }
-  bool is_logic_touched() const { return is_logic_touched_; }
-
-  /// Who names whom. Looked up in the whole scene by the first who asks, and kept as long as commands keep it true.
-  const Namers& namers();
-  /// Said before every command that does not keep it true.
-  void forget_namers() { namers_slot().reset(); }
-  /// Said of a node or link that is new, by commands that keep it true.
-  template <class Record>
-  void note_names(const std::string& id, const Record& record) {
-    if (namers_slot()) namers_slot()->note(id, record);
-  }
-
-  /// The node or link of that id, or an error that names the nearest one.
-  Result<NodeRecord*> node(const std::string& id);
-  Result<LinkRecord*> link(const std::string& id);
-
- private:
-  std::optional<Namers>& namers_slot() { return kept_ != nullptr ? *kept_ : own_; }
-
-  Scene* scene_;
-  const Registry* registry_;
-  std::optional<Namers>* kept_;
-  std::optional<Namers> own_;
-  std::set<std::pair<std::string, std::string>> placed_;
-  bool is_logic_touched_ = false;
-};
 
 /// What check_scene found: an error makes a scene unfit to run, a warning leaves a link or node idle.
 struct Problem {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/define/command_builder.h"
-#include "core/graph/scene.h"
+#include "core/graph/scene_edit.h"
 
 namespace bl {
 
@@ -57,6 +57,35 @@ struct SetPort {
     JsonText value{"null"};
   };
   static void declare(CommandBuilder<SetPort>& c);
+  static Inverse apply(SceneEdit& edit, const In& in);
+};
+struct SetCell {
+  struct In {
+    std::string node;
+    PortChoice port;
+    std::string row, column;
+    JsonText value{"null"};
+  };
+  static void declare(CommandBuilder<SetCell>& c);
+  static Inverse apply(SceneEdit& edit, const In& in);
+};
+struct AddRow {
+  struct In {
+    std::string node;
+    PortChoice port;
+    JsonText row;
+    std::int64_t at = -1;
+  };
+  static void declare(CommandBuilder<AddRow>& c);
+  static Inverse apply(SceneEdit& edit, const In& in);
+};
+struct RemoveRow {
+  struct In {
+    std::string node;
+    PortChoice port;
+    std::string row;
+  };
+  static void declare(CommandBuilder<RemoveRow>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
 };
 struct LockPort {
@@ -161,6 +190,7 @@ struct SetView {
   };
   static void declare(CommandBuilder<SetView>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
+  static Command narrow(const Scene& done, const std::set<Touch>& places);
 };
 /// What a sensor has measured, or why a message of it is no measurement. Devices submit it, so that live data stand in the log.
 struct Receive {

@@ -33,16 +33,16 @@ Inverse exchange_scripts(SceneEdit& edit, const Scripts& after, std::vector<Comm
     const Json json = link_to_json(link, old_types);
     auto fresh = read_again(edit, id, link, json, new_types);
     if (!fresh) return fresh.error();
-    if (*fresh == link) continue;
+    // Also of a link that stays a ghost: once its nodes are there again, the old scripts would wake it.
     auto returned = read_again(edit, id, *fresh, link_to_json(*fresh, new_types), old_types);
     if (!returned || *returned != link) {
       back.push_back(command<RemoveLink>({id}));
       back.push_back(command<AddLink>({id, {write_json_line(json)}, !link.ghost.empty()}));
     }
-    changed.emplace(id, std::move(*fresh));
+    if (*fresh != link) changed.emplace(id, std::move(*fresh));
   }
-  for (auto& [id, link] : changed) edit.scene().links[id] = std::move(link);
-  edit.scene().scripts = after;
+  for (auto& [id, link] : changed) edit.change_link(id, std::move(link));
+  edit.set_scripts(after);
   return back;
 }
 

@@ -61,10 +61,8 @@ LogEntry Gestures::fitted(const LogEntry& entry) const {
   return fitting;
 }
 
-std::optional<std::int64_t> Gestures::last(const std::string& author, bool is_undo) const {
-  const auto& stack = stack_of(is_undo ? undo_ : redo_, author);
-  if (stack.empty()) return std::nullopt;
-  return stack.back();
+const std::vector<std::int64_t>& Gestures::open(const std::string& author, bool is_undo) const {
+  return stack_of(is_undo ? undo_ : redo_, author);
 }
 
 }  // namespace bl

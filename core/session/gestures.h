@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,8 +22,8 @@ class Gestures {
   /// that begins in the middle of a session.
   LogEntry fitted(const LogEntry& entry) const;
 
-  /// The author's last gesture that can be taken back, or brought back.
-  std::optional<std::int64_t> last(const std::string& author, bool is_undo) const;
+  /// The author's gestures that can be taken back, or brought back; the last one first to go.
+  const std::vector<std::int64_t>& open(const std::string& author, bool is_undo) const;
 
  private:
   struct Gesture {

@@ -4,10 +4,24 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <set>
 
 #include "core/base/text.h"
 
 namespace bl {
+
+namespace {
+
+// Something that is set, in contrast to a node, role, row, link or script that comes and goes.
+bool is_value(const Touch& place) {
+  if (place.part == ScenePart::setting) return true;
+  if (place.part == ScenePart::script || place.path.empty()) return false;
+  if (!place.path.starts_with("types/")) return true;
+  const auto steps = std::count(place.path.begin(), place.path.end(), '/');
+  return steps == 2 || steps == 4;  // types/programme/rows, types/programme/rows/housing/count
+}
+
+}  // namespace
 
 Inverse apply(SceneEdit& edit, const Command& command) {
   // Of the program: the registry of the scene may be replaced by what the command does.
@@ -23,8 +37,6 @@ Inverse apply(SceneEdit& edit, const Command& command) {
     values.push_back(it == command.arguments.end() ? port.default_value : it->second);
     if (!take_in(values.back())) return Error{ErrorCode::not_finite, command.id + "/" + port.id, "must be a finite number"};
   }
-  if (!definition->keeps_logic) edit.touch_logic();
-  if (!definition->keeps_namers) edit.forget_namers();
   return definition->apply(edit, values);
 }
 
@@ -35,9 +47,7 @@ Result<void> Ledger::apply_entry(LogEntry entry) {
   if (!inverse) return inverse.error();
   placed_.insert(edit.placed().begin(), edit.placed().end());
   is_changed_ = is_changed_ || edit.is_logic_touched();
-  // Grown at its end, so that a gesture of many steps costs no more for each of them.
-  auto& commands = inverses_[entry.gesture];
-  commands.insert(commands.end(), std::make_move_iterator(inverse->rbegin()), std::make_move_iterator(inverse->rend()));
+  note(entry, edit.touches(), std::move(*inverse));
   last_gesture_ = std::max(last_gesture_, entry.gesture);
   entry.seq = log_.empty() ? 1 : log_.back().seq + 1;
   gestures_.take(entry);
@@ -46,44 +56,119 @@ Result<void> Ledger::apply_entry(LogEntry entry) {
   return {};
 }
 
+void Ledger::note(const LogEntry& entry, const std::vector<Touch>& touches, std::vector<Command> inverse) {
+  Step& step = steps_[entry.gesture];
+  Written& written = step.written;
+  written.writer = {entry.gesture, entry.author};
+  // The first inverse of a place brings back what was there before the gesture: a drag is undone in one step for each place,
+  // however many there were.
+  const bool is_known = std::all_of(touches.begin(), touches.end(),
+                                    [&](const Touch& place) { return is_value(place) && written.before.contains(place); });
+  const std::int64_t other = entry.undoes != 0 ? entry.undoes : entry.redoes;
+  if (const auto known = steps_.find(other); other != 0 && known != steps_.end())
+    writers_.write_back(touches, known->second.written, written);
+  else writers_.write(touches, written);
+  // Grown at its end, so that a gesture of many steps costs no more for each of them.
+  if (!is_known || step.inverse.empty())
+    step.inverse.insert(step.inverse.end(), std::make_move_iterator(inverse.rbegin()), std::make_move_iterator(inverse.rend()));
+}
+
 Result<void> Ledger::submit(const Command& command, const std::string& author, std::int64_t tick, std::int64_t gesture) {
   return apply_entry({0, tick, gesture == 0 ? last_gesture_ + 1 : gesture, author, command, 0, 0});
 }
 
-Result<void> Ledger::take_back(const std::string& author, std::int64_t tick, bool is_undo) {
-  const auto last = gestures_.last(author, is_undo);
-  if (!last)
-    return Error{ErrorCode::not_found, "",
-                 is_undo ? "there is nothing to undo for " + author : "there is nothing to redo for " + author};
-  const std::int64_t gesture = *last;
-  const std::vector<Command> commands(inverses_[gesture].rbegin(), inverses_[gesture].rend());
-  // Tried first and taken back: what somebody else removed meanwhile must not leave half of an undo behind.
-  SceneEdit edit(scene_, *registry_, &namers_);
-  std::vector<Command> back;  // the last one is applied first
-  std::optional<Error> failure;
-  for (const Command& command : commands) {
-    auto done = bl::apply(edit, command);
-    if (!done) {
-      failure = done.error();
-      break;
-    }
-    back.insert(back.end(), std::make_move_iterator(done->rbegin()), std::make_move_iterator(done->rend()));
+bool Ledger::note_others(const Written& written, const std::vector<Touch>& places, std::vector<Mark>& left) const {
+  bool is_any = false;
+  for (const Touch& place : places) {
+    auto mark = writers_.since(place, written);
+    if (!mark) continue;
+    is_any = true;
+    const bool is_told = std::any_of(left.begin(), left.end(), [&](const Mark& one) { return one.place == mark->place; });
+    if (!is_told) left.push_back(std::move(*mark));
   }
-  // Each was made for exactly this scene, so it fits.
-  std::for_each(back.rbegin(), back.rend(), [&edit](const Command& command) { (void)bl::apply(edit, command); });
-  if (failure) {
-    const std::string what = is_undo ? "cannot be undone" : "cannot be redone";
-    return Error{failure->code, failure->place, what + " because the scene has changed since: " + failure->message};
-  }
-  const std::int64_t fresh = new_gesture();
-  for (const Command& command : commands)
-    if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? gesture : 0, is_undo ? 0 : gesture}); !done)
-      return done;
-  return {};
+  return is_any;
 }
 
-Result<void> Ledger::undo(const std::string& author, std::int64_t tick) { return take_back(author, tick, true); }
-Result<void> Ledger::redo(const std::string& author, std::int64_t tick) { return take_back(author, tick, false); }
+// Applies a command, or what of it harms nobody; the commands that undo that, or nothing where all of it would.
+Result<std::optional<Ledger::Trial>> Ledger::attempt(SceneEdit& edit, const Command& command, const Written& written,
+                                                     std::vector<Mark>& left) const {
+  (void)edit.take_touches();
+  auto done = bl::apply(edit, command);
+  if (!done) {
+    std::vector<Touch> places;
+    for (const auto& [place, mark] : written.before) places.push_back(place);
+    if (note_others(written, places, left)) return std::optional<Trial>();
+    return done.error();
+  }
+  const std::vector<Touch> touches = edit.take_touches();
+  if (!note_others(written, touches, left)) return std::optional(Trial{command, std::move(*done)});
+  std::set<Touch> own;
+  for (const Touch& place : touches)
+    if (!writers_.since(place, written)) own.insert(place);
+  const CommandDefinition& kind = *registry_->command(command.id);
+  const bool can_narrow = kind.narrow && !own.empty();
+  const Command narrowed = can_narrow ? kind.narrow(edit.scene(), own) : Command();
+  for (const Command& inverse : *done) (void)bl::apply(edit, inverse);
+  if (!can_narrow) return std::optional<Trial>();
+  auto rest = bl::apply(edit, narrowed);
+  if (!rest) return std::optional<Trial>();
+  return std::optional(Trial{narrowed, std::move(*rest)});
+}
+
+Result<std::vector<Command>> Ledger::harmless(const Step& step, std::vector<Mark>& left) {
+  // Tried first and taken back: what somebody else removed meanwhile must not leave half of an undo behind.
+  SceneEdit edit(scene_, *registry_, &namers_);
+  std::vector<Trial> trials;
+  std::optional<Error> failure;
+  for (auto command = step.inverse.rbegin(); command != step.inverse.rend() && !failure; ++command) {
+    auto trial = attempt(edit, *command, step.written, left);
+    if (!trial) failure = trial.error();
+    else if (*trial) trials.push_back(std::move(**trial));
+  }
+  // Each was made for exactly this scene, so it fits.
+  std::vector<Command> commands;
+  for (auto trial = trials.rbegin(); trial != trials.rend(); ++trial)
+    for (const Command& back : trial->inverse) (void)bl::apply(edit, back);
+  if (failure) return *failure;
+  for (Trial& trial : trials) commands.push_back(std::move(trial.command));
+  return commands;
+}
+
+Result<TakenBack> Ledger::take_back(const std::string& author, std::int64_t tick, std::int64_t gesture, bool is_undo) {
+  const std::string what = is_undo ? "undo" : "redo", cannot = is_undo ? "cannot be undone" : "cannot be redone";
+  const std::vector<std::int64_t> open = gestures_.open(author, is_undo);
+  std::optional<Error> failure;
+  TakenBack taken;
+  for (auto next = open.rbegin(); next != open.rend(); ++next) {
+    if (gesture != 0 && *next != gesture) continue;
+    const auto commands = harmless(steps_[*next], taken.left);
+    if (!commands && !failure)
+      failure = Error{commands.error().code, commands.error().place,
+                      cannot + " because the scene has changed since: " + commands.error().message};
+    if (!commands || commands->empty()) continue;
+    taken.gesture = *next;
+    const std::int64_t fresh = new_gesture();
+    for (const Command& command : *commands)
+      if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? *next : 0, is_undo ? 0 : *next}); !done)
+        return done.error();
+    return taken;
+  }
+  if (!taken.left.empty()) return Error{ErrorCode::conflict, "", cannot + ": " + text_of(taken.left.front())};
+  if (failure) return *failure;
+  return Error{ErrorCode::not_found, "", "there is nothing to " + what + " for " + author};
+}
+
+Result<TakenBack> Ledger::undo(const std::string& author, std::int64_t tick, std::int64_t gesture) {
+  return take_back(author, tick, gesture, true);
+}
+Result<TakenBack> Ledger::redo(const std::string& author, std::int64_t tick, std::int64_t gesture) {
+  return take_back(author, tick, gesture, false);
+}
+
+std::string text_of(const Mark& left) {
+  const std::string who = left.writer.author.empty() ? "somebody" : left.writer.author;
+  return who + " has changed " + text_of(left.place) + " since";
+}
 
 Result<void> Ledger::replay(const LogEntry& entry) { return apply_entry(entry); }
 

@@ -12,8 +12,17 @@
 #include "core/session/commands.h"
 #include "core/session/gestures.h"
 #include "core/session/log.h"
+#include "core/session/writers.h"
 
 namespace bl {
+
+/// What an undo or redo has done: the gesture, and where it left things alone because somebody else has written there since.
+struct TakenBack {
+  std::int64_t gesture = 0;
+  std::vector<Mark> left;  ///< also of later gestures that were passed over, because nothing of them could be taken back
+};
+/// The sentence of what was left: "ben has changed nodes/tower/name since".
+std::string text_of(const Mark& left);
 
 /// What people say, apart from what the scene makes of it: needs no running state, so that a window can hold a ledger on one
 /// thread while another one ticks. `tick` is always the tick that the entry takes effect in.
@@ -25,9 +34,10 @@ class Ledger {
   /// undone together; gesture 0 makes a new one.
   Result<void> submit(const Command& command, const std::string& author, std::int64_t tick, std::int64_t gesture = 0);
   std::int64_t new_gesture() { return ++last_gesture_; }
-  /// Takes back the author's last gesture by new entries; what others did since stays.
-  Result<void> undo(const std::string& author, std::int64_t tick);
-  Result<void> redo(const std::string& author, std::int64_t tick);
+  /// Takes back the author's last gesture, or the one that is named, by new entries. What others wrote since stays as it is, and
+  /// is told; a gesture of which nothing can be taken back is passed over.
+  Result<TakenBack> undo(const std::string& author, std::int64_t tick, std::int64_t gesture = 0);
+  Result<TakenBack> redo(const std::string& author, std::int64_t tick, std::int64_t gesture = 0);
   /// An entry of a log, with its gesture and undo marks as they were.
   Result<void> replay(const LogEntry& entry);
 
@@ -46,8 +56,24 @@ class Ledger {
   Changes changes() const { return {is_changed_, placed_}; }
 
  private:
+  /// What a gesture has done, and how it is undone.
+  struct Step {
+    std::vector<Command> inverse;  ///< the last one is applied first
+    Written written;
+  };
   Result<void> apply_entry(LogEntry entry);
-  Result<void> take_back(const std::string& author, std::int64_t tick, bool is_undo);
+  void note(const LogEntry& entry, const std::vector<Touch>& touches, std::vector<Command> inverse);
+  Result<TakenBack> take_back(const std::string& author, std::int64_t tick, std::int64_t gesture, bool is_undo);
+  /// The commands that undo the gesture and change nothing that others have written since; what they leave is added to `left`.
+  Result<std::vector<Command>> harmless(const Step& step, std::vector<Mark>& left);
+  /// A command that was applied, and the commands that undo it.
+  struct Trial {
+    Command command;
+    std::vector<Command> inverse;
+  };
+  Result<std::optional<Trial>> attempt(SceneEdit& edit, const Command& command, const Written& written,
+                                       std::vector<Mark>& left) const;
+  bool note_others(const Written& written, const std::vector<Touch>& places, std::vector<Mark>& left) const;
 
   const Registry* registry_;
   Scene scene_;
@@ -55,7 +81,8 @@ class Ledger {
   std::set<std::pair<std::string, std::string>> placed_;
   bool is_changed_ = false;
   std::vector<LogEntry> log_;
-  std::map<std::int64_t, std::vector<Command>> inverses_;  ///< by gesture; the last one is applied first
+  std::map<std::int64_t, Step> steps_;  ///< by gesture
+  Writers writers_;
   Gestures gestures_;
   std::int64_t last_gesture_ = 0;
   std::function<void(const LogEntry&)> listener_;

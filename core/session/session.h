@@ -24,8 +24,8 @@ class Session {
     return ledger_.submit(command, author, state()->tick, gesture);
   }
   std::int64_t new_gesture() { return ledger_.new_gesture(); }
-  Result<void> undo(const std::string& author) { return ledger_.undo(author, state()->tick); }
-  Result<void> redo(const std::string& author) { return ledger_.redo(author, state()->tick); }
+  Result<TakenBack> undo(const std::string& author) { return ledger_.undo(author, state()->tick); }
+  Result<TakenBack> redo(const std::string& author) { return ledger_.redo(author, state()->tick); }
   Result<void> replay(const LogEntry& entry) { return ledger_.replay(entry); }
 
   /// One tick; the commands since the last one take part. False where the work was stopped on the way (core/base/stop): the state

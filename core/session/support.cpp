@@ -53,7 +53,7 @@ JsonText current_value(const PortValues& values, const PortDefinition& port) {
   return it == values.end() ? JsonText{"null"} : as_json_text(it->second, port);
 }
 
-Result<PortSite> find_setting(SceneEdit& edit, const std::string& node_id, const PortChoice& choice) {
+Result<PortSite> find_setting(const SceneEdit& edit, const std::string& node_id, const PortChoice& choice) {
   auto node = edit.node(node_id);
   if (!node) return node.error();
   const std::string place = "nodes/" + node_id;

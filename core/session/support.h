@@ -21,11 +21,11 @@ void assign(PortValues& values, const PortDefinition& port, const Value& value);
 JsonText current_value(const PortValues& values, const PortDefinition& port);
 /// A node's setting: its node, type and port, or the sentence why there is none.
 struct PortSite {
-  NodeRecord* node;
+  const NodeRecord* node;
   const TypificationDefinition* type;
   const PortDefinition* port;
 };
-Result<PortSite> find_setting(SceneEdit& edit, const std::string& node, const PortChoice& port);
+Result<PortSite> find_setting(const SceneEdit& edit, const std::string& node, const PortChoice& port);
 /// Does the selection name only nodes of the scene?
 Result<void> check_selection(const Scene& scene, const Selection& selection, const std::string& place);
 /// The selection without `id`; whether it changed.

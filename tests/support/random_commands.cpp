@@ -26,6 +26,11 @@ std::string locked_or(const Scene& scene, const std::string& other) {
   return other;
 }
 
+std::string random_use(Random& random) {
+  static constexpr const char* kUses[] = {"housing", "office", "shop", "school"};
+  return kUses[random.below(4)];
+}
+
 }  // namespace
 
 Command random_command(const Scene& scene, Random& random, int number) {
@@ -35,7 +40,7 @@ Command random_command(const Scene& scene, Random& random, int number) {
     return it->first;
   };
   const std::string fresh = "fresh" + std::to_string(number);
-  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 23);
+  const std::uint64_t kind = random.below(scene.nodes.empty() || scene.links.empty() ? 1 : 26);
   const std::string number_text = std::to_string(random.below(40));
   switch (kind) {
     case 1: return command<SetPort>({pick(scene.nodes), {"node.position"}, {"[" + number_text + ", 12, 5]"}});
@@ -88,6 +93,19 @@ Command random_command(const Scene& scene, Random& random, int number) {
       return command<Batch>(
           {{R"([{"command": "rename_node", "arguments": {"id": ")" + pick(scene.nodes) + R"(", "name": "B)" + number_text +
             R"("}}, {"command": "add_node", "arguments": {"id": ")" + fresh + R"(", "node": {"types": {"sensor": {}}}}}])"}});
+    case 23:
+      return command<SetCell>({playing_or(scene, "programme", pick(scene.nodes)),
+                               {"programme.rows"},
+                               random_use(random),
+                               "floor_area",
+                               {number_text + "5"}});
+    case 24:
+      return command<AddRow>({playing_or(scene, "programme", pick(scene.nodes)),
+                              {"programme.rows"},
+                              {R"({"use": ")" + random_use(random) + R"(", "floor_area": )" + number_text + "}"},
+                              static_cast<std::int64_t>(random.below(4)) - 1});
+    case 25:
+      return command<RemoveRow>({playing_or(scene, "programme", pick(scene.nodes)), {"programme.rows"}, random_use(random)});
     default:
       return command<AddNode>(
           {fresh, {R"({"position": [)" + number_text + R"(, 8, 6], "types": {"smart_volume": {"demand": 900}}})"}});

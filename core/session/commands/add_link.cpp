@@ -8,7 +8,6 @@
 namespace bl {
 
 void AddLink::declare(CommandBuilder<AddLink>& c) {
-  c.keeps_namers();
   c.id("add_link").label("Add link").doc("Lays a link between two nodes or sets of nodes.");
   c.argument(&In::id, "id").required().doc("Id of the new link; must not be taken.");
   c.argument(&In::link, "link").required().doc("The link as it stands in a scene file, without its id.");
@@ -28,8 +27,7 @@ Inverse AddLink::apply(SceneEdit& edit, const In& in) {
     if (auto from = check_selection(edit.scene(), link->from, place + "/from"); !from) return from.error();
     if (auto to = check_selection(edit.scene(), link->to, place + "/to"); !to) return to.error();
   }
-  edit.note_names(in.id, *link);
-  edit.scene().links.emplace(in.id, std::move(*link));
+  edit.add_link(in.id, std::move(*link));
   return std::vector{command<RemoveLink>({in.id})};
 }
 

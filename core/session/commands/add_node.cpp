@@ -7,7 +7,6 @@
 namespace bl {
 
 void AddNode::declare(CommandBuilder<AddNode>& c) {
-  c.keeps_namers();
   c.id("add_node").label("Add node").doc("Adds a node to the scene.");
   c.argument(&In::id, "id").required().doc("Id of the new node; must not be taken.");
   c.argument(&In::node, "node").doc("The node as it stands in a scene file, without its id.");
@@ -29,8 +28,7 @@ Inverse AddNode::apply(SceneEdit& edit, const In& in) {
                                      (node->types.contains(parsed->typification) && edit.registry().port(*parsed).ok()));
     if (!is_there) return Error{ErrorCode::not_found, "nodes/" + in.id + "/locked", "the node has no port `" + path + "`"};
   }
-  edit.note_names(in.id, *node);
-  edit.scene().nodes.emplace(in.id, std::move(*node));
+  edit.add_node(in.id, std::move(*node));
   return std::vector{command<RemoveNode>({in.id})};
 }
 

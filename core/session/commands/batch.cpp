@@ -11,8 +11,6 @@
 namespace bl {
 
 void Batch::declare(CommandBuilder<Batch>& c) {
-  c.keeps_logic();
-  c.keeps_namers();
   c.id("batch").label("Batch").doc("Applies several commands as one step: all of them, or none.");
   c.argument(&In::commands, "commands").required().doc("A list of commands, each {\"command\": ..., \"arguments\": {...}}.");
 }

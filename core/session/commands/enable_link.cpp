@@ -15,7 +15,9 @@ Inverse EnableLink::apply(SceneEdit& edit, const In& in) {
   if (!(*link)->ghost.empty())
     return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
   std::vector inverse{command<EnableLink>({in.id, (*link)->is_enabled})};
-  (*link)->is_enabled = in.enabled;
+  LinkRecord changed = **link;
+  changed.is_enabled = in.enabled;
+  edit.change_link(in.id, std::move(changed));
   return inverse;
 }
 

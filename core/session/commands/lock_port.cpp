@@ -13,7 +13,7 @@ Inverse LockPort::apply(SceneEdit& edit, const In& in) {
   const auto site = find_setting(edit, in.node, in.port);
   if (!site) return site.error();
   const std::string path = site->type->id + "." + site->port->id;
-  if (!site->node->locked.insert(path).second)
+  if (!edit.set_locked(in.node, path, true))
     return Error{ErrorCode::conflict, "nodes/" + in.node, "`" + path + "` is locked already"};
   return std::vector{command<UnlockPort>({in.node, {path}})};
 }

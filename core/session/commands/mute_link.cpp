@@ -15,7 +15,9 @@ Inverse MuteLink::apply(SceneEdit& edit, const In& in) {
   if (!(*link)->ghost.empty())
     return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
   std::vector inverse{command<MuteLink>({in.id, (*link)->is_muted})};
-  (*link)->is_muted = in.muted;
+  LinkRecord changed = **link;
+  changed.is_muted = in.muted;
+  edit.change_link(in.id, std::move(changed));
   return inverse;
 }
 

@@ -13,7 +13,7 @@ Inverse NoteConnection::apply(SceneEdit& edit, const In& in) {
   const auto site = find_setting(edit, in.node, {"sensor.connection"});
   if (!site) return site.error();
   const std::string before = std::get<std::string>(set_value(edit.scene(), *site->node, *site->type, *site->port));
-  assign(site->node->types.at(site->type->id), *site->port, in.sentence.substr(0, 500));
+  edit.set_value(in.node, site->type->id, *site->port, in.sentence.substr(0, 500));
   return std::vector{command<NoteConnection>({in.node, before})};
 }
 

@@ -17,7 +17,8 @@ void Receive::declare(CommandBuilder<Receive>& c) {
   c.argument(&In::time, "time").doc("When it was measured or came, as a text for people.");
   c.argument(&In::problem, "problem")
       .doc("Why the message holds no number, as a sentence. The reading before it then stays, and its age goes on.");
-  c.argument(&In::tick, "tick").min(-1e15)
+  c.argument(&In::tick, "tick")
+      .min(-1e15)
       .doc("The tick that it was measured in; its age counts from there. -1: never; below it: before the clock began.");
   c.argument(&In::whole, "whole").doc("When on, all of it is taken as given, as an undo needs it.");
 }
@@ -30,9 +31,10 @@ Inverse Receive::apply(SceneEdit& edit, const In& in) {
   const auto value = find_setting(edit, in.node, {"sensor.reading"});
   if (!value) return value.error();
   const TypificationDefinition& type = *value->type;
-  PortValues& values = value->node->types.at(type.id);
   const auto now = [&](const char* port) { return set_value(edit.scene(), *value->node, type, *type.find_port(port)); };
-  const auto put = [&](const char* port, const Value& content) { assign(values, *type.find_port(port), content); };
+  const auto put = [&](const char* port, const Value& content) {
+    edit.set_value(in.node, type.id, *type.find_port(port), content);
+  };
   const std::vector inverse{
       command<Receive>({in.node, as_number(now("reading")), std::get<std::string>(now("reading_time")),
                         std::get<std::string>(now("reading_problem")), std::get<std::int64_t>(now("reading_tick")), true})};

@@ -7,7 +7,6 @@
 namespace bl {
 
 void RemoveLink::declare(CommandBuilder<RemoveLink>& c) {
-  c.keeps_namers();
   c.id("remove_link").label("Remove link").doc("Removes a link.");
   c.argument(&In::id, "id").required().doc("Id of the link.");
 }
@@ -17,7 +16,7 @@ Inverse RemoveLink::apply(SceneEdit& edit, const In& in) {
   if (!link) return link.error();
   std::vector inverse{
       command<AddLink>({in.id, {write_json_line(link_to_json(**link, edit.registry()))}, !(*link)->ghost.empty()})};
-  edit.scene().links.erase(in.id);
+  edit.remove_link(in.id);
   return inverse;
 }
 

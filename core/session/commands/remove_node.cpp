@@ -7,7 +7,6 @@
 namespace bl {
 
 void RemoveNode::declare(CommandBuilder<RemoveNode>& c) {
-  c.keeps_namers();
   c.id("remove_node").label("Remove node").doc("Removes a node, and the links that would lose an end with it.");
   c.argument(&In::id, "id").required().doc("Id of the node.");
 }
@@ -16,20 +15,21 @@ namespace {
 
 // Takes the node out of all links; says how to bring them back.
 void leave_links(SceneEdit& edit, const std::string& id, std::vector<Command>& inverse) {
-  auto& links = edit.scene().links;
+  const auto& links = edit.scene().links;
   for (const std::string& name : edit.namers().links_to(id)) {
     const auto it = links.find(name);
     if (it == links.end()) continue;
-    LinkRecord& link = it->second;
+    LinkRecord link = it->second;
     Selection from = link.from, to = link.to;
     const bool is_from = drop(from, id), is_to = drop(to, id);
     if ((is_from && from.is_empty()) || (is_to && to.is_empty())) {
       inverse.push_back(command<AddLink>({name, {write_json_line(link_to_json(link, edit.registry()))}}));
-      links.erase(it);
+      edit.remove_link(name);
     } else if (is_from || is_to) {
       inverse.push_back(command<SetLinkEnds>({name, link.from, link.to}));
       link.from = std::move(from);
       link.to = std::move(to);
+      edit.change_link(name, std::move(link));
     }
   }
 }
@@ -38,7 +38,7 @@ void leave_links(SceneEdit& edit, const std::string& id, std::vector<Command>& i
 void leave_sets_of(SceneEdit& edit, const std::string& other, const std::string& id, std::vector<Command>& inverse) {
   const auto node = edit.scene().nodes.find(other);
   if (node == edit.scene().nodes.end()) return;
-  for (auto& [type_id, values] : node->second.types) {
+  for (const auto& [type_id, values] : node->second.types) {
     const TypificationDefinition& type = *edit.registry().typification(type_id);
     for (const PortDefinition& port : type.ports) {
       const auto it = values.find(port.id);
@@ -46,7 +46,7 @@ void leave_sets_of(SceneEdit& edit, const std::string& other, const std::string&
       Selection selection = *std::get<Shared<Selection>>(it->second);
       if (!drop(selection, id)) continue;
       inverse.push_back(command<SetPort>({other, {type_id + "." + port.id}, as_json_text(it->second, port)}));
-      assign(values, port, Shared<Selection>(std::move(selection)));
+      edit.set_value(other, type_id, port, Shared<Selection>(std::move(selection)));
     }
   }
 }
@@ -57,7 +57,7 @@ Inverse RemoveNode::apply(SceneEdit& edit, const In& in) {
   auto node = edit.node(in.id);
   if (!node) return node.error();
   std::vector<Command> inverse{command<AddNode>({in.id, {write_json_line(node_to_json(**node, edit.registry()))}})};
-  edit.scene().nodes.erase(in.id);
+  edit.remove_node(in.id);
   leave_links(edit, in.id, inverse);
   for (const std::string& other : edit.namers().nodes_to(in.id)) leave_sets_of(edit, other, in.id, inverse);
   return inverse;

@@ -12,9 +12,9 @@ void RenameNode::declare(CommandBuilder<RenameNode>& c) {
 Inverse RenameNode::apply(SceneEdit& edit, const In& in) {
   auto node = edit.node(in.id);
   if (!node) return node.error();
-  const std::string old = (*node)->name;
-  (*node)->name = in.name;
-  return std::vector{command<RenameNode>({in.id, old})};
+  std::vector inverse{command<RenameNode>({in.id, (*node)->name})};
+  edit.set_name(in.id, in.name);
+  return inverse;
 }
 
 }  // namespace bl

@@ -18,8 +18,10 @@ Inverse SetLinkEnds::apply(SceneEdit& edit, const In& in) {
   if (auto from = check_selection(edit.scene(), in.from, place + "/from"); !from) return from.error();
   if (auto to = check_selection(edit.scene(), in.to, place + "/to"); !to) return to.error();
   std::vector inverse{command<SetLinkEnds>({in.id, (*link)->from, (*link)->to})};
-  (*link)->from = in.from;
-  (*link)->to = in.to;
+  LinkRecord changed = **link;
+  changed.from = in.from;
+  changed.to = in.to;
+  edit.change_link(in.id, std::move(changed));
   return inverse;
 }
 

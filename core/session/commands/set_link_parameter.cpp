@@ -21,7 +21,9 @@ Inverse SetLinkParameter::apply(SceneEdit& edit, const In& in) {
   const PortDefinition& port = *kind->find_port(in.parameter);
   if (auto known = check_references(edit, *kind, {{port.id, *value}}, "", "links/" + in.id); !known) return known.error();
   std::vector inverse{command<SetLinkParameter>({in.id, in.parameter, current_value((*link)->parameters, port)})};
-  assign((*link)->parameters, port, *value);
+  LinkRecord changed = **link;
+  assign(changed.parameters, port, *value);
+  edit.change_link(in.id, std::move(changed));
   return inverse;
 }
 

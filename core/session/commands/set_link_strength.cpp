@@ -15,7 +15,9 @@ Inverse SetLinkStrength::apply(SceneEdit& edit, const In& in) {
   if (!(*link)->ghost.empty())
     return Error{ErrorCode::conflict, "links/" + in.id, "the link is of an unknown kind and kept as it is"};
   std::vector inverse{command<SetLinkStrength>({in.id, (*link)->strength})};
-  (*link)->strength = in.strength;
+  LinkRecord changed = **link;
+  changed.strength = in.strength;
+  edit.change_link(in.id, std::move(changed));
   return inverse;
 }
 

@@ -24,10 +24,10 @@ Inverse SetPort::apply(SceneEdit& edit, const In& in) {
   if (auto known = check_references(edit, *site->type, {{site->port->id, *value}}, "", "nodes/" + in.node + "/" + site->type->id);
       !known)
     return known.error();
-  PortValues& values = site->node->types.at(site->type->id);
+  const PortValues& values = site->node->types.at(site->type->id);
   std::vector inverse{command<SetPort>({in.node, {path}, current_value(values, *site->port)})};
-  if (in.value.text == "null") values.erase(site->port->id);  // the scene's, where the port follows it
-  else assign(values, *site->port, *value);
+  if (in.value.text == "null") edit.erase_value(in.node, site->type->id, *site->port);  // the scene's, where the port follows it
+  else edit.set_value(in.node, site->type->id, *site->port, *value);
   edit.place(in.node, path);
   return inverse;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/session/support.h"
+#include "core/session/view_paths.h"
 
 namespace bl {
 
@@ -84,12 +85,18 @@ Json reversed(const Json& before, const Json& changes, bool is_whole) {
   return back;
 }
 
+// Ours, because the library's own builder takes n² for n boxes; but it reads no more once a stop is wished.
+Json read_view(const std::string& view) {
+  if (view.empty()) return Json::object();
+  auto read = parse_json(view);
+  return read ? std::move(*read) : Json::parse(view, nullptr, false);
+}
+
 std::string text_of(const Json& view) { return view.empty() ? std::string() : write_json_line(view); }
 
 }  // namespace
 
 void SetView::declare(CommandBuilder<SetView>& c) {
-  c.keeps_logic();
   c.id("set_view")
       .label("Arrange")
       .doc("Changes the layout of the canvas, frames, comments, or cameras. Nothing that is computed depends on it.");
@@ -103,13 +110,8 @@ Inverse SetView::apply(SceneEdit& edit, const In& in) {
   auto changes = parse_json(in.changes.text);
   if (!changes) return changes.error().within("changes");
   if (!changes->is_object()) return Error{ErrorCode::wrong_kind, "changes", "expects an object"};
-  std::string& view = edit.scene().view;
-  Json before = Json::object();
-  if (!view.empty()) {
-    // Ours, because the library's own builder takes n² for n boxes; but it reads no more once a stop is wished.
-    auto read = parse_json(view);
-    before = read ? std::move(*read) : Json::parse(view, nullptr, false);
-  }
+  const std::string& view = edit.scene().view;
+  const Json before = read_view(view);
   Json after = in.whole ? *changes : before;
   if (!in.whole) merge(after, *changes);
   const Json back = reversed(before, *changes, in.whole);
@@ -118,8 +120,16 @@ Inverse SetView::apply(SceneEdit& edit, const In& in) {
   // What a patch cannot bring back byte for byte (keys that stood in another order) comes back as a whole.
   const bool is_exact = text_of(returned) == view;
   std::vector inverse{is_exact ? command<SetView>({{write_json_line(back)}, false}) : command<SetView>({{view}, true})};
-  view = in.whole ? write_json_line(after) : text_of(after);
+  const auto paths = view_differences(before, after, in.whole ? nullptr : &*changes);
+  edit.set_view(in.whole ? write_json_line(after) : text_of(after), paths);
   return inverse;
+}
+
+Command SetView::narrow(const Scene& done, const std::set<Touch>& places) {
+  std::set<std::string> paths;
+  for (const Touch& place : places)
+    if (place.part == ScenePart::view) paths.insert(place.path);
+  return command<SetView>({{write_json_line(patch_at(read_view(done.view), paths))}, false});
 }
 
 }  // namespace bl

@@ -29,7 +29,7 @@ Inverse Typify::apply(SceneEdit& edit, const In& in) {
   auto values = ports_from_json(*type, *json, place);
   if (!values) return values.error();
   if (auto known = check_references(edit, *type, *values, "", place); !known) return known.error();
-  (*node)->types.emplace(type->id, std::move(*values));
+  edit.add_type(in.node, type->id, std::move(*values));
   return std::vector{command<Untypify>({in.node, type->id})};
 }
 

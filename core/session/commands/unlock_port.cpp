@@ -12,7 +12,7 @@ void UnlockPort::declare(CommandBuilder<UnlockPort>& c) {
 Inverse UnlockPort::apply(SceneEdit& edit, const In& in) {
   auto node = edit.node(in.node);
   if (!node) return node.error();
-  if ((*node)->locked.erase(in.port.path) == 0)
+  if (!edit.set_locked(in.node, in.port.path, false))
     return Error{ErrorCode::conflict, "nodes/" + in.node, "`" + in.port.path + "` is not locked"};
   return std::vector{command<LockPort>({in.node, in.port})};
 }

@@ -22,15 +22,12 @@ Inverse Untypify::apply(SceneEdit& edit, const In& in) {
   if (type->id == kBaseNode) return Error{ErrorCode::conflict, place, "every node is a `node`; remove the node instead"};
   std::vector<Command> inverse{
       command<Typify>({in.node, type->id, {write_json_line(ports_to_json(*type, (*node)->types.at(type->id)))}})};
-  for (auto it = (*node)->locked.begin(); it != (*node)->locked.end();) {
-    if (!it->starts_with(type->id + ".")) {
-      ++it;
-      continue;
-    }
-    inverse.push_back(command<LockPort>({in.node, {*it}}));
-    it = (*node)->locked.erase(it);
+  for (const std::string& path : std::set<std::string>((*node)->locked)) {
+    if (!path.starts_with(type->id + ".")) continue;
+    inverse.push_back(command<LockPort>({in.node, {path}}));
+    edit.set_locked(in.node, path, false);
   }
-  (*node)->types.erase(type->id);
+  edit.remove_type(in.node, type->id);
   return inverse;
 }
 

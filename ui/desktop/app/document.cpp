@@ -273,7 +273,7 @@ void Document::abandon(std::int64_t gesture) {
   if (gesture == 0 || last == log.rend() || last->gesture != gesture || last->undoes != 0) return;
   abandoned_.insert(gesture);
   // The ticks have seen it, so that the log keeps it and what takes it back; the history does not.
-  (void)session_->undo();
+  (void)session_->undo(gesture);
 }
 
 bool Document::has_redo() {

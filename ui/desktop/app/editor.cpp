@@ -25,6 +25,15 @@ void tell_why(Editor& editor, const Error& error, const char* nothing) {
   editor.tell(is_nothing ? NoticeKind::told : NoticeKind::error, is_nothing ? nothing : error.text());
 }
 
+// What was left because others have written there since is told in one sentence, the first place of all.
+void tell_left(Editor& editor, const Result<TakenBack>& done, const char* nothing) {
+  if (!done) return tell_why(editor, done.error(), nothing);
+  if (done->left.empty()) return;
+  const std::size_t more = done->left.size() - 1;
+  editor.tell(NoticeKind::told,
+              "Left as it is: " + text_of(done->left.front()) + (more == 0 ? "." : ", and " + std::to_string(more) + " more."));
+}
+
 }  // namespace
 
 std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken) {
@@ -51,14 +60,14 @@ bool Editor::arrange(const std::string& json_patch, std::int64_t gesture) {
 
 void Editor::undo() {
   if (!document) return;
-  if (auto done = document->session().undo(); !done) tell_why(*this, done.error(), "Nothing to undo.");
+  tell_left(*this, document->session().undo(), "Nothing to undo.");
 }
 
 void Editor::redo() {
   if (!document) return;
   // What was abandoned lies below all that was undone since: where the history has nothing undone, there is only that.
   if (!document->has_redo()) return tell(NoticeKind::told, "Nothing to redo.");
-  if (auto done = document->session().redo(); !done) tell_why(*this, done.error(), "Nothing to redo.");
+  tell_left(*this, document->session().redo(), "Nothing to redo.");
 }
 
 std::string Editor::fresh_id(const std::string& wish) const {

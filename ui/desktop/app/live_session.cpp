@@ -266,13 +266,13 @@ Result<void> LiveSession::submit(const Command& command, std::int64_t gesture) {
   return ledger_.submit(command, kAuthor, shared_->next_tick, gesture);
 }
 
-Result<void> LiveSession::undo() {
+Result<TakenBack> LiveSession::undo(std::int64_t gesture) {
   const std::lock_guard lock(shared_->mutex);
   shared_->wake.notify_all();
-  return ledger_.undo(kAuthor, shared_->next_tick);
+  return ledger_.undo(kAuthor, shared_->next_tick, gesture);
 }
 
-Result<void> LiveSession::redo() {
+Result<TakenBack> LiveSession::redo() {
   const std::lock_guard lock(shared_->mutex);
   shared_->wake.notify_all();
   return ledger_.redo(kAuthor, shared_->next_tick);

@@ -44,8 +44,9 @@ class LiveSession {
   const std::vector<LogEntry>& log() const { return ledger_.log(); }
   Result<void> submit(const Command& command, std::int64_t gesture = 0);
   std::int64_t new_gesture() { return ledger_.new_gesture(); }
-  Result<void> undo();
-  Result<void> redo();
+  /// The last gesture of this author, or the one that is named.
+  Result<TakenBack> undo(std::int64_t gesture = 0);
+  Result<TakenBack> redo();
   Result<void> replay(LogEntry entry);
   void on_entry(std::function<void(const LogEntry&)> listener) { ledger_.on_entry(std::move(listener)); }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/define/codec.h"
+#include "core/session/table_rows.h"
 #include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/inspector.h"
@@ -185,7 +186,13 @@ void change_ports(Editor& editor, const std::vector<std::string>& nodes, const T
     const Value fresh = change.make(old);
     if (fresh == old && !(port.keeps_default && !node->second.types.at(type.id).contains(port.id))) continue;
     if (auto checked = check_value(port, fresh, ""); !checked) return complain(editor, key, checked.error().message);
-    commands.push_back(command<SetPort>({id, {path_of(type, port)}, {write_json_line(value_to_json(fresh, port))}}));
+    if (port.kind == ValueKind::table) {
+      const auto steps =
+          table_commands(id, path_of(type, port), port, *std::get<Shared<Table>>(old), *std::get<Shared<Table>>(fresh));
+      commands.insert(commands.end(), steps.begin(), steps.end());
+    } else {
+      commands.push_back(command<SetPort>({id, {path_of(type, port)}, {write_json_line(value_to_json(fresh, port))}}));
+    }
   }
   editor.submit(commands, change.is_live ? memory.scrub.gesture : 0);
 }
