@@ -247,12 +247,13 @@ std::optional<RecordedArrival> Connections::play(Sensor& sensor, std::int64_t ti
 
 std::vector<Report> Connections::take(std::int64_t tick) {
   std::vector<Report> reports;
-  for (const auto& [id, address] : forgotten_) reports.push_back({address, command<NoteConnection>({id, ""})});
+  for (const auto& [id, address] : forgotten_)
+    reports.push_back({{address, AuthorKind::device}, command<NoteConnection>({id, ""})});
   const Clock::time_point now = Clock::now();
   for (auto& [id, sensor] : sensors_) {
     const Station::Taken taken = sensor->station->take();
     if (taken.line && *taken.line != sensor->known_line)
-      reports.push_back({sensor->address, command<NoteConnection>({id, *taken.line})});
+      reports.push_back({{sensor->address, AuthorKind::device}, command<NoteConnection>({id, *taken.line})});
     std::optional<Arrival> newest = taken.newest;
     std::int64_t measured = tick + 1;
     if (newest) {
@@ -265,7 +266,8 @@ std::vector<Report> Connections::take(std::int64_t tick) {
       measured = row->tick;
     }
     if (newest)
-      reports.push_back({sensor->address, command<Receive>({id, newest->value, newest->time, newest->problem, measured})});
+      reports.push_back({{sensor->address, AuthorKind::device},
+                         command<Receive>({id, newest->value, newest->time, newest->problem, measured})});
   }
   return reports;
 }

@@ -10,6 +10,7 @@
 #include "core/graph/scene.h"
 #include "core/graph/state.h"
 #include "core/live/endpoint.h"
+#include "core/session/author.h"
 #include "core/session/commands.h"
 
 namespace bl {
@@ -23,9 +24,9 @@ struct LiveOptions {
   bool reads_anywhere = false;
 };
 
-/// A command and who gives it: the address of a sensor, so that nobody's undo takes readings back.
+/// A command and who gives it: a device, under its address.
 struct Report {
-  std::string author;
+  Author author;
   Command command;
 };
 

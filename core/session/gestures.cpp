@@ -7,8 +7,7 @@ namespace bl {
 
 namespace {
 
-const std::vector<std::int64_t>& stack_of(const std::map<std::string, std::vector<std::int64_t>>& stacks,
-                                          const std::string& author) {
+const std::vector<std::int64_t>& stack_of(const std::map<Author, std::vector<std::int64_t>>& stacks, const Author& author) {
   static const std::vector<std::int64_t> kNone;
   const auto stack = stacks.find(author);
   return stack == stacks.end() ? kNone : stack->second;
@@ -21,7 +20,7 @@ bool holds_gesture(const std::vector<std::int64_t>& stack, std::int64_t gesture)
 
 Error not_there(const LogEntry& entry, const char* key, std::int64_t gesture, const char* what) {
   return {ErrorCode::not_found, key,
-          "there is no gesture " + std::to_string(gesture) + " of " + entry.author + " that could be " + what};
+          "there is no gesture " + std::to_string(gesture) + " of " + entry.author.id + " that could be " + what};
 }
 
 }  // namespace
@@ -45,6 +44,7 @@ Result<void> Gestures::check(const LogEntry& entry) const {
 }
 
 void Gestures::take(const LogEntry& entry) {
+  if (entry.author.kind == AuthorKind::device) return;
   gestures_[entry.gesture] = {entry.author, entry.undoes, entry.redoes};
   auto& undo = undo_[entry.author];
   auto& redo = redo_[entry.author];
@@ -61,7 +61,7 @@ LogEntry Gestures::fitted(const LogEntry& entry) const {
   return fitting;
 }
 
-const std::vector<std::int64_t>& Gestures::open(const std::string& author, bool is_undo) const {
+const std::vector<std::int64_t>& Gestures::open(const Author& author, bool is_undo) const {
   return stack_of(is_undo ? undo_ : redo_, author);
 }
 

@@ -16,21 +16,21 @@ class Gestures {
   /// Can the entry follow on those that were taken? A gesture is one author's, and goes on only while it is that author's last;
   /// an undo takes back what its author has made and not taken back yet.
   Result<void> check(const LogEntry& entry) const;
-  /// Keeps it; it has to fit.
+  /// Keeps it; it has to fit. What devices say is nobody's step: nothing of it is kept, however much they say.
   void take(const LogEntry& entry);
   /// The entry as one that fits: where it takes back what stands in no entry here, it is a step like any other. So it is in a log
   /// that begins in the middle of a session.
   LogEntry fitted(const LogEntry& entry) const;
 
   /// The author's gestures that can be taken back, or brought back; the last one first to go.
-  const std::vector<std::int64_t>& open(const std::string& author, bool is_undo) const;
+  const std::vector<std::int64_t>& open(const Author& author, bool is_undo) const;
 
  private:
   struct Gesture {
-    std::string author;
+    Author author;
     std::int64_t undoes = 0, redoes = 0;
   };
-  using Stacks = std::map<std::string, std::vector<std::int64_t>>;  // by author
+  using Stacks = std::map<Author, std::vector<std::int64_t>>;  // by author
 
   std::map<std::int64_t, Gesture> gestures_;
   Stacks undo_, redo_;

@@ -42,6 +42,8 @@ Inverse apply(SceneEdit& edit, const Command& command) {
 
 Result<void> Ledger::apply_entry(LogEntry entry) {
   if (auto fits = gestures_.check(entry); !fits) return fits;
+  if (entry.seq != 0 && entry.seq <= last_seq())
+    return Error{ErrorCode::conflict, "seq", "the entry " + std::to_string(entry.seq) + " is in the log already"};
   SceneEdit edit(scene_, *registry_, &namers_);
   auto inverse = bl::apply(edit, entry.command);
   if (!inverse) return inverse.error();
@@ -49,7 +51,7 @@ Result<void> Ledger::apply_entry(LogEntry entry) {
   is_changed_ = is_changed_ || edit.is_logic_touched();
   note(entry, edit.touches(), std::move(*inverse));
   last_gesture_ = std::max(last_gesture_, entry.gesture);
-  entry.seq = log_.empty() ? 1 : log_.back().seq + 1;
+  if (entry.seq == 0) entry.seq = last_seq() + 1;
   gestures_.take(entry);
   log_.push_back(std::move(entry));
   if (listener_) listener_(log_.back());
@@ -57,6 +59,11 @@ Result<void> Ledger::apply_entry(LogEntry entry) {
 }
 
 void Ledger::note(const LogEntry& entry, const std::vector<Touch>& touches, std::vector<Command> inverse) {
+  if (entry.author.kind == AuthorKind::device) {
+    Written nobodys_step{{entry.gesture, entry.author}, {}, {}};
+    writers_.write(touches, nobodys_step);
+    return;
+  }
   Step& step = steps_[entry.gesture];
   Written& written = step.written;
   written.writer = {entry.gesture, entry.author};
@@ -73,7 +80,7 @@ void Ledger::note(const LogEntry& entry, const std::vector<Touch>& touches, std:
     step.inverse.insert(step.inverse.end(), std::make_move_iterator(inverse.rbegin()), std::make_move_iterator(inverse.rend()));
 }
 
-Result<void> Ledger::submit(const Command& command, const std::string& author, std::int64_t tick, std::int64_t gesture) {
+Result<void> Ledger::submit(const Command& command, const Author& author, std::int64_t tick, std::int64_t gesture) {
   return apply_entry({0, tick, gesture == 0 ? last_gesture_ + 1 : gesture, author, command, 0, 0});
 }
 
@@ -134,7 +141,7 @@ Result<std::vector<Command>> Ledger::harmless(const Step& step, std::vector<Mark
   return commands;
 }
 
-Result<TakenBack> Ledger::take_back(const std::string& author, std::int64_t tick, std::int64_t gesture, bool is_undo) {
+Result<TakenBack> Ledger::take_back(const Author& author, std::int64_t tick, std::int64_t gesture, bool is_undo) {
   const std::string what = is_undo ? "undo" : "redo", cannot = is_undo ? "cannot be undone" : "cannot be redone";
   const std::vector<std::int64_t> open = gestures_.open(author, is_undo);
   std::optional<Error> failure;
@@ -155,18 +162,18 @@ Result<TakenBack> Ledger::take_back(const std::string& author, std::int64_t tick
   }
   if (!taken.left.empty()) return Error{ErrorCode::conflict, "", cannot + ": " + text_of(taken.left.front())};
   if (failure) return *failure;
-  return Error{ErrorCode::not_found, "", "there is nothing to " + what + " for " + author};
+  return Error{ErrorCode::not_found, "", "there is nothing to " + what + " for " + author.id};
 }
 
-Result<TakenBack> Ledger::undo(const std::string& author, std::int64_t tick, std::int64_t gesture) {
+Result<TakenBack> Ledger::undo(const Author& author, std::int64_t tick, std::int64_t gesture) {
   return take_back(author, tick, gesture, true);
 }
-Result<TakenBack> Ledger::redo(const std::string& author, std::int64_t tick, std::int64_t gesture) {
+Result<TakenBack> Ledger::redo(const Author& author, std::int64_t tick, std::int64_t gesture) {
   return take_back(author, tick, gesture, false);
 }
 
 std::string text_of(const Mark& left) {
-  const std::string who = left.writer.author.empty() ? "somebody" : left.writer.author;
+  const std::string who = left.writer.author.id.empty() ? "somebody" : left.writer.author.id;
   return who + " has changed " + text_of(left.place) + " since";
 }
 

@@ -32,17 +32,19 @@ class Ledger {
 
   /// Applies a command now and logs it; on an error nothing changes. Commands of one gesture of an author (such as a drag) are
   /// undone together; gesture 0 makes a new one.
-  Result<void> submit(const Command& command, const std::string& author, std::int64_t tick, std::int64_t gesture = 0);
+  Result<void> submit(const Command& command, const Author& author, std::int64_t tick, std::int64_t gesture = 0);
   std::int64_t new_gesture() { return ++last_gesture_; }
   /// Takes back the author's last gesture, or the one that is named, by new entries. What others wrote since stays as it is, and
   /// is told; a gesture of which nothing can be taken back is passed over.
-  Result<TakenBack> undo(const std::string& author, std::int64_t tick, std::int64_t gesture = 0);
-  Result<TakenBack> redo(const std::string& author, std::int64_t tick, std::int64_t gesture = 0);
-  /// An entry of a log, with its gesture and undo marks as they were.
+  Result<TakenBack> undo(const Author& author, std::int64_t tick, std::int64_t gesture = 0);
+  Result<TakenBack> redo(const Author& author, std::int64_t tick, std::int64_t gesture = 0);
+  /// An entry of a log, with its number, gesture and undo marks as they were; one without a number (0) gets the next.
   Result<void> replay(const LogEntry& entry);
 
   const Scene& scene() const { return scene_; }
   const std::vector<LogEntry>& log() const { return log_; }
+  /// The number of the last entry; 0 where there is none.
+  std::int64_t last_seq() const { return log_.empty() ? 0 : log_.back().seq; }
   /// Called with each new entry, to write it down at once.
   void on_entry(std::function<void(const LogEntry&)> listener) { listener_ = std::move(listener); }
 
@@ -63,7 +65,7 @@ class Ledger {
   };
   Result<void> apply_entry(LogEntry entry);
   void note(const LogEntry& entry, const std::vector<Touch>& touches, std::vector<Command> inverse);
-  Result<TakenBack> take_back(const std::string& author, std::int64_t tick, std::int64_t gesture, bool is_undo);
+  Result<TakenBack> take_back(const Author& author, std::int64_t tick, std::int64_t gesture, bool is_undo);
   /// The commands that undo the gesture and change nothing that others have written since; what they leave is added to `left`.
   Result<std::vector<Command>> harmless(const Step& step, std::vector<Mark>& left);
   /// A command that was applied, and the commands that undo it.

@@ -12,8 +12,10 @@ namespace bl {
 
 namespace {
 
-constexpr int kLogVersion = 1;
+// Version 1 has no base, and all its authors are persons.
+constexpr int kLogVersion = 2;
 constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
+constexpr const char* kAuthorKinds[] = {"person", "device", "program"};
 
 Result<std::int64_t> number_in(const Json& line, const char* key, bool is_required) {
   const auto it = line.find(key);
@@ -24,7 +26,8 @@ Result<std::int64_t> number_in(const Json& line, const char* key, bool is_requir
 }
 
 Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
-  if (auto keys = check_keys(line, {"seq", "tick", "author", "gesture", "undoes", "redoes", "command", "arguments"}, ""); !keys)
+  if (auto keys = check_keys(line, {"seq", "tick", "author", "kind", "gesture", "undoes", "redoes", "command", "arguments"}, "");
+      !keys)
     return keys.error();
   LogEntry entry;
   for (const auto& [key, target, is_required] : {std::tuple<const char*, std::int64_t*, bool>{"seq", &entry.seq, true},
@@ -38,6 +41,11 @@ Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
   }
   if (!line.contains("author") || !line["author"].is_string()) return Error{ErrorCode::missing, "author", "expects a text"};
   entry.author = line["author"].get<std::string>();
+  if (const auto kind = line.find("kind"); kind != line.end()) {
+    const auto found = std::find(std::begin(kAuthorKinds), std::end(kAuthorKinds), *kind);
+    if (found == std::end(kAuthorKinds)) return Error{ErrorCode::wrong_kind, "kind", "expects `person`, `device` or `program`"};
+    entry.author.kind = static_cast<AuthorKind>(found - std::begin(kAuthorKinds));
+  }
   Json command = Json::object();
   for (const char* key : {"command", "arguments"})
     if (line.contains(key)) command[key] = line[key];
@@ -65,8 +73,12 @@ class LogReader {
   Result<void> read_header(const Json& line) {
     const Json format = line.is_object() ? line.value("format", Json()) : Json();
     if (format != "behaviourlinks-log" || !line.contains("scene")) return no_log();
-    if (line.value("version", Json()) != kLogVersion)
-      return Error{ErrorCode::version, "", "this program reads logs of version " + std::to_string(kLogVersion)};
+    const Json version = line.value("version", Json());
+    if (version != 1 && version != kLogVersion)
+      return Error{ErrorCode::version, "", "this program reads logs of versions 1 to " + std::to_string(kLogVersion)};
+    const auto base = number_in(line, "base", false);
+    if (!base) return base.error();
+    log.base = *base;
     const Json& scene = line["scene"];
     log.scene = write_json(scene) + "\n";
     // What the scene itself gets wrong is told when it is read.
@@ -92,7 +104,7 @@ class LogReader {
 
   static Error no_log() {
     return {ErrorCode::parse, "",
-            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 1, \"scene\": {...}}"};
+            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 2, \"scene\": {...}}"};
   }
 
   LogFile log;
@@ -114,6 +126,9 @@ class LogReader {
   }
 
   Result<void> take(LogEntry entry) {
+    if (entry.seq <= log.base)
+      return Error{ErrorCode::conflict, "seq",
+                   "the scene of the log holds all entries up to number " + std::to_string(log.base) + " already"};
     if (!log.entries.empty() && (entry.seq <= log.entries.back().seq || entry.tick < log.entries.back().tick))
       return Error{ErrorCode::conflict, "seq", "the entries are not in order"};
     if (!log.checks.empty() && entry.tick < log.checks.back().tick && use_ == LogUse::replay)
@@ -153,10 +168,11 @@ class LogReader {
 
 }  // namespace
 
-std::string log_header(std::string_view scene_text) {
+std::string log_header(std::string_view scene_text, std::int64_t base) {
   Json header = Json::object();
   header["format"] = "behaviourlinks-log";
   header["version"] = kLogVersion;
+  if (base != 0) header["base"] = base;
   // Ours, because the library's own builder takes n² for a view or a state of n keys; but it reads no more once a stop is wished.
   auto scene = parse_json(scene_text);
   header["scene"] = scene ? std::move(*scene) : Json::parse(scene_text, nullptr, false);
@@ -167,7 +183,8 @@ std::string log_line(const LogEntry& entry, const Registry& registry) {
   Json line = Json::object();
   line["seq"] = entry.seq;
   line["tick"] = entry.tick;
-  line["author"] = entry.author;
+  line["author"] = entry.author.id;
+  if (entry.author.kind != AuthorKind::person) line["kind"] = kAuthorKinds[static_cast<std::size_t>(entry.author.kind)];
   line["gesture"] = entry.gesture;
   if (entry.undoes != 0) line["undoes"] = entry.undoes;
   if (entry.redoes != 0) line["redoes"] = entry.redoes;

@@ -9,13 +9,14 @@
 
 #include "core/define/command_builder.h"
 #include "core/define/registry.h"
+#include "core/session/author.h"
 
 namespace bl {
 
 /// One command as somebody gave it. Entries of one gesture are undone together.
 struct LogEntry {
   std::int64_t seq = 0, tick = 0, gesture = 0;
-  std::string author;
+  Author author;
   Command command;
   std::int64_t undoes = 0, redoes = 0;  ///< the gesture that this entry takes back or brings back; 0: none
 };
@@ -29,7 +30,8 @@ struct LogCheck {
 
 /// What a log file holds: JSON lines, the first with the scene it starts from.
 struct LogFile {
-  std::string scene;  ///< text of the scene file
+  std::string scene;      ///< text of the scene file
+  std::int64_t base = 0;  ///< number of the last entry before the scene; 0 where the session began with it
   std::vector<LogEntry> entries;
   std::vector<LogCheck> checks;
   std::int64_t last_tick = 0;  ///< of the scene and all lines
@@ -44,7 +46,8 @@ inline constexpr std::int64_t kMostTicksBetweenLines = 100000000;
 /// programs: undos of what the log does not hold are steps like any other for it.
 enum class LogUse { replay, recovery };
 
-std::string log_header(std::string_view scene_text);
+/// `base`: the number of the last entry that the scene holds already.
+std::string log_header(std::string_view scene_text, std::int64_t base = 0);
 std::string log_line(const LogEntry& entry, const Registry& registry);
 std::string log_line(const LogCheck& check);
 /// Refuses lines out of order, beyond the end, far away in time, or that take back what is not there, each with its number.

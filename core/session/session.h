@@ -20,12 +20,12 @@ class Session {
                                                 int threads, double (*now)() = nullptr);
 
   /// As Ledger's, for the coming tick.
-  Result<void> submit(const Command& command, const std::string& author, std::int64_t gesture = 0) {
+  Result<void> submit(const Command& command, const Author& author, std::int64_t gesture = 0) {
     return ledger_.submit(command, author, state()->tick, gesture);
   }
   std::int64_t new_gesture() { return ledger_.new_gesture(); }
-  Result<TakenBack> undo(const std::string& author) { return ledger_.undo(author, state()->tick); }
-  Result<TakenBack> redo(const std::string& author) { return ledger_.redo(author, state()->tick); }
+  Result<TakenBack> undo(const Author& author) { return ledger_.undo(author, state()->tick); }
+  Result<TakenBack> redo(const Author& author) { return ledger_.redo(author, state()->tick); }
   Result<void> replay(const LogEntry& entry) { return ledger_.replay(entry); }
 
   /// One tick; the commands since the last one take part. False where the work was stopped on the way (core/base/stop): the state

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "core/graph/touch.h"
+#include "core/session/author.h"
 
 namespace bl {
 
 /// The gesture that made a place what it is; none (0) where it stands as it was opened.
 struct Writer {
   std::int64_t gesture = 0;
-  std::string author;
+  Author author;
   bool operator==(const Writer&) const = default;
 };
 

@@ -148,13 +148,13 @@ TEST_P(SceneLaws, UndoingEverythingGivesTheScenesBytesAndReplayTheSameHash) {
   EXPECT_GT(done, 10);
   world.tick(2);
   // Authors take turns in reverse order of their entries, so that every undo finds the scene that it was made for.
-  std::vector<std::string> authors;
+  std::vector<Author> authors;
   for (const LogEntry& entry : world.session().log()) authors.push_back(entry.author);
   std::reverse(authors.begin(), authors.end());
   std::set<std::int64_t> gestures;
   for (const LogEntry& entry : world.session().log()) gestures.insert(entry.gesture);
   ASSERT_EQ(gestures.size(), authors.size());
-  for (const std::string& author : authors) {
+  for (const Author& author : authors) {
     const auto undone = world.session().undo(author);
     ASSERT_TRUE(undone.ok()) << undone.error().text();
   }

@@ -147,7 +147,7 @@ TEST_P(ThreePeople, NobodysUndoChangesWhatSomebodyElseWrote) {
       for (const Touch& place : differences(past.scene(), ledger.scene())) {
         EXPECT_EQ(past.owner(place), person) << "undo of " << bl::text_of(place) << ", step " << k;
       }
-    for (const Mark& left : done->left) { EXPECT_EQ(left.writer.author, past.owner(left.place)) << bl::text_of(left.place); }
+    for (const Mark& left : done->left) { EXPECT_EQ(left.writer.author.id, past.owner(left.place)) << bl::text_of(left.place); }
     past.brought_back(ledger.scene(), person);
   }
 }

@@ -69,7 +69,7 @@ void LiveRun::before_tick(Session& session) {
   connections_.follow(session.scene());
   if (is_live_) tell_unusable(session.scene());
   for (const Report& report : connections_.take(session.state()->tick))
-    if (auto done = session.submit(report.command, report.author); !done) print_error(report.author, done.error());
+    if (auto done = session.submit(report.command, report.author); !done) print_error(report.author.id, done.error());
 }
 
 // Once for each fault: an address may be set while the scene runs.

@@ -110,6 +110,41 @@ TEST(Log, AnInterruptedTickLeavesALogThatReplays) {
   EXPECT_EQ(world.state().hash, whole.state().hash);
 }
 
+// A log that goes on from a saved scene begins at the number after those that the scene holds, and a replay keeps all numbers.
+TEST(Log, NumbersGoOnFromTheBaseAndAreKept) {
+  const auto log = read_log(log_header(kScene, 41) + entry(42, 0, 1) + entry(45, 0, 2) + mark("end", 2), full_registry());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  EXPECT_EQ(log->base, 41);
+  Ledger ledger(full_registry(), read_scene(log->scene, full_registry()).scene);
+  for (const LogEntry& each : log->entries) ASSERT_TRUE(ledger.replay(each).ok());
+  ASSERT_TRUE(ledger.submit(command<RenameNode>({"b", "B"}), "ben", 0).ok());
+  EXPECT_EQ(ledger.log()[0].seq, 42);
+  EXPECT_EQ(ledger.log()[1].seq, 45);
+  EXPECT_EQ(ledger.log()[2].seq, 46);
+  EXPECT_EQ(ledger.replay(log->entries[1]).error().text(), "seq: the entry 45 is in the log already");
+  const auto early = read_log(log_header(kScene, 41) + entry(41, 0, 1), full_registry());
+  EXPECT_EQ(early.error().text(), "line 2/seq: the scene of the log holds all entries up to number 41 already");
+}
+
+TEST(Log, SaysWhichAuthorsAreDevices) {
+  const Command reading = command<NoteConnection>({"s", "nobody is there"});
+  const std::string line = log_line(LogEntry{1, 0, 1, {"osc://9000/x", AuthorKind::device}, reading}, full_registry());
+  EXPECT_NE(line.find(R"("kind": "device")"), std::string::npos) << line;
+  const auto log = read_log(log_header(kScene) + line, full_registry());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  EXPECT_EQ(log->entries.front().author.kind, AuthorKind::device);
+  EXPECT_EQ(why_refused(entry(1, 0, 1, R"(, "kind": "ghost")")), "line 2/kind: expects `person`, `device` or `program`");
+}
+
+// Logs of the program before: no base, no kinds of authors.
+TEST(Log, VersionOneIsRead) {
+  std::string header = log_header(kScene);
+  header.replace(header.find("\"version\": 2"), 12, "\"version\": 1");
+  const auto log = read_log(header + entry(1, 0, 1) + mark("end", 2), full_registry());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  EXPECT_EQ(log->entries.size(), 1u);
+}
+
 TEST(Log, LinesBeforeItsSceneAreRefused) {
   World world = World::from_text(kScene);
   world.tick(40);

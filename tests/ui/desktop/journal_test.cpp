@@ -42,7 +42,7 @@ TEST_F(JournalTest, OneThatBearsOurNumberIsKeptAndFound) {
   const std::string left = log_header(kScene) + log_line(entry(1, 0), full_registry());
   ASSERT_TRUE(write_file(own(1), left).ok());
   Journal journal;
-  ASSERT_TRUE(journal.begin("x.json", kScene).ok());
+  ASSERT_TRUE(journal.begin("x.json", kScene, 0).ok());
   journal.add(entry(1, 0), full_registry());
   const auto found = Journal::find(full_registry());
   ASSERT_EQ(found.size(), 1u) << "ours is being written, the other was left";
@@ -76,10 +76,10 @@ TEST_F(JournalTest, EmptyOnesAreClearedAway) {
 
 TEST_F(JournalTest, OneThatCannotBeFollowedGoesOnInOrder) {
   Journal journal;
-  ASSERT_TRUE(journal.begin("", kScene).ok());
+  ASSERT_TRUE(journal.begin("", kScene, 0).ok());
   journal.add(entry(1, 9), full_registry());
   setenv("XDG_STATE_HOME", "/dev/null", 1);  // no folder can be made in there
-  EXPECT_FALSE(journal.begin("", kScene).ok());
+  EXPECT_FALSE(journal.begin("", kScene, 0).ok());
   EXPECT_NE(journal.problem(), "");
   setenv("XDG_STATE_HOME", state_.c_str(), 1);
   journal.add(entry(2, 4), full_registry());

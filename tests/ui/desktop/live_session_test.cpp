@@ -256,7 +256,7 @@ TEST(LiveSession, AnUndoThatDoesNotFitAnyMoreSaysWhy) {
   ASSERT_TRUE(editor.submit(command<AddNode>({"shed", {"{}"}})));
   ASSERT_TRUE(editor.document->session().replay({0, 0, 99, "somebody", command<RemoveNode>({"shed"}), 0, 0}).ok());
   editor.undo();
-  EXPECT_NE(editor.notices.back().text.find("cannot be undone because"), std::string::npos) << editor.notices.back().text;
+  EXPECT_NE(editor.notices.back().text.find("cannot be undone: somebody has changed nodes/shed since"), std::string::npos) << editor.notices.back().text;
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ std::unique_ptr<Document> Document::recover(const Registry& registry, const Jour
 
 // Every entry goes to the disk at once; after a rewind the log starts again from the state that was returned to.
 void Document::begin_journal() {
-  (void)journal_.begin(source(), log_start_);  // without it everything else works; journal_problem() tells people
+  (void)journal_.begin(source(), log_start_, 0);  // without it everything else works; journal_problem() tells people
   session_->on_entry([this](const LogEntry& entry) { journal_.add(entry, *registry_); });
   session_->on_rewind([this] {
     const SavedState state = bl::save(*session_->take_on_changes());
@@ -86,7 +86,7 @@ void Document::begin_journal() {
 void Document::begin_log(const std::string& scene_text) {
   log_start_ = scene_text;
   log_begin_ = session_->log().size();
-  (void)journal_.begin(source(), log_start_);
+  (void)journal_.begin(source(), log_start_, base_of_log());
 }
 
 std::string Document::name() const {
@@ -209,8 +209,10 @@ bool Document::is_unsaved() {
   return is_unsaved_;
 }
 
+std::int64_t Document::base_of_log() const { return log_begin_ == 0 ? 0 : session_->log()[log_begin_ - 1].seq; }
+
 Result<void> Document::save_log(const std::string& path) const {
-  std::string text = log_header(log_start_);
+  std::string text = log_header(log_start_, base_of_log());
   const auto& log = session_->log();
   Gestures gestures;
   for (std::size_t i = log_begin_; i < log.size(); ++i) {

@@ -98,6 +98,7 @@ class Document {
   Document(const Registry& registry, std::string path);
   void begin_journal();
   void begin_log(const std::string& scene_text);
+  std::int64_t base_of_log() const;
   std::int64_t name_files_from(const NamedFiles& named);
   void read_imports(std::vector<Problem>& problems);
   void write_imports(const std::string& scene_path);

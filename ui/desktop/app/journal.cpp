@@ -82,7 +82,7 @@ std::string person_folder() {
   return error ? std::string() : folder;
 }
 
-Result<void> Journal::begin(const std::string& scene_path, const std::string& scene_text) {
+Result<void> Journal::begin(const std::string& scene_path, const std::string& scene_text, std::int64_t base) {
   const auto start = [&]() -> Result<void> {
     const std::string folder = journal_folder();
     if (folder.empty()) return Error{ErrorCode::io, "journal", "there is no folder to keep a journal in: set HOME"};
@@ -90,7 +90,7 @@ Result<void> Journal::begin(const std::string& scene_path, const std::string& sc
     const auto path = open_fresh(folder, *writer);
     if (!path) return path.error();
     auto done = write_file(*path + kPathEnding, scene_path);
-    if (done) writer->write(log_header(scene_text));
+    if (done) writer->write(log_header(scene_text, base));
     if (done && !writer->failure().empty()) done = Error{ErrorCode::io, *path, writer->failure()};
     if (!done) {
       (void)writer->close();

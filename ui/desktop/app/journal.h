@@ -21,7 +21,8 @@ class Journal {
 
   /// Starts a new log in the person's own folder, in place of the one before; `scene_path` may be empty. Where it cannot be
   /// started, the one before goes on, because it still leads to the same scene.
-  Result<void> begin(const std::string& scene_path, const std::string& scene_text);
+  /// `base`: the number of the last entry that the scene holds already.
+  Result<void> begin(const std::string& scene_path, const std::string& scene_text, std::int64_t base);
   void add(const LogEntry& entry, const Registry& registry);
   /// The scene is safe elsewhere, or given up on purpose: nothing is left to recover.
   void end();
