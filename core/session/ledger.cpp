@@ -12,11 +12,11 @@ namespace bl {
 
 namespace {
 
-// Something that is set, in contrast to a node, role, row, link or script that comes and goes.
+// Something that is set, in contrast to a node, role, row, lock, link or script that comes and goes.
 bool is_value(const Touch& place) {
   if (place.part == ScenePart::setting) return true;
   if (place.part == ScenePart::script || place.path.empty()) return false;
-  if (!place.path.starts_with("types/")) return true;
+  if (!place.path.starts_with("types/")) return !place.path.starts_with("locked/");
   const auto steps = std::count(place.path.begin(), place.path.end(), '/');
   return steps == 2 || steps == 4;  // types/programme/rows, types/programme/rows/housing/count
 }
@@ -84,34 +84,21 @@ Result<void> Ledger::submit(const Command& command, const Author& author, std::i
   return apply_entry({0, tick, gesture == 0 ? last_gesture_ + 1 : gesture, author, command, 0, 0});
 }
 
-bool Ledger::note_others(const Written& written, const std::vector<Touch>& places, std::vector<Mark>& left) const {
-  bool is_any = false;
-  for (const Touch& place : places) {
-    auto mark = writers_.since(place, written);
-    if (!mark) continue;
-    is_any = true;
-    const bool is_told = std::any_of(left.begin(), left.end(), [&](const Mark& one) { return one.place == mark->place; });
-    if (!is_told) left.push_back(std::move(*mark));
-  }
-  return is_any;
-}
-
 // Applies a command, or what of it harms nobody; the commands that undo that, or nothing where all of it would.
 Result<std::optional<Ledger::Trial>> Ledger::attempt(SceneEdit& edit, const Command& command, const Written& written,
                                                      std::vector<Mark>& left) const {
   (void)edit.take_touches();
   auto done = bl::apply(edit, command);
-  if (!done) {
-    std::vector<Touch> places;
-    for (const auto& [place, mark] : written.before) places.push_back(place);
-    if (note_others(written, places, left)) return std::optional<Trial>();
-    return done.error();
-  }
-  const std::vector<Touch> touches = edit.take_touches();
-  if (!note_others(written, touches, left)) return std::optional(Trial{command, std::move(*done)});
+  if (!done) return done.error();
   std::set<Touch> own;
-  for (const Touch& place : touches)
-    if (!writers_.since(place, written)) own.insert(place);
+  bool is_own = true;
+  for (const Touch& place : edit.take_touches()) {
+    auto other = writers_.since(place, written);
+    is_own = is_own && !other;
+    if (other) left.push_back(std::move(*other));
+    else own.insert(place);
+  }
+  if (is_own) return std::optional(Trial{command, std::move(*done)});
   const CommandDefinition& kind = *registry_->command(command.id);
   const bool can_narrow = kind.narrow && !own.empty();
   const Command narrowed = can_narrow ? kind.narrow(edit.scene(), own) : Command();
@@ -122,15 +109,26 @@ Result<std::optional<Ledger::Trial>> Ledger::attempt(SceneEdit& edit, const Comm
   return std::optional(Trial{narrowed, std::move(*rest)});
 }
 
+std::optional<Mark> Ledger::first_since(const Written& written) const {
+  for (const auto& [place, mark] : written.before)
+    if (auto other = writers_.since(place, written)) return other;
+  return std::nullopt;
+}
+
 Result<std::vector<Command>> Ledger::harmless(const Step& step, std::vector<Mark>& left) {
   // Tried first and taken back: what somebody else removed meanwhile must not leave half of an undo behind.
   SceneEdit edit(scene_, *registry_, &namers_);
   std::vector<Trial> trials;
   std::optional<Error> failure;
+  std::optional<std::optional<Mark>> first_other;  // looked for once
   for (auto command = step.inverse.rbegin(); command != step.inverse.rend() && !failure; ++command) {
     auto trial = attempt(edit, *command, step.written, left);
-    if (!trial) failure = trial.error();
-    else if (*trial) trials.push_back(std::move(**trial));
+    if (trial && *trial) trials.push_back(std::move(**trial));
+    if (trial) continue;
+    // It does not fit any more: somebody has written over what the gesture did, or else nothing of it is taken back.
+    if (!first_other) first_other = first_since(step.written);
+    if (*first_other) left.push_back(**first_other);
+    else failure = trial.error();
   }
   // Each was made for exactly this scene, so it fits.
   std::vector<Command> commands;
@@ -144,16 +142,17 @@ Result<std::vector<Command>> Ledger::harmless(const Step& step, std::vector<Mark
 Result<TakenBack> Ledger::take_back(const Author& author, std::int64_t tick, std::int64_t gesture, bool is_undo) {
   const std::string what = is_undo ? "undo" : "redo", cannot = is_undo ? "cannot be undone" : "cannot be redone";
   const std::vector<std::int64_t> open = gestures_.open(author, is_undo);
-  std::optional<Error> failure;
   TakenBack taken;
   for (auto next = open.rbegin(); next != open.rend(); ++next) {
     if (gesture != 0 && *next != gesture) continue;
     const auto commands = harmless(steps_[*next], taken.left);
-    if (!commands && !failure)
-      failure = Error{commands.error().code, commands.error().place,
-                      cannot + " because the scene has changed since: " + commands.error().message};
+    if (!commands && !taken.misfit)
+      taken.misfit = Error{commands.error().code, commands.error().place,
+                           cannot + " because the scene has changed since: " + commands.error().message};
     if (!commands || commands->empty()) continue;
     taken.gesture = *next;
+    std::set<Touch> told;
+    std::erase_if(taken.left, [&told](const Mark& mark) { return !told.insert(mark.place).second; });
     const std::int64_t fresh = new_gesture();
     for (const Command& command : *commands)
       if (auto done = apply_entry({0, tick, fresh, author, command, is_undo ? *next : 0, is_undo ? 0 : *next}); !done)
@@ -161,7 +160,7 @@ Result<TakenBack> Ledger::take_back(const Author& author, std::int64_t tick, std
     return taken;
   }
   if (!taken.left.empty()) return Error{ErrorCode::conflict, "", cannot + ": " + text_of(taken.left.front())};
-  if (failure) return *failure;
+  if (taken.misfit) return *taken.misfit;
   return Error{ErrorCode::not_found, "", "there is nothing to " + what + " for " + author.id};
 }
 

@@ -19,7 +19,8 @@ namespace bl {
 /// What an undo or redo has done: the gesture, and where it left things alone because somebody else has written there since.
 struct TakenBack {
   std::int64_t gesture = 0;
-  std::vector<Mark> left;  ///< also of later gestures that were passed over, because nothing of them could be taken back
+  std::optional<Error> misfit;  ///< why a later gesture was passed over that does not fit the scene any more
+  std::vector<Mark> left;       ///< also of later gestures that were passed over, because nothing of them could be taken back
 };
 /// The sentence of what was left: "ben has changed nodes/tower/name since".
 std::string text_of(const Mark& left);
@@ -75,7 +76,8 @@ class Ledger {
   };
   Result<std::optional<Trial>> attempt(SceneEdit& edit, const Command& command, const Written& written,
                                        std::vector<Mark>& left) const;
-  bool note_others(const Written& written, const std::vector<Touch>& places, std::vector<Mark>& left) const;
+  /// The first place that the gesture wrote and somebody else has written since.
+  std::optional<Mark> first_since(const Written& written) const;
 
   const Registry* registry_;
   Scene scene_;

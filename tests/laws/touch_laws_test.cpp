@@ -223,6 +223,35 @@ TEST(TouchLaws, ANodeThatOthersHaveLinkedToStays) {
   EXPECT_EQ(undone.error().message, "cannot be undone: ben has changed links/n since");
 }
 
+TEST(TouchLaws, WhatComesAndGoesWithinAGestureIsUndoneStepByStep) {
+  World world = World::from_text(kShared);
+  const Scene before = world.session().scene();
+  const std::int64_t gesture = world.session().new_gesture();
+  const Command steps[] = {command<UnlockPort>({"a", {"node.position"}}), command<LockPort>({"a", {"node.position"}}),
+                           command<UnlockPort>({"a", {"node.position"}}),
+                           command<RemoveRow>({"brief", {"programme.rows"}, "shop"}),
+                           command<AddRow>({"brief", {"programme.rows"}, {R"({"use": "shop", "floor_area": 7})"}})};
+  for (const Command& step : steps) ASSERT_TRUE(world.session().submit(step, "anna", gesture).ok()) << step.id;
+  const auto undone = world.session().undo("anna");
+  ASSERT_TRUE(undone.ok()) << undone.error().text();
+  EXPECT_TRUE(world.session().scene() == before);
+}
+
+TEST(TouchLaws, AStepThatDoesNotFitAnyMoreIsPassedOverAndTold) {
+  World world = World::from_text(kShared);
+  ASSERT_EQ(world.submit(command<RenameNode>({"b", "by Anna"}), "anna"), "");
+  ASSERT_EQ(world.submit(command<AddNode>({"e", {R"({"types": {"smart_volume": {}}})"}}), "ben"), "");
+  ASSERT_EQ(world.submit(command<AddLink>({"n", {R"({"kind": "attract", "from": "a", "to": "e"})"}}), "anna"), "");
+  ASSERT_EQ(world.submit(command<RemoveLink>({"n"}), "anna"), "");
+  ASSERT_EQ(world.submit(command<RemoveNode>({"e"}), "ben"), "");
+  const auto undone = world.session().undo("anna");
+  ASSERT_TRUE(undone.ok()) << undone.error().text();
+  ASSERT_TRUE(undone->misfit.has_value());
+  EXPECT_NE(undone->misfit->message.find("cannot be undone because the scene has changed since: there is no node `e`"),
+            std::string::npos)
+      << undone->misfit->message;
+}
+
 // However many steps a gesture has, each place is brought back once.
 TEST(TouchLaws, ADragIsUndoneInOneEntryForEachPlace) {
   World world = World::from_text(kShared);

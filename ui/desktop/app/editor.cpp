@@ -28,6 +28,7 @@ void tell_why(Editor& editor, const Error& error, const char* nothing) {
 // What was left because others have written there since is told in one sentence, the first place of all.
 void tell_left(Editor& editor, const Result<TakenBack>& done, const char* nothing) {
   if (!done) return tell_why(editor, done.error(), nothing);
+  if (done->misfit) tell_why(editor, *done->misfit, nothing);
   if (done->left.empty()) return;
   const std::size_t more = done->left.size() - 1;
   editor.tell(NoticeKind::told,
