@@ -6,8 +6,8 @@
 #include <exception>
 #include <numeric>
 
-#include "core/geometry/complex_body.h"
-#include "core/geometry/complex_update.h"
+#include "core/geometry/inside/complex_body.h"
+#include "core/geometry/inside/complex_update.h"
 
 namespace bl {
 

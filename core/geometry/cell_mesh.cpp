@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/geometry/none.h"
+#include "core/geometry/inside/none.h"
 #include "core/geometry/tessellate.h"
 
 namespace bl {

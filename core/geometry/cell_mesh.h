@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/base/mesh.h"
-#include "core/geometry/cell_seams.h"
+#include "core/geometry/inside/cell_seams.h"
+#include "core/geometry/inside/shape_measure.h"
 #include "core/geometry/power_cells.h"
-#include "core/geometry/shape_measure.h"
 
 namespace bl {
 

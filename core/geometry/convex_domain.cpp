@@ -8,11 +8,11 @@
 #include <tuple>
 
 #include "core/base/text.h"
-#include "core/geometry/coplanar_groups.h"
-#include "core/geometry/domain_parts.h"
-#include "core/geometry/hull_triangles.h"
-#include "core/geometry/none.h"
-#include "core/geometry/polyhedron.h"
+#include "core/geometry/inside/coplanar_groups.h"
+#include "core/geometry/inside/domain_parts.h"
+#include "core/geometry/inside/hull_triangles.h"
+#include "core/geometry/inside/none.h"
+#include "core/geometry/inside/polyhedron.h"
 
 namespace bl {
 

@@ -6,11 +6,11 @@
 
 #include "core/base/hash.h"
 #include "core/base/text.h"
-#include "core/geometry/cell_workshop.h"
-#include "core/geometry/fit_numbers.h"
-#include "core/geometry/fit_targets.h"
-#include "core/geometry/ray_start.h"
-#include "core/geometry/weight_fit.h"
+#include "core/geometry/inside/cell_workshop.h"
+#include "core/geometry/inside/fit_numbers.h"
+#include "core/geometry/inside/fit_targets.h"
+#include "core/geometry/inside/ray_start.h"
+#include "core/geometry/inside/weight_fit.h"
 
 namespace bl {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "core/geometry/cell_workshop.h"
+#include "core/geometry/inside/cell_workshop.h"
 #include "core/geometry/tessellate.h"
 
 namespace bl {

@@ -12,7 +12,7 @@
 #include "core/base/parallel.h"
 #include "core/base/result.h"
 #include "core/geometry/domain.h"
-#include "core/geometry/polyhedron.h"
+#include "core/geometry/inside/polyhedron.h"
 
 namespace bl {
 

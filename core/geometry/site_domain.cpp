@@ -6,10 +6,10 @@
 #include <string>
 #include <tuple>
 
-#include "core/geometry/domain_parts.h"
-#include "core/geometry/part_faces.h"
-#include "core/geometry/plan_corners.h"
-#include "core/geometry/plan_pieces.h"
+#include "core/geometry/inside/domain_parts.h"
+#include "core/geometry/inside/part_faces.h"
+#include "core/geometry/inside/plan_corners.h"
+#include "core/geometry/inside/plan_pieces.h"
 #include "core/geometry/plan_ring.h"
 
 namespace bl {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "core/geometry/domain_parts.h"
-#include "core/geometry/none.h"
+#include "core/geometry/inside/domain_parts.h"
+#include "core/geometry/inside/none.h"
 
 namespace bl {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "core/geometry/plan_buckets.h"
+#include "core/geometry/inside/plan_buckets.h"
 #include "core/geometry/touching_balls.h"
 
 namespace bl {

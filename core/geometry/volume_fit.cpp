@@ -10,9 +10,9 @@
 
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
-#include "core/geometry/cell_workshop.h"
-#include "core/geometry/fit_outcome.h"
-#include "core/geometry/fit_targets.h"
+#include "core/geometry/inside/cell_workshop.h"
+#include "core/geometry/inside/fit_outcome.h"
+#include "core/geometry/inside/fit_targets.h"
 
 namespace bl {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/cell_workshop.h"
-#include "core/geometry/fit_numbers.h"
-#include "core/geometry/local_response.h"
+#include "core/geometry/inside/cell_workshop.h"
+#include "core/geometry/inside/fit_numbers.h"
+#include "core/geometry/inside/local_response.h"
 
 namespace bl {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/demand_fit.h"
-#include "core/geometry/sampled_fit.h"
+#include "core/geometry/inside/sampled_fit.h"
 
 namespace bl {
 
@@ -15,7 +15,7 @@ struct VolumeTick {
   int samples = 64;                      ///< not for the power metric, which is exact
   FitMethod method = FitMethod::newton;  ///< power metric only: the others always take Newton steps
   double gain = 0;                       ///< [1/m], as in FitOptions
-  int steps = 4;  ///< 0: the cells of the weights as they stand
+  int steps = 4;                         ///< 0: the cells of the weights as they stand
   double tolerance = 0.005;
   int tessellation_depth = 1;
   std::span<const double> storey_heights = {};  ///< [m], per site

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/csv/csv_reader.h"
 #include "core/define/json_text.h"
-#include "core/exchange/csv_reader.h"
 
 namespace bl {
 

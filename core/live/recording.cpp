@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
-#include "core/exchange/csv_reader.h"
+#include "core/csv/csv_reader.h"
 #include "core/live/message.h"
 #include "core/live/time_text.h"
 
@@ -91,8 +91,9 @@ Result<double> time_of(const CsvRecord& record, const Columns& columns) {
   auto seconds = columns.are_days_digits ? seconds_of_digits(text) : seconds_of_time(text);
   if (seconds && columns.day_time && !columns.are_days_digits && parse_number(text))
     return Error{ErrorCode::parse, "line " + std::to_string(record.line),
-                 in_quotes(text) + " is no day to which a time of the day could be added: write days as `2003-01-31` or, in all "
-                                   "rows, as `20030131`"};
+                 in_quotes(text) +
+                     " is no day to which a time of the day could be added: write days as `2003-01-31` or, in all "
+                     "rows, as `20030131`"};
   if (!seconds)
     return Error{ErrorCode::parse, "line " + std::to_string(record.line),
                  in_quotes(text) + " is no time such as `2003-01-31 12:00`"};

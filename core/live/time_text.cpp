@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
-#include "core/exchange/csv_reader.h"
+#include "core/csv/csv_reader.h"
 
 namespace bl {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/exchange/cityjson_context.h"
+#include "core/import/cityjson_context.h"
 #include "tests/fuzz/context_laws.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/exchange/context.h"
+#include "core/import/context.h"
 #include "tests/fuzz/require.h"
 
 namespace bl::fuzz {

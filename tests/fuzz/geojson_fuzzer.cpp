@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/exchange/data_layer.h"
-#include "core/exchange/geojson_context.h"
+#include "core/import/data_layer.h"
+#include "core/import/geojson_context.h"
 #include "tests/fuzz/context_laws.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

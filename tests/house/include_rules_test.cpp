@@ -4,19 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
 
+#include "tests/house/layers.h"
 #include "tests/house/rules.h"
 
 namespace bl::house {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Files that may be longer than line_limit(), each with its reason. A row that is no longer needed fails, too.
-const std::map<std::string, std::string> long_files = {
-    {"nodes/traffic_network.cpp", "one declaration of four sets, of what they get back and of a memory; the algorithm is in core/traffic"}};
 
 struct SourceFile {
   std::string path, text;
@@ -85,16 +81,42 @@ TEST(House, FilesBeginWithASentence) {
   for (const SourceFile& file : sources({"core", "nodes", "links", "ui", "tests"})) expect_none(check_form(file.path, file.text));
 }
 
+TEST(House, TheTableOfLayersHasNoFaults) {
+  for (const std::string& fault : layers().faults) ADD_FAILURE() << "core/layers.txt: " << fault;
+  std::vector<std::string> known;
+  for (const Room& room : layers().rooms) {
+    EXPECT_TRUE(fs::is_directory(fs::path(BL_SOURCE_DIR) / room.folder)) << "core/layers.txt: there is no folder " << room.folder;
+    for (const std::string& seen : room.sees)
+      EXPECT_TRUE(room.folder == "tests" || std::find(known.begin(), known.end(), seen) != known.end())
+          << "core/layers.txt: " << room.folder << " includes " << seen << ", which has no row above it";
+    known.push_back(room.folder);
+  }
+}
+
 TEST(House, FilesStaySmall) {
-  std::map<std::string, std::string> unused = long_files;
+  std::vector<std::string> needed;
   for (const SourceFile& file : sources({"core", "nodes", "links", "ui"})) {
     const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
-    if (lines <= line_limit(file.path)) continue;
-    if (unused.erase(file.path) == 0)
-      ADD_FAILURE() << file.path << " has " << lines << " lines, more than " << line_limit(file.path)
-                    << ": split it, or list it in long_files with the reason";
+    const Room* room = layers().room_of(file.path);
+    if (room != nullptr && lines > room->lines) needed.push_back(file.path);
+    EXPECT_LE(lines, layers().line_limit(file.path))
+        << file.path << ": split it, or give it a row with a reason in core/layers.txt";
   }
-  for (const auto& [path, reason] : unused) ADD_FAILURE() << path << " need not be in long_files any more";
+  for (const LongFile& file : layers().files)
+    EXPECT_NE(std::find(needed.begin(), needed.end(), file.path), needed.end())
+        << file.path << " needs no row in core/layers.txt";
+}
+
+TEST(House, FunctionsStaySmall) {
+  for (const SourceFile& file : sources({"core", "nodes", "links", "ui"})) expect_none(check_functions(file.path, file.text, 60));
+}
+
+TEST(House, TheReadmesShowTheTableOfLayers) {
+  const std::string drawing = drawing_of(layers());
+  for (const char* readme : {"README.md", "core/README.md"})
+    EXPECT_NE(read(fs::path(BL_SOURCE_DIR) / readme).find("```\n" + drawing + "```\n"), std::string::npos)
+        << readme << " has another drawing of the folders than core/layers.txt; it reads now:\n"
+        << drawing;
 }
 
 TEST(House, EveryFolderHasAReadme) {
@@ -127,10 +149,12 @@ TEST(HouseRules, IncludesOfSamples) {
       {"core/graph/a.cpp", "#include \"core/geometry/cell.h\"", "may not include"},
       {"core/graph/a.cpp", "#include \"nodes/volume.h\"", "may not include"},
       {"core/session/commands/a.cpp", "#include \"core/file/scene_file.h\"", ""},
-      {"core/session/a.cpp", "#include \"core/exchange/dxf.h\"", "may not include"},
-      {"core/exchange/a.cpp", "#include \"core/geometry/cell.h\"", ""},
-      {"core/exchange/a.cpp", "#include \"core/session/log.h\"", "may not include"},
+      {"core/session/a.cpp", "#include \"core/import/dxf.h\"", "may not include"},
+      {"core/import/a.cpp", "#include \"core/geometry/cell.h\"", ""},
+      {"core/import/a.cpp", "#include \"core/session/log.h\"", "may not include"},
       {"core/geometry/a.cpp", "#include \"core/graph/scene.h\"", "may not include"},
+      {"core/geometry/a.h", "#include \"core/geometry/inside/clipper.h\"", ""},
+      {"core/sun/a.cpp", "#include \"core/geometry/inside/clipper.h\"", "private to core/geometry"},
       {"core/sun/a.cpp", "#include \"core/traffic/network.h\"", "may not include"},
       {"nodes/a.cpp", "#include \"core/geometry/cell.h\"", ""},
       {"nodes/a.cpp", "#include \"core/graph/scene.h\"", "may not include"},
@@ -147,7 +171,7 @@ TEST(HouseRules, IncludesOfSamples) {
       {"core/base/a.cpp", "/* \n#include \"core/graph/scene.h\"\n*/", ""},
       {"core/geometry/a.cpp", "#include <CGAL/Point_3.h>", ""},
       {"core/geometry/a.h", "#include <CGAL/Point_3.h>", ".cpp files only"},
-      {"core/exchange/a.cpp", "#include <CGAL/Point_3.h>", "core/geometry/ only"},
+      {"core/import/a.cpp", "#include <CGAL/Point_3.h>", "core/geometry/ only"},
       {"core/base/mathematics.cpp", "#include <sleef.h>", ""},
       {"core/sun/a.cpp", "#include <sleef.h>", "core/base/ only"},
       {"core/define/a.cpp", "#include <nlohmann/json.hpp>", ""},
@@ -196,10 +220,11 @@ TEST(HouseRules, WordsOfSamples) {
       {"nodes/a.cpp", "session.log(); const auto& log() const; log.size(); Log log{}; entry->log(1); own::exp(2); explog(3);",
        ""},
       {"ui/desktop/a.cpp", "double up = std::sin(turn);", ""},
-      {"ui/cli/new_scene.cpp", "double side = std::cbrt(volume);", "`cbrt`"},
+      {"core/making/new_scene.cpp", "double side = std::cbrt(volume);", "`cbrt`"},
+      {"core/drawing/a.cpp", "double up = std::sin(turn);", ""},
       {"ui/cli/a.cpp", "std::ofstream file(path);", "one place"},
-      {"core/exchange/a.cpp", "int f = open(path, O_WRONLY | O_CREAT, 0666);", "one place"},
-      {"core/exchange/a.cpp", "std::ifstream file(path);", ""},
+      {"core/import/a.cpp", "int f = open(path, O_WRONLY | O_CREAT, 0666);", "one place"},
+      {"core/import/a.cpp", "std::ifstream file(path);", ""},
       {"core/file/a.cpp", "FILE* f = fopen(path, \"w\");", ""},
       {"core/graph/a.cpp", "// neither rand() nor std::hash", ""},
       {"core/graph/a.cpp", "auto text = \"rand() \\\" std::hash\";", ""},
@@ -225,8 +250,29 @@ TEST(HouseRules, FormOfSamples) {
   EXPECT_EQ(check_form("core/base/a.cpp", "#include <vector>\n").size(), 1u);
   EXPECT_EQ(check_form("core/base/a.cpp", "// a.cpp\n").size(), 1u);
   EXPECT_EQ(check_form("core/base/a.h", "").size(), 2u);
-  EXPECT_EQ(line_limit("nodes/volume.cpp"), 180);
-  EXPECT_EQ(line_limit("core/graph/tick.cpp"), 450);
+}
+
+TEST(HouseRules, FunctionsOfSamples) {
+  const std::string body = "  a();\n  b();\n";
+  const auto lines_over = [](const std::string& text, int most) { return sentences(check_functions("core/a.cpp", text, most)); };
+  EXPECT_TRUE(lines_over("void f() {\n" + body + "}\n", 4).empty());
+  EXPECT_EQ(lines_over("int x;\nvoid f() {\n" + body + "}\n", 3),
+            std::vector<std::string>{"core/a.cpp:2: a function of 4 lines, more than 3: split it"});
+  EXPECT_EQ(
+      lines_over("namespace n {\nstruct S {\n  int x;\n  void f(\n      int y) const {\n" + body + "  }\n};\n}\n", 4).size(), 1u);
+  EXPECT_TRUE(lines_over("namespace n {\nstruct S {\n" + body + body + "};\n}\n", 3).empty()) << "a struct is no function";
+  EXPECT_TRUE(lines_over("constexpr std::array kRows = {\n 1,\n 2,\n 3,\n};\n", 3).empty()) << "a table is no function";
+}
+
+TEST(HouseRules, LayersOfSamples) {
+  const Layers table =
+      read_layers("# why\n\nroom a: 10\nroom a/b: 5 a\nfile a/long.cpp: 20 It is long.\nroom c: a\nfile a/x.cpp: 3\nd\n");
+  EXPECT_EQ(table.faults.size(), 3u);
+  EXPECT_EQ(table.line_limit("a/b/x.cpp"), 5);
+  EXPECT_EQ(table.line_limit("a/bc/x.cpp"), 10);
+  EXPECT_EQ(table.line_limit("a/long.cpp"), 20);
+  EXPECT_EQ(table.room_of("ab/x.cpp"), nullptr);
+  EXPECT_EQ(drawing_of(table), "a\na/b -> a\n");
 }
 
 TEST(HouseRules, FindingsNameTheirLine) {

@@ -19,13 +19,14 @@ std::string code_only(std::string_view text);
 /// Who may include whom, and which library may be seen where. `path` is relative to the root of the checkout.
 std::vector<Finding> check_includes(std::string_view path, std::string_view text);
 
+/// A function body with more lines than `most`, from the line of its name to its closing brace. Tables (a body that is one
+/// `return {...}` or an initialiser) and lambdas inside of functions are counted with the function that holds them.
+std::vector<Finding> check_functions(std::string_view path, std::string_view text, int most);
+
 /// Words that would make results depend on the library, the clock or the order of a hash table.
 std::vector<Finding> check_words(std::string_view path, std::string_view text);
 
 /// A sentence on the first line, and `#pragma once` in headers.
 std::vector<Finding> check_form(std::string_view path, std::string_view text);
-
-/// The largest number of lines that a file at `path` may have without being listed as an exception.
-int line_limit(std::string_view path);
 
 }  // namespace bl::house

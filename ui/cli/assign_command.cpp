@@ -8,14 +8,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/median.h"
 #include "core/base/stop.h"
 #include "core/base/text.h"
 #include "core/define/json_text.h"
-#include "core/exchange/tntp.h"
 #include "core/file/file_io.h"
+#include "core/import/tntp.h"
 #include "core/traffic/equilibrium.h"
 #include "core/traffic/reach.h"
-#include "ui/cli/bench_tools.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/scene_loading.h"

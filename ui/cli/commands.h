@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "ui/cli/context_import.h"
-#include "ui/cli/media_making.h"
-#include "ui/cli/scene_making.h"
+#include "core/making/context_import.h"
+#include "core/making/media_making.h"
+#include "core/making/scene_making.h"
 
 namespace bl::cli {
 
@@ -24,8 +24,8 @@ struct RunOptions {
   std::string log, report, json, save;
   std::vector<std::string> set, scripts;
   bool reads_anywhere = false;  ///< recordings may lie outside the folder of the scene
-  bool is_live = false;  ///< connects to sensors and actuators, and ticks in real time until it is stopped
-  double rate = 0;       ///< ticks per second of a live run; 0: as the sensors say
+  bool is_live = false;         ///< connects to sensors and actuators, and ticks in real time until it is stopped
+  double rate = 0;              ///< ticks per second of a live run; 0: as the sensors say
 };
 int run_command(const RunOptions& options);
 
@@ -113,19 +113,5 @@ struct AssignOptions {
   int repeat = 1;                                 ///< of the measured parts; medians are told
 };
 int assign_command(const AssignOptions& options);
-
-struct BenchOptions {
-  std::vector<std::string> scenes;
-  std::vector<int> sites, threads;
-  int repeat = 0;  ///< 0: what suits the rows
-  int ticks = 20;
-  std::string json;
-  bool is_solver = false, is_quick = false;  ///< the solver alone; small sizes only
-  std::vector<std::string> rows;             ///< of the solver's rows these only; empty: all
-  int seeds = 0;                             ///< of the solver's cold fits: so many random sets besides
-  std::string tntp;                          ///< folder of networks for the rows of traffic; empty: made-up ones only
-  std::string chart;                         ///< folder for the solver's charts; empty: none
-};
-int bench_command(const BenchOptions& options);
 
 }  // namespace bl::cli

@@ -4,6 +4,12 @@
 
 namespace bl::cli {
 
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Threads to compute with; the result does not depend on it. Default: 1.")
+      ->type_name("K")
+      ->check(CLI::Range(1, 256));
+}
+
 namespace {
 
 constexpr const char* kBoundaryHelp =

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/define/json_text.h"
-#include "core/exchange/site_table.h"
+#include "core/import/site_table.h"
 #include "ui/cli/site_case.h"
 
 namespace bl::cli {

@@ -8,9 +8,9 @@
 #include "core/base/text.h"
 #include "core/define/catalogue.h"
 #include "core/file/file_io.h"
+#include "core/making/script_file.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/scene_loading.h"
-#include "ui/cli/script_file.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {

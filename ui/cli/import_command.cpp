@@ -11,6 +11,7 @@
 #include <system_error>
 #include <thread>
 
+#include "core/base/printable.h"
 #include "core/file/file_io.h"
 #include "core/session/ledger.h"
 #include "ui/cli/commands.h"
@@ -112,8 +113,8 @@ bool is_answered() {
 bool asks_to_clear(std::size_t buildings, const std::string& site) {
   std::fflush(stdout);
   std::fprintf(stderr, "%s\n",
-               shown(counted(buildings, "building") + (buildings == 1 ? " stands" : " stand") + " inside the site `" + site +
-                     "`. Keep " + (buildings == 1 ? "it" : "them") + ", so that nothing is built there, or clear the site?")
+               printable(counted(buildings, "building") + (buildings == 1 ? " stands" : " stand") + " inside the site `" + site +
+                         "`. Keep " + (buildings == 1 ? "it" : "them") + ", so that nothing is built there, or clear the site?")
                    .c_str());
   std::fputs("keep / clear [keep]: ", stderr);
   std::fflush(stderr);
@@ -123,7 +124,7 @@ bool asks_to_clear(std::size_t buildings, const std::string& site) {
 }
 
 // An old report must not stand for an import that failed.
-bool write_report(const ImportOptions& options, const ImportReports& reports) {
+bool write_import_report(const ImportOptions& options, const ImportReports& reports) {
   if (options.report.empty()) return true;
   auto written = write_file(options.report, import_csv(reports));
   if (!written) print_error(options.report, written.error());
@@ -134,7 +135,7 @@ bool write_report(const ImportOptions& options, const ImportReports& reports) {
 bool write_refusal(const ImportOptions& options, const std::string& why) {
   ImportReports nothing;
   for (const std::string& file : options.files) nothing.emplace_back(file, ImportReport()).second.skip("file", "", why);
-  return write_report(options, nothing);
+  return write_import_report(options, nothing);
 }
 
 // Pictures alone: as `place` does it.
@@ -202,7 +203,7 @@ int import_command(const ImportOptions& given) {
   print_counts(imported);
   for (const std::string& note : imported.notes) print_line("note: " + note);
   for (const auto& [file, error] : imported.errors) print_error(file, error);
-  if (!write_report(options, imported.reports)) return kBadInput;
+  if (!write_import_report(options, imported.reports)) return kBadInput;
   if (is_interrupted()) return interrupt_exit_code();
   if (!imported.scene) return kBadInput;
   print_problems(options.out, problems);

@@ -7,8 +7,8 @@
 
 #include "core/base/text.h"
 #include "core/live/unusable_sensors.h"
+#include "core/reading/report_model.h"
 #include "ui/cli/interrupt.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"

@@ -1,29 +1,16 @@
 // The program `behaviourlinks`: reads the command line and hands over to one command.
-#include <algorithm>
-#include <csignal>
 #include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#include "core/base/scarcity.h"
-#include "core/base/text.h"
+#include "core/session/types/plugins.h"
+#include "core/report/report.h"
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
-#include "ui/cli/plugin_choice.h"
-#include "ui/cli/report/report.h"
+#include "ui/cli/program.h"
 #include "ui/cli/terminal.h"
-#include "ui/cli/usage.h"
 
 namespace bl::cli {
-
-void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads to compute with; the result does not depend on it. Default: 1.")
-      ->type_name("K")
-      ->check(CLI::Range(1, 256));
-}
 
 namespace {
 
@@ -150,56 +137,7 @@ void declare_papers(CLI::App& app, DocsOptions& docs, SchemaOptions& schema) {
   s.footer("Example:\n  behaviourlinks schema --out scene.schema.json");
 }
 
-void declare_bench(CLI::App& app, BenchOptions& o) {
-  CLI::App& c = *app.add_subcommand("bench", "Measures ticks per second and where the time goes.");
-  c.add_option("scenes", o.scenes, "Scenes to measure.")->type_name("SCENE");
-  c.add_option("--sites", o.sites, "Random volumes in a box, half full; several numbers give several rows.")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10000000));
-  c.add_option("--threads", o.threads, "Threads; several numbers give several rows. Default: 1.")
-      ->type_name("K")
-      ->check(CLI::Range(1, 256));
-  c.add_option("--repeat", o.repeat, "Measures so often and takes the median. Default: 3, of the solver 5.")
-      ->type_name("R")
-      ->check(CLI::Range(1, 1000));
-  c.add_option("--ticks", o.ticks, "Ticks of one measurement. Default: 20.")->type_name("N")->check(CLI::Range(1, 1000000));
-  c.add_option("--json", o.json, "Writes the rows as JSON, times in seconds.")->type_name("FILE");
-  auto* solver = c.add_flag(
-      "--solver", o.is_solver,
-      "Measures the algorithms without ticks: cells, fits, drags, growth, rays, traffic, and the feedback on a scene.");
-  c.add_flag("--quick", o.is_quick, "Of the solver: small sizes only, to see that all runs.")->needs(solver);
-  c.add_option("--rows", o.rows, "Of the solver: these rows only.")
-      ->type_name("ROWS")
-      ->check(CLI::IsMember({"diagram", "wrapped", "fit", "drag", "growth", "complex", "rays", "traffic", "study"}))
-      ->needs(solver);
-  c.add_option("--seeds", o.seeds, "Of the solver: cold fits of so many random sets at each fill, the most steps of all.")
-      ->type_name("K")
-      ->check(CLI::Range(1, 1000000))
-      ->needs(solver);
-  c.add_option("--tntp", o.tntp, "Of the solver: networks for the rows of traffic, NAME_net.tntp with NAME_trips.tntp.")
-      ->type_name("DIR")
-      ->needs(solver);
-  c.add_option("--chart", o.chart, "Of the solver: writes growth.svg and feedback_newton.svg into a folder.")
-      ->type_name("DIR")
-      ->needs(solver);
-  files_of(c).reads({"scenes", "--tntp"}).writes("--json", FileKind::figures).fills("--chart", {".svg"});
-  c.footer(
-      "Without scenes and --sites: 100 and 1000 random volumes; of the solver the sizes that suit each row, threads 1 and 2, "
-      "and\n"
-      "scenes/studies/sixty_volumes.json for the feedback.\n\nExample:\n  behaviourlinks bench --sites 100 1000 --threads 1 2\n"
-      "  behaviourlinks bench --solver --rows drag --sites 5000");
-}
-
-int run_program(int count, char** arguments) {
-  CLI::App app{kOverview, "behaviourlinks"};
-  app.set_version_flag("--version", std::string("behaviourlinks ") + BL_VERSION, "Prints the version and ends.");
-  app.require_subcommand(0, 1);
-  std::vector<std::string> plugins;
-  app.add_option("--plugins", plugins,
-                 "Folder of plugins: link kinds and typifications as shared libraries; as often as needed, before the command.")
-      ->type_name("DIR")
-      ->expected(1)
-      ->take_all();
+struct Options {
   RunOptions run;
   ScriptOptions script;
   OpenOptions window;
@@ -214,67 +152,69 @@ int run_program(int count, char** arguments) {
   CellsOptions cells;
   FitFileOptions fit;
   AssignOptions assign;
-  BenchOptions bench;
-  declare_run(app, run);
+};
+
+void declare_all(CLI::App& app, Options& o) {
+  declare_run(app, o.run);
   declare_open(app);
-  declare_script(app, script);
-  declare_new(app, fresh);
-  declare_import(app, import);
-  declare_place(app, place);
-  declare_check(app, check);
-  declare_papers(app, docs, schema);
-  declare_replay(app, replay);
-  declare_compare(app, compare);
-  declare_bench(app, bench);
-  declare_cells(app, cells);
-  declare_fit(app, fit);
-  declare_assign(app, assign);
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
-  if (count > 1 && arguments[1][0] != '-' && std::find(names.begin(), names.end(), arguments[1]) == names.end()) {
-    complain("there is no command `" + std::string(arguments[1]) + "`" + did_you_mean(arguments[1], names) +
-             "; `behaviourlinks --help` lists all.");
-    return kBadInput;
-  }
-  try {
-    app.parse(count, arguments);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    const auto chosen = app.get_subcommands();
-    complain(usage_sentence(chosen.empty() ? app : *chosen.front(), error));
-    const auto is_plugins = [](const char* argument) { return std::string_view(argument).starts_with("--plugins"); };
-    if (!chosen.empty() && plugins.empty() && std::any_of(arguments + 1, arguments + count, is_plugins))
-      complain("--plugins FOLDER stands before the task: behaviourlinks --plugins FOLDER " + chosen.front()->get_name() + " ...");
-    complain("`behaviourlinks " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help` explains.");
-    return kBadInput;
-  }
-  for (const CLI::App* chosen : app.get_subcommands())
-    if (const std::string sentence = wrong_files(*chosen); !sentence.empty()) {
-      complain(sentence);
-      return kBadInput;
-    }
-  if (const CLI::App* open = app.get_subcommand("open"); !open->parsed()) load_chosen_plugins(plugins);
-  if (app.got_subcommand("run")) return run_command(run);
-  if (app.got_subcommand("script")) return script_command(script);
-  if (const CLI::App* open = app.get_subcommand("open"); open->parsed()) {
-    window.arguments = open->remaining();
-    for (const std::string& folder : plugins) window.arguments.push_back("--plugins=" + folder);
-    return open_command(window);
-  }
-  if (app.got_subcommand("new")) return new_command(fresh);
-  if (app.got_subcommand("import")) return import_command(import);
-  if (app.got_subcommand("place")) return place_command(place);
-  if (app.got_subcommand("check")) return check_command(check);
-  if (app.got_subcommand("docs")) return docs_command(docs);
-  if (app.got_subcommand("schema")) return schema_command(schema);
-  if (app.got_subcommand("replay")) return replay_command(replay);
-  if (app.got_subcommand("compare")) return compare_command(compare);
-  if (app.got_subcommand("bench")) return bench_command(bench);
-  if (app.got_subcommand("cells")) return cells_command(cells);
-  if (app.got_subcommand("fit")) return fit_command(fit);
-  if (app.got_subcommand("assign")) return assign_command(assign);
+  declare_script(app, o.script);
+  declare_new(app, o.fresh);
+  declare_import(app, o.import);
+  declare_place(app, o.place);
+  declare_check(app, o.check);
+  declare_papers(app, o.docs, o.schema);
+  declare_replay(app, o.replay);
+  declare_compare(app, o.compare);
+  declare_cells(app, o.cells);
+  declare_fit(app, o.fit);
+  declare_assign(app, o.assign);
+}
+
+int run_chosen(const CLI::App& app, const Options& o) {
+  if (app.got_subcommand("run")) return run_command(o.run);
+  if (app.got_subcommand("script")) return script_command(o.script);
+  if (app.got_subcommand("new")) return new_command(o.fresh);
+  if (app.got_subcommand("import")) return import_command(o.import);
+  if (app.got_subcommand("place")) return place_command(o.place);
+  if (app.got_subcommand("check")) return check_command(o.check);
+  if (app.got_subcommand("docs")) return docs_command(o.docs);
+  if (app.got_subcommand("schema")) return schema_command(o.schema);
+  if (app.got_subcommand("replay")) return replay_command(o.replay);
+  if (app.got_subcommand("compare")) return compare_command(o.compare);
+  if (app.got_subcommand("cells")) return cells_command(o.cells);
+  if (app.got_subcommand("fit")) return fit_command(o.fit);
+  if (app.got_subcommand("assign")) return assign_command(o.assign);
   std::fputs(app.help().c_str(), stdout);
   return kDone;
+}
+
+// Plugins add types, which is told before anything is read that may need them.
+void load_chosen_plugins(std::vector<std::string> folders) {
+  use_plugins(std::move(folders));
+  for (const PluginReport& report : plugin_reports())
+    if (report.error) complain(report.error->text());
+}
+
+int run_program(int count, char** arguments) {
+  CLI::App app{kOverview, "behaviourlinks"};
+  app.set_version_flag("--version", std::string("behaviourlinks ") + BL_VERSION, "Prints the version and ends.");
+  app.require_subcommand(0, 1);
+  std::vector<std::string> plugins;
+  app.add_option("--plugins", plugins,
+                 "Folder of plugins: link kinds and typifications as shared libraries; as often as needed, before the command.")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
+  Options options;
+  declare_all(app, options);
+  if (const auto code = refusal(app, count, arguments)) return *code;
+  if (const CLI::App* open = app.get_subcommand("open"); open->parsed()) {
+    options.window.arguments = open->remaining();
+    for (const std::string& folder : plugins) options.window.arguments.push_back("--plugins=" + folder);
+    return open_command(options.window);
+  }
+  load_chosen_plugins(plugins);
+  return run_chosen(app, options);
 }
 
 }  // namespace
@@ -282,19 +222,5 @@ int run_program(int count, char** arguments) {
 }  // namespace bl::cli
 
 int main(int count, char** arguments) {
-  // A limit on the size of files shall be an error of the write, which is told and cleaned up after, not the end of the program.
-  std::signal(SIGXFSZ, SIG_IGN);
-  bl::prepare_for_scarcity();
-  try {
-    const int code = bl::cli::run_program(count, arguments);
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-    bl::cli::complain("what was to be printed could not be written: the disk is full, or nobody reads it.");
-    return bl::cli::kBadInput;
-  } catch (const std::bad_alloc&) { bl::cli::complain(bl::memory_sentence()); } catch (const std::system_error& error) {
-    if (error.code() == std::errc::resource_unavailable_try_again) bl::cli::complain(bl::thread_sentence());
-    else bl::cli::complain(std::string("the system refused something that the program needs: ") + error.what());
-  } catch (const std::exception& error) {
-    bl::cli::complain(std::string("this is a defect of the program, please report it: ") + error.what());
-  }
-  return 1;
+  return bl::cli::guarded([&] { return bl::cli::run_program(count, arguments); });
 }

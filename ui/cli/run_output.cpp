@@ -7,7 +7,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
-#include "ui/cli/report/figure_tables.h"
+#include "core/report/figure_tables.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/terminal.h"
 

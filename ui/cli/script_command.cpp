@@ -2,10 +2,10 @@
 #include <filesystem>
 
 #include "core/file/file_io.h"
+#include "core/making/script_file.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/scene_loading.h"
-#include "ui/cli/script_file.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/base/text.h"
-#include "ui/cli/report/place_problems.h"
+#include "core/reading/place_problems.h"
 #include "ui/cli/survey.h"
 
 namespace bl::cli {

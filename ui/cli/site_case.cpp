@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
-#include "core/exchange/csv_reader.h"
-#include "core/exchange/site_table.h"
+#include "core/csv/csv_reader.h"
 #include "core/file/file_io.h"
+#include "core/import/site_table.h"
 #include "ui/cli/demand_fields.h"
 #include "ui/cli/json_fields.h"
 #include "ui/cli/scene_loading.h"

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "core/geometry/fit_text.h"
-#include "ui/cli/report/place_problems.h"
-#include "ui/cli/report/report_model.h"
+#include "core/reading/place_problems.h"
+#include "core/reading/report_model.h"
 
 namespace bl::cli {
 

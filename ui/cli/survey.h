@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/graph/state.h"
-#include "ui/cli/report/account.h"
-#include "ui/cli/report/report_model.h"
+#include "core/reading/account.h"
+#include "core/reading/report_model.h"
 
 namespace bl::cli {
 

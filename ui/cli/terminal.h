@@ -13,10 +13,7 @@ namespace bl::cli {
 
 enum class Colour { plain, bold, dim, red, green, yellow };
 
-/// The text as it may go to a terminal: control characters, marks that turn the direction of writing, and what is no UTF-8 are
-/// written out (`\x1b`, `\u202e`), because names, scripts and files are by others, and a terminal obeys such characters. All
-/// functions below do this to what they are given.
-std::string shown(std::string_view text);
+/// All functions below write names and other foreign text as `printable` gives it (core/base/printable.h).
 
 /// Columns that a text takes on a terminal: UTF-8 characters, not bytes.
 std::size_t width_of(std::string_view text);

@@ -1,9 +1,9 @@
 // Laws of the cell engine on thousands of random sets: two routes, two depths of measure, any threads, any history.
 #include <cmath>
 
-#include "core/geometry/cell_maker.h"
-#include "core/geometry/coincidence.h"
-#include "core/geometry/shape_measure.h"
+#include "core/geometry/inside/cell_maker.h"
+#include "core/geometry/inside/coincidence.h"
+#include "core/geometry/inside/shape_measure.h"
 #include "tests/core/geometry/site_zoo.h"
 
 namespace bl::test {

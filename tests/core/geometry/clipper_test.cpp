@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/geometry/clipper.h"
-#include "core/geometry/site_grid.h"
+#include "core/geometry/inside/clipper.h"
+#include "core/geometry/inside/site_grid.h"
 #include "tests/core/geometry/site_zoo.h"
 
 namespace bl::test {

@@ -1,10 +1,10 @@
 // Sites at one place: who lives, by the words of the header, and how long it takes where very many lie there.
-#include "core/geometry/coincidence.h"
+#include "core/geometry/inside/coincidence.h"
 
 #include <algorithm>
 #include <ctime>
 
-#include "core/geometry/none.h"
+#include "core/geometry/inside/none.h"
 #include "tests/core/geometry/geometry_support.h"
 
 namespace bl::test {

@@ -1,5 +1,5 @@
 // Balls near a vertical line: all that a look at every ball finds, and hardly more.
-#include "core/geometry/plan_buckets.h"
+#include "core/geometry/inside/plan_buckets.h"
 
 #include <gtest/gtest.h>
 

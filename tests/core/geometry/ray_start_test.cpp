@@ -1,6 +1,6 @@
 // Cells along rays: nearer to the demands than equal weights, the same bits with any threads, and hands off where they are no
 // good.
-#include "core/geometry/ray_start.h"
+#include "core/geometry/inside/ray_start.h"
 
 #include <gtest/gtest.h>
 

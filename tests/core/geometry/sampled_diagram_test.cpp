@@ -1,5 +1,5 @@
 // The sampled diagram: cells to check by hand, the exact cells as its limit, and laws of every metric.
-#include "core/geometry/sampled_diagram.h"
+#include "core/geometry/inside/sampled_diagram.h"
 
 #include <array>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/geometry/domain_makers.h"
-#include "core/geometry/line_blocks.h"
-#include "core/geometry/line_envelope.h"
+#include "core/geometry/inside/line_blocks.h"
+#include "core/geometry/inside/line_envelope.h"
 #include "tests/core/geometry/geometry_support.h"
 
 namespace bl::test {

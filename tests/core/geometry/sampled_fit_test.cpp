@@ -1,5 +1,5 @@
 // Demands under every metric: met as closely as the samples can tell, or a reason.
-#include "core/geometry/sampled_fit.h"
+#include "core/geometry/inside/sampled_fit.h"
 
 #include <array>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/exchange/tntp.h"
+#include "core/import/tntp.h"
 #include "core/traffic/equilibrium.h"
 #include "tests/support/reference_files.h"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/report/comparison.h"
 #include "tests/ui/cli/program.h"
-#include "ui/cli/report/comparison.h"
 
 namespace bl::test {
 

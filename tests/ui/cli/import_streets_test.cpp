@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/exchange/inflate.h"
+#include "core/import/inflate.h"
 #include "tests/support/reference_files.h"
 #include "tests/ui/cli/program.h"
 

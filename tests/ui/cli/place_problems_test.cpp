@@ -1,12 +1,12 @@
 // What is said of bodies in the air and of volumes on one point.
-#include "ui/cli/report/place_problems.h"
+#include "core/reading/place_problems.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "core/reading/report_model.h"
 #include "tests/support/world.h"
-#include "ui/cli/report/report_model.h"
 
 namespace bl {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
+#include "core/drawing/line_chart.h"
 #include "tests/ui/cli/program.h"
-#include "ui/cli/bench_chart.h"
 
 namespace bl::test {
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/json_text.h"
+#include "core/reading/account.h"
 #include "tests/ui/desktop/panels_support.h"
-#include "ui/cli/report/account.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 

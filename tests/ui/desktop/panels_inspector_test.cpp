@@ -1,6 +1,6 @@
 // The inspector, driven by keys and mouse on the null renderer.
+#include "core/reading/figures.h"
 #include "tests/ui/desktop/panels_support.h"
-#include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/inspector_value.h"
 

@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include "core/file/file_io.h"
+#include "core/reading/report_model.h"
 #include "tests/support/world.h"
 #include "tests/ui/desktop/null_desktop.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/desktop/panels/problems_list.h"
 
 namespace bl::desktop {

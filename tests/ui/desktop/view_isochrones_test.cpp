@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/reading/report_model.h"
 #include "tests/ui/desktop/panels_support.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/view/urban_picture.h"
 

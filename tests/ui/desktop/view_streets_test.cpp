@@ -4,9 +4,9 @@
 
 #include <GLFW/glfw3.h>
 
+#include "core/reading/report_model.h"
 #include "core/traffic/street_line.h"
 #include "tests/ui/desktop/panels_support.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/view/urban_picture.h"
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/reading/report_model.h"
 #include "core/sun/shadow_shape.h"
 #include "core/sun/solar_position.h"
 #include "tests/ui/desktop/panels_support.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/view/urban_picture.h"
 

@@ -1,12 +1,12 @@
 // The account of demands: what was asked for, by whoever asked, and who goes short of it; one for all displays.
-#include "ui/cli/report/account.h"
+#include "core/reading/account.h"
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/reading/report_model.h"
+#include "core/report/page.h"
 #include "tests/support/world.h"
-#include "ui/cli/report/page.h"
-#include "ui/cli/report/report_model.h"
 
 namespace bl {
 namespace {

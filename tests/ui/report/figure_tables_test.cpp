@@ -1,5 +1,5 @@
 // Everything that was computed is in page, tables and JSON: surroundings, streets, sun, plots, façades, conflicts.
-#include "ui/cli/report/figure_tables.h"
+#include "core/report/figure_tables.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -11,14 +11,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
-#include "core/exchange/csv_reader.h"
+#include "core/csv/csv_reader.h"
+#include "core/drawing/palette.h"
+#include "core/drawing/pictures.h"
 #include "core/file/file_io.h"
+#include "core/reading/figures.h"
+#include "core/reading/surroundings.h"
+#include "core/report/report.h"
 #include "tests/support/world.h"
-#include "ui/cli/report/figures.h"
-#include "ui/cli/report/palette.h"
-#include "ui/cli/report/pictures.h"
-#include "ui/cli/report/report.h"
-#include "ui/cli/report/surroundings.h"
 
 namespace bl {
 namespace {

@@ -1,5 +1,5 @@
 // Reports are complete, well formed and say what the state says, also where a scene is empty or odd.
-#include "ui/cli/report/report.h"
+#include "core/report/report.h"
 
 #include <gtest/gtest.h>
 
@@ -9,19 +9,19 @@
 #include <sstream>
 
 #include "core/base/mesh.h"
+#include "core/drawing/furniture.h"
+#include "core/drawing/markup.h"
+#include "core/drawing/palette.h"
+#include "core/drawing/projection.h"
+#include "core/drawing/solid_drawing.h"
 #include "core/file/file_io.h"
 #include "core/geometry/cell_mesh.h"
 #include "core/geometry/domain_makers.h"
+#include "core/geometry/mesh_lines.h"
 #include "core/geometry/tessellate.h"
+#include "core/reading/exact_shape.h"
+#include "core/reading/figures.h"
 #include "tests/support/world.h"
-#include "ui/cli/report/exact_shape.h"
-#include "ui/cli/report/figures.h"
-#include "ui/cli/report/furniture.h"
-#include "ui/cli/report/markup.h"
-#include "ui/cli/report/mesh_lines.h"
-#include "ui/cli/report/palette.h"
-#include "ui/cli/report/projection.h"
-#include "ui/cli/report/solid_drawing.h"
 
 namespace bl {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "ui/cli/context_import.h"
-#include "ui/cli/media_making.h"
+#include "core/making/context_import.h"
+#include "core/making/media_making.h"
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/app/splitter.h"
 #include "ui/desktop/panels/canvas/canvas.h"

@@ -9,7 +9,7 @@
 
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/named_files.h"
 #include "ui/desktop/app/step_labels.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/exchange/import_report.h"
 #include "core/file/scene_file.h"
+#include "core/import/import_report.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/app/live_session.h"
 #include "ui/desktop/app/named_files.h"

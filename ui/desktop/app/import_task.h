@@ -5,7 +5,7 @@
 #include <optional>
 #include <thread>
 
-#include "ui/cli/context_import.h"
+#include "core/making/context_import.h"
 
 namespace bl::desktop {
 

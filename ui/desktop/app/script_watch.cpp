@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ui/cli/script_file.h"
+#include "core/making/script_file.h"
 #include "ui/desktop/app/editor.h"
 
 namespace bl::desktop {

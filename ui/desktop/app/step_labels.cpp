@@ -8,7 +8,7 @@
 
 #include "core/define/codec.h"
 #include "core/file/scene_file.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 
 namespace bl::desktop {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "ui/cli/report/link_families.h"
+#include "core/drawing/link_families.h"
 
 namespace bl::desktop {
 

@@ -1,6 +1,5 @@
 // GLFW, ImGui's backends and the loop: one frame at the display's rate, whatever the simulation does.
 #include "ui/desktop/app/window.h"
-#include "ui/cli/plugin_choice.h"
 
 #include <chrono>
 #include <cstdio>
@@ -18,7 +17,9 @@
 #include <imgui.h>
 #include <stb_image_write.h>
 
+#include "core/base/printable.h"
 #include "core/file/file_io.h"
+#include "core/session/types/plugins.h"
 #include "ui/desktop/app/desktop.h"
 #include "ui/desktop/app/input_queue.h"
 #include "ui/desktop/app/journal.h"
@@ -73,7 +74,7 @@ Extent work_area() {
   return area;
 }
 
-void complain(const std::string& text) { std::fprintf(stderr, "behaviourlinks: %s\n", text.c_str()); }
+void complain(const std::string& text) { std::fprintf(stderr, "behaviourlinks: %s\n", printable(text).c_str()); }
 
 class Window {
  public:
@@ -203,7 +204,9 @@ void write_times(const std::string& path, const FrameTimes& times) {
 }  // namespace
 
 int run_window(const WindowOptions& options) noexcept {
-  cli::load_chosen_plugins(options.plugins);
+  use_plugins(options.plugins);
+  for (const PluginReport& report : plugin_reports())
+    if (report.error) complain(report.error->text());
   PersonSettings person = read_person_settings(person_folder().empty() ? "" : person_folder() + "/desktop.json");
   Window window;
   if (!window.open(person)) return kBadInput;

@@ -1,5 +1,5 @@
 // The tabs below canvas and 3D view.
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/panels.h"
 #include "ui/desktop/panels/problems_list.h"

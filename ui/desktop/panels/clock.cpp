@@ -4,7 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include "core/base/text.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/panels/panels.h"
 

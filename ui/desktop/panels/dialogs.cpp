@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/file/file_io.h"
-#include "ui/cli/report/report.h"
+#include "core/report/report.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/app/import_task.h"
 #include "ui/desktop/panels/inspector_cell.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "ui/cli/context_import.h"
-#include "ui/cli/scene_making.h"
+#include "core/making/context_import.h"
+#include "core/making/scene_making.h"
 #include "ui/desktop/app/editor.h"
 #include "ui/desktop/panels/file_chooser.h"
 
@@ -53,8 +53,8 @@ class Dialogs {
   void show(Kind kind);
   bool begin(const char* title, float width, float height);
   void close();
-  /// The end of a dialog that makes something of files: the button for it, Cancel, what the last try has said, and the chooser. True
-  /// once it is wanted; `missing` says what is not there yet, or is empty.
+  /// The end of a dialog that makes something of files: the button for it, Cancel, what the last try has said, and the chooser.
+  /// True once it is wanted; `missing` says what is not there yet, or is empty.
   bool draw_foot(const char* action, const char* place, const std::string& missing);
   void draw_palette();
   void draw_keys();

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/canvas/view_data.h"
 
 namespace bl::desktop {

@@ -1,7 +1,7 @@
 // The steps of this document, the newest last; a press takes back or brings back everything up to it.
 #include <cmath>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panels.h"

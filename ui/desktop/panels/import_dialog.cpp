@@ -9,7 +9,7 @@
 
 #include <imgui_stdlib.h>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/import_task.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panel_memory.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/exchange/assumed_height.h"
-#include "core/exchange/csv_reader.h"
+#include "core/csv/csv_reader.h"
+#include "core/import/assumed_height.h"
 
 namespace bl::desktop {
 

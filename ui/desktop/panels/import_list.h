@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/exchange/import_report.h"
+#include "core/import/import_report.h"
 
 namespace bl::desktop {
 

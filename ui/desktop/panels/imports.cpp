@@ -3,7 +3,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/dialogs.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/cli/report/report_model.h"
+#include "core/reading/report_model.h"
 #include "ui/desktop/panels/inspector_value.h"
 
 namespace bl::desktop {

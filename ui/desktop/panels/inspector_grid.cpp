@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "core/define/codec.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/inspector_value.h"

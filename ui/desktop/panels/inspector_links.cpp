@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/inspector_quantity.h"

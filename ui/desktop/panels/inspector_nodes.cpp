@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "core/define/codec.h"
+#include "core/reading/figures.h"
 #include "core/session/table_rows.h"
-#include "ui/cli/report/figures.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/inspector_quantity.h"

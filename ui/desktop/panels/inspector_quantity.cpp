@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 
 namespace bl::desktop {
 

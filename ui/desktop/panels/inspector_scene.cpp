@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 

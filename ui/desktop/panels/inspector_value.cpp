@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/define/codec.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 

@@ -1,7 +1,7 @@
 // The list of problems: a sentence for each, what it is about first; a press goes there.
 #include <algorithm>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/inspector_cell.h"

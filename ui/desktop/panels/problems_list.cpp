@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "ui/cli/report/figures.h"
-#include "ui/cli/report/place_problems.h"
+#include "core/reading/figures.h"
+#include "core/reading/place_problems.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {

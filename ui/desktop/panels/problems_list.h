@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/cli/report/report_model.h"
+#include "core/reading/report_model.h"
 #include "ui/desktop/app/editor.h"
 
 namespace bl::desktop {

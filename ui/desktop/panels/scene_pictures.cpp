@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "core/file/file_io.h"
+#include "core/reading/report_model.h"
 #include "core/session/session.h"
 #include "core/traffic/street_line.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/desktop/view/colouring.h"
 #include "ui/desktop/view/urban_facts.h"
 

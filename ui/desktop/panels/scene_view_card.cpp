@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/panels/stream_text.h"
 
@@ -132,7 +132,8 @@ void SceneView::draw_labels() {
     const bool is_inside = at.x > -50 && at.y > -20 && at.x < width() + 50 && at.y < height() + 20;
     if (!at.is_in_front || !is_inside) return;
     if (!is_chosen && !is_hovered && size < kLeastVolumeOnScreen * theme.scale()) return;
-    wishes.push_back({&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node, {}});
+    wishes.push_back(
+        {&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node, {}});
   };
   for (const VolumeFacts& volume : facts_->volumes)
     wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()), false);
@@ -152,8 +153,7 @@ void SceneView::draw_labels() {
     const ImVec2 extent = extent_of(font, w);
     const float below = w.is_mark ? theme.px(20) + (w.stream ? 0.575f * font->FontSize : 0) : 0;
     const float padding = theme.px(5), gap = theme.px(20), beside = extent.x / 2 + theme.px(16);
-    const std::array<ImVec2, 6> offsets = {
-        {{0, below}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
+    const std::array<ImVec2, 6> offsets = {{{0, below}, {0, -gap}, {0, gap}, {beside, 0}, {-beside, 0}, {0, -2 * gap}}};
     for (std::size_t k = 0; k < offsets.size(); ++k) {
       const ImVec2 middle{p.x + offsets[k].x, p.y + offsets[k].y};
       const Rectangle place{middle.x - extent.x / 2 - padding, middle.y - extent.y / 2 - theme.px(2),

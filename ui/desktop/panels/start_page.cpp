@@ -5,7 +5,7 @@
 #include <array>
 #include <filesystem>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/app/buttons.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/view/colouring.h"

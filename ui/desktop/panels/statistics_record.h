@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "ui/cli/report/report.h"
-#include "ui/cli/report/report_model.h"
+#include "core/reading/report_model.h"
+#include "core/report/report.h"
 #include "ui/desktop/app/editor.h"
 
 namespace bl::desktop {

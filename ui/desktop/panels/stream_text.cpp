@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 
 namespace bl::desktop {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <set>
 
-#include "ui/cli/report/figures.h"
-#include "ui/cli/report/report_model.h"
+#include "core/reading/figures.h"
+#include "core/reading/report_model.h"
 
 namespace bl::desktop {
 

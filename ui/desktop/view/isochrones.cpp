@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "core/reading/report_model.h"
 #include "core/traffic/street_reach.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/desktop/view/urban_facts.h"
 
 namespace bl::desktop {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "core/geometry/mesh_lines.h"
+#include "core/reading/report_model.h"
 #include "core/traffic/street_line.h"
-#include "ui/cli/report/mesh_lines.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/desktop/view/media_place.h"
 
 namespace bl::desktop {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/graph/state.h"
-#include "ui/cli/report/account.h"
+#include "core/reading/account.h"
 #include "ui/desktop/view/urban_facts.h"
 #include "ui/desktop/view/view_scene.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/reading/report_model.h"
 #include "core/sun/solar_position.h"
 #include "core/traffic/packed_numbers.h"
-#include "ui/cli/report/report_model.h"
 #include "ui/desktop/view/scene_facts.h"
 
 namespace bl::desktop {

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "core/base/text.h"
+#include "core/reading/figures.h"
+#include "core/reading/report_model.h"
 #include "core/traffic/street_line.h"
-#include "ui/cli/report/figures.h"
-#include "ui/cli/report/report_model.h"
 
 namespace bl::desktop {
 

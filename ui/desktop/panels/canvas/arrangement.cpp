@@ -5,7 +5,7 @@
 #include <imgui_stdlib.h>
 #include <nlohmann/json.hpp>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/entered.h"

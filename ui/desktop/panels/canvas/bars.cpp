@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/canvas/sections.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ui/cli/report/account.h"
+#include "core/reading/account.h"
 #include "ui/desktop/panels/canvas/model.h"
 #include "ui/desktop/view/colouring.h"
 

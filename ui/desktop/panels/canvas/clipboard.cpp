@@ -6,7 +6,7 @@
 #include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/file/scene_file.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/entered.h"
@@ -69,7 +69,8 @@ void move_aside(const Board& board, std::map<std::string, NodeRecord>& copies) {
   std::vector<Vector3> taken;
   for (const auto& [id, node] : board.editor.scene().nodes)
     if (node.types.contains("smart_volume"))
-      if (const auto* place = std::get_if<Vector3>(&set_value(board.editor.scene(), node, base, position))) taken.push_back(*place);
+      if (const auto* place = std::get_if<Vector3>(&set_value(board.editor.scene(), node, base, position)))
+        taken.push_back(*place);
   double aside = 0;
   const auto is_taken = [&](const Vector3* place) {
     const Vector3 at{place->x + aside, place->y, place->z};

@@ -1,7 +1,7 @@
 // The course of drags: nothing reaches the scene before the button is let go.
 #include <nlohmann/json.hpp>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/canvas/additions.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/clipboard.h"

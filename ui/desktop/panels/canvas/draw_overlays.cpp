@@ -1,7 +1,7 @@
 // What lies above the plane: switches of families, minimap, hints, and cards.
 #include <GLFW/glfw3.h>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/canvas/draw.h"
 #include "ui/desktop/panels/canvas/entered.h"
 #include "ui/desktop/panels/canvas/sections.h"

@@ -5,7 +5,7 @@
 
 #include "core/base/text.h"
 #include "core/file/scene_file.h"
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/fits.h"
 

@@ -1,8 +1,8 @@
 // Samples at most ten times a second, however fast the ticks are.
 #include "ui/desktop/panels/canvas/live.h"
 
-#include "ui/cli/report/figures.h"
-#include "ui/cli/report/report_model.h"
+#include "core/reading/figures.h"
+#include "core/reading/report_model.h"
 #include "ui/desktop/panels/canvas/sections.h"
 
 namespace bl::desktop::canvas {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ui/cli/report/report_model.h"
+#include "core/reading/report_model.h"
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/link_paths.h"
 #include "ui/desktop/panels/canvas/sections.h"

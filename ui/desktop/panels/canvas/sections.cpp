@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "ui/cli/report/figures.h"
+#include "core/reading/figures.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/stream_text.h"
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "ui/cli/report/figures.h"
-#include "ui/cli/report/report_model.h"
+#include "core/reading/figures.h"
+#include "core/reading/report_model.h"
 
 namespace bl::desktop::canvas {
 

@@ -1,0 +1,292 @@
+// The cells of one power diagram hide each other in the order of their sites along the view (Edelsbrunner 1990), so that
+// painting them from the farthest site to the nearest is exact; diagrams among each other go by the middle of their volumes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/base/text.h"
+#include "core/drawing/furniture.h"
+#include "core/drawing/pictures.h"
+#include "core/drawing/solid_drawing.h"
+#include "core/drawing/surroundings_drawing.h"
+#include "core/reading/figures.h"
+
+namespace bl::report {
+
+namespace {
+
+constexpr double kAxonometryWidth = 1000, kMostAxonometryHeight = 760;
+// So much of what stands around is shown, as a share of the site's larger side: more would make the proposal small.
+constexpr double kAroundAside = 0.35;
+constexpr double kAzimuth = 150, kElevation = 33;
+
+// Light from the left, behind the eye's shoulder: the convention of architectural drawings, not the sun of a day.
+Vector3 sun_of(const View& view) {
+  const Vector3 forward = cross(view.right, {0, 0, 1}) * 0.32;
+  const Vector3 sun = view.right * -0.62 + forward + Vector3{0, 0, 0.72};
+  return sun / norm(sun);
+}
+
+struct Scenery {
+  std::vector<Point3> content;
+  double ground = 0;
+  Vector3 to_sun;
+};
+
+Point3 shadow_of(const Point3& point, const Scenery& scenery) {
+  return point - scenery.to_sun * (std::max(0.0, point.z - scenery.ground) / scenery.to_sun.z);
+}
+
+Scenery scenery_of(const ReportModel& model, const View& view) {
+  Scenery scenery{{}, 0, sun_of(view)};
+  bool is_first = true;
+  const auto lower = [&](double z) {
+    scenery.ground = is_first ? z : std::min(scenery.ground, z);
+    is_first = false;
+  };
+  for (const SiteRow& site : model.sites)
+    if (site.shape) lower(site.bottom);
+  if (is_first)
+    for (const VolumeRow& volume : model.volumes)
+      if (volume.mesh)
+        for (const Point3& vertex : volume.mesh->vertices) lower(vertex.z);
+  for (const SiteRow& site : model.sites)
+    if (site.shape) scenery.content.insert(scenery.content.end(), site.shape->vertices.begin(), site.shape->vertices.end());
+  for (const VolumeRow& volume : model.volumes)
+    if (volume.mesh)
+      for (const Point3& vertex : volume.mesh->vertices) {
+        scenery.content.push_back(vertex);
+        scenery.content.push_back(shadow_of(vertex, scenery));
+      }
+  return scenery;
+}
+
+std::vector<const VolumeRow*> back_to_front(const ReportModel& model, const View& view) {
+  std::map<std::size_t, std::pair<double, double>> groups;
+  for (const VolumeRow& volume : model.volumes) {
+    auto& [sum, count] = groups[volume.group];
+    sum += dot(volume.position, view.toward);
+    count += 1;
+  }
+  std::vector<std::pair<std::array<double, 3>, const VolumeRow*>> order;
+  for (const VolumeRow& volume : model.volumes)
+    if (volume.mesh) {
+      const auto& [sum, count] = groups[volume.group];
+      order.push_back({{sum / count, static_cast<double>(volume.group), dot(volume.position, view.toward)}, &volume});
+    }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<const VolumeRow*> out;
+  for (const auto& [key, volume] : order) out.push_back(volume);
+  return out;
+}
+
+// The plot with a grid of round metres, so that the eye has a measure for depth too.
+double draw_ground(Markup& svg, const Sheet& sheet, const ReportModel& model, const std::string& id) {
+  PathText ground;
+  double low_x = 0, high_x = 0, low_y = 0, high_y = 0, z = 0;
+  bool is_first = true;
+  for (const SiteRow& site : model.sites)
+    for (const Polyline& line : site.ground) {
+      ground.polyline(on_sheet(sheet, line), line.is_closed);
+      for (const Point3& p : line.points) {
+        low_x = is_first ? p.x : std::min(low_x, p.x);
+        high_x = is_first ? p.x : std::max(high_x, p.x);
+        low_y = is_first ? p.y : std::min(low_y, p.y);
+        high_y = is_first ? p.y : std::max(high_y, p.y);
+        z = is_first ? site.bottom : std::min(z, site.bottom);
+        is_first = false;
+      }
+    }
+  if (ground.empty()) return 0;
+  const double step = round_length(std::max(high_x - low_x, high_y - low_y) / 5);
+  svg.open("clipPath", {{"id", id + "-plot"}}).path(ground, {{"clip-rule", "evenodd"}}).close();
+  svg.path(ground, {{"fill", hex(mix(kPaper, {0.78, 0.76, 0.70}, 0.42))}, {"fill-rule", "evenodd"}});
+  PathText grid;
+  for (double x = std::ceil(low_x / step) * step; x < high_x; x += step)
+    grid.polyline({sheet.at({x, low_y, z}), sheet.at({x, high_y, z})}, false);
+  for (double y = std::ceil(low_y / step) * step; y < high_y; y += step)
+    grid.polyline({sheet.at({low_x, y, z}), sheet.at({high_x, y, z})}, false);
+  svg.path(grid, {{"clip-path", "url(#" + id + "-plot)"}, {"fill", "none"}, {"stroke", hex(kPaper)}, {"stroke-width", ".9"}});
+  svg.path(ground, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.3"}, {"stroke-linejoin", "round"}});
+  return step;
+}
+
+void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, const Scenery& scenery) {
+  PathText shadows;
+  for (const VolumeRow& volume : model.volumes) {
+    if (!volume.mesh) continue;
+    const auto add_shadow = [&](const std::vector<Point3>& points) {
+      std::vector<Pixel> cast;
+      for (const Point3& point : points) cast.push_back(sheet.at(shadow_of(point, scenery)));
+      shadows.polyline(simplified(convex_outline(std::move(cast)), true), true);
+    };
+    if (volume.exact.radius > 0) add_shadow(outline_of(volume.exact, scenery.to_sun));
+    else
+      for (const Mesh& body : bodies_of(*volume.mesh)) add_shadow(body.vertices);
+  }
+  svg.path(shadows, {{"fill", hex(kShade)}, {"fill-opacity", ".16"}, {"fill-rule", "nonzero"}});
+}
+
+// Edges of the boundary: hidden ones go behind the volumes, near ones in front of them.
+void draw_envelope(Markup& svg, const Sheet& sheet, const ReportModel& model, bool near) {
+  PathText path;
+  for (const SiteRow& site : model.sites) {
+    if (!site.shape) continue;
+    const Mesh& mesh = *site.shape;
+    const std::vector<Vector3> normals = unit_normals(mesh);
+    const auto faces_eye = [&](std::uint32_t t) { return dot(normals[t], sheet.view().toward) > 1e-9; };
+    for (const MeshEdge& edge : mesh_edges(mesh)) {
+      const bool is_fold = dot(normals[edge.first], normals[edge.second]) < 0.985;
+      if (is_fold && near == (faces_eye(edge.first) || faces_eye(edge.second)))
+        path.polyline({sheet.at(mesh.vertices[edge.a]), sheet.at(mesh.vertices[edge.b])}, false);
+    }
+  }
+  svg.path(path, {{"fill", "none"},
+                  {"stroke", hex(kInk)},
+                  {"stroke-width", near ? ".8" : ".6"},
+                  {"stroke-opacity", near ? ".55" : ".4"},
+                  {"stroke-dasharray", near ? "7 3 1.5 3" : "2 3"}});
+}
+
+void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const Palette& palette, const Scenery& scenery,
+                 bool has_storeys, const std::string& id) {
+  svg.open("g");
+  svg.element("title", std::to_string(volume.number) + ". " + volume.name + (volume.use.empty() ? "" : ", " + volume.use) + ": " +
+                           quantity(volume.floor_area, Unit::square_metre) + " floor area, " +
+                           quantity(volume.volume, Unit::cubic_metre));
+  const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.storey_height : 0, volume.bottom,
+                         volume.bottom + volume.height};
+  if (volume.exact.radius > 0)
+    draw_ball(svg, sheet, volume.exact, style, id + "-shade-" + palette.letter(volume.use),
+              id + "-ball-" + std::to_string(volume.number));
+  else draw_solid(svg, sheet, *volume.mesh, style);
+  svg.close();
+}
+
+// Where a label can stand on a volume: its roof, or else the middle of whatever of it is not hidden.
+class Anchors {
+ public:
+  Anchors(const Sheet& sheet, const std::vector<const VolumeRow*>& order) : sheet_(sheet), order_(order) {
+    for (const VolumeRow* volume : order) outlines_.push_back(convex_outline(sheet, *volume));
+  }
+
+  bool find(std::size_t rank, Pixel& anchor) const {
+    const Mesh& mesh = *order_[rank]->mesh;
+    const std::vector<Vector3> normals = unit_normals(mesh);
+    Pixel roof{}, seen{};
+    double roof_area = 0, seen_area = 0;
+    std::vector<std::pair<Pixel, double>> visible;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const double facing = dot(normals[t], sheet_.view().toward);
+      if (facing <= 0) continue;
+      const auto& [a, b, c] = mesh.triangles[t];
+      const Pixel at = sheet_.at((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+      if (is_hidden(rank, at)) continue;
+      const double area = facing * norm(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+      visible.emplace_back(at, area);
+      add(seen, seen_area, at, area);
+      if (normals[t].z > 0.5) add(roof, roof_area, at, area);
+    }
+    if (seen_area <= 0) return false;
+    const bool has_roof = roof_area > 0.25 * seen_area;
+    anchor = has_roof ? Pixel{roof.x / roof_area, roof.y / roof_area} : Pixel{seen.x / seen_area, seen.y / seen_area};
+    if (is_inside(outlines_[rank], anchor) && !is_hidden(rank, anchor)) return true;
+    anchor =
+        std::max_element(visible.begin(), visible.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    return true;
+  }
+
+ private:
+  static void add(Pixel& sum, double& total, Pixel at, double area) {
+    sum = {sum.x + at.x * area, sum.y + at.y * area};
+    total += area;
+  }
+  bool is_hidden(std::size_t rank, Pixel at) const {
+    for (std::size_t nearer = rank + 1; nearer < outlines_.size(); ++nearer)
+      if (is_inside(outlines_[nearer], at)) return true;
+    return false;
+  }
+
+  const Sheet& sheet_;
+  const std::vector<const VolumeRow*>& order_;
+  std::vector<std::vector<Pixel>> outlines_;
+};
+
+// Returns a sentence on what could not be labelled.
+std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<const VolumeRow*>& order, const Palette& palette) {
+  if (order.size() > kMostNumbers) return " Too many volumes for labels: pointing at one shows its number and name.";
+  const Anchors anchors(sheet, order);
+  std::vector<std::pair<const VolumeRow*, Label>> found;
+  std::size_t hidden = 0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const VolumeRow& volume = *order[rank];
+    Label label{{},
+                volume.name,
+                palette.letter(volume.use) + " \xC2\xB7 " + quantity(volume.floor_area, Unit::square_metre),
+                std::to_string(volume.number)};
+    if (anchors.find(rank, label.anchor)) found.emplace_back(&volume, std::move(label));
+    else ++hidden;
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first->volume > b.first->volume; });
+  std::vector<Label> labels;
+  for (auto& [volume, label] : found) labels.push_back(std::move(label));
+  const Box frame{4, 4, sheet.width() - 4, sheet.height() - 44};
+  LabelPlacer placer(frame, {{sheet.width() - 80, 0, sheet.width(), 80}});
+  const std::size_t crowded = placer.write(svg, labels, order.size() > kMostNames ? 0 : labels.size());
+  if (hidden + crowded == 0) return "";
+  std::string text = " Without a label: ";
+  if (hidden > 0) text += counted(hidden, "volume") + " hidden behind others";
+  if (crowded > 0) text += (hidden > 0 ? ", " : "") + counted(crowded, "volume") + " for want of room";
+  return text + ".";
+}
+
+}  // namespace
+
+Picture draw_axonometry(const ReportModel& model, const Palette& palette, const std::string& id) {
+  const View view = axonometric_view(kAzimuth, kElevation);
+  const Scenery scenery = scenery_of(model, view);
+  if (scenery.content.empty())
+    return {empty_picture(id, "Axonometry", "Nothing to draw: there is no boundary, and no volume has a shape."), ""};
+  const std::vector<Point3> frame = framed(scenery.content, model.surroundings, kAroundAside);
+  std::vector<Point3> content = scenery.content;
+  Point3 middle;
+  for (const Point3& corner : frame) middle += corner / static_cast<double>(frame.size());
+  if (frame.size() == 2)
+    for (const double x : {frame[0].x, frame[1].x})
+      for (const double y : {frame[0].y, frame[1].y}) content.push_back({x, y, scenery.ground});
+  const Sheet sheet(view, content, kAxonometryWidth, kMostAxonometryHeight, {40, 34, 40, 52});
+  const std::vector<const VolumeRow*> order = back_to_front(model, view);
+  Markup svg;
+  open_picture(svg, sheet.width(), sheet.height(), id, "Axonometry",
+               "The proposal seen from above and aside: " + counted(order.size(), "volume") +
+                   " on the site, coloured and lettered by use.");
+  draw_ground_aside(svg, sheet, model.surroundings, frame, scenery.ground, id);
+  const double grid = draw_ground(svg, sheet, model, id);
+  draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, false);
+  draw_shadows(svg, sheet, model, scenery);
+  draw_envelope(svg, sheet, model, false);
+  for (const UseAccount& use : model.accounts.uses)
+    define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, id + "-shade-" + palette.letter(use.use));
+  const bool has_storeys = order.size() <= kMostStoreys;
+  for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys, id);
+  draw_envelope(svg, sheet, model, true);
+  draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, true);
+  const std::string missing = write_labels(svg, sheet, order, palette);
+  draw_scale_bar(svg, sheet.scale(), {24, sheet.height() - 18}, 170);
+  draw_north(svg, view, model.true_north, {sheet.width() - 44, 40}, 26);
+  svg.close();
+  std::string caption =
+      "Axonometry: parallel projection, so equal lengths in one direction are equal everywhere; the bar holds for lines across "
+      "the sheet.";
+  if (grid > 0) caption += " Ground grid " + shortest(grid) + " m; dash-dotted, the boundary.";
+  if (has_storeys && !order.empty()) caption += " Fine lines on the volumes are storey levels.";
+  if (!model.surroundings.is_empty())
+    caption +=
+        " Around the site: streets with their load, sun on flat receivers, and existing buildings, pale where they stand before "
+        "it.";
+  caption += " Light and shadow are a drawing convention, not a sun study.";
+  return {svg.str(), caption + missing};
+}
+
+}  // namespace bl::report

@@ -1,0 +1,256 @@
+// Faces of equal shade become one path each, so that a smooth drawing stays small and shows no seams between triangles.
+#include "core/drawing/solid_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace bl::report {
+
+namespace {
+
+constexpr int kShades = 40;
+// Creases are drawn where two visible faces meet at more than this angle.
+constexpr double kCreaseCosine = 0.77;
+constexpr double kStraight = 0.04;  // [px] that a point may be off the line through its neighbours
+
+bool is_straight(Pixel a, Pixel b, Pixel c) {
+  const double x = c.x - a.x, y = c.y - a.y, length = std::hypot(x, y);
+  if (length < 1e-9) return false;
+  const double along = ((b.x - a.x) * x + (b.y - a.y) * y) / length;
+  return std::abs((b.x - a.x) * y - (b.y - a.y) * x) / length < kStraight && along > 0 && along < length;
+}
+
+double twice_area(Pixel a, Pixel b, Pixel c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
+// Quantised, so that faces of one plane stay one face.
+int shade_of(const Vector3& normal, const Vector3& to_sun) {
+  return static_cast<int>(std::lround(light_on(normal, to_sun) * kShades));
+}
+
+std::string shade_colour(const Colour& colour, int shade) { return shaded(colour, static_cast<double>(shade) / kShades); }
+
+// One mesh under one view: what faces the eye, and what of it overlaps.
+class Solid {
+ public:
+  Solid(const Sheet& sheet, const Mesh& mesh) : sheet_(sheet), mesh_(mesh), normals_(unit_normals(mesh)) {
+    for (const Point3& vertex : mesh.vertices) pixels_.push_back(sheet.at(vertex));
+  }
+  bool faces_eye(std::size_t triangle) const { return dot(normals_[triangle], sheet_.view().toward) > 1e-9; }
+
+  void draw_faces(Markup& svg, const SolidStyle& style) const {
+    std::map<int, std::vector<std::uint32_t>> by_shade;
+    std::vector<std::pair<double, std::uint32_t>> by_depth;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (faces_eye(t)) by_shade[shade_of(normals_[t], style.to_sun)].push_back(t);
+    if (is_simple()) {
+      for (const auto& [shade, triangles] : by_shade) draw_region(svg, triangles, shade_colour(style.colour, shade));
+      return;
+    }
+    for (const auto& [shade, triangles] : by_shade)
+      for (const std::uint32_t t : triangles) by_depth.emplace_back(depth_of(t), t);
+    std::sort(by_depth.begin(), by_depth.end());
+    for (const auto& [depth, t] : by_depth)
+      draw_region(svg, {t}, shade_colour(style.colour, shade_of(normals_[t], style.to_sun)));
+  }
+
+  void draw_storeys(Markup& svg, double storey_height, const std::string& ink) const {
+    if (!(storey_height > 0) || mesh_.vertices.empty()) return;
+    double low = mesh_.vertices.front().z, high = low;
+    for (const Point3& vertex : mesh_.vertices) {
+      low = std::min(low, vertex.z);
+      high = std::max(high, vertex.z);
+    }
+    // Lines closer than this run into each other.
+    if (storey_height * sheet_.scale() < 2.5) return;
+    PathText path;
+    for (double z = low + storey_height; z < high - 0.1 * storey_height; z += storey_height)
+      for (const Polyline& line : section(mesh_, z, [&](std::size_t t) { return faces_eye(t); }))
+        path.polyline(on_sheet(sheet_, line), line.is_closed);
+    svg.path(path, {{"fill", "none"}, {"stroke", ink}, {"stroke-width", ".5"}, {"stroke-opacity", ".5"}});
+  }
+
+  void draw_edges(Markup& svg, const std::string& ink) const {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> creases, silhouette;
+    for (const MeshEdge& edge : mesh_edges(mesh_)) {
+      const bool first = faces_eye(edge.first), second = faces_eye(edge.second);
+      if (first != second || (edge.first == edge.second && first)) silhouette.emplace_back(edge.a, edge.b);
+      else if (first && dot(normals_[edge.first], normals_[edge.second]) < kCreaseCosine) creases.emplace_back(edge.a, edge.b);
+    }
+    svg.path(lines_of(creases), {{"fill", "none"}, {"stroke", ink}, {"stroke-width", ".6"}, {"stroke-opacity", ".8"}});
+    svg.path(lines_of(silhouette), {{"fill", "none"}, {"stroke", ink}, {"stroke-width", "1"}});
+  }
+
+ private:
+  PathText lines_of(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& edges) const {
+    PathText path;
+    for (const Chain& chain : chain_edges(edges)) {
+      Polyline line{{}, chain.is_closed};
+      for (const std::uint64_t v : chain.points) line.points.push_back(mesh_.vertices[v]);
+      path.polyline(on_sheet(sheet_, line), line.is_closed);
+    }
+    return path;
+  }
+
+  void draw_region(Markup& svg, const std::vector<std::uint32_t>& triangles, const std::string& colour) const {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> sides, border;
+    for (const std::uint32_t t : triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint64_t a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3];
+        sides.emplace_back(std::min(a, b), std::max(a, b));
+      }
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (i + 1 < sides.size() && sides[i] == sides[i + 1]) ++i;
+      else border.push_back(sides[i]);
+    }
+    svg.path(lines_of(border), {{"fill", colour}, {"stroke", colour}});
+  }
+
+  // Faces of a convex body never hide each other, and together cover its convex outline exactly.
+  bool is_simple() const {
+    double covered = 0, outlined = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      if (faces_eye(t)) covered += std::abs(twice_area(pixels_[a], pixels_[b], pixels_[c]));
+    }
+    const std::vector<Pixel> hull = convex_outline(sheet_, mesh_);
+    for (std::size_t i = 2; i < hull.size(); ++i) outlined += std::abs(twice_area(hull[0], hull[i - 1], hull[i]));
+    return std::abs(covered - outlined) <= 0.01 * outlined;
+  }
+
+  double depth_of(std::uint32_t t) const {
+    double depth = 0;
+    for (const std::uint32_t v : mesh_.triangles[t]) depth += sheet_.depth(mesh_.vertices[v]);
+    return depth;
+  }
+
+  const Sheet& sheet_;
+  const Mesh& mesh_;
+  std::vector<Vector3> normals_;
+  std::vector<Pixel> pixels_;
+};
+
+constexpr double kSky = 0.32, kSun = 0.68;
+
+}  // namespace
+
+double light_on(const Vector3& normal, const Vector3& to_sun) {
+  return kSky * (0.5 + 0.5 * normal.z) + kSun * std::max(0.0, dot(normal, to_sun));
+}
+
+Vector3 brightest_normal(const Vector3& to_sun) {
+  const Vector3 sum = to_sun * kSun + Vector3{0, 0, 0.5 * kSky};
+  return sum / norm(sum);
+}
+
+std::string shaded(const Colour& colour, double light) {
+  if (light > 0.7) return hex(mix(colour, kWhite, (light - 0.7) * 1.5));
+  return hex(mix(colour, kShade, (0.7 - light) * 0.85));
+}
+
+std::vector<Pixel> on_sheet(const Sheet& sheet, const Polyline& line) {
+  std::vector<Pixel> all;
+  for (const Point3& point : line.points) all.push_back(sheet.at(point));
+  return simplified(all, line.is_closed);
+}
+
+std::vector<Pixel> simplified(const std::vector<Pixel>& line, bool is_closed) {
+  std::vector<Pixel> kept;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool is_end = i == 0 || (i + 1 == line.size() && !is_closed);
+    if (is_end || !is_straight(kept.back(), line[i], line[(i + 1) % line.size()])) kept.push_back(line[i]);
+  }
+  return kept;
+}
+
+void draw_solid(Markup& svg, const Sheet& sheet, const Mesh& mesh, const SolidStyle& style) {
+  const Solid solid(sheet, mesh);
+  const std::string ink = hex(mix(style.colour, kInk, 0.62));
+  // A hair of the same colour around each region closes the gaps that smoothing leaves between neighbours.
+  svg.open("g", {{"stroke-width", ".5"}, {"stroke-linejoin", "round"}, {"fill-rule", "evenodd"}});
+  solid.draw_faces(svg, style);
+  svg.close();
+  solid.draw_storeys(svg, style.storey_height, ink);
+  solid.draw_edges(svg, ink);
+}
+
+// Andrew's monotone chain (1979).
+std::vector<Pixel> convex_outline(std::vector<Pixel> places) {
+  const auto is_before = [](Pixel a, Pixel b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  std::sort(places.begin(), places.end(), is_before);
+  std::vector<Pixel> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const Pixel place : places) {
+      while (hull.size() >= first + 2 && !(twice_area(hull[hull.size() - 2], hull.back(), place) > 0)) hull.pop_back();
+      hull.push_back(place);
+    }
+    if (!hull.empty()) hull.pop_back();  // the other side starts with it
+    std::reverse(places.begin(), places.end());
+  }
+  return hull;
+}
+
+std::vector<std::vector<Pixel>> common_outline(const std::vector<std::vector<Pixel>>& pieces) {
+  constexpr double kOnePlace = 0.05;  // [pixels] no eye tells such places apart
+  std::vector<Pixel> places;
+  std::vector<std::vector<std::uint64_t>> rings;
+  for (const std::vector<Pixel>& piece : pieces) {
+    std::vector<std::uint64_t>& ring = rings.emplace_back();
+    for (const Pixel& p : piece) {
+      const auto found = std::find_if(places.begin(), places.end(),
+                                      [&](const Pixel& q) { return std::hypot(p.x - q.x, p.y - q.y) <= kOnePlace; });
+      ring.push_back(static_cast<std::uint64_t>(found - places.begin()));
+      if (found == places.end()) places.push_back(p);
+    }
+  }
+  // Edges are cut at all places on the way; what is there twice lies between two pieces.
+  std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges;
+  for (const std::vector<std::uint64_t>& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::uint64_t a = ring[i], b = ring[(i + 1) % ring.size()];
+      const Pixel from = places[a], way{places[b].x - from.x, places[b].y - from.y};
+      const double length = std::hypot(way.x, way.y);
+      std::vector<std::pair<double, std::uint64_t>> stops{{0, a}, {length, b}};
+      for (std::uint64_t k = 0; k < places.size() && length > 0; ++k) {
+        const double x = places[k].x - from.x, y = places[k].y - from.y, along = (x * way.x + y * way.y) / length;
+        if (k != a && k != b && along > 0 && along < length && std::abs(x * way.y - y * way.x) <= kOnePlace * length)
+          stops.emplace_back(along, k);
+      }
+      std::sort(stops.begin(), stops.end());
+      for (std::size_t s = 1; s < stops.size(); ++s)
+        if (stops[s - 1].second != stops[s].second) ++edges[std::minmax(stops[s - 1].second, stops[s].second)];
+    }
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> border;
+  for (const auto& [edge, count] : edges)
+    if (count % 2 == 1) border.push_back(edge);
+  std::vector<std::vector<Pixel>> outlines;
+  for (const Chain& chain : chain_edges(border)) {
+    std::vector<Pixel>& line = outlines.emplace_back();
+    for (const std::uint64_t place : chain.points) line.push_back(places[place]);
+  }
+  return outlines;
+}
+
+std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh) {
+  std::vector<Pixel> places;
+  for (const Point3& vertex : mesh.vertices) places.push_back(sheet.at(vertex));
+  return convex_outline(std::move(places));
+}
+
+std::vector<Pixel> convex_outline(const Sheet& sheet, const VolumeRow& volume) {
+  if (!(volume.exact.radius > 0)) return convex_outline(sheet, *volume.mesh);
+  std::vector<Pixel> places;
+  for (const Point3& point : outline_of(volume.exact, sheet.view().toward)) places.push_back(sheet.at(point));
+  return convex_outline(std::move(places));
+}
+
+bool is_inside(const std::vector<Pixel>& outline, Pixel place) {
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    if (twice_area(outline[i], outline[(i + 1) % outline.size()], place) < 0) return false;
+  return outline.size() > 2;
+}
+
+}  // namespace bl::report

@@ -1,0 +1,375 @@
+// From a polyhedron and a ball to a record of the cell; and the bookkeeping of sites behind it.
+#include "core/geometry/inside/cell_workshop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/base/mathematics.h"
+#include "core/base/stop_check.h"
+#include "core/base/text.h"
+#include "core/geometry/cell_mesh.h"
+#include "core/geometry/inside/cell_trim.h"
+#include "core/geometry/inside/coincidence.h"
+#include "core/geometry/inside/none.h"
+#include "core/geometry/inside/plan_cover.h"
+
+namespace bl {
+
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+// Facets below this share of the shape's squared reach are slivers of rounding: they carry no name.
+constexpr double kSliverShare = 1e-14;
+constexpr std::size_t kSitesAtATime = 16;
+// Runs a few times as many as threads even out the load. Whole cells, which tell the next ones of a run who borders them, lose
+// that at the ends of a run: theirs are at least so many blocks thick, about.
+constexpr std::size_t kRunsPerThread = 4;
+constexpr double kThickness = 4;
+
+void add_facet(FaceKind kind, std::uint32_t index, double area, std::vector<FacetArea>& facets) {
+  // Faces come in the order of kind and index, so only parts of other pieces have to look back.
+  const FacetArea facet{kind, index, area};
+  const auto is_before = [](const FacetArea& a, const FacetArea& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.index < b.index;
+  };
+  if (facets.empty() || is_before(facets.back(), facet)) return facets.push_back(facet);
+  const auto at = std::lower_bound(facets.begin(), facets.end(), facet, is_before);
+  if (at != facets.end() && at->kind == kind && at->index == index) {
+    at->area += area;
+  } else {
+    facets.insert(at, facet);
+  }
+}
+
+void gather_facets(const Polyhedron& part, double squared_radius, const ShapeMeasure& shape, CellMeasure& out) {
+  const double sliver = kSliverShare * std::min(part.reach_squared, squared_radius);
+  if (out.facets.empty()) out.facets.reserve(part.faces.size());
+  for (std::size_t k = 0; k < part.faces.size(); ++k) {
+    const PolyhedronFace& face = part.faces[k];
+    const bool is_surface = face.kind == FaceKind::plane || face.kind == FaceKind::site;
+    if (is_surface && shape.areas[k] > sliver) add_facet(face.kind, face.index, shape.areas[k], out.facets);
+  }
+}
+
+// What follows from facets and spherical area.
+void add_up(const CellGround& ground, const PowerSite& site, CellMeasure& out) {
+  out.surface_area = out.spherical_area;
+  out.volume_by_own_weight = out.spherical_area > 0 ? out.spherical_area / (2 * std::sqrt(site.weight)) : 0;
+  for (const FacetArea& facet : out.facets) {
+    out.surface_area += facet.area;
+    if (facet.kind != FacetArea::Kind::site) continue;
+    out.volume_by_own_weight += facet.area / (2 * distance(site.position, ground.grid.of(facet.index).position));
+  }
+}
+
+// Height, floor area and footprint of all parts together.
+void measure_storeys(std::span<const Polyhedron> parts, std::span<ShapeMeasure> shapes, const PowerSite& site, double storey,
+                     CellMeasure& out) {
+  double lowest = kNoLimit, highest = -kNoLimit;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (shapes[k].is_empty) continue;
+    measure_extent(parts[k], site.weight, shapes[k]);
+    lowest = std::min(lowest, shapes[k].lowest);
+    highest = std::max(highest, shapes[k].highest);
+  }
+  out.height = highest - lowest;
+  out.bottom = site.position.z + lowest;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (shapes[k].is_empty) continue;
+    shapes[k].lowest = lowest;
+    shapes[k].highest = highest;
+    out.floor_area += floor_area(parts[k], site.weight, shapes[k], storey);
+  }
+  out.footprint = plan_cover(parts, shapes, site.weight);
+}
+
+void measure_parts(const CellGround& ground, std::uint32_t index, const CellOptions& options, CellBench& bench,
+                   CellMeasure& out) {
+  const PowerSite& site = ground.sites[index];
+  const auto parts = bench.maker.parts();
+  bench.shapes.resize(parts.size());
+  Vector3 moment;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    ShapeMeasure& shape = bench.shapes[k];
+    Point3 middle;
+    const double cell_volume = options.with_shape ? volume_and_centroid(parts[k], middle) : kNoLimit;
+    if (options.with_shape) out.cell_volume += cell_volume;
+    shape.is_empty = true;
+    if (!(site.weight > 0)) continue;
+    measure_shape(parts[k], site.weight, cell_volume, options.with_centroid, shape);
+    if (shape.is_empty || !(shape.volume > 0)) continue;
+    // A sliver seen from a far-away site may have a centroid of pure rounding; a point of its facets is then the better answer.
+    if (options.with_centroid && !holds(parts[k], site.weight, shape.centroid, 0)) shape.centroid = shape.point_inside;
+    out.volume += shape.volume;
+    out.spherical_area += shape.spherical_area;
+    moment += shape.volume * shape.centroid;
+    gather_facets(parts[k], site.weight, shape, out);
+  }
+  if (!(out.volume > 0)) return;
+  const Point3 centroid = parts.size() == 1 ? bench.shapes[0].centroid : moment / out.volume;
+  if (options.with_centroid) out.centroid = site.position + centroid;
+  add_up(ground, site, out);
+  if (options.with_shape) {
+    const double storey = options.storey_heights.empty() ? options.storey_height : options.storey_heights[index];
+    measure_storeys(parts, bench.shapes, site, storey, out);
+  }
+  if (options.tessellation_depth < 0) return;
+  const auto trimmed = trimmed_parts(parts, bench.shapes, site, centroid);
+  const std::span<const Polyhedron> near = trimmed ? std::span<const Polyhedron>(*trimmed) : parts;
+  std::vector<OpenPart> open;
+  if (near.size() > 1) open = open_parts(near, bench.shapes, site.weight);
+  Mesh mesh = make_mesh(near, bench.shapes, open, site, options.tessellation_depth, centroid);
+  if (options.with_coarse_mesh && options.with_shape) {
+    auto coarse = make_coarse_mesh(near, bench.shapes, open, site, centroid);
+    // Façades are measured on whole faces, which two neighbours have in common.
+    if (trimmed) {
+      if (parts.size() > 1) open = open_parts(parts, bench.shapes, site.weight);
+      coarse.whole = std::make_shared<const Mesh>(make_coarse_mesh(parts, bench.shapes, open, site, centroid));
+    }
+    mesh.coarse = std::make_shared<const Mesh>(std::move(coarse));
+  }
+  out.mesh = std::make_shared<const Mesh>(std::move(mesh));
+}
+
+// Farther from the domain than so many times its size, the ball that reaches it is so large that rounding moves it by a share of
+// the domain that shows.
+constexpr double kFarthest = 3000;
+
+// Cells between two looks at whether anybody still wants them: some tenths of a millisecond.
+constexpr std::size_t kCellsPerLook = 32;
+
+template <class Record>
+void fetch_ahead(const Record& record) {
+  constexpr std::size_t kLine = 64;
+  const char* const begin = reinterpret_cast<const char*>(&record);
+  for (std::size_t at = 0; at < sizeof(Record); at += kLine) __builtin_prefetch(begin + at);
+}
+
+std::string number(std::uint32_t site) { return "site " + std::to_string(site); }
+
+}  // namespace
+
+bool is_out_of_reach(const Domain& domain, const Point3& position) {
+  return distance(position, domain.centroid) > kFarthest * domain.size();
+}
+
+std::vector<std::uint8_t> out_of_reach(const Domain& domain, std::span<const PowerSite> sites) {
+  std::vector<std::uint8_t> flags(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) flags[i] = is_out_of_reach(domain, sites[i].position);
+  return flags;
+}
+
+void CellWorkshop::set_domain(const Domain& domain) {
+  ground_.set_domain(domain);
+  sites_.clear();
+}
+
+Result<void> CellWorkshop::set_sites(std::span<const PowerSite> sites, std::span<const std::uint8_t> absent) {
+  sites_.assign(sites.begin(), sites.end());
+  absent_.assign(absent.begin(), absent.end());
+  find_coincident(sites_, kCoincidenceShare * ground_.domain.size(), twin_);
+  participants_.clear();
+  has_twins_ = false;
+  for (std::uint32_t i = 0; i < sites_.size(); ++i) {
+    if (!absent_.empty() && absent_[i]) {
+      twin_[i] = i;
+    } else if (twin_[i] == kNone) {
+      participants_.push_back(i);
+    } else {
+      has_twins_ = true;
+    }
+  }
+  return ground_.set_sites(sites_, participants_);
+}
+
+Result<void> CellWorkshop::set_weights(std::span<const PowerSite> sites) {
+  // Of two sites at one place the heavier lives, so with twins other weights may mean other participants.
+  if (has_twins_ || ground_.is_triangulated || sites.size() != sites_.size()) {
+    const std::vector<std::uint8_t> absent = absent_;
+    return set_sites(sites, absent);
+  }
+  sites_.assign(sites.begin(), sites.end());
+  ground_.sites = sites_;
+  ground_.grid.refresh_weights(sites_);
+  return {};
+}
+
+bool CellWorkshop::has_room_for(std::uint32_t site, const Point3& position) const {
+  if (has_twins_ || ground_.is_triangulated || ground_.grid.is_stale()) return false;
+  return !ground_.grid.has_site_within(position, kCoincidenceShare * ground_.domain.size(), site);
+}
+
+bool CellWorkshop::change(std::uint32_t site, const PowerSite& now) {
+  if (now.position == sites_[site].position ? ground_.is_triangulated || has_twins_ : !has_room_for(site, now.position))
+    return false;
+  sites_[site] = now;
+  ground_.grid.change(site, now);
+  return true;
+}
+
+// Lengthens the list up to a place; what is new in it is absent.
+void CellWorkshop::make_place(std::uint32_t site) {
+  absent_.resize(sites_.size(), 0);
+  for (auto k = static_cast<std::uint32_t>(sites_.size()); k <= site; ++k) {
+    sites_.emplace_back();
+    twin_.push_back(k);
+    absent_.push_back(1);
+  }
+  ground_.sites = sites_;
+}
+
+bool CellWorkshop::insert(std::uint32_t site, const PowerSite& now) {
+  if (!has_room_for(site, now.position)) return false;
+  make_place(site);
+  sites_[site] = now;
+  twin_[site] = kNone;
+  absent_[site] = 0;
+  ground_.grid.insert(site, now);
+  return true;
+}
+
+void CellWorkshop::erase(std::uint32_t site) {
+  make_place(site);
+  absent_[site] = 1;
+  twin_[site] = site;
+  ground_.grid.erase(site);
+}
+
+void CellWorkshop::make_one(std::uint32_t site, const CellOptions& options, CellBench& bench, CellMeasure& out) const {
+  std::vector<FacetArea> facets = std::move(out.facets);
+  facets.clear();
+  out = CellMeasure{};
+  out.facets = std::move(facets);
+  out.centroid = sites_[site].position;
+  out.bottom = sites_[site].position.z;
+  const std::uint32_t twin = twin_[site];
+  if (twin == kNone) {
+    bench.maker.make(ground_, site, options.with_shape);
+    measure_parts(ground_, site, options, bench, out);
+    if (options.with_outlines && options.with_shape) {
+      const auto parts = bench.maker.parts();
+      out.outlines = std::make_shared<const std::vector<Polyhedron>>(parts.begin(), parts.end());
+    }
+  }
+  std::string emptiness;
+  if (twin == kNone && !(out.volume > 0)) {
+    const bool has_cell = out.cell_volume > 0 || (!options.with_shape && !bench.maker.parts().empty());
+    const std::uint32_t winner = has_cell ? kNone : ground_.grid.least_power(sites_[site].position);
+    out.state = has_cell ? SiteState::starved : SiteState::hidden;
+    emptiness = winner != kNone && winner != site ? "swallowed: " + number(winner) + " outweighs it at its position"
+                : !has_cell                       ? std::string("its power cell lies outside the domain")
+                : !(sites_[site].weight > 0)      ? std::string("its weight is not positive, so it has no ball")
+                                             : std::string("its ball does not reach its own power cell: neighbours are heavier");
+    out.reason = emptiness;
+  }
+  if (twin != kNone) {
+    out.state = SiteState::coincident;
+    out.reason = "lies at the position of " + number(twin) + ", which is heavier or comes first";
+  } else if (!ground_.domain.contains(sites_[site].position, 1e-12 * ground_.domain.size())) {
+    out.state = SiteState::outside;
+    if (!emptiness.empty() && is_out_of_reach(ground_.domain, sites_[site].position)) {
+      emptiness = "it is more than " + shortest(kFarthest) + " times the size of the domain away";
+    }
+    out.reason = "lies outside the domain" + (emptiness.empty() ? std::string("; its cell reaches in") : "; " + emptiness);
+  }
+}
+
+std::unique_ptr<CellBench> CellWorkshop::take_bench() {
+  const std::lock_guard lock(mutex_);
+  if (benches_.empty()) return std::make_unique<CellBench>();
+  auto bench = std::move(benches_.back());
+  benches_.pop_back();
+  return bench;
+}
+
+void CellWorkshop::give_back(std::unique_ptr<CellBench> bench) {
+  const std::lock_guard lock(mutex_);
+  benches_.push_back(std::move(bench));
+}
+
+void CellWorkshop::make_range(std::span<const std::uint32_t> which, bool is_run, std::size_t begin, std::size_t end,
+                              const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
+                              std::vector<std::uint32_t>* faces) {
+  auto bench = take_bench();
+  if (is_run) bench->maker.start_run(ground_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
+  for (std::size_t k = begin; k < end; ++k) {
+    if (k % kCellsPerLook == 0 && is_stop_wished()) break;
+    // Records lie in the order of the sites, not in that of the work: the next one is fetched while this one is made.
+    if (k + 1 < end) {
+      fetch_ahead(cells[which[k + 1]]);
+      fetch_ahead(sites_[which[k + 1]]);
+    }
+    make_one(which[k], options, *bench, cells[which[k]]);
+    if (borders == nullptr) continue;
+    const auto found = twin_[which[k]] == kNone ? bench->maker.borders() : std::span<const std::uint32_t>{};
+    borders[which[k]].assign(found.begin(), found.end());
+    if (faces == nullptr) continue;
+    const auto sides = twin_[which[k]] == kNone ? bench->maker.faces() : std::span<const std::uint32_t>{};
+    faces[which[k]].assign(sides.begin(), sides.end());
+  }
+  bench->maker.end_run();
+  give_back(std::move(bench));
+}
+
+void CellWorkshop::make(std::span<const std::uint32_t> which, const CellOptions& options, std::span<CellMeasure> cells,
+                        std::vector<std::uint32_t>* borders, std::vector<std::uint32_t>* faces) {
+  const auto body = [&](std::size_t begin, std::size_t end) {
+    make_range(which, false, begin, end, options, cells, borders, faces);
+  };
+  if (options.pool != nullptr && which.size() > kSitesAtATime) {
+    options.pool->for_each_chunk(which.size(), kSitesAtATime, body);
+  } else if (!which.empty()) {
+    body(0, which.size());
+  }
+}
+
+std::size_t CellWorkshop::runs_per_thread(std::size_t threads, const CellOptions& options) const {
+  const auto whole = std::count_if(sites_.begin(), sites_.end(),
+                                   [&](const PowerSite& site) { return limit_of(site.weight, options) == kNoLimit; });
+  if (2 * static_cast<std::size_t>(whole) < sites_.size()) return kRunsPerThread;
+  const double layers = mathematics::cube_root(static_cast<double>(sites_.size()) / SiteGrid::kSitesPerBlock);
+  const double most = layers / (kThickness * static_cast<double>(threads));
+  return std::clamp<std::size_t>(static_cast<std::size_t>(most), 1, kRunsPerThread);
+}
+
+void CellWorkshop::make_all(const CellOptions& options, std::span<CellMeasure> cells, std::vector<std::uint32_t>* borders,
+                            std::vector<std::uint32_t>* faces) {
+  const auto order = ground_.grid.order();
+  const auto body = [&](std::size_t begin, std::size_t end) {
+    make_range(order, true, begin, end, options, cells, borders, faces);
+  };
+  const std::size_t threads = options.pool != nullptr ? static_cast<std::size_t>(options.pool->threads()) : 1;
+  const std::size_t runs = threads > 1 && order.size() > 2 * kSitesAtATime ? threads * runs_per_thread(threads, options) : 1;
+  if (runs > 1) {
+    options.pool->for_each_chunk(order.size(), (order.size() + runs - 1) / runs, body);
+  } else {
+    body(0, order.size());
+  }
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t i = 0; has_twins_ && i < sites_.size(); ++i) {
+    if (twin_[i] != kNone) others.push_back(i);
+  }
+  make(others, options, cells, borders, faces);
+}
+
+Result<void> check_sites(std::span<const PowerSite> sites) {
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const PowerSite& site = sites[i];
+    if (!is_finite(site.position) || !std::isfinite(site.weight)) {
+      return Error{ErrorCode::not_finite, "", "site " + std::to_string(i) + " has a position or weight that is not a number"};
+    }
+    const Point3& p = site.position;
+    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargestCoordinate) {
+      return Error{ErrorCode::out_of_range, "", "site " + std::to_string(i) + " lies more than 1e8 m from the origin"};
+    }
+    if (std::abs(site.weight) > kLargestWeight) {
+      return Error{ErrorCode::out_of_range, "", "the weight of site " + std::to_string(i) + " exceeds 1e18 m²"};
+    }
+  }
+  return {};
+}
+
+}  // namespace bl

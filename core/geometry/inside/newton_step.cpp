@@ -1,0 +1,185 @@
+// Newton: all weights follow the exact response of all volumes, and every step is judged by what it led to.
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/inside/careful_growth.h"
+#include "core/geometry/inside/fit_numbers.h"
+#include "core/geometry/inside/response_system.h"
+#include "core/geometry/inside/weight_fit.h"
+
+namespace bl {
+
+namespace {
+
+// Newton's step leaves at least this share of r³.
+constexpr double kLeastOfStepCube = 0.1;
+// Up to this share of the demands may be repaired one by one after a step that all others gain by.
+constexpr double kFewOffenders = 0.02;
+// Such a step has to bring the residual below this share, and below that one after the repair.
+constexpr double kFallWorthRepair = 0.5, kRepairedFall = 0.7;
+// A change of weight that moves no volume by more than this share of the tolerance is not made: what it would move stays as it
+// is, bit for bit, and need not be measured again.
+constexpr double kIdleShare = 0.25;
+// Farther from the demands than this, a step of Newton's is careful with growth.
+constexpr double kFarError = 1.6;
+// Newton's step is halved no further than this.
+constexpr double kLeastNewtonStep = 1.0 / 256;
+
+}  // namespace
+
+// Damped Newton. The last move is judged by what it led to: taken back by half where it went too far (Kitagawa, Mérigot and
+// Thibert 2019: cells must not vanish, the residual has to fall), else followed by the next step.
+void WeightFit::move_together(std::span<const CellMeasure> cells) {
+  FitState& state = report_.state;
+  double squares = 0, ratio = 1;
+  std::vector<std::uint32_t> offenders;
+  for (std::uint32_t k = 0; k < targets_.size(); ++k) {
+    if (targets_.sites(k).empty() || !(targets_.aim(k) > 0)) continue;
+    const double error = targets_.total(k) - targets_.aim(k), part = targets_.total(k) / targets_.aim(k);
+    squares += error * error / targets_.aim(k);
+    ratio = std::min(ratio, part);
+    if (part < state.least_ratio) offenders.push_back(k);
+  }
+  const double residual = std::sqrt(squares), share = std::abs(state.share);
+  if (state.residual >= 0 && share > kLeastNewtonStep) {
+    const bool is_repaired = state.share < 0;
+    const bool falls = residual <= (is_repaired ? kRepairedFall : 1 - 0.1 * share) * state.residual;
+    const double most_repairs = std::max(1.0, kFewOffenders * static_cast<double>(targets_.size()));
+    // A full step that does all much good but a few: these are helped, and then it is judged again, more strictly.
+    if (!offenders.empty() && !is_repaired && share == options_.damping && residual <= kFallWorthRepair * state.residual &&
+        static_cast<double>(offenders.size()) <= most_repairs) {
+      return repair_offenders(offenders);
+    }
+    if (!falls || !offenders.empty()) return take_back(0.5 * share);
+  }
+  // A round of repair first; what is empty even then must not hold up the others.
+  if (ratio <= 0 && state.share != 0) return repair(cells);
+  if (state.residual < 0) state.least_ratio = 0.5 * ratio;
+  step_together(cells, residual);
+}
+
+void WeightFit::take_back(double share) {
+  report_.state.share = share;
+  std::vector<double> from(sites_.size(), 0);
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    if (!is_fitted(i)) continue;
+    from[i] = cube_of_radius(sites_[i].weight) - report_.state.previous_move[i];
+    follow(i, from[i]);
+  }
+  move_groups_alike(from);
+}
+
+// The weights of a group all move as that of its lightest member that moves at all: otherwise they would drift apart in r³, and
+// what the group becomes would depend on the way.
+void WeightFit::move_groups_alike(std::span<const double> from) {
+  for (std::uint32_t k = 0; k < targets_.size(); ++k) {
+    const auto members = targets_.sites(k);
+    if (members.size() < 2 || !(targets_.most(k) > 0)) continue;
+    std::uint32_t lead = FitTargets::kNone;
+    for (const std::uint32_t i : members) {
+      if (report_.state.direction[i] != 0 && (lead == FitTargets::kNone || from[i] < from[lead])) lead = i;
+    }
+    const double change = lead == FitTargets::kNone ? 0 : sites_[lead].weight - weight_of_cube(from[lead]);
+    for (const std::uint32_t i : members) {
+      if (i == lead || lead == FitTargets::kNone) continue;
+      sites_[i].weight = std::max(0.0, weight_of_cube(from[i]) + change);
+      report_.state.previous_move[i] = cube_of_radius(sites_[i].weight) - from[i];
+    }
+  }
+}
+
+// Raises the weights of a demand's sites alike, until the first of them has a cell again.
+void WeightFit::raise(std::uint32_t target, std::vector<double>& weights) const {
+  double lift = 1e300;
+  for (const std::uint32_t i : targets_.sites(target)) lift = std::min(lift, repaired_weight(i) - sites_[i].weight);
+  for (const std::uint32_t i : targets_.sites(target)) {
+    weights[i] = targets_.sites(target).size() == 1 ? repaired_weight(i) : sites_[i].weight + lift;
+  }
+}
+
+void WeightFit::repair_offenders(std::span<const std::uint32_t> offenders) {
+  report_.state.share = -report_.state.share;
+  std::vector<double> weights(sites_.size());
+  for (const std::uint32_t k : offenders) {
+    raise(k, weights);
+    for (const std::uint32_t i : targets_.sites(k)) {
+      const double before = cube_of_radius(sites_[i].weight);
+      sites_[i].weight = weights[i];
+      report_.state.previous_move[i] += cube_of_radius(sites_[i].weight) - before;
+    }
+  }
+}
+
+void WeightFit::repair(std::span<const CellMeasure> cells) {
+  report_.state.residual = -1;
+  report_.state.share = 0;
+  std::vector<double> weights(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) weights[i] = sites_[i].weight;
+  for (std::uint32_t k = 0; k < targets_.size(); ++k) {
+    if (!targets_.sites(k).empty() && targets_.most(k) > 0 && !(targets_.total(k) > 0)) raise(k, weights);
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) sites_[i].weight = weights[i];
+}
+
+// What the linear response is asked for, per demand [m³].
+std::vector<double> WeightFit::wanted_changes() const {
+  std::vector<double> demands(targets_.size(), 0), volumes(targets_.size(), 0);
+  for (std::size_t k = 0; k < targets_.size(); ++k) {
+    if (targets_.sites(k).empty() || !targets_.is_active(k)) continue;
+    demands[k] = targets_.aim(k);
+    volumes[k] = targets_.total(k);
+  }
+  return changes_towards(demands, volumes, report_.error > kFarError);
+}
+
+void WeightFit::step_together(std::span<const CellMeasure> cells, double residual) {
+  FitState& state = report_.state;
+  ++report_.iterations;
+  std::vector<std::uint8_t> fitted(cells.size());
+  std::vector<std::uint32_t> unknown(cells.size(), FitTargets::kNone);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    fitted[i] = moves(i);
+    if (fitted[i]) unknown[i] = targets_.owner(i);
+  }
+  const std::vector<double> change =
+      ResponseSystem(sites_, cells, fitted).solve(wanted_changes(), unknown, std::min(1e-3, 0.1 * std::max(1e-9, report_.error)));
+  state.residual = residual;
+  state.share = options_.damping;
+  state.direction.assign(cells.size(), 0);
+  state.previous_move.assign(cells.size(), 0);
+  std::vector<double> from(cells.size(), 0);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool counts = fitted[i] && cells[i].volume > 0 && !is_idle(cells, i, std::abs(change[unknown[i]]));
+    if (counts) state.direction[i] = 1.5 * std::sqrt(sites_[i].weight) * change[unknown[i]];
+    from[i] = cube_of_radius(sites_[i].weight);
+    if (fitted[i]) follow(i, from[i]);
+  }
+  move_groups_alike(from);
+}
+
+// Would this change of weight [m²] move no volume by what anybody counts?
+bool WeightFit::is_idle(std::span<const CellMeasure> cells, std::size_t i, double change) const {
+  const double enough = kIdleShare * options_.tolerance;
+  if (change * cells[i].volume_by_own_weight > enough * targets_.part(i)) return false;
+  for (const FacetArea& facet : cells[i].facets) {
+    if (facet.kind != FacetArea::Kind::site || !is_fitted(facet.index)) continue;
+    const double moved = change * facet.area / (2 * distance(sites_[i].position, sites_[facet.index].position));
+    if (moved > enough * targets_.part(facet.index)) return false;
+  }
+  return true;
+}
+
+// Goes the current share of the step from a place. The bounds bend the way, but less and less as the share shrinks.
+void WeightFit::follow(std::size_t i, double from) {
+  FitState& state = report_.state;
+  state.previous_move[i] = 0;
+  if (state.direction[i] == 0) {
+    if (from != cube_of_radius(sites_[i].weight)) sites_[i].weight = weight_of_cube(from);
+    return;
+  }
+  const double cube = std::max(from + state.share * state.direction[i], kLeastOfStepCube * from);
+  sites_[i].weight = std::max(weight_of_cube(cube), kLeastShare * weight_of_volume(targets_.part(i)));
+  state.previous_move[i] = cube_of_radius(sites_[i].weight) - from;
+}
+
+}  // namespace bl

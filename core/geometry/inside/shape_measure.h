@@ -1,0 +1,41 @@
+// Closed-form measures of (convex polyhedron ∩ ball around the origin): the formulas of "facet by facet" integration.
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/inside/polyhedron.h"
+
+namespace bl {
+
+/// Measures of the shape, relative to the ball's centre, which is the polyhedron's origin. Lengths in metres.
+struct ShapeMeasure {
+  double volume = 0, spherical_area = 0;
+  Point3 centroid;
+  std::vector<double> areas;  ///< per face of the polyhedron: its area inside the ball
+  double lowest = 0, highest = 0;
+  bool is_empty = true;
+  /// A point of the shape, inside or on its surface: the weighted mean of the centroids of its facets.
+  Point3 point_inside;
+};
+
+/// Is the centre so far from the planes of all faces that faces beyond the ball (offset >= radius) need not be there?
+bool is_centre_apart(const Polyhedron& cell, double radius);
+
+/// `squared_radius` [m²] positive; `cell_volume` [m³] is that of the whole polyhedron, or infinite where nobody knows it.
+/// Without `with_centroid` the centroid and the point inside are not worked out.
+void measure_shape(const Polyhedron& cell, double squared_radius, double cell_volume, bool with_centroid, ShapeMeasure& out);
+
+/// Exact vertical extent: fills `lowest` and `highest`. After measure_shape, for a shape that is not empty.
+void measure_extent(const Polyhedron& cell, double squared_radius, ShapeMeasure& shape);
+
+/// Area of the horizontal section at height z.
+double section_area(const Polyhedron& cell, double squared_radius, double z);
+
+/// Sum of sections at mid-storey heights, from `lowest` on; at least one, at mid-height, where there is less than a storey.
+double floor_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape, double storey_height);
+
+/// Exact area of the projection onto the plan: the section at the centre's height, plus the projections of upward facets
+/// below it and of downward facets above it (all other surface is covered by these, seen from above).
+double footprint_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape);
+
+}  // namespace bl

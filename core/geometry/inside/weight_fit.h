@@ -1,0 +1,68 @@
+// A fit at work: what its start, its steps and its judgement share.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/geometry/demand_fit.h"
+#include "core/geometry/domain.h"
+#include "core/geometry/inside/fit_targets.h"
+#include "core/geometry/power_cells.h"
+
+namespace bl {
+
+/// One call of adapt_weights(). Start and judgement are in demand_fit.cpp, the steps in feedback_step.cpp and newton_step.cpp.
+class WeightFit {
+ public:
+  /// A weight never falls below this share of the weight whose whole ball has the demanded volume.
+  static constexpr double kLeastShare = 1e-4;
+
+  WeightFit(const Domain& domain, std::span<const PowerSite> sites, FitTargets targets, const FitState& state,
+            const FitOptions& options);
+  Result<FitReport> run();
+
+ private:
+  using Cells = std::span<const CellMeasure>;
+
+  bool is_fitted(std::size_t i) const { return targets_.is_fitted(i); }
+  bool moves(std::size_t i) const { return is_fitted(i) && targets_.is_active(targets_.owner(i)); }
+  double missing(Cells cells, std::size_t i) const;
+
+  // Start and judgement.
+  void recognise(std::span<const PowerSite> sites);
+  void start_fresh_sites();
+  bool has_lost_cells(Cells cells) const;
+  void begin_evenly();
+  bool start_full();
+  void keep_in_bounds();
+  void judge(Cells cells);
+  double repaired_weight(std::size_t i) const;
+  void move(Cells cells);
+
+  // Feedback.
+  void move_alone(Cells cells);
+  void move_by_gain(Cells cells);
+
+  // Newton.
+  void move_together(Cells cells);
+  void take_back(double share);
+  void move_groups_alike(std::span<const double> from);
+  void raise(std::uint32_t target, std::vector<double>& weights) const;
+  void repair_offenders(std::span<const std::uint32_t> offenders);
+  void repair(Cells cells);
+  std::vector<double> wanted_changes() const;
+  void step_together(Cells cells, double residual);
+  bool is_idle(Cells cells, std::size_t i, double change) const;
+  void follow(std::size_t i, double from);
+
+  const Domain& domain_;
+  FitOptions options_;
+  std::vector<PowerSite> sites_;
+  FitTargets targets_;
+  FitReport report_;
+  std::vector<double> even_;  // weights that rays have left for better ones
+};
+
+}  // namespace bl

@@ -1,0 +1,291 @@
+// Rows of the table as checked rows of a programme; every complaint names line and column.
+#include "core/import/programme_csv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/base/plural.h"
+#include "core/base/text.h"
+#include "core/csv/csv_reader.h"
+#include "core/import/number_column.h"
+#include "core/import/programme_columns.h"
+
+namespace bl {
+
+namespace {
+
+constexpr std::array kNumbers = {ProgrammeColumn::floor_area, ProgrammeColumn::floor_area_min, ProgrammeColumn::floor_area_max,
+                                 ProgrammeColumn::count, ProgrammeColumn::storey_height};
+constexpr double kMostItems = 100000;    // of one row: more is a number in the wrong column
+constexpr double kTallestStorey = 1000;  // [m]
+constexpr double kLargestArea = 1e9;     // [m²] of one item
+
+std::vector<std::string> split_list(std::string_view text, std::string_view separators) {
+  std::vector<std::string> parts;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(separators), text.size());
+    const std::string_view part = trimmed(text.substr(0, end));
+    if (!part.empty()) parts.emplace_back(part);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return parts;
+}
+
+class ProgrammeImporter {
+ public:
+  explicit ProgrammeImporter(const ProgrammeOptions& options) : options_(options) {}
+  Result<ProgrammeImport> read(std::string_view text);
+
+ private:
+  std::string field(const CsvRecord& record, ProgrammeColumn column) const;
+  std::string place(const CsvRecord& record, ProgrammeColumn column) const;
+  Result<void> decide_decimals();
+  Result<std::optional<double>> number(const CsvRecord& record, ProgrammeColumn column) const;
+  Result<void> check_width(const CsvRecord& record) const;
+  Result<ProgrammeRow> read_row(const CsvRecord& record);
+  Result<void> settle_area(const CsvRecord& record, ProgrammeRow& row);
+  Result<void> read_standing(const CsvRecord& record, ProgrammeRow& row) const;
+  void make_unique();
+  Result<void> join_neighbours();
+
+  const ProgrammeOptions& options_;
+  CsvText csv_;
+  ProgrammeHeader header_;
+  std::array<char, kProgrammeColumns> decimals_{};
+  std::vector<std::string> written_uses_;  // per row, before they were made unique
+  ProgrammeImport import_;
+};
+
+std::string ProgrammeImporter::field(const CsvRecord& record, ProgrammeColumn column) const {
+  const auto& found = header_.at(column);
+  return found && found->index < record.fields.size() ? record.fields[found->index] : std::string();
+}
+
+std::string ProgrammeImporter::place(const CsvRecord& record, ProgrammeColumn column) const {
+  const auto& found = header_.at(column);
+  const std::string line = "line " + std::to_string(record.line);
+  return found ? line + ", column " + std::to_string(found->index + 1) + " `" + found->header + "`" : line;
+}
+
+// The decimal mark of a column: the option, its own evidence, or else that of the other columns of the file.
+Result<void> ProgrammeImporter::decide_decimals() {
+  if (options_.decimal && *options_.decimal != '.' && *options_.decimal != ',')
+    return Error{ErrorCode::parse, "decimal", "The decimal mark must be a point or a comma."};
+  char of_file = 0;
+  bool mixed = false;
+  for (const ProgrammeColumn column : kNumbers) {
+    const auto& found = header_.at(column);
+    if (!found) continue;
+    std::vector<NumberField> fields;
+    for (std::size_t i = 1; i < csv_.records.size(); ++i)
+      fields.push_back({csv_.records[i].line, field(csv_.records[i], column)});
+    auto decimal = options_.decimal
+                       ? Result<char>(*options_.decimal)
+                       : column_decimal(fields, "column " + std::to_string(found->index + 1) + " `" + found->header + "`");
+    if (!decimal) return decimal.error();
+    decimals_[static_cast<std::size_t>(column)] = *decimal;
+    if (*decimal == 0) continue;
+    mixed = mixed || (of_file != 0 && of_file != *decimal);
+    of_file = *decimal;
+  }
+  if (mixed) import_.notes.push_back("Some columns have decimal points and some decimal commas; each was read in its own way.");
+  for (char& decimal : decimals_)
+    if (decimal == 0 && !mixed) decimal = of_file;
+  return {};
+}
+
+Result<std::optional<double>> ProgrammeImporter::number(const CsvRecord& record, ProgrammeColumn column) const {
+  const std::string text = field(record, column);
+  if (text.empty()) return std::optional<double>();
+  const auto index = static_cast<std::size_t>(column);
+  const ProgrammeColumnInfo& info = programme_columns()[index];
+  if (decimals_[index] == 0 && decimal_evidence(text) == DecimalEvidence::ambiguous)
+    return Error{ErrorCode::parse, place(record, column),
+                 "`" + text +
+                     "` may be a fraction or thousands, and nothing else in the file tells which. Write it without thousands "
+                     "mark, or give the option `decimal`: . or ,"};
+  const auto value = parse_table_number(text, decimals_[index], info.unit, header_.at(column)->unit);
+  if (value) return value;
+  const std::string units = info.unit == Unit::count   ? "a whole number such as 3"
+                            : info.unit == Unit::metre ? "a length such as 3.2 or 3.2 m"
+                                                       : "an area such as 120, 120 m2 or 0.4 ha";
+  return Error{ErrorCode::parse, place(record, column), "`" + text + "` is not understood. Write " + units + "."};
+}
+
+Result<void> ProgrammeImporter::check_width(const CsvRecord& record) const {
+  const std::size_t columns = csv_.records.front().fields.size();
+  for (std::size_t i = columns; i < record.fields.size(); ++i)
+    if (!record.fields[i].empty())
+      return Error{ErrorCode::parse, "line " + std::to_string(record.line),
+                   "The row has " + std::to_string(record.fields.size()) + " fields, the header " + std::to_string(columns) +
+                       ". Put fields with " +
+                       (csv_.separator == ','   ? "a comma"
+                        : csv_.separator == ';' ? "a semicolon"
+                                                : "a tab") +
+                       " inside them into double quotes" + (csv_.separator == ',' ? " (decimal commas too)." : ".")};
+  return {};
+}
+
+// Area and its bounds: the target may be missing where both bounds are given.
+Result<void> ProgrammeImporter::settle_area(const CsvRecord& record, ProgrammeRow& row) {
+  std::array<std::optional<double>, 3> areas;
+  const std::array columns = {ProgrammeColumn::floor_area, ProgrammeColumn::floor_area_min, ProgrammeColumn::floor_area_max};
+  for (std::size_t k = 0; k < 3; ++k) {
+    auto value = number(record, columns[k]);
+    if (!value) return value.error();
+    areas[k] = *value;
+    if (areas[k] && !(*areas[k] > 0 && *areas[k] <= kLargestArea))
+      return Error{ErrorCode::out_of_range, place(record, columns[k]),
+                   "The floor area is " + written_out(*areas[k]) + " m². It must be greater than zero and at most 1e9 m²."};
+  }
+  row.floor_area_min = areas[1];
+  row.floor_area_max = areas[2];
+  if (!areas[0] && areas[1] && areas[2]) {
+    areas[0] = *areas[1] / 2 + *areas[2] / 2;
+    import_.notes.push_back("Line " + std::to_string(record.line) + " has no floor area; the middle of its bounds was taken, " +
+                            written_out(*areas[0]) + " m².");
+  }
+  if (!areas[0])
+    return Error{ErrorCode::missing, place(record, ProgrammeColumn::floor_area),
+                 "The floor area is empty. Give one, or remove the row."};
+  row.floor_area = *areas[0];
+  if ((areas[1] && *areas[1] > row.floor_area) || (areas[2] && *areas[2] < row.floor_area))
+    return Error{ErrorCode::conflict, place(record, areas[1] && *areas[1] > row.floor_area ? columns[1] : columns[2]),
+                 "The floor area " + written_out(row.floor_area) + " m² lies outside its own bounds (" +
+                     (areas[1] ? written_out(*areas[1]) : "none") + " to " + (areas[2] ? written_out(*areas[2]) : "none") +
+                     "). Correct one of them."};
+  return {};
+}
+
+// Empty fields leave what rows without this column have.
+Result<void> ProgrammeImporter::read_standing(const CsvRecord& record, ProgrammeRow& row) const {
+  const std::string written = field(record, ProgrammeColumn::standing), word = lower_case(written);
+  if (word.empty()) return {};
+  const std::vector<std::string> words = {"ground", "stack", "bridge"};
+  if (std::find(words.begin(), words.end(), word) == words.end())
+    return Error{ErrorCode::parse, place(record, ProgrammeColumn::standing),
+                 "`" + written + "` is not understood" + (did_you_mean(word, words).empty() ? "." : did_you_mean(word, words)) +
+                     " Write `ground` for what must stand on the ground, `stack` for what may stand on others, or `bridge` for "
+                     "what may also hang between others."};
+  row.standing = word;
+  return {};
+}
+
+Result<ProgrammeRow> ProgrammeImporter::read_row(const CsvRecord& record) {
+  if (auto fits = check_width(record); !fits) return fits.error();
+  ProgrammeRow row;
+  row.line = record.line;
+  row.use = field(record, ProgrammeColumn::use);
+  if (row.use.empty())
+    return Error{ErrorCode::missing, place(record, ProgrammeColumn::use), "The use is empty. Name it, or remove the row."};
+  row.name = field(record, ProgrammeColumn::name);
+  if (auto area = settle_area(record, row); !area) return area.error();
+  auto count = number(record, ProgrammeColumn::count);
+  if (!count) return count.error();
+  const double items = count->value_or(1);
+  if (!(items >= 1 && items <= kMostItems && items == std::floor(items)))
+    return Error{ErrorCode::out_of_range, place(record, ProgrammeColumn::count),
+                 "The count is " + written_out(items) + ". It must be a whole number from 1 to 100000."};
+  row.count = static_cast<int>(items);
+  auto height = number(record, ProgrammeColumn::storey_height);
+  if (!height) return height.error();
+  row.storey_height = height->value_or(options_.storey_height);
+  if (!(row.storey_height > 0 && row.storey_height <= kTallestStorey))
+    return Error{
+        ErrorCode::out_of_range, place(record, ProgrammeColumn::storey_height),
+        "The storey height is " + written_out(row.storey_height) + " m. It must be greater than zero and at most 1000 m."};
+  row.adjacent_to = split_list(field(record, ProgrammeColumn::adjacent_to), "|;");
+  row.tags = split_list(field(record, ProgrammeColumn::tags), "|;,");
+  if (auto standing = read_standing(record, row); !standing) return standing.error();
+  return row;
+}
+
+// Later rows of a use get a number: shop, shop 2, shop 3; capitals make no difference.
+void ProgrammeImporter::make_unique() {
+  std::set<std::string> seen, written;
+  for (const ProgrammeRow& row : import_.rows) written.insert(lower_case(row.use));
+  for (ProgrammeRow& row : import_.rows) {
+    written_uses_.push_back(row.use);
+    if (!seen.insert(lower_case(row.use)).second) {
+      int number = 2;
+      std::string use = row.use + " 2";
+      while (written.contains(lower_case(use))) use = row.use + " " + std::to_string(++number);
+      written.insert(lower_case(use));
+      import_.notes.push_back("Line " + std::to_string(row.line) + ": the use `" + row.use +
+                              "` exists already; this one became `" + use + "`.");
+      row.use = use;
+    }
+    if (row.name.empty()) row.name = row.use;
+  }
+}
+
+// A name of several rows means all of them.
+Result<void> ProgrammeImporter::join_neighbours() {
+  std::vector<std::string> uses;
+  std::map<std::string, std::vector<std::size_t>> rows_of;
+  for (std::size_t i = 0; i < import_.rows.size(); ++i) {
+    rows_of[lower_case(written_uses_[i])].push_back(i);
+    if (written_uses_[i] != import_.rows[i].use) rows_of[lower_case(import_.rows[i].use)].push_back(i);
+    uses.push_back(import_.rows[i].use);
+  }
+  for (std::size_t i = 0; i < import_.rows.size(); ++i) {
+    ProgrammeRow& row = import_.rows[i];
+    std::vector<std::string> joined;
+    for (const std::string& name : row.adjacent_to) {
+      const auto found = rows_of.find(lower_case(name));
+      if (found == rows_of.end())
+        return Error{ErrorCode::not_found, place(csv_.records[i + 1], ProgrammeColumn::adjacent_to),
+                     "`" + name + "` is no use of this table" +
+                         (did_you_mean(name, uses).empty() ? ". Write the name of another row." : did_you_mean(name, uses))};
+      for (const std::size_t other : found->second) {
+        if (other == i && row.count == 1 && found->second.size() == 1)
+          import_.notes.push_back("Line " + std::to_string(row.line) + ": `" + row.use +
+                                  "` cannot be adjacent to itself alone; this was left out.");
+        const bool wanted = other != i || row.count > 1;
+        if (wanted && std::find(joined.begin(), joined.end(), import_.rows[other].use) == joined.end())
+          joined.push_back(import_.rows[other].use);
+      }
+    }
+    row.adjacent_to = std::move(joined);
+  }
+  return {};
+}
+
+Result<ProgrammeImport> ProgrammeImporter::read(std::string_view text) {
+  auto csv = read_csv(text, options_.separator);
+  if (!csv) return csv.error();
+  csv_ = *std::move(csv);
+  import_.separator = csv_.separator;
+  import_.notes = csv_.notes;
+  if (csv_.records.empty())
+    return Error{ErrorCode::missing, "line 1", "The table is empty. It needs a header with `use` and `floor_area_m2`, and rows."};
+  auto header = match_programme_header(csv_.records.front(), options_.columns);
+  if (!header) return header.error();
+  header_ = *std::move(header);
+  import_.notes.insert(import_.notes.end(), header_.notes.begin(), header_.notes.end());
+  import_.warnings = header_.warnings;
+  if (csv_.records.size() == 1)
+    return Error{ErrorCode::missing, "line " + std::to_string(csv_.records.front().line),
+                 "The table has a header but no rows. Add one row per use."};
+  if (auto decided = decide_decimals(); !decided) return decided.error();
+  for (std::size_t i = 1; i < csv_.records.size(); ++i) {
+    auto row = read_row(csv_.records[i]);
+    if (!row) return row.error();
+    import_.items += static_cast<std::size_t>(row->count);
+    import_.floor_area += row->count * row->floor_area;
+    import_.rows.push_back(*std::move(row));
+  }
+  make_unique();
+  if (auto joined = join_neighbours(); !joined) return joined.error();
+  return std::move(import_);
+}
+
+}  // namespace
+
+Result<ProgrammeImport> read_programme_csv(std::string_view text, const ProgrammeOptions& options) {
+  return ProgrammeImporter(options).read(text);
+}
+
+}  // namespace bl

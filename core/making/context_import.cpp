@@ -1,0 +1,344 @@
+// Tells formats apart, reads each file into the frame of the scene, and adds its nodes by one command.
+#include "core/making/context_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "core/base/plural.h"
+#include "core/base/stop.h"
+#include "core/base/text.h"
+#include "core/file/file_io.h"
+#include "core/import/cityjson_context.h"
+#include "core/import/context_shape.h"
+#include "core/import/data_layer.h"
+#include "core/base/foreign_bytes.h"
+#include "core/import/geojson_context.h"
+#include "core/import/geojson_polygons.h"
+#include "core/import/inflate.h"
+#include "core/import/osm_context.h"
+#include "core/import/terrain_grid.h"
+#include "core/making/context_nodes.h"
+#include "core/session/ledger.h"
+
+namespace bl::cli {
+
+namespace {
+
+// Of a file that is compared to tell formats apart [bytes].
+constexpr std::size_t kHead = 65536;
+
+enum class Format { osm, cityjson, geojson, grid, table, unknown };
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+// By the name first, since a table can look like anything; then by how the file begins.
+Format format_of(const std::string& path, std::string_view text) {
+  std::string name = lower(path);
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  const auto ends = [&name](std::initializer_list<const char*> list) {
+    return std::any_of(list.begin(), list.end(), [&name](const char* ending) { return name.ends_with(ending); });
+  };
+  if (ends({".osm", ".pbf", ".osm.xml"})) return Format::osm;
+  if (ends({".asc", ".grd", ".tif", ".tiff"})) return Format::grid;
+  if (ends({".csv", ".tsv", ".txt"})) return Format::table;
+  if (ends({".city.json", ".jsonl"})) return Format::cityjson;
+  const std::string_view head = text.substr(0, kHead);
+  // Writers that sort their keys say so behind all of the geometry.
+  if (text.find("\"CityJSON\"") != std::string_view::npos) return Format::cityjson;
+  if (ends({".geojson"}) || head.find_first_of("{[") == head.find_first_not_of(" \t\r\n\xEF\xBB\xBF")) return Format::geojson;
+  if (head.find("<osm") != std::string_view::npos || head.substr(0, 64).find("OSMHeader") != std::string_view::npos)
+    return Format::osm;
+  if (head.starts_with("II") || head.starts_with("MM") ||
+      lower(std::string(head.substr(0, 64))).find("ncols") != std::string::npos)
+    return Format::grid;
+  return Format::unknown;
+}
+
+// A name promises one format; what is something else altogether is told so in its words.
+std::optional<Error> foreign_to_name(const std::string& path, Format format, std::string_view text) {
+  const std::string name = lower(path);
+  const auto ends = [&name](const char* ending) { return name.ends_with(ending) || name.ends_with(std::string(ending) + ".gz"); };
+  const std::string_view wanted = ends(".tif") || ends(".tiff") ? "GeoTIFF" : ends(".asc") || ends(".grd") ? "ASCII grid" : "";
+  const bool is_raster = text.starts_with("II") || text.starts_with("MM");
+  if (format == Format::grid && !wanted.empty() && !is_raster && !text.empty()) {
+    if (auto foreign = foreign_bytes(text, wanted, "export it again")) return foreign;
+    if (wanted == "GeoTIFF" && lower(std::string(text.substr(0, 64))).find("ncols") == std::string::npos)
+      return Error{ErrorCode::parse, "byte 0", "This is no GeoTIFF but text: export it again."};
+  }
+  if (format == Format::unknown && !text.empty())
+    return foreign_bytes(text, "file that is read", "OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are");
+  return std::nullopt;
+}
+
+class Import {
+ public:
+  Import(const Scene& scene, const ImportOptions& options, const Registry& registry)
+      : scene_(scene),
+        o_(options),
+        registry_(registry),
+        context_(options.context),
+        nodes_(scene, registry),
+        sites_(scene, registry, options.inside, options.ask_to_clear) {}
+
+  ImportedScene run() {
+    check();
+    if (result_.errors.empty())
+      for (std::size_t i = 0; i < o_.files.size() && !is_stopped(); ++i) {
+        if (context_.watch != nullptr) context_.watch->file = i;
+        (void)goes_on(context_.watch, "reading", 0, 0);
+        read(o_.files[i]);
+      }
+    if (is_stopped() && result_.errors.empty()) fail("", stopped_error());
+    if (result_.errors.empty()) check_properties();
+    for (const auto& [site, rows] : sites_.exclusions()) nodes_.set_port(site, "boundary.exclusions", Shared<Table>(rows));
+    for (const std::string& note : sites_.notes()) result_.notes.push_back(note);
+    result_.notes.insert(result_.notes.end(), nodes_.notes().begin(), nodes_.notes().end());
+    result_.nodes = nodes_.made();
+    tell_of_ground();
+    if (!result_.errors.empty()) return std::move(result_);
+    // A site that was to be cleared and had all of a file's buildings is cleared: nothing is missing then.
+    if (result_.nodes.empty() && !result_.reports.empty() && !sites_.has_cleared()) {
+      fail("", {ErrorCode::not_found, "", "nothing of the files was taken, and nothing was written; " + why_nothing()});
+      return std::move(result_);
+    }
+    if (nodes_.is_empty()) {
+      result_.scene = scene_;
+      return std::move(result_);
+    }
+    (void)goes_on(context_.watch, "adding to the scene", 0, 0);
+    result_.command = nodes_.batch();
+    result_.bounds = nodes_.bounds();
+    Ledger ledger(registry_, scene_);
+    if (auto done = ledger.submit(result_.command, "import", 0); !done) fail(o_.out, done.error());
+    else result_.scene = ledger.scene();
+    return std::move(result_);
+  }
+
+ private:
+  bool is_stopped() const { return context_.watch != nullptr && context_.watch->is_stopped; }
+  void fail(const std::string& file, Error error) {
+    if (!file.empty() && std::find(o_.files.begin(), o_.files.end(), file) != o_.files.end())
+      result_.reports.emplace_back(file, ImportReport()).second.skip("file", "", "it cannot be read", error.text());
+    result_.errors.emplace_back(file, std::move(error));
+  }
+  void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
+
+  void check() {
+    for (const auto& [name, value] :
+         {std::pair{"--storey-height", context_.storey_height}, {"--default-height", context_.default_height}})
+      if (!(value >= 1) || !(value <= 1000)) refuse(name, "must be between 1 and 1000 m, found " + shortest(value));
+    if (!(context_.height_unit >= 0) || context_.height_unit > 1000)
+      refuse("--height-unit", "must be more than 0 and at most 1000 m, found " + shortest(context_.height_unit));
+    if (!(context_.radius >= 0) || !(context_.neighbour_distance >= 0)) refuse("--radius", "distances must be 0 m or more");
+    for (const std::string& property : o_.properties) {
+      const std::size_t equals = property.find('=');
+      const std::vector<std::string> known = context_property_names();
+      const std::string ours = property.substr(0, equals);
+      if (equals == std::string::npos || equals == 0 || equals + 1 == property.size()) {
+        refuse("--property", "expects OURS=THEIRS such as height=H_MAX, found `" + property + "`");
+      } else if (std::find(known.begin(), known.end(), ours) == known.end()) {
+        std::string list;
+        for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+        refuse("--property", "there is no property `" + ours + "` that an import looks for" + did_you_mean(ours, known) +
+                                 (did_you_mean(ours, known).empty() ? ". These are: " : " These are: ") + list + ".");
+      } else context_.properties.emplace_back(property.substr(0, equals), property.substr(equals + 1));
+    }
+    if (o_.kind == "building" || o_.kind == "street" || o_.kind == "plot" || o_.kind == "area") context_.feature_kind = o_.kind;
+    const Settings settings = settings_of(scene_);
+    if (!settings.coordinate_system.empty())
+      context_.target = GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
+                                     settings.latitude,          settings.longitude, settings.true_north};
+    // What was drawn without a place on Earth is drawn in the metres of the model.
+    if (o_.origin.empty() && !context_.target && !scene_.nodes.empty() && tidy_crs_name(context_.crs) == kLocalCrs)
+      context_.origin = {0, 0};
+    if (o_.origin.empty()) return;
+    const std::size_t comma = o_.origin.find(',');
+    const auto x = parse_number(o_.origin.substr(0, comma)),
+               y = comma == std::string::npos ? std::nullopt : parse_number(o_.origin.substr(comma + 1));
+    if (!x || !y) return refuse("--origin", "expects two numbers such as 85000,447000, found `" + o_.origin + "`");
+    if (context_.target)
+      return fail(
+          "", {ErrorCode::conflict, "--origin",
+               "the scene lies in " + context_.target->crs + " already, and its origin stays where it is: leave the origin out"});
+    context_.origin = {*x, *y};
+  }
+
+  // A name that no feature has would be passed over in silence, with all that it should have said.
+  void check_properties() {
+    for (const auto& [ours, theirs] : context_.properties) {
+      if (properties_.empty() && has_layer_) {
+        refuse("--property", "a data layer has one value at each place, and no `" + ours +
+                                 "`: name the column or property with the values by --value " + theirs);
+        continue;
+      }
+      const bool is_there = std::any_of(properties_.begin(), properties_.end(),
+                                        [&theirs = theirs](const std::string& name) { return lower(name) == lower(theirs); });
+      if (is_there) continue;
+      const std::vector<std::string> names(properties_.begin(), properties_.end());
+      std::string list;
+      for (std::size_t i = 0; i < names.size() && i < 12; ++i) list += (i == 0 ? "" : ", ") + names[i].substr(0, 40);
+      if (names.size() > 12) list += ", ...";
+      const std::string near = did_you_mean(theirs, names);
+      refuse("--property", names.empty()
+                               ? "none of the files has features with properties: leave `" + ours + "=" + theirs + "` out"
+                               : "no feature has a property `" + theirs + "`" + near + (near.empty() ? ". " : " ") +
+                                     "They have: " + list + ".");
+    }
+  }
+
+  // The first file decides where the scene lies; all others follow it.
+  void settle(const GeoReference& reference) {
+    if (context_.target) return;
+    if (!scene_.nodes.empty() && reference.crs != kLocalCrs)
+      result_.notes.push_back(
+          "The scene had no place on Earth: it has that of the first file now, and what was in it is about its origin.");
+    nodes_.place(reference);
+    context_.target = reference;
+    context_.origin.reset();
+  }
+
+  std::string why_nothing() const {
+    std::string questions;
+    if (!o_.origin.empty())
+      questions += "is --origin right (X,Y = longitude,latitude or east,north in the CRS of the first file)? ";
+    if (context_.radius > 0) questions += "is anything within --radius " + shortest(context_.radius) + " m of the origin? ";
+    if (questions.empty() && context_.target)
+      questions = "do the files lie where the scene does (" + context_.target->crs + ")? ";
+    return questions + "--report FILE lists every element with its reason";
+  }
+
+  void take(const std::string& file, const ImportReport& report, const std::vector<std::string>& notes,
+            const GeoReference& reference) {
+    result_.reports.emplace_back(file, report);
+    for (const std::string& note : notes) result_.notes.push_back(file + ": " + note);
+    if (report.total() > 0 && report.count(ImportOutcome::taken) + report.count(ImportOutcome::repaired) == 0)
+      result_.notes.push_back(file + ": nothing of this file was taken; " + why_nothing());
+    settle(reference);
+  }
+
+  // Maps count heights from the ground, terrains from the sea.
+  void tell_of_ground() {
+    const bool has_terrain = result_.nodes.contains("terrain") ||
+                             std::any_of(scene_.nodes.begin(), scene_.nodes.end(),
+                                         [](const auto& entry) { return entry.second.types.contains("terrain"); });
+    if (has_terrain && from_ground_ > 0)
+      result_.notes.push_back(how_many(from_ground_, "building or piece of street", "buildings and pieces of street") +
+                              by_number(from_ground_, " has heights above the ground only: it stands",
+                                        " have heights above the ground only: they stand") +
+                              " at 0, and the terrain, whose heights count from the sea, lies above or below.");
+  }
+
+  template <class Read>
+  bool told(const std::string& file, const Read& read) {
+    if (read) return true;
+    fail(file, read.error());
+    return false;
+  }
+
+  void read(const std::string& file) {
+    auto bytes = read_file(file);
+    if (!bytes) return fail(file, bytes.error());
+    auto text = unpacked(*bytes);
+    if (!text) return fail(file, text.error());
+    const std::string name = file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1);
+    making_ = {o_.source.empty() ? name : o_.source, o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets, context_.watch};
+    const Format format = format_of(file, *text);
+    if (text->substr(0, 4096).find("\"behaviourlinks\"") != std::string::npos)
+      return fail(
+          file, {ErrorCode::wrong_kind, "", "this is a scene of BehaviourLinks; the scene that is added to is named by --into"});
+    if (auto foreign = foreign_to_name(file, format, *text)) return fail(file, *foreign);
+    if (format == Format::grid) return read_grid(file, *text);
+    if (format == Format::table || o_.kind == "layer") return read_layer(file, *text, format);
+    if (o_.kind == "terrain")
+      return fail(file, {ErrorCode::wrong_kind, "--as", "a terrain is read from an ASCII grid or a GeoTIFF"});
+    auto context =
+        format == Format::osm        ? read_osm_context(*text, context_)
+        : format == Format::cityjson ? read_cityjson_context(*text, context_)
+        : format == Format::geojson
+            ? read_geojson_context(*text, context_)
+            : Result<Context>(Error{ErrorCode::parse, "",
+                                    "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
+    if (!told(file, context)) return;
+    if (!o_.kind.empty() && format != Format::geojson)
+      result_.notes.push_back(file + ": --as " + o_.kind + " was not needed: the file says what its elements are");
+    for (const ContextBuilding& building : context->buildings) from_ground_ += building.is_above_sea ? 0 : 1;
+    from_ground_ += context->streets.size();
+    properties_.insert(context->properties.begin(), context->properties.end());
+    sites_.judge(*context);
+    take(file, context->report, context->notes, context->reference);
+    nodes_.add(*context, making_, sites_, result_.reports.back().second);
+  }
+
+  void read_grid(const std::string& file, const std::string& text) {
+    const auto grid = read_terrain_grid(text);
+    if (!told(file, grid)) return;
+    if (o_.kind == "layer") return read_layer(file, text, Format::grid);
+    const auto terrain = local_terrain(*grid, context_);
+    if (!told(file, terrain)) return;
+    std::vector<std::string> notes = grid->notes;
+    notes.insert(notes.end(), terrain->notes.begin(), terrain->notes.end());
+    take(file, terrain->report, notes, terrain->reference);
+    nodes_.add(*terrain, making_, result_.reports.back().second);
+  }
+
+  void read_layer(const std::string& file, const std::string& text, Format format) {
+    const auto from_grid = [&]() -> Result<DataLayer> {
+      const auto grid = read_terrain_grid(text);
+      return grid ? layer_of_grid(*grid, context_) : Result<DataLayer>(grid.error());
+    };
+    const auto layer = format == Format::grid      ? from_grid()
+                       : format == Format::geojson ? read_layer_geojson(text, context_, o_.value)
+                                                   : read_layer_csv(text, context_, o_.value);
+    if (!told(file, layer)) return;
+    has_layer_ = true;
+    take(file, layer->report, layer->notes, layer->reference);
+    nodes_.add(*layer, making_, result_.reports.back().second);
+  }
+
+  const Scene& scene_;
+  const ImportOptions& o_;
+  const Registry& registry_;
+  ContextOptions context_;
+  ContextNodes nodes_;
+  SiteBuildings sites_;
+  std::set<std::string> properties_;  // of all features
+  bool has_layer_ = false;            // some file was read as a data layer, which looks for no properties
+  NodeMaking making_;
+  std::size_t from_ground_ = 0;  // elements whose heights do not count from the sea
+  ImportedScene result_;
+};
+
+}  // namespace
+
+bool is_context_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kHead, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+  const Format format = format_of(path, head);
+  if (format == Format::unknown) return false;
+  const bool can_be_scene = lower(path).ends_with(".json") && format == Format::geojson;
+  return !can_be_scene || head.find("\"behaviourlinks\"") == std::string::npos;
+}
+
+const std::vector<std::string>& context_endings() {
+  static const std::vector<std::string> endings{".osm",      ".osm.gz",  ".pbf",        ".json",   ".json.gz", ".jsonl",
+                                                ".jsonl.gz", ".geojson", ".geojson.gz", ".asc",    ".asc.gz",  ".grd",
+                                                ".tif",      ".tiff",    ".csv",        ".csv.gz", ".tsv",     ".txt"};
+  return endings;
+}
+
+ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry) {
+  // Parsers deep down learn of a stop as well.
+  const ImportWatch* watch = options.context.watch;
+  const StopScope scope([watch] { return watch != nullptr && watch->is_stopped; });
+  return Import(scene, options, registry).run();
+}
+
+}  // namespace bl::cli

@@ -1,0 +1,50 @@
+// From files of surroundings and a scene to a scene with these around it: what the command line and the window both offer.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/define/command_builder.h"
+#include "core/graph/scene.h"
+#include "core/import/context.h"
+#include "core/making/site_buildings.h"
+
+namespace bl::cli {
+
+struct ImportOptions {
+  std::vector<std::string> files;
+  std::string into, out, report;
+  std::string kind;    ///< building, street, plot, area, terrain, layer; empty: what the file says
+  std::string origin;  ///< "X,Y"; empty: the middle of the first file
+  std::vector<std::string> properties;
+  std::string value, unit, source, licence;
+  ContextOptions context;
+  InsideChoice inside = InsideChoice::unsaid;  ///< of buildings that stand inside a site of the scene
+  AskToClear ask_to_clear;                     ///< who is asked where that is unsaid; empty: they are kept, and a note says so
+  bool keeps = false, clears = false;          ///< as the command line has it; `inside` is what counts
+  bool is_forced = false, is_extruded = false, takes_all_streets = false;
+};
+
+/// What came of it. Without a scene there are errors, each with the file that it is in.
+struct ImportedScene {
+  std::optional<Scene> scene;
+  Command command;  ///< leads from the scene that was added to to that one, as one step; without an id where both are the same
+  std::pair<Point3, Point3> bounds;          ///< around all that was added [m]; the first is above the second where nothing was
+  ImportReports reports;                     ///< of a file that could not be read: one row that says so
+  std::map<std::string, std::size_t> nodes;  ///< how many were made, by typification
+  std::vector<std::string> notes;
+  std::vector<std::pair<std::string, Error>> errors;
+};
+
+/// `scene`: the one that is added to.
+ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry);
+
+/// Does the file, by its name and how it begins, hold surroundings that can be imported? A scene does not.
+bool is_context_file(const std::string& path);
+/// Endings of such files, for lists of files; `.json` is a scene as well.
+const std::vector<std::string>& context_endings();
+
+}  // namespace bl::cli

@@ -1,0 +1,409 @@
+// Each element becomes one node: its ports as JSON, an id of its own, and a position in its middle.
+#include "core/making/context_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/plural.h"
+#include "core/base/stop_check.h"
+#include "core/base/text.h"
+#include "core/define/codec.h"
+#include "core/geometry/height_grid.h"
+#include "core/geometry/plan_ring.h"
+#include "core/import/thin_line.h"
+
+namespace bl::cli {
+
+namespace {
+
+// No street has more bends; where its file has more, those that count most are taken.
+constexpr std::size_t kMostBends = 500;
+
+// A tenth of a millimetre: files stay readable, and far finer than any survey.
+double tidy(double number) {
+  const double rounded = std::round(number * 1e4) / 1e4;
+  return rounded == 0 ? 0 : rounded;
+}
+
+Json points_json(const std::vector<Point3>& points, bool with_heights) {
+  Json list = Json::array();
+  for (const Point3& p : points) list.push_back({tidy(p.x), tidy(p.y), with_heights ? tidy(p.z) : 0.0});
+  return list;
+}
+
+Point3 middle(const std::vector<Point3>& points) {
+  Point3 sum;
+  for (const Point3& p : points) sum += p;
+  return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
+}
+
+Json position_json(const Point3& p) { return {tidy(p.x), tidy(p.y), tidy(p.z)}; }
+
+double length_of(const std::vector<Point3>& line) {
+  double length = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
+  return length;
+}
+
+// All that was taken became the same node.
+void name_all(ImportReport& report, const std::string& id) {
+  for (std::size_t row = 0; row < report.rows().size(); ++row)
+    if (report.rows()[row].outcome != ImportOutcome::skipped) report.made(row, id);
+}
+
+// Values for ports that this program's typification really has, in the kind that it wants.
+class Fitting {
+ public:
+  explicit Fitting(const TypificationDefinition& type) : type_(type) {}
+  void set(const char* port, double value) {
+    const PortDefinition* found = type_.find_port(port);
+    if (found == nullptr || found->is_computed) return;
+    const double fitted = std::clamp(value, found->hard_minimum, found->hard_maximum);
+    if (found->kind == ValueKind::integer) values[port] = static_cast<std::int64_t>(std::llround(fitted));
+    else if (found->kind == ValueKind::number) values[port] = fitted;
+  }
+  void set(const char* port, bool value) {
+    const PortDefinition* found = type_.find_port(port);
+    if (found != nullptr && !found->is_computed && found->kind == ValueKind::boolean) values[port] = value;
+  }
+  void set_node(const char* port, const std::string& id) {
+    const PortDefinition* found = type_.find_port(port);
+    if (found != nullptr && !found->is_computed && found->kind == ValueKind::selection) values[port] = Json::array({id});
+  }
+  void set(const char* port, const std::vector<Point3>& points) {
+    const PortDefinition* found = type_.find_port(port);
+    if (found != nullptr && !found->is_computed && found->kind == ValueKind::points) values[port] = points_json(points, false);
+  }
+  Json values = Json::object();
+
+ private:
+  const TypificationDefinition& type_;
+};
+
+}  // namespace
+
+ContextNodes::ContextNodes(const Scene& scene, const Registry& registry) : registry_(&registry) {
+  for (const auto& [id, node] : scene.nodes) taken_.insert(id);
+}
+
+std::string ContextNodes::fresh_id(const std::string& wanted) {
+  const std::string stem = to_identifier(wanted);
+  std::string id = stem;
+  // From where the last one of that stem left off: files with one id for all of their features are large, too.
+  std::size_t& number = numbers_[stem];
+  while (!taken_.insert(id).second) id = stem + "_" + std::to_string(number = std::max<std::size_t>(2, number + 1));
+  return id;
+}
+
+void ContextNodes::place(const GeoReference& reference) {
+  const auto set = [this](const std::string& id, const Json& value) {
+    commands_.push_back(write_json_line(command_to_json(*registry_, command<SetSetting>({id, {write_json_line(value)}}))));
+  };
+  set("coordinate_system", reference.crs);
+  set("origin_x", reference.origin_x);
+  set("origin_y", reference.origin_y);
+  if (reference.is_on_earth()) {
+    set("latitude", reference.latitude);
+    set("longitude", reference.longitude);
+  }
+  set("true_north", reference.true_north);
+}
+
+Command ContextNodes::batch() const {
+  std::string list = "[";
+  for (const std::string& text : commands_) list += (list.size() > 1 ? "," : "") + text;
+  return command<Batch>({{list + "]"}});
+}
+
+void ContextNodes::reach(const Point3& point) {
+  auto& [low, high] = bounds_;
+  low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
+  high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
+}
+
+// The command as a batch has it, without the node being written as its argument and read again.
+void ContextNodes::add_node(const std::string& id, Json&& node) {
+  Json added = {{"command", "add_node"}, {"arguments", {{"id", id}}}};
+  append_field(added["arguments"], "node") = std::move(node);
+  commands_.push_back(write_json_line(added));
+}
+
+void ContextNodes::set_port(const std::string& node, const std::string& path, const Value& value) {
+  const auto parsed = parse_port_path(path);
+  const auto port = parsed ? registry_->port(*parsed) : Result<const PortDefinition*>(Error{});
+  if (!port) return;
+  const JsonText text{write_json_line(value_to_json(value, **port))};
+  commands_.push_back(write_json_line(command_to_json(*registry_, command<SetPort>({node, {path}, text}))));
+}
+
+void ContextNodes::add(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report) {
+  Unused unused;
+  add_buildings(context, making, sites, report, unused);
+  std::size_t ground = 0;
+  for (const ContextArea& area : context.areas) {
+    if (!area.is_plot) {
+      ++ground;
+      if (area.row != kNoRow) unused[area.row] = "there is no typification for it";
+      continue;
+    }
+    const std::string id = add_plot(area);
+    if (area.row != kNoRow) report.made(area.row, id);
+  }
+  if (ground > 0)
+    notes_.push_back(how_many(ground, "area") + " of ground (land use, green, water) became " +
+                     by_number(ground, "no node", "no nodes") + ": there is no typification for that.");
+  if (!context.streets.empty()) add_streets(context, making, report, unused);
+  report.drop(unused);
+}
+
+void ContextNodes::add_buildings(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report,
+                                 Unused& unused) {
+  // Of buildings that are drawn by their parts: what the parts became.
+  std::map<std::string, std::vector<std::string>> of_parts;
+  std::set<std::string> cleared;  // buildings of which parts were left out
+  for (std::size_t b = 0; b < context.buildings.size(); ++b) {
+    if (is_stop_wished()) return;  // what is half made is dropped by who wished it
+    if (b % 256 == 0) (void)goes_on(making.watch, "buildings", b, context.buildings.size());
+    const ContextBuilding& building = context.buildings[b];
+    if (sites.is_cleared(b)) {
+      if (building.row != kNoRow) unused[building.row] = SiteBuildings::kClearedReason;
+      cleared.insert(building.whole);
+      continue;
+    }
+    const std::string id = add_building(building, making);
+    if (building.row != kNoRow) report.made(building.row, id);
+    sites.keep(b, building, id, report);
+    // An outline of several has the number of the outline behind the id of its element.
+    if (!building.whole.empty()) of_parts[building.whole].push_back(id);
+    if (const std::size_t slash = building.whole.rfind('/'); slash != std::string::npos)
+      of_parts[building.whole.substr(0, slash)].push_back(id);
+  }
+  for (std::size_t row = 0; row < report.rows().size(); ++row) {
+    const ImportRow& one = report.rows()[row];
+    if (one.id.empty() || one.outcome == ImportOutcome::skipped || !one.made.empty()) continue;
+    const auto parts = of_parts.find(one.id);
+    if (parts != of_parts.end())
+      for (const std::string& id : parts->second) report.made(row, id);
+    else if (cleared.contains(one.id)) unused[row] = SiteBuildings::kClearedReason;
+  }
+}
+
+std::string ContextNodes::add_building(const ContextBuilding& building, const NodeMaking& making) {
+  Json ports = {{"outline", points_json(building.outer, false)}};
+  for (std::size_t h = 0; h < building.holes.size(); ++h)
+    for (const Point3& corner : building.holes[h])
+      ports["holes"].push_back({{"name", "court " + std::to_string(h + 1)}, {"x", tidy(corner.x)}, {"y", tidy(corner.y)}});
+  ports["base"] = tidy(building.base);
+  ports["height"] = std::max(0.01, tidy(building.height));
+  ports["height_source"] = std::string(name_of(building.height_source));
+  if (building.storey_height > 0) ports["storey_height"] = tidy(building.storey_height);
+  if (!building.use.empty()) ports["use"] = building.use;
+  ports["origin"] =
+      building.id + (making.source.empty() ? "" : " of " + making.source) + (making.licence.empty() ? "" : ", " + making.licence);
+  if (building.solid && !making.is_extruded) {
+    ports["form"] = "mesh";
+    ports["vertices"] = points_json(building.solid->vertices, true);
+    for (const auto& [a, b, c] : building.solid->triangles) ports["triangles"].push_back({{"a", a}, {"b", b}, {"c", c}});
+  }
+  Point3 position = middle(building.outer);
+  position.z = building.base;
+  const std::string id = fresh_id("building_" + building.id);
+  Json node = {{"name", building.name.empty() ? building.id : building.name},
+               {"position", position_json(position)},
+               {"types", {{"existing_building", ports}}}};
+  add_node(id, std::move(node));
+  for (const Point3& corner : building.outer) {
+    reach({corner.x, corner.y, building.base});
+    reach({corner.x, corner.y, building.base + building.height});
+  }
+  ++made_["existing_building"];
+  return id;
+}
+
+std::string ContextNodes::add_plot(const ContextArea& area) {
+  const Json ports = {{"polygon", points_json(area.outer, false)}};
+  Json node = {{"name", area.name.empty() ? area.id : area.name},
+               {"position", position_json(middle(area.outer))},
+               {"types", {{"plot", ports}}}};
+  const std::string id = fresh_id("plot_" + area.id);
+  add_node(id, std::move(node));
+  for (const Point3& corner : area.outer) reach(corner);
+  ++made_["plot"];
+  if (!area.holes.empty()) notes_.push_back("The holes of plot `" + area.id + "` were left out: a plot is one polygon.");
+  return id;
+}
+
+void ContextNodes::add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused) {
+  if (registry_->typification("junction") == nullptr || registry_->typification("street") == nullptr) {
+    notes_.push_back(how_many(context.streets.size(), "piece") +
+                     " of street became no nodes: this program has no typifications `junction` and `street`.");
+    return;
+  }
+  // Ids first: turn rules stand at junctions and name streets.
+  std::vector<std::string> street_ids(context.streets.size()), junction_ids(context.junctions.size());
+  std::size_t without_cars = 0, loops = 0, without_walkers = 0;
+  for (std::size_t s = 0; s < context.streets.size() && !is_stop_wished(); ++s) {
+    if (s % 256 == 0) (void)goes_on(making.watch, "streets", s, context.streets.size());
+    const ContextStreet& piece = context.streets[s];
+    const auto leave = [&](std::size_t& count, const char* reason) {
+      ++count;
+      if (piece.row != kNoRow) unused[piece.row] = reason;
+    };
+    if (!piece.for_cars && !making.takes_all_streets) {
+      leave(without_cars, "without cars; it is taken where all streets are asked for");
+    } else if (piece.start == piece.end && !(length_of(piece.line) > 0)) {
+      leave(loops, "it leads nowhere");
+    } else {
+      street_ids[s] = fresh_id("street_" + piece.id);
+      if (!piece.for_feet) ++without_walkers;
+    }
+  }
+  const std::map<std::size_t, Json> turns = turn_rules(context, street_ids, report, unused);
+  const auto junction_at = [&](std::size_t index) -> const std::string& {
+    if (junction_ids[index].empty()) {
+      const auto rules = turns.find(index);
+      junction_ids[index] = add_junction(context.junctions[index], rules == turns.end() ? Json::array() : rules->second);
+    }
+    return junction_ids[index];
+  };
+  for (std::size_t s = 0; s < context.streets.size(); ++s) {
+    if (street_ids[s].empty()) continue;
+    const std::string &start = junction_at(context.streets[s].start), &end = junction_at(context.streets[s].end);
+    add_street(street_ids[s], context.streets[s], start, end, report);
+    if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
+  }
+  // A rule lies at its junction, which is there by now.
+  for (const ContextRestriction& turn : context.restrictions) {
+    const bool holds = !street_ids[turn.from].empty() && !street_ids[turn.to].empty();
+    if (turn.row == kNoRow || !holds) continue;
+    const auto& made = report.rows()[turn.row].made;
+    if (std::find(made.begin(), made.end(), junction_ids[turn.via]) == made.end()) report.made(turn.row, junction_ids[turn.via]);
+  }
+  if (without_walkers > 0)
+    notes_.push_back(how_many(without_walkers, "piece") + " of street " + by_number(without_walkers, "is", "are") +
+                     " closed to people on foot, which a street cannot say.");
+  if (!making.licence.empty() && made_.contains("street"))
+    notes_.push_back("Streets and junctions have no place for the licence " + making.licence +
+                     ": name it beside what you publish.");
+  if (without_cars > 0)
+    notes_.push_back(how_many(without_cars, "piece") + " of street without cars became " +
+                     by_number(without_cars, "no node", "no nodes") + ": such streets are taken where all are asked for.");
+  if (loops > 0)
+    notes_.push_back(how_many(loops, "piece") + " of street without any length became " +
+                     by_number(loops, "no node.", "no nodes."));
+}
+
+std::string ContextNodes::add_junction(const ContextJunction& junction, const Json& turns) {
+  const std::string id = fresh_id("junction_" + junction.id);
+  Json types = {{"junction", Json::object()}};
+  if (!turns.empty()) types["turn_rules"] = {{"turns", turns}};
+  Json node = {{"name", junction.id}, {"position", position_json(junction.position)}, {"types", types}};
+  add_node(id, std::move(node));
+  ++made_["junction"];
+  return id;
+}
+
+void ContextNodes::add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
+                              ImportReport& report) {
+  const ThinLine thin = thin_line(piece.line, kMostBends);
+  const bool is_thinned = thin.points.size() < piece.line.size();
+  if (is_thinned && piece.row != kNoRow)
+    report.mend(piece.row, std::to_string(thin.points.size() - 2) + " of the " + std::to_string(piece.line.size() - 2) +
+                               " bends of " + piece.id + " were taken, the others lie within " +
+                               fixed(std::max(0.01, std::ceil(thin.aside * 100) / 100), 2) + " m of its line");
+  Fitting fit(*registry_->typification("street"));
+  fit.set_node("start", start);
+  fit.set_node("end", end);
+  // A street has lanes in each direction; maps count those of both together, and a narrow one is shared.
+  fit.set("lanes", piece.is_one_way ? piece.lanes : std::max(1.0, piece.lanes / 2));
+  fit.set("speed", piece.speed);
+  if (piece.line.size() > 2) fit.set("course", std::vector<Point3>(thin.points.begin() + 1, thin.points.end() - 1));
+  // Else a street measures its line itself, also after somebody has moved a junction.
+  if (is_thinned) fit.set("length", length_of(piece.line));
+  fit.set("one_way", piece.is_one_way);
+  fit.set("for_cars", piece.for_cars);
+  Json node = {{"name", piece.name.empty() ? piece.street_class + " " + piece.id : piece.name},
+               {"position", position_json(piece.line[piece.line.size() / 2])},
+               {"types", {{"street", fit.values}}}};
+  add_node(id, std::move(node));
+  for (const Point3& point : piece.line) reach(point);
+  ++made_["street"];
+}
+
+// Rows of turn rules by junction. A restriction holds only where both of its streets became nodes.
+std::map<std::size_t, Json> ContextNodes::turn_rules(const Context& context, const std::vector<std::string>& street_ids,
+                                                     ImportReport& report, Unused& unused) {
+  std::map<std::size_t, Json> rules;
+  for (const ContextRestriction& turn : context.restrictions) {
+    const std::string &from = street_ids[turn.from], &to = street_ids[turn.to];
+    if (from.empty() || to.empty()) {
+      const std::string& street = context.streets[from.empty() ? turn.from : turn.to].id;
+      notes_.push_back("Turn restriction `" + turn.id + "` (" + turn.rule + ") became nothing: `" + street + "` became no node.");
+      if (turn.row != kNoRow) {
+        report.remark(turn.row, "`" + street + "` became no node");
+        unused[turn.row] = "one of its streets became no node";
+      }
+      continue;
+    }
+    Json row = {{"from", from}, {"to", to}};
+    if (turn.rule.starts_with("only_")) row["rule"] = "only";
+    Json& rows = rules[turn.via];
+    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(std::move(row));
+  }
+  return rules;
+}
+
+void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making, ImportReport& report) {
+  double lowest = INFINITY, highest = -INFINITY;
+  for (const double value : terrain.values)
+    if (std::isfinite(value)) lowest = std::min(lowest, value), highest = std::max(highest, value);
+  if (!std::isfinite(lowest)) lowest = highest = 0;
+  lowest = std::floor(lowest * 100) / 100;
+  // Centimetres, as long as the range of heights fits into three digits.
+  double step = 0.01;
+  while ((highest - lowest) / step > HeightGrid::kMostSteps) step *= 10;
+  Json rows = Json::array();
+  for (std::size_t row = 0; row < terrain.rows; ++row)
+    rows.push_back(
+        {{"heights", height_row(std::span(terrain.values).subspan(row * terrain.columns, terrain.columns), lowest, step)}});
+  const Json ports = {{"rows", rows},
+                      {"west", tidy(terrain.west)},
+                      {"north", tidy(terrain.north)},
+                      {"cell", terrain.cell},
+                      {"lowest", lowest},
+                      {"step", step},
+                      {"origin", making.source + (making.licence.empty() ? "" : ", " + making.licence)}};
+  const double east = terrain.west + terrain.cell * static_cast<double>(terrain.columns) / 2;
+  const double south = terrain.north - terrain.cell * static_cast<double>(terrain.rows) / 2;
+  Json node = {{"name", "Terrain"}, {"position", position_json({east, south, lowest})}, {"types", {{"terrain", ports}}}};
+  const std::string id = fresh_id("terrain");
+  add_node(id, std::move(node));
+  name_all(report, id);
+  reach({terrain.west, terrain.north, lowest});
+  reach({2 * east - terrain.west, 2 * south - terrain.north, std::isfinite(highest) ? highest : lowest});
+  ++made_["terrain"];
+}
+
+void ContextNodes::add(const DataLayer& layer, const NodeMaking& making, ImportReport& report) {
+  Json rows = Json::array();
+  std::vector<Point3> places;
+  for (const LayerPoint& point : layer.points) {
+    rows.push_back({{"x", tidy(point.x)}, {"y", tidy(point.y)}, {"value", point.value}});
+    places.push_back({point.x, point.y, 0});
+  }
+  const Json ports = {{"values", rows},
+                      {"quantity", layer.value_name},
+                      {"unit", making.unit.empty() ? layer.unit : making.unit},
+                      {"source", making.source},
+                      {"licence", making.licence}};
+  Json node = {{"name", layer.value_name}, {"position", position_json(middle(places))}, {"types", {{"data_layer", ports}}}};
+  const std::string id = fresh_id("layer_" + layer.value_name);
+  add_node(id, std::move(node));
+  name_all(report, id);
+  for (const Point3& place : places) reach(place);
+  ++made_["data_layer"];
+}
+
+}  // namespace bl::cli

@@ -1,0 +1,79 @@
+// The surroundings of a site as nodes of a scene, by commands only.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/define/codec.h"
+#include "core/import/context.h"
+#include "core/import/data_layer.h"
+#include "core/import/terrain_grid.h"
+#include "core/making/site_buildings.h"
+#include "core/session/commands.h"
+
+namespace bl::cli {
+
+/// Where nodes come from, and how they are made.
+struct NodeMaking {
+  std::string source, licence, unit;
+  bool is_extruded = false;        ///< buildings from outline and height, even where there is a solid
+  bool takes_all_streets = false;  ///< footpaths and the like, too
+  ImportWatch* watch = nullptr;    ///< who waits for it; may be null
+};
+
+/// Collects commands that add nodes; ids are new to the scene and tell what they are and where they come from.
+class ContextNodes {
+ public:
+  ContextNodes(const Scene& scene, const Registry& registry);
+
+  /// Sets where the scene lies.
+  void place(const GeoReference& reference);
+  // Each says in `report`, which is that of the elements, what was made of them.
+  void add(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report);
+  void add(const LocalTerrain& terrain, const NodeMaking& making, ImportReport& report);
+  void add(const DataLayer& layer, const NodeMaking& making, ImportReport& report);
+
+  /// Sets a port of a node that is there already.
+  void set_port(const std::string& node, const std::string& path, const Value& value);
+
+  /// All as one command.
+  Command batch() const;
+  /// Is there nothing to change?
+  bool is_empty() const { return commands_.empty(); }
+  /// How many nodes of which sort were added.
+  const std::map<std::string, std::size_t>& made() const { return made_; }
+  /// Around all that was added [m]; the lower corner is above the upper one where nothing was.
+  const std::pair<Point3, Point3>& bounds() const { return bounds_; }
+  /// Sentences about what the scene cannot hold.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  /// By row of the report: why an element became no node.
+  using Unused = std::map<std::size_t, std::string>;
+  std::string fresh_id(const std::string& wanted);
+  void add_buildings(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report,
+                     Unused& unused);
+  std::string add_building(const ContextBuilding& building, const NodeMaking& making);
+  void add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused);
+  std::string add_junction(const ContextJunction& junction, const Json& turns);
+  void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
+                  ImportReport& report);
+  std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids, ImportReport& report,
+                                         Unused& unused);
+  std::string add_plot(const ContextArea& area);
+  void add_node(const std::string& id, Json&& node);
+  void reach(const Point3& point);
+
+  const Registry* registry_;
+  std::set<std::string> taken_;
+  std::map<std::string, std::size_t> numbers_;  // the last one given to each stem
+  std::vector<std::string> commands_;           // each a JSON text
+  std::map<std::string, std::size_t> made_;
+  std::vector<std::string> notes_;
+  std::pair<Point3, Point3> bounds_{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
+};
+
+}  // namespace bl::cli

@@ -1,0 +1,34 @@
+// From picture files to media nodes of a scene: what the command line and a drop onto the window both do.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/define/command_builder.h"
+#include "core/graph/scene.h"
+
+namespace bl::cli {
+
+struct MediaOptions {
+  std::string scene;      ///< path of the scene file, which the picture's path becomes relative to; may be empty
+  std::string placement;  ///< ground, billboard or camera; empty: a camera where the picture says where it looked
+  std::string consent = "unknown";
+  std::string licence, author;      ///< empty: what the picture says
+  double size = 0;                  ///< [m]; 0: as the declaration has it
+  std::optional<Vector3> position;  ///< [m]; nothing: where the picture was taken, or the origin
+};
+
+struct MadeMedia {
+  std::string id;
+  Command command;                 ///< adds the node
+  std::vector<std::string> notes;  ///< one sentence for each thing that was assumed or left out
+};
+
+/// Reads what the file says of itself; the picture stays where it is.
+Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const MediaOptions& options);
+
+/// Does the name end like one of a picture that is known?
+bool is_picture_name(const std::string& file);
+
+}  // namespace bl::cli

@@ -1,0 +1,50 @@
+// Builds a first scene from a plan and a programme, by commands only.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/import/plan_boundary.h"
+#include "core/import/programme_csv.h"
+#include "core/session/commands.h"
+
+namespace bl::cli {
+
+/// The link that keeps positions inside the site.
+inline constexpr const char* kInsideLink = "inside";
+
+/// What a new scene is made of.
+struct SceneParts {
+  std::string title;
+  GeoReference reference;
+  Ring plan;                      ///< counter-clockwise
+  std::vector<Ring> holes;        ///< clockwise
+  double height = 0, margin = 0;  ///< [m]
+  ProgrammeImport programme;
+  std::uint64_t seed = 1;
+};
+
+/// One SmartVolume to be: an item of a row of the programme.
+struct NewVolume {
+  std::string id, name;
+  std::size_t row = 0;
+  double demand = 0;  ///< [m³]
+  Point3 position;
+};
+
+/// Items of one use that want to touch one item of another use: both are indices of volumes.
+struct WantedContact {
+  std::size_t hub = 0;
+  std::vector<std::size_t> partners;  ///< ascending
+};
+
+/// The items of all rows with ids of their own, positions not yet given.
+std::vector<NewVolume> volumes_of(const ProgrammeImport& programme);
+/// Who shall touch whom, from the column adjacent_to: the items of the more numerous use are dealt out evenly to those of the
+/// other.
+std::vector<WantedContact> contacts_of(const ProgrammeImport& programme, const std::vector<NewVolume>& volumes);
+/// The scene as one command, positions spread by the seed.
+Result<Command> new_scene_command(const SceneParts& parts, const Registry& registry);
+
+}  // namespace bl::cli

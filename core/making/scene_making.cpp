@@ -1,0 +1,145 @@
+// Reads, checks and joins the parts of a new scene.
+#include "core/making/scene_making.h"
+
+#include <cmath>
+
+#include "core/base/plural.h"
+#include "core/base/text.h"
+#include "core/file/file_io.h"
+#include "core/session/ledger.h"
+#include "core/session/session.h"
+
+namespace bl::cli {
+
+namespace {
+
+constexpr double kLargestHeight = 10000;  // [m]
+
+class Maker {
+ public:
+  Maker(const NewOptions& options, MadeScene& made) : o_(options), made_(made) {}
+
+  void run(const Registry& registry) {
+    check_numbers();
+    load_plan();
+    const auto programme = load_programme();
+    if (!made_.errors.empty()) return;
+    SceneParts& parts = made_.parts;
+    const bool takes_hull = o_.use_hull && !made_.plan->is_convex;
+    const ConvexPlan hull = convex_hull_plan(*made_.plan);
+    parts.title = o_.title.empty() ? file_stem(o_.programme) : o_.title;
+    parts.reference = made_.plan->reference;
+    parts.plan = takes_hull ? hull.ring : made_.plan->outer;
+    if (!takes_hull) parts.holes = made_.plan->holes;
+    parts.height = o_.height;
+    parts.margin = o_.margin;
+    parts.programme = *programme;
+    parts.seed = o_.seed;
+    made_.plan_area = takes_hull ? hull.area : made_.plan->area;
+    for (const NewVolume& volume : volumes_of(parts.programme)) made_.demand += volume.demand;
+    const auto command = new_scene_command(parts, registry);
+    if (!command) return fail(o_.out, command.error());
+    Ledger ledger(registry, Scene{});
+    if (auto done = ledger.submit(*command, "new", 0); !done) return fail(o_.out, done.error());
+    if (const auto room = room_inside(ledger.scene(), registry); !room) return fail("", room.error());
+    made_.scene = ledger.scene();
+  }
+
+ private:
+  // Is there room inside the margin? The link that keeps it knows: it is asked with the site and one volume alone, and without
+  // anybody who computes. Its answer comes in the second tick, when it sees the boundary.
+  static Result<void> room_inside(Scene scene, const Registry& registry) {
+    const auto inside = scene.links.find(kInsideLink);
+    if (inside == scene.links.end()) return {};
+    const std::map<std::string, LinkRecord> kept{*inside};
+    scene.links = kept;
+    bool has_volume = false;
+    std::erase_if(scene.nodes, [&has_volume](const auto& entry) {
+      if (entry.second.types.contains("boundary")) return false;
+      const bool is_dropped = has_volume || !entry.second.types.contains("smart_volume");
+      has_volume = has_volume || !is_dropped;
+      return is_dropped;
+    });
+    const auto session = Session::start(registry, scene, nullptr, 1);
+    if (!session) return {};
+    for (int tick = 0; tick < 2; ++tick) (*session)->tick();
+    for (const LinkState& link : (*session)->state()->links)
+      if (link.error) return Error{link.error->code, "--margin", link.error->message};
+    return {};
+  }
+
+  void fail(const std::string& file, Error error) { made_.errors.emplace_back(file, std::move(error)); }
+  void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
+
+  static std::string file_stem(const std::string& path) {
+    const std::string name = path.substr(path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1);
+    const std::size_t dot = name.rfind('.');
+    return dot == std::string::npos || dot == 0 ? name : name.substr(0, dot);
+  }
+
+  void check_numbers() {
+    if (!(o_.height > 0) || !(o_.height <= kLargestHeight))
+      refuse("--height", "must be a height in m, more than 0 and at most " + written_out(kLargestHeight) + ", found " +
+                             written_out(o_.height));
+    if (!(o_.storey_height >= 1) || !(o_.storey_height <= 50))
+      refuse("--storey-height", "must be between 1 and 50 m, found " + written_out(o_.storey_height));
+    if (!(o_.margin >= 0) || !std::isfinite(o_.margin))
+      refuse("--margin", "must be 0 m or more, found " + written_out(o_.margin));
+  }
+
+  std::optional<std::string> text_of(const std::string& file) {
+    auto text = read_file(file);
+    if (text) return std::move(*text);
+    fail(file, text.error());
+    return std::nullopt;
+  }
+
+  void load_plan() {
+    const auto text = text_of(o_.boundary);
+    if (!text) return;
+    PlanOptions options;
+    options.feature = o_.feature;
+    options.crs = o_.crs;
+    auto plan = read_plan_boundary(*text, options);
+    if (!plan) return fail(o_.boundary, plan.error());
+    for (const std::string& note : plan->notes) made_.notes.push_back(o_.boundary + ": " + note);
+    made_.plan = std::move(*plan);
+  }
+
+  std::optional<ProgrammeImport> load_programme() {
+    const auto text = text_of(o_.programme);
+    if (!text) return std::nullopt;
+    ProgrammeOptions options;
+    options.storey_height = o_.storey_height;
+    for (const std::string& column : o_.columns) {
+      const std::size_t equals = column.find('=');
+      if (equals == std::string::npos || equals == 0) {
+        refuse("--column", "expects OURS=HEADER such as use=\"Room name\", found `" + column + "`");
+        return std::nullopt;
+      }
+      options.columns[column.substr(0, equals)] = column.substr(equals + 1);
+    }
+    auto programme = read_programme_csv(*text, options);
+    if (!programme) {
+      fail(o_.programme, programme.error());
+      return std::nullopt;
+    }
+    for (const std::string& note : programme->notes) made_.notes.push_back(o_.programme + ": " + note);
+    for (const std::string& warning : programme->warnings)
+      made_.warnings.emplace_back(o_.programme, Error{ErrorCode::unknown_field, "", warning});
+    return std::move(*programme);
+  }
+
+  const NewOptions& o_;
+  MadeScene& made_;
+};
+
+}  // namespace
+
+MadeScene make_scene(const NewOptions& options, const Registry& registry) {
+  MadeScene made;
+  Maker(options, made).run(registry);
+  return made;
+}
+
+}  // namespace bl::cli

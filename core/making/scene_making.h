@@ -1,0 +1,40 @@
+// From files of a boundary and a programme to a scene: what the command line and the window both offer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/making/new_scene.h"
+
+namespace bl::cli {
+
+struct NewOptions {
+  std::string boundary, programme, out, feature, crs, title;
+  double height = 0;           ///< [m]
+  double storey_height = 3.2;  ///< [m]
+  double margin = 1;           ///< [m]
+  std::uint64_t seed = 1;
+  bool use_hull = false, is_forced = false;
+  std::vector<std::string> columns;
+};
+
+/// What came of it. Without a scene there are errors; all that can be said about the input is said at once.
+struct MadeScene {
+  std::optional<Scene> scene;
+  std::optional<PlanBoundary> plan;
+  SceneParts parts;
+  double plan_area = 0;  ///< [m²] of the plan that was taken
+  double demand = 0;     ///< [m³] of all volumes
+  std::vector<std::string> notes;
+  std::vector<std::pair<std::string, Error>> warnings;  ///< each with the file that it is in
+  std::vector<std::pair<std::string, Error>> errors;    ///< each with the file that it is in; empty: in the options
+
+  /// Demanded volume as a share of the boundary's.
+  double fill() const { return demand / (plan_area * parts.height); }
+};
+MadeScene make_scene(const NewOptions& options, const Registry& registry);
+
+}  // namespace bl::cli

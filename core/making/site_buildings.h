@@ -1,0 +1,74 @@
+// Buildings of the surroundings that stand inside a site: which ones, and what becomes of them.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/define/registry.h"
+#include "core/graph/scene.h"
+#include "core/import/context.h"
+
+namespace bl::cli {
+
+/// What becomes of them. Kept ones stand in the scene, and the site leaves out the ground that they stand on, up to their roofs;
+/// cleared ones are left out of the scene.
+enum class InsideChoice { unsaid, keep, clear };
+
+/// Asked once, where nobody has said it: true for clearing. Empty: nobody can be asked.
+using AskToClear = std::function<bool(std::size_t buildings, const std::string& site)>;
+
+/// The boundaries of a scene in plan, and the buildings of an import that meet them.
+/// A building counts as inside where more of its footprint lies in the site than drawings are inexact by. It is judged as a
+/// whole, with all of its parts: where less than half of it is inside, it is a neighbour that reaches in, and stays in any case.
+class SiteBuildings {
+ public:
+  SiteBuildings(const Scene& scene, const Registry& registry, InsideChoice choice, AskToClear ask);
+
+  /// Of all buildings of a file, before they are made nodes.
+  void judge(const Context& context);
+  /// Is that building of the file left out?
+  bool is_cleared(std::size_t building) const;
+  /// Says in its row what is special about a building that stays, and has its site leave out its ground.
+  void keep(std::size_t building, const ContextBuilding& made, const std::string& node, ImportReport& report);
+  static constexpr const char* kClearedReason = "it stands inside the site, which is cleared";
+
+  /// Was any building left out?
+  bool has_cleared() const;
+  /// The new values of the sites' exclusions, by node.
+  std::vector<std::pair<std::string, Table>> exclusions() const;
+  /// Sentences about what was done; after all files.
+  std::vector<std::string> notes() const;
+
+ private:
+  struct Site {
+    std::string id;
+    std::vector<std::vector<Ring>> grounds;  // each an outline with its holes
+    double bottom = 0, top = 0;
+    Table rows;                            // its exclusions
+    std::set<std::size_t> kept, reaching;  // whole buildings that stay, by their number in `judged_`
+    std::size_t cleared = 0, barred = 0;
+  };
+  struct Stay {
+    std::size_t site = 0;
+    double share = 0;       // [ratio] of the footprint that lies inside
+    std::size_t whole = 0;  // the number of its whole building
+    bool is_own = false;    // the site is its place
+    bool is_cleared = false;
+  };
+
+  double inside(const Site& site, const ContextBuilding& building) const;
+  bool clears(std::size_t buildings, const std::string& site);
+
+  std::vector<Site> sites_;
+  std::size_t judged_ = 0;  // whole buildings of all files
+  InsideChoice choice_;
+  bool is_assumed_ = false;
+  AskToClear ask_;
+  std::map<std::size_t, std::vector<Stay>> stays_;  // by building of the file
+};
+
+}  // namespace bl::cli

@@ -1,0 +1,281 @@
+// Reads demands, limits and results of all volumes once, and sums them by use, against what programmes ask for.
+#include "core/reading/account.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/define/brief_sums.h"
+#include "core/reading/figures.h"
+#include "core/reading/report_model.h"
+
+namespace bl::report {
+
+namespace {
+
+constexpr const char* kVolumeType = "smart_volume";
+
+// A litre, a square centimetre: less than this is nothing that anybody asks for or misses.
+constexpr double kNothing = 1e-3;
+
+double share_missing(double asked, double had) { return asked > kNothing ? std::clamp((asked - had) / asked, 0.0, 1.0) : 0; }
+
+// Which use a volume counts for, and whether a brief speaks to it at all.
+struct Briefed {
+  std::map<std::uint32_t, std::string> credited;  // by a demand link with a use of its own
+  std::set<std::uint32_t> nodes;
+};
+
+Briefed read_briefed(const State& state) {
+  Briefed briefed;
+  const Plan& plan = *state.plan;
+  for (const LinkPlan& link : plan.links) {
+    if (link.definition == nullptr || link.definition->id != "demand" || !link.is_enabled || link.error) continue;
+    const auto record = plan.scene.links.find(link.id);
+    std::string use;
+    if (record != plan.scene.links.end())
+      if (const auto found = record->second.parameters.find("use"); found != record->second.parameters.end())
+        if (const auto* text = std::get_if<std::string>(&found->second)) use = *text;
+    for (const std::uint32_t node : link.nodes[1]) {
+      if (!use.empty()) briefed.credited.emplace(node, use);
+      if (!link.is_muted) briefed.nodes.insert(node);
+    }
+  }
+  return briefed;
+}
+
+VolumeAccount read_account(const State& state, std::uint32_t node, const Briefed& briefed) {
+  const auto number = [&](const char* port, double fallback = 0) { return number_at(state, node, kVolumeType, port, fallback); };
+  VolumeAccount account;
+  account.node = node;
+  const auto other = briefed.credited.find(node);
+  account.use = other != briefed.credited.end() ? other->second : text_at(state, node, kVolumeType, "use");
+  const std::string standing = text_at(state, node, kVolumeType, "state");
+  account.is_alive = standing == "alive";
+  account.storey_height = number("storey_height");
+  const double least = number("demand_min");
+  account.asked = std::max(number("demand"), least);
+  // Before a solver has seen the volume nobody aims at anything yet: then its limits themselves are the next best word.
+  account.limited =
+      standing == "idle" ? std::max(std::min(number("demand"), number("demand_limit", 1e9)), least) : number("wanted");
+  account.volume = number("volume");
+  account.floor_area = number("floor_area");
+  if (account.storey_height > 0) {
+    account.asked_area = account.asked / account.storey_height;
+    account.limited_area = account.limited / account.storey_height;
+  }
+  return account;
+}
+
+// A use gets what its brief asks for or what its volumes do, whichever is more: whoever asked, it is missing where it is not
+// there.
+void finish_use(UseAccount& use) {
+  constexpr double kRounding = 1e-9;
+  if (!use.is_in_programme) return;
+  if (!(use.asked > use.brief_volume * (1 + kRounding))) use.asked = use.brief_volume;
+  if (!(use.asked_area > use.brief_area * (1 + kRounding))) use.asked_area = use.brief_area;
+  use.is_by_area = true;
+}
+
+void note_worst(Accounts& accounts, double share, const std::string& who) {
+  if (!(share > accounts.worst_short)) return;
+  accounts.worst_short = share;
+  accounts.worst = who;
+}
+
+// Names by commas, the last by "and"; no more than four of them.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 4;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(names.size(), kMost); ++k)
+    text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
+  return names.size() > kMost ? text + " and " + std::to_string(names.size() - kMost) + " more" : text;
+}
+
+// Which of the rules that a link holds are used up, or nearly: a plot has several, and one of them limits the volume.
+std::string rules_used_up(const State& state, const LinkPlan& link, std::uint32_t volume) {
+  constexpr double kNearly = 0.98;
+  if (link.definition == nullptr || link.definition->id != "plot_rules" || link.nodes[0].size() != 1) return "";
+  const std::uint32_t plot = link.nodes[0].front();
+  const auto allowed = [&](const char* port) { return number_at(state, plot, "plot", port, 0); };
+  const auto is_held = [&](const char* parameter) {
+    const auto& parameters = state.plan->scene.links.at(link.id).parameters;
+    const auto found = parameters.find(parameter);
+    return found == parameters.end() || as_number(found->second) != 0;
+  };
+  std::vector<std::string> rules;
+  if (is_held("hold_fsi") && allowed("fsi") >= kNearly * allowed("fsi_max")) rules.emplace_back("FSI");
+  if (is_held("hold_gsi") && allowed("gsi") >= kNearly * allowed("gsi_max")) rules.emplace_back("GSI");
+  const double top = number_at(state, volume, kVolumeType, "bottom", 0) + number_at(state, volume, kVolumeType, "height", 0);
+  if (is_held("hold_height") && top - allowed("ground") >= kNearly * allowed("height_max")) rules.emplace_back("height");
+  return rules.empty() ? "" : " (" + listed(rules) + ")";
+}
+
+// The parts that all share: what limits take, what the room takes, what the shape takes.
+std::string causes_of(const Account& account, const std::vector<std::string>& limiters, double tolerance) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  if (account.withheld() > tolerance * account.asked)
+    add((limiters.empty() ? std::string("limits leave ") : listed(limiters) + (limiters.size() == 1 ? " leaves " : " leave ")) +
+        quantity(account.limited, Unit::cubic_metre) + " of " + quantity(account.asked, Unit::cubic_metre));
+  if (share_missing(account.limited, account.volume) > tolerance)
+    add("there is room for " + quantity(account.volume, Unit::cubic_metre) + " of the " +
+        quantity(account.limited, Unit::cubic_metre) + " aimed at");
+  // Floor area can be missing where the volume is there: storeys of a rounded shape hold less than volume over height.
+  if (account.is_by_area &&
+      share_missing(account.asked_area, account.floor_area) > share_missing(account.asked, account.volume) + tolerance)
+    add("storeys of the shape hold less floor than its volume would: ask for more volume, or lower the storeys");
+  if (text.empty()) add("limits, room and shape each take a little");
+  return text;
+}
+
+}  // namespace
+
+double Account::missing() const { return std::max(0.0, asked - volume); }
+double Account::missing_area() const { return std::max(0.0, asked_area - floor_area); }
+double Account::withheld() const { return std::max(0.0, asked - limited); }
+
+double Account::missing_share() const { return share_missing(asked, volume); }
+double Account::missing_area_share() const { return share_missing(asked_area, floor_area); }
+
+double Account::short_share() const { return std::max(missing_share(), is_by_area ? missing_area_share() : 0.0); }
+
+double Account::difference() const { return asked > kNothing ? (volume - asked) / asked : 0; }
+double Account::standing() const { return short_share() > 0 ? -short_share() : difference(); }
+double Account::area_difference() const { return asked_area > kNothing ? (floor_area - asked_area) / asked_area : 0; }
+
+void Account::add(const Account& other) {
+  asked += other.asked;
+  limited += other.limited;
+  volume += other.volume;
+  asked_area += other.asked_area;
+  limited_area += other.limited_area;
+  floor_area += other.floor_area;
+}
+
+std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
+  std::vector<std::pair<std::string, BriefRow>> brief;
+  std::map<std::string, std::size_t> index;
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
+    const Table* table = table_at(state, n, "programme", "rows");
+    for (std::size_t r = 0; table != nullptr && r < table->rows.size(); ++r) {
+      if (table->text(r, "use").empty()) continue;  // nobody is asked by it, which the programme itself says
+      const auto [found, is_new] = index.emplace(table->text(r, "use"), brief.size());
+      if (is_new) brief.emplace_back(found->first, BriefRow{});
+      BriefRow& row = brief[found->second].second;
+      const BriefSums sums = brief_sums(*table, r);
+      row.area += sums.area;
+      row.volume += sums.volume;
+    }
+  }
+  return brief;
+}
+
+Accounts accounts_of(const State& state) {
+  Accounts accounts;
+  accounts.tolerance = std::max(state.plan->settings.tolerance, 1e-6);
+  const Briefed briefed = read_briefed(state);
+  std::map<std::string, std::size_t> index;
+  const auto use_of = [&](const std::string& use) -> UseAccount& {
+    const auto [found, is_new] = index.emplace(use, accounts.uses.size());
+    if (is_new) accounts.uses.emplace_back().use = use;
+    return accounts.uses[found->second];
+  };
+  for (const auto& [use, row] : brief_of(state)) {
+    UseAccount& account = use_of(use);
+    account.is_in_programme = true;
+    account.brief_volume = row.volume;
+    account.brief_area = row.area;
+  }
+  std::map<std::string, std::vector<const VolumeAccount*>> members;
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    if (has_type(state, n, kVolumeType)) accounts.volumes.push_back(read_account(state, n, briefed));
+  for (VolumeAccount& volume : accounts.volumes) {
+    const auto row = index.find(volume.use);
+    volume.is_by_area = briefed.nodes.contains(volume.node) && row != index.end() && accounts.uses[row->second].is_in_programme;
+  }
+  for (const VolumeAccount& volume : accounts.volumes) members[volume.use].push_back(&volume);
+  for (const auto& [use, volumes] : members) {
+    UseAccount& account = use_of(use);
+    for (const VolumeAccount* volume : volumes) {
+      account.add(*volume);
+      ++account.volumes;
+      account.short_volumes += volume->is_short(accounts.tolerance) ? 1 : 0;
+      note_worst(accounts, volume->short_share(), "volume " + name_at(state, volume->node));
+    }
+  }
+  for (UseAccount& use : accounts.uses) {
+    finish_use(use);
+    accounts.all.add(use);
+    accounts.all.is_in_programme |= use.is_in_programme;
+    accounts.all.volumes += use.volumes;
+    accounts.all.short_volumes += use.short_volumes;
+    accounts.all.brief_volume += use.brief_volume;
+    accounts.all.brief_area += use.brief_area;
+    note_worst(accounts, use.short_share(), use.use.empty() ? "what has no use" : use.use);
+  }
+  accounts.all.use = "all";
+  accounts.all.is_by_area = accounts.all.is_in_programme;
+  return accounts;
+}
+
+std::vector<std::string> who_limits(const State& state, const VolumeAccount& volume) {
+  std::vector<std::string> who;
+  const auto ref = state.plan->find(volume.node, PortPath{kVolumeType, "demand_limit", ""});
+  if (!ref || !(volume.withheld() > 0)) return who;
+  const double limit = as_number(state.value(*ref));
+  const auto holds = [&](const Value& value) { return as_number(value) <= limit * (1 + 1e-6); };
+  for (std::size_t l = 0; l < state.links.size(); ++l) {
+    if (state.plan->links[l].is_muted) continue;
+    const std::vector<Voice>& voices = state.links[l].voices;
+    const auto voice =
+        std::lower_bound(voices.begin(), voices.end(), *ref, [](const Voice& v, PortRef r) { return v.target < r; });
+    if (voice != voices.end() && voice->target == *ref && voice->strength > 0 && holds(voice->value))
+      who.push_back("link `" + state.plan->links[l].id + "`" + rules_used_up(state, state.plan->links[l], volume.node));
+  }
+  const TypePlan& type = state.plan->nodes[volume.node].types[ref->type];
+  if (type.is_set[ref->port] && holds(type.set_values[ref->port])) who.emplace_back("a limit set by hand");
+  return who;
+}
+
+std::string why_short(const State& state, const Accounts& accounts, const VolumeAccount& volume) {
+  if (!volume.is_short(accounts.tolerance)) return "";
+  return causes_of(volume, who_limits(state, volume), accounts.tolerance);
+}
+
+namespace {
+
+// What others of a use have too much makes up in its sum for what some go short of, and for nobody else.
+std::string why_some_are_short(const State& state, const Accounts& accounts, const UseAccount& use) {
+  const VolumeAccount* worst = nullptr;
+  for (const VolumeAccount& volume : accounts.volumes)
+    if (volume.use == use.use && volume.is_short(accounts.tolerance) &&
+        (worst == nullptr || volume.short_share() > worst->short_share()))
+      worst = &volume;
+  if (worst == nullptr) return "";
+  const std::string name = name_at(state, worst->node);
+  return (use.short_volumes > 1 ? std::to_string(use.short_volumes) + " of its volumes are short, `" + name + "` most: "
+                                : "`" + name + "` alone is short: ") +
+         why_short(state, accounts, *worst);
+}
+
+}  // namespace
+
+std::string why_short(const State& state, const Accounts& accounts, const UseAccount& use) {
+  if (!use.is_short(accounts.tolerance)) return why_some_are_short(state, accounts, use);
+  if (use.volumes == 0) return "no volume has this use: add one, or give one that use";
+  std::vector<std::string> limiters;
+  double unasked = use.asked;
+  for (const VolumeAccount& volume : accounts.volumes) {
+    if (volume.use != use.use) continue;
+    unasked -= volume.asked;
+    for (const std::string& who : who_limits(state, volume))
+      if (std::find(limiters.begin(), limiters.end(), who) == limiters.end()) limiters.push_back(who);
+  }
+  if (unasked > accounts.tolerance * use.asked && use.limited >= (1 - accounts.tolerance) * (use.asked - unasked))
+    return "its volumes ask for " + quantity(unasked, Unit::cubic_metre) +
+           " less than the brief: other voices speak in their demands, or the brief does not reach them";
+  return causes_of(use, limiters, accounts.tolerance);
+}
+
+}  // namespace bl::report

@@ -1,0 +1,179 @@
+// Who pulls at what: ports under tension with the voices behind it, and everything that failed or cannot be had.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "core/base/text.h"
+#include "core/reading/figures.h"
+#include "core/reading/place_problems.h"
+#include "core/reading/report_model.h"
+
+namespace bl::report {
+
+namespace {
+
+// "north-east and up", by true north.
+std::string direction_of(const Vector3& pull, double true_north) {
+  constexpr std::array kNames = {"north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"};
+  const double across = std::hypot(pull.x, pull.y), length = norm(pull);
+  std::string text;
+  if (across > 0.38 * length) {
+    const double angle = std::atan2(pull.x, pull.y) * 180 / std::numbers::pi - true_north;
+    const double eighth = std::round(angle / 45);
+    text = kNames[static_cast<std::size_t>(eighth - 8 * std::floor(eighth / 8)) % 8];
+  }
+  if (std::abs(pull.z) <= 0.38 * length) return text;
+  return text + (text.empty() ? "" : " and ") + (pull.z > 0 ? "up" : "down");
+}
+
+double size_of(const State& state, PortRef ref) {
+  const Value& value = state.value(ref);
+  // Places have no size of their own: a pull counts against the radius of what it moves.
+  if (std::holds_alternative<Vector3>(value)) return std::max(1.0, number_at(state, ref.node, "smart_volume", "radius"));
+  return std::max(std::abs(as_number(value)), 1e-9);
+}
+
+std::string speaker(const LinkPlan& link) {
+  return link.id + " (" + (link.definition ? link.definition->label : "unknown kind") + ") ";
+}
+
+// What people say themselves: a lock, or a value that has a voice among the others.
+std::string own_word(const TypePlan& type, std::uint16_t p) {
+  const PortDefinition& port = type.definition->ports[p];
+  if (type.is_locked[p]) return "locked by hand";
+  if (type.is_set[p] && port.rule == CombineRule::blend && !std::holds_alternative<Vector3>(type.set_values[p]))
+    return "set by hand to " + quantity(as_number(type.set_values[p]), port.unit);
+  return "";
+}
+
+}  // namespace
+
+std::string voice_text(const State& state, const Voice& voice) {
+  const PortDefinition& port = state.plan->port(voice.target);
+  const std::string loudness = voice.strength == 1 ? "" : ", strength " + shortest(voice.strength);
+  if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&voice.value)) {
+    std::string list;
+    for (const std::string& text : **texts) list += (list.empty() ? "`" : ", `") + text + "`";
+    return list.empty() ? "adds nothing" : "adds " + list;
+  }
+  if (port.rule != CombineRule::sum) {
+    if (std::holds_alternative<Vector3>(voice.value)) return "wants another place" + loudness;
+    return "wants " + quantity(as_number(voice.value), port.unit) + loudness;
+  }
+  const auto* move = std::get_if<Vector3>(&voice.value);
+  if (move == nullptr) return "pulls by " + quantity(as_number(voice.value), port.unit) + loudness;
+  if (norm(*move) < 1e-3 * voice.magnitude || norm(*move) == 0)
+    return "pulls both ways, " + quantity(voice.magnitude, port.unit) + " in all" + loudness;
+  return "pulls " + quantity(norm(*move), port.unit) + " " + direction_of(*move, state.plan->settings.true_north) + loudness;
+}
+
+double severity_of(const State& state, PortRef ref, double tension) { return tension / size_of(state, ref); }
+
+std::vector<TensePort> tense_ports(const State& state) {
+  std::vector<TensePort> tense;
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
+    for (std::uint16_t t = 0; t < state.nodes[n].types.size(); ++t) {
+      const std::vector<double>& tension = state.nodes[n].types[t].tension;
+      for (std::uint16_t p = 0; p < tension.size(); ++p)
+        if (const PortRef ref{n, t, p}; tension[p] > 0) tense.push_back({ref, tension[p], severity_of(state, ref, tension[p])});
+    }
+  return tense;
+}
+
+ConflictRow conflict_row(const State& state, const TensePort& tense) {
+  const PortRef ref = tense.ref;
+  const PortDefinition& port = state.plan->port(ref);
+  ConflictRow row;
+  row.node = name_at(state, ref.node);
+  row.node_id = state.plan->nodes[ref.node].id;
+  row.port = state.plan->path_text(ref);
+  row.tension = quantity(tense.tension, port.unit);
+  row.amount = tense.tension;
+  row.severity = tense.severity;
+  row.ref = ref;
+  for (std::size_t l = 0; l < state.links.size(); ++l) {
+    const LinkPlan& link = state.plan->links[l];
+    if (!link.is_enabled || link.is_muted) continue;
+    const std::vector<Voice>& voices = state.links[l].voices;
+    auto voice = std::lower_bound(voices.begin(), voices.end(), ref, [](const Voice& v, PortRef r) { return v.target < r; });
+    for (; voice != voices.end() && voice->target == ref; ++voice) {
+      const bool says_something = voice->magnitude > 0 || port.rule != CombineRule::sum;
+      if (!(voice->strength > 0) || !says_something) continue;
+      row.pulls.push_back(speaker(link) + voice_text(state, *voice));
+      row.links.push_back(link.id);
+    }
+  }
+  if (std::string own = own_word(state.plan->nodes[ref.node].types[ref.type], ref.port); !own.empty()) {
+    row.pulls.push_back(std::move(own));
+    row.links.emplace_back();
+  }
+  return row;
+}
+
+void read_conflicts(const State& state, ReportModel& model) {
+  for (const TensePort& tense : tense_ports(state)) {
+    if (tense.severity < kMinorSeverity) ++model.minor_conflicts;
+    else model.conflicts.push_back(conflict_row(state, tense));
+  }
+  std::stable_sort(model.conflicts.begin(), model.conflicts.end(),
+                   [](const ConflictRow& a, const ConflictRow& b) { return a.severity > b.severity; });
+  model.pullers = pullers_of(state, model.conflicts);
+}
+
+std::vector<PullerRow> pullers_of(const State& state, const std::vector<ConflictRow>& conflicts) {
+  std::map<std::string, PullerRow> by_link;
+  double all = 0;
+  for (const ConflictRow& conflict : conflicts) {
+    const std::set<std::string> who(conflict.links.begin(), conflict.links.end());
+    for (const std::string& link : who) {
+      PullerRow& row = by_link[link];
+      row.link = link;
+      ++row.conflicts;
+      row.share += conflict.severity / static_cast<double>(who.size());
+      all += conflict.severity / static_cast<double>(who.size());
+    }
+  }
+  std::vector<PullerRow> rows;
+  for (auto& [link, row] : by_link) {
+    const std::size_t index = link_index(*state.plan, link);
+    if (link.empty()) row.kind = "set or locked by hand";
+    else if (index < state.plan->links.size() && state.plan->links[index].definition != nullptr)
+      row.kind = state.plan->links[index].definition->label;
+    if (all > 0) row.share /= all;
+    rows.push_back(std::move(row));
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const PullerRow& a, const PullerRow& b) { return a.share > b.share; });
+  return rows;
+}
+
+void read_problems(const State& state, ReportModel& model) {
+  const Plan& plan = *state.plan;
+  std::set<std::pair<std::string, std::string>> said;
+  const auto add = [&](ProblemRow row) {
+    if (said.emplace(row.place, row.message).second) model.problems.push_back(std::move(row));
+  };
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
+    const std::string& id = plan.nodes[n].id;
+    for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t)
+      if (const auto& error = state.nodes[n].types[t].error)
+        add({"node " + name_at(state, n) + ", " + plan.nodes[n].types[t].definition->label, error->text(), id, "", false});
+    if (const std::string message = text_at(state, n, "smart_volumes_solver", "message"); !message.empty())
+      add({"node " + name_at(state, n), message, id, "", true});
+  }
+  for (std::size_t l = 0; l < state.links.size(); ++l) {
+    const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
+    if (error) add({"link " + plan.links[l].id, error->text(), "", plan.links[l].id, false});
+  }
+  // What has kept a node from running is its own error already.
+  for (const SetPlan& set : plan.sets)
+    if (set.error && !state.nodes[set.node].types[set.type].error)
+      add({"node " + name_at(state, set.node), set.error->text(), plan.nodes[set.node].id, "", false});
+  for (const PlaceProblem& problem : place_problems(state))
+    add({"node " + name_at(state, plan.node_index(problem.nodes.front())), problem.sentence(), problem.nodes.front(), "", false,
+         true});
+}
+
+}  // namespace bl::report

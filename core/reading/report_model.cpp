@@ -1,0 +1,187 @@
+// Reads volumes, uses, sites and totals from a state; types are known here by the names of their ports only.
+#include "core/reading/report_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/base/hash.h"
+
+namespace bl::report {
+
+namespace {
+
+template <class T>
+const T* value_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto ref = state.plan->find(node, PortPath{type, port, ""});
+  return ref ? std::get_if<T>(&state.value(*ref)) : nullptr;
+}
+
+constexpr const char* kVolume = "smart_volume";
+
+// Which solver takes care of a node: the first set that it is a member of and that writes its mesh.
+std::size_t group_of(const Plan& plan, std::uint32_t node) {
+  for (std::size_t s = 0; s < plan.sets.size(); ++s) {
+    const SetPlan& set = plan.sets[s];
+    if (!set.writes.empty() && std::binary_search(set.members.begin(), set.members.end(), node)) return s + 1;
+  }
+  return 0;
+}
+
+VolumeRow read_volume(const State& state, const VolumeAccount& account, bool with_shape) {
+  VolumeRow row;
+  static_cast<VolumeAccount&>(row) = account;
+  const std::uint32_t node = account.node;
+  const auto number = [&](const char* port) { return number_at(state, node, kVolume, port); };
+  row.id = state.plan->nodes[node].id;
+  row.name = name_at(state, node);
+  row.state = text_at(state, node, kVolume, "state");
+  row.reason = text_at(state, node, kVolume, "reason");
+  if (!with_shape) return row;
+  row.position = point_at(state, node, "node", "position");
+  row.cell_volume = number("cell_volume");
+  row.weight = number("weight");
+  row.surface_area = number("surface_area");
+  row.footprint = number("footprint");
+  row.height = number("height");
+  row.bottom = number("bottom");
+  row.mesh = mesh_at(state, node, kVolume, "mesh");
+  if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
+  if (row.mesh) row.exact = exact_shape(state, node);
+  row.group = group_of(*state.plan, node);
+  return row;
+}
+
+SiteRow read_site(const State& state, std::uint32_t node) {
+  SiteRow site;
+  site.name = name_at(state, node);
+  site.volume = number_at(state, node, "boundary", "volume");
+  site.ground_area = number_at(state, node, "boundary", "ground_area");
+  site.shape = mesh_at(state, node, "boundary", "shape");
+  if (!site.shape || site.shape->triangles.empty()) {
+    site.shape = nullptr;
+    return site;
+  }
+  // A boundary that is not convex comes in pieces: where they meet there is no edge.
+  site.shape = std::make_shared<const Mesh>(joined(*site.shape));
+  const std::vector<Vector3> normals = unit_normals(*site.shape);
+  site.ground = outline(*site.shape, [&](std::size_t t) { return normals[t].z < -1e-6; });
+  site.plan = outline(*site.shape, [&](std::size_t t) { return normals[t].z > 1e-6; });
+  site.bottom = site.shape->vertices.front().z;
+  for (const Point3& vertex : site.shape->vertices) site.bottom = std::min(site.bottom, vertex.z);
+  return site;
+}
+
+void read_volumes(const State& state, ReportModel& model, bool with_shape) {
+  model.accounts = accounts_of(state);
+  for (const VolumeAccount& account : model.accounts.volumes) {
+    model.volumes.push_back(read_volume(state, account, with_shape));
+    model.volumes.back().number = model.volumes.size();
+  }
+}
+
+void add_totals(ReportModel& model) {
+  for (const SiteRow& site : model.sites) {
+    model.plan_area += site.ground_area;
+    model.site_volume += site.volume;
+  }
+  for (const VolumeRow& volume : model.volumes) {
+    if (volume.mesh) ++model.shapes;
+    if (model.worst == nullptr || std::abs(volume.error()) > std::abs(model.worst->error())) model.worst = &volume;
+  }
+}
+
+// Meshes are for the eye; who measures one has to know what it is.
+std::string mesh_note_of(const State& state, const ReportModel& model) {
+  if (std::none_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& row) { return row.mesh != nullptr; }))
+    return "";
+  std::set<int> depths;
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    if (has_type(state, n, "smart_volumes_solver"))
+      depths.insert(static_cast<int>(number_at(state, n, "smart_volumes_solver", "tessellation_depth")));
+  std::string said;
+  for (const int depth : depths) said += (said.empty() ? "" : " and ") + std::to_string(depth);
+  return "Meshes are of tessellation depth " + said +
+         ". A mesh lies within its shape and encloses less than it, most where a volume is round. The figures in volumes.csv are "
+         "those of the shapes. Raise tessellation_depth of the solver (4 is the finest) to bring the meshes nearer to them.";
+}
+
+}  // namespace
+
+std::size_t link_index(const Plan& plan, std::string_view id) {
+  const auto found = std::lower_bound(plan.links.begin(), plan.links.end(), id,
+                                      [](const LinkPlan& link, std::string_view key) { return link.id < key; });
+  return static_cast<std::size_t>((found != plan.links.end() && found->id == id ? found : plan.links.end()) - plan.links.begin());
+}
+
+double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback) {
+  const auto ref = state.plan->find(node, PortPath{type, port, ""});
+  if (!ref) return fallback;
+  const Value& value = state.value(*ref);
+  const double number = as_number(value);
+  return std::isfinite(number) ? number : fallback;
+}
+
+std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto* text = value_at<std::string>(state, node, type, port);
+  return text ? *text : "";
+}
+
+Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto* point = value_at<Vector3>(state, node, type, port);
+  return point && is_finite(*point) ? *point : Point3{};
+}
+
+const Table* table_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto* table = value_at<Shared<Table>>(state, node, type, port);
+  return table ? &**table : nullptr;
+}
+
+MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port) {
+  const auto* mesh = value_at<MeshPointer>(state, node, type, port);
+  return mesh ? *mesh : nullptr;
+}
+
+bool has_type(const State& state, std::uint32_t node, std::string_view type) {
+  const auto& types = state.plan->nodes[node].types;
+  return std::any_of(types.begin(), types.end(), [&](const TypePlan& t) { return t.definition->id == type; });
+}
+
+std::string name_at(const State& state, std::uint32_t node) {
+  const NodePlan& plan = state.plan->nodes[node];
+  return plan.name.empty() ? plan.id : plan.name;
+}
+
+std::vector<std::string> ReportModel::use_names() const {
+  std::vector<std::string> names;
+  for (const UseAccount& row : accounts.uses) names.push_back(row.use);
+  return names;
+}
+
+void read_figures(const State& state, ReportModel& model) {
+  model.tolerance = state.plan->settings.tolerance;
+  read_volumes(state, model, false);
+  add_totals(model);
+}
+
+void read_model(const State& state, ReportModel& model) {
+  const Settings& settings = state.plan->settings;
+  model.title = settings.title;
+  model.about = settings.about;
+  model.tolerance = settings.tolerance;
+  model.move_limit = settings.move_limit;
+  model.true_north = settings.true_north;
+  model.tick = state.tick;
+  model.hash = hex_digits(state.hash);
+  model.is_settled = state.is_settled();
+  read_volumes(state, model, true);
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    if (has_type(state, n, "boundary")) model.sites.push_back(read_site(state, n));
+  model.surroundings = read_surroundings(state);
+  add_totals(model);
+  model.mesh_note = mesh_note_of(state, model);
+  read_conflicts(state, model);
+  read_problems(state, model);
+}
+
+}  // namespace bl::report

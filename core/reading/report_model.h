@@ -1,0 +1,130 @@
+// What a report says, read from a state by the names of its ports; whatever a scene lacks is left empty.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/geometry/mesh_lines.h"
+#include "core/graph/state.h"
+#include "core/reading/account.h"
+#include "core/reading/exact_shape.h"
+#include "core/reading/surroundings.h"
+
+namespace bl::report {
+
+/// A SmartVolume, also one that has no shape, with what was asked for and what there is.
+struct VolumeRow : VolumeAccount {
+  std::size_t number = 0;  ///< from 1, as in the table and the pictures
+  std::string id, name, state, reason;
+  Point3 position;
+  double cell_volume = 0, weight = 0;      ///< [m³], [m²]
+  double surface_area = 0, footprint = 0;  ///< [m²]
+  double height = 0, bottom = 0;           ///< [m]
+  MeshPointer mesh;                        ///< none where there is no shape
+  ExactShape exact;                        ///< radius 0 where only the mesh is known
+  std::size_t group = 0;                   ///< volumes of one solver stand together
+
+  /// How far the volume is from what the solver aims at, as a share of it: what settling looks at.
+  double error() const { return limited > 0 ? (volume - limited) / limited : 0; }
+};
+
+/// A boundary and the lines that draw it.
+struct SiteRow {
+  std::string name;
+  double volume = 0, ground_area = 0;  ///< [m³], [m²]
+  double bottom = 0;                   ///< [m]
+  MeshPointer shape;
+  std::vector<Polyline> ground, plan;  ///< outline of its underside, and of all of it seen from above
+};
+
+/// A port on which proposals disagree, and how much.
+struct TensePort {
+  PortRef ref;
+  double tension = 0;   ///< in the port's unit
+  double severity = 0;  ///< tension against the size of what is pulled at
+};
+
+/// The same in words.
+struct ConflictRow {
+  std::string node, port, tension;
+  std::vector<std::string> pulls;
+  double amount = 0;    ///< of the tension, in the port's unit
+  double severity = 0;  ///< against the size of what is pulled at
+  PortRef ref;
+  std::string node_id;
+  std::vector<std::string> links;  ///< ids, one for each of `pulls`; empty for what people have set or locked
+};
+
+/// A link, or people, and the conflicts in which they pull.
+struct PullerRow {
+  std::string link, kind;  ///< id and label of its kind; without an id: people, who have set or locked values
+  std::size_t conflicts = 0;
+  double share = 0;  ///< of the severity of all conflicts, each shared evenly among those who pull
+};
+
+/// What failed or cannot be had.
+struct ProblemRow {
+  std::string place, message;
+  std::string node, link;    ///< ids of where it is, as far as it is somewhere
+  bool is_shortage = false;  ///< nothing failed: there is less than what is wanted
+  bool is_place = false;     ///< nothing failed: volumes hang in the air or lie on one point
+};
+
+struct ReportModel {
+  std::string title, about;
+  double tolerance = 0.01, move_limit = 0, true_north = 0;
+  std::int64_t tick = 0;
+  std::string hash;
+  bool is_settled = false;
+  std::vector<VolumeRow> volumes;  ///< ascending id
+  Accounts accounts;               ///< of uses and of all together; of volumes as in `volumes`
+  std::vector<SiteRow> sites;
+  Surroundings surroundings;
+  std::vector<ConflictRow> conflicts;  ///< the worst first
+  std::size_t minor_conflicts = 0;     ///< too small to be listed
+  std::vector<PullerRow> pullers;      ///< who stands in the conflicts, the largest share first
+  std::vector<ProblemRow> problems;
+  double plan_area = 0, site_volume = 0;
+  std::size_t shapes = 0;
+  std::string mesh_note;             ///< how fine the meshes are, and what that means; empty where there are none
+  const VolumeRow* worst = nullptr;  ///< the largest error; nothing where there are no volumes
+
+  std::vector<std::string> use_names() const;
+};
+
+/// Everything but conflicts and problems, then those; `worst` points into the model, which is therefore not copied.
+void read_model(const State& state, ReportModel& model);
+void read_conflicts(const State& state, ReportModel& model);
+void read_problems(const State& state, ReportModel& model);
+/// Names, accounts and states of volumes and uses, and their totals, for a window that reads them in every tick:
+/// without shapes and measures of them, sites, conflicts and problems.
+void read_figures(const State& state, ReportModel& model);
+
+/// Less than this share of what is pulled at is no conflict that anybody would want to read about.
+inline constexpr double kMinorSeverity = 0.002;
+/// All ports under tension, ascending; minor ones too.
+std::vector<TensePort> tense_ports(const State& state);
+/// A tension against the size of what is pulled at.
+double severity_of(const State& state, PortRef ref, double tension);
+/// Who pulls at it, and how.
+ConflictRow conflict_row(const State& state, const TensePort& tense);
+/// Who stands in how many of these conflicts; the largest share first, then in ascending id.
+std::vector<PullerRow> pullers_of(const State& state, const std::vector<ConflictRow>& conflicts);
+/// "wants 7 200 m³, strength 0.5": what a link says, without its name.
+std::string voice_text(const State& state, const Voice& voice);
+
+/// Index of a link in the plan, or plan.links.size().
+std::size_t link_index(const Plan& plan, std::string_view id);
+/// Values by name; a fallback where the node has no such port or it holds another kind.
+double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback = 0);
+std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port);
+Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port);
+const Table* table_at(const State& state, std::uint32_t node, const char* type,
+                      const char* port);  ///< nothing where there is none
+MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port);
+bool has_type(const State& state, std::uint32_t node, std::string_view type);
+/// The name that people gave, or the id.
+std::string name_at(const State& state, std::uint32_t node);
+
+}  // namespace bl::report

@@ -1,0 +1,287 @@
+// Walks both states by node and port, side by side.
+#include "core/report/comparison.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/define/codec.h"
+#include "core/reading/figures.h"
+#include "core/reading/report_model.h"
+
+namespace bl::report {
+
+namespace {
+
+std::string spoken(const std::string& id) {
+  std::string text = id;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+// Amounts are added up over nodes; rates and shares are averaged.
+bool adds_up(Unit unit) {
+  return unit == Unit::square_metre || unit == Unit::cubic_metre || unit == Unit::count || unit == Unit::euro;
+}
+
+// How the solvers get to their result says nothing of the result: what they still miss, and the means by which they divide.
+constexpr std::array<std::string_view, 6> kMeans{"weight",      "radius",       "spherical_area",
+                                                 "cell_volume", "relative_gap", "largest_error"};
+
+// What an evaluation remembers of itself says nothing to people either.
+bool is_indicator(const PortDefinition& port) {
+  return port.is_computed && !port.recall && !port.is_residual && !port.id.starts_with("last_") &&
+         std::find(kMeans.begin(), kMeans.end(), port.id) == kMeans.end() &&
+         (port.kind == ValueKind::number || port.kind == ValueKind::integer);
+}
+
+bool is_share(const PortDefinition& port) {
+  return port.unit == Unit::ratio && std::min(port.hard_maximum, port.soft_maximum.value_or(port.hard_maximum)) <= 1;
+}
+
+// " of smart_volume.volume" for a port whose meaning is that of another port, which people have chosen beside it.
+std::string subject_of(const State& state, PortRef ref) {
+  const TypePlan& type = state.plan->nodes[ref.node].types[ref.type];
+  if (type.definition->ports[ref.port].unit_from.empty()) return "";
+  for (std::size_t p = 0; p < type.definition->ports.size(); ++p)
+    if (type.definition->ports[p].kind == ValueKind::port)
+      if (const auto* chosen = std::get_if<std::string>(&type.set_values[p]); chosen != nullptr && !chosen->empty())
+        return " of " + *chosen;
+  return "";
+}
+
+// "0", "0.000": figures without a digit that says anything.
+bool reads_as_zero(double value) { return readable(value).find_first_of("123456789") == std::string::npos; }
+
+struct Sum {
+  Unit unit = Unit::none;
+  bool is_share = false;
+  std::string label;
+  double before = 0, after = 0;
+  std::size_t count_before = 0, count_after = 0;
+};
+
+class Walk {
+ public:
+  Walk(const State& before, const State& after, double least_share) : before_(before), after_(after), least_share_(least_share) {}
+
+  Comparison run() {
+    read_inputs();
+    read(before_, false);
+    read(after_, true);
+    pair_up();
+    for (const auto& [path, sum] : sums_) {
+      const bool is_sum = adds_up(sum.unit);
+      const auto figure = [&](double total, std::size_t count) {
+        return is_sum || count == 0 ? total : total / static_cast<double>(count);
+      };
+      IndicatorRow total;
+      total.path = path;
+      total.label = sum.label + (is_sum ? ", sum" : ", mean");
+      total.unit = sum.unit;
+      total.before = figure(sum.before, sum.count_before);
+      total.after = figure(sum.after, sum.count_after);
+      total.is_share = sum.is_share;
+      result_.totals.push_back(std::move(total));
+    }
+    // A street that had two cars and has one is no news beside one that had two thousand.
+    const auto rank = [this](const IndicatorRow& row) { return std::abs(row.after - row.before) / largest_.at(row.path); };
+    std::stable_sort(result_.nodes.begin(), result_.nodes.end(),
+                     [&](const IndicatorRow& a, const IndicatorRow& b) { return rank(a) > rank(b); });
+    return std::move(result_);
+  }
+
+ private:
+  using Key = std::pair<std::string, std::string>;
+
+  void read(const State& state, bool is_after) {
+    const Plan& plan = *state.plan;
+    for (std::uint32_t n = 0; n < plan.nodes.size(); ++n)
+      for (std::uint16_t t = 0; t < plan.nodes[n].types.size(); ++t) {
+        const TypificationDefinition& type = *plan.nodes[n].types[t].definition;
+        for (std::uint16_t p = 0; p < type.ports.size(); ++p)
+          if (is_indicator(type.ports[p])) take(state, {n, t, p}, is_after);
+      }
+    // What is missing of what was asked for is no port: it follows from several, by the account that all displays share.
+    for (const VolumeAccount& volume : accounts_of(state).volumes) {
+      const NodePlan& node = plan.nodes[volume.node];
+      take_figure(node, "account.missing", "SmartVolume: missing of the volume asked for", Unit::cubic_metre, volume.missing(),
+                  is_after);
+      if (volume.is_by_area)
+        take_figure(node, "account.missing_area", "SmartVolume: missing of the floor area asked for", Unit::square_metre,
+                    volume.missing_area(), is_after);
+    }
+  }
+
+  void take_figure(const NodePlan& node, const std::string& path, const std::string& label, Unit unit, double value,
+                   bool is_after) {
+    note(node, {path, label, unit, false}, value, is_after);
+    add_up({path, label, unit, false}, value, is_after);
+  }
+
+  void take(const State& state, PortRef ref, bool is_after) {
+    const Plan& plan = *state.plan;
+    const NodePlan& node = plan.nodes[ref.node];
+    const TypificationDefinition& type = *node.types[ref.type].definition;
+    const PortDefinition& port = type.ports[ref.port];
+    const Unit unit = port.unit_from.empty() ? port.unit : Unit::none;
+    const std::string path = type.id + "." + port.id;
+    const std::string label = type.label + ": " + spoken(port.id) + subject_of(state, ref);
+    const double value = as_number(state.value(ref));
+    const Indicator indicator{path, label, unit, is_share(port)};
+    note(node, indicator, value, is_after);
+    // What means something else at every node has no total; a node alone of its kind is its own.
+    if (port.unit_from.empty()) add_up(indicator, value, is_after);
+  }
+
+  struct Indicator {
+    std::string path, label;
+    Unit unit = Unit::none;
+    bool is_share = false;
+  };
+
+  void note(const NodePlan& node, const Indicator& indicator, double value, bool is_after) {
+    IndicatorRow fresh;
+    fresh.node = node.id;
+    fresh.name = node.name;
+    fresh.path = indicator.path;
+    fresh.label = indicator.label;
+    fresh.unit = indicator.unit;
+    fresh.is_share = indicator.is_share;
+    IndicatorRow& row = rows_.emplace(Key{node.id, indicator.path}, fresh).first->second;
+    (is_after ? row.after : row.before) = value;
+    (is_after ? in_after_ : in_before_).insert({node.id, indicator.path});
+    double& largest = largest_[indicator.path];
+    largest = std::max(largest, std::abs(value));
+  }
+
+  void add_up(const Indicator& indicator, double value, bool is_after) {
+    Sum& sum = sums_[indicator.path];
+    sum.unit = indicator.unit;
+    sum.is_share = indicator.is_share;
+    sum.label = indicator.label;
+    (is_after ? sum.after : sum.before) += value;
+    ++(is_after ? sum.count_after : sum.count_before);
+  }
+
+  void pair_up() {
+    for (const auto& [key, row] : rows_) {
+      if (!in_before_.contains(key) || !in_after_.contains(key)) continue;
+      if (row.is_seen(least_share_)) result_.nodes.push_back(row);
+      else ++result_.same;
+    }
+  }
+
+  static std::string text_of(const PortValues& values, const PortDefinition& port) {
+    const auto found = values.find(port.id);
+    return shortened(write_json_line(value_to_json(found == values.end() ? port.default_value : found->second, port)));
+  }
+  static std::string shortened(std::string text) {
+    constexpr std::size_t kMost = 60;
+    if (text.size() <= kMost) return text;
+    std::size_t end = kMost;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+    return text.substr(0, end) + " ...";
+  }
+
+  void differing_ports(const std::string& place, const TypeDefinition& type, const PortValues& a, const PortValues& b) {
+    for (const PortDefinition& port : type.ports) {
+      if (port.is_computed) continue;
+      const std::string first = text_of(a, port), second = text_of(b, port);
+      if (first != second) result_.inputs.push_back(place + port.id + ": " + first + " -> " + second);
+    }
+  }
+
+  void read_inputs() {
+    const Scene &a = before_.plan->scene, &b = after_.plan->scene;
+    differing_ports("settings/", settings_type(), a.settings, b.settings);
+    for (const auto& [id, node] : a.nodes)
+      if (!b.nodes.contains(id)) result_.only_before.push_back(node.name.empty() ? id : node.name);
+    for (const auto& [id, node] : b.nodes) {
+      const auto other = a.nodes.find(id);
+      if (other == a.nodes.end()) result_.only_after.push_back(node.name.empty() ? id : node.name);
+      else if (!(other->second == node)) differing_node(id, other->second, node);
+    }
+    for (const auto& [id, link] : a.links)
+      if (!b.links.contains(id)) result_.inputs.push_back("links/" + id + ": only in the first (" + link.kind + ")");
+    for (const auto& [id, link] : b.links) {
+      const auto other = a.links.find(id);
+      if (other == a.links.end()) result_.inputs.push_back("links/" + id + ": only in the second (" + link.kind + ")");
+      else if (!(other->second == link)) differing_link(id, other->second, link);
+    }
+  }
+
+  void differing_node(const std::string& id, const NodeRecord& a, const NodeRecord& b) {
+    const std::string place = "nodes/" + id + "/";
+    const auto& types = after_.plan->nodes[after_.plan->node_index(id)].types;
+    for (const TypePlan& type : types) {
+      const auto first = a.types.find(type.definition->id), second = b.types.find(type.definition->id);
+      if (first == a.types.end()) result_.inputs.push_back(place + type.definition->id + ": a role in the second only");
+      else if (second != b.types.end())
+        differing_ports(place + type.definition->id + "/", *type.definition, first->second, second->second);
+    }
+    for (const auto& [type, values] : a.types)
+      if (!b.types.contains(type)) result_.inputs.push_back(place + type + ": a role in the first only");
+    if (a.locked != b.locked) result_.inputs.push_back(place + "locked: other ports are locked");
+  }
+
+  void differing_link(const std::string& id, const LinkRecord& a, const LinkRecord& b) {
+    const std::string place = "links/" + id + "/";
+    const auto say = [&](const std::string& what, const std::string& first, const std::string& second) {
+      if (first != second) result_.inputs.push_back(place + what + ": " + first + " -> " + second);
+    };
+    say("kind", a.kind, b.kind);
+    say("from", shortened(write_json_line(selection_to_json(a.from))), shortened(write_json_line(selection_to_json(b.from))));
+    say("to", shortened(write_json_line(selection_to_json(a.to))), shortened(write_json_line(selection_to_json(b.to))));
+    say("strength", shortest(a.strength), shortest(b.strength));
+    say("enabled", a.is_enabled ? "yes" : "no", b.is_enabled ? "yes" : "no");
+    say("muted", a.is_muted ? "yes" : "no", b.is_muted ? "yes" : "no");
+    const std::uint32_t index = link_index(id);
+    const LinkDefinition* definition = after_.plan->links[index].definition;
+    if (a.kind == b.kind && definition != nullptr) differing_ports(place, *definition, a.parameters, b.parameters);
+  }
+
+  std::uint32_t link_index(const std::string& id) const {
+    const auto& links = after_.plan->links;
+    return static_cast<std::uint32_t>(
+        std::find_if(links.begin(), links.end(), [&](const LinkPlan& link) { return link.id == id; }) - links.begin());
+  }
+
+  const State &before_, &after_;
+  double least_share_;
+  std::map<Key, IndicatorRow> rows_;
+  std::set<Key> in_before_, in_after_;
+  std::map<std::string, Sum> sums_;
+  std::map<std::string, double> largest_;  // by port: the largest size of all nodes in both
+  Comparison result_;
+};
+
+}  // namespace
+
+double IndicatorRow::share() const {
+  const double most = std::max(std::abs(before), std::abs(after));
+  return most > 0 ? std::abs(after - before) / most : 0;
+}
+
+std::string IndicatorRow::figure(double value) const {
+  return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit);
+}
+
+std::string IndicatorRow::difference() const {
+  // A percentage of what people read as zero says nothing, nor does one of dust beside what there is now.
+  const bool is_nothing = reads_as_zero(before) || std::abs(before) < 1e-3 * std::abs(after);
+  return is_nothing ? figure(after - before) : signed_percent((after - before) / std::abs(before));
+}
+
+bool IndicatorRow::is_seen(double least_share) const {
+  return share() > least_share && figure(before) != figure(after) && !(reads_as_zero(before) && reads_as_zero(after));
+}
+
+Comparison compare(const State& before, const State& after, double least_share) { return Walk(before, after, least_share).run(); }
+
+}  // namespace bl::report

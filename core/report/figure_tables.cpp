@@ -1,0 +1,194 @@
+// The three writers of the tables; kinds and units come from the declarations of the ports.
+#include "core/report/figure_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/csv/csv_table.h"
+#include "core/define/codec.h"
+#include "core/reading/figures.h"
+#include "core/reading/report_model.h"
+
+namespace bl::report {
+
+namespace {
+
+const PortDefinition* port_of(const State& state, std::uint32_t node, std::string_view type, std::string_view port,
+                              const Value*& value) {
+  const auto ref = state.plan->find(node, PortPath{std::string(type), std::string(port), ""});
+  if (!ref) return nullptr;
+  value = &state.value(*ref);
+  return &state.plan->port(*ref);
+}
+
+// Numbers are cells of numbers; what people chose or wrote is text.
+CsvCell cell_of(const Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;
+  const double number = as_number(value);
+  return std::isfinite(number) ? CsvCell(number) : CsvCell();
+}
+
+std::string csv_heading(std::string_view id, Unit unit) {
+  const std::string_view symbol = info(unit).symbol;
+  return std::string(id) + (symbol.empty() || unit == Unit::ratio || unit == Unit::count ? "" : " [" + std::string(symbol) + "]");
+}
+
+CsvFile nodes_file(const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
+  std::vector<std::string> header{"id", "name"};
+  std::vector<std::vector<CsvCell>> rows;
+  for (const std::uint32_t node : nodes) rows.push_back({state.plan->nodes[node].id, name_at(state, node)});
+  for (const FigureColumn& column : table.columns) {
+    if (column.shown == Shown::json) continue;
+    Unit unit = Unit::none;
+    for (std::size_t r = 0; r < nodes.size(); ++r) {
+      const Value* value = nullptr;
+      const PortDefinition* port = port_of(state, nodes[r], table.type, column.port, value);
+      if (port != nullptr && port->unit_from.empty()) unit = port->unit;
+      rows[r].push_back(port == nullptr ? CsvCell() : cell_of(*value));
+    }
+    header.push_back(csv_heading(column.port, unit));
+  }
+  return {std::string(table.id) + ".csv", write_csv(header, rows), !rows.empty()};
+}
+
+CsvFile part_file(const State& state, const FigureTable& table, const FigurePart& part, const std::vector<std::uint32_t>& nodes) {
+  std::vector<std::string> header{"node"};
+  std::vector<std::vector<CsvCell>> rows;
+  for (const std::uint32_t node : nodes) {
+    const Value* value = nullptr;
+    const PortDefinition* port = port_of(state, node, table.type, part.port, value);
+    const auto* content = port == nullptr ? nullptr : std::get_if<Shared<Table>>(value);
+    if (content == nullptr) continue;
+    if (header.size() == 1)
+      for (const ColumnDefinition& column : port->columns) header.push_back(csv_heading(column.id, column.unit));
+    for (const std::vector<Scalar>& fields : (*content)->rows) {
+      std::vector<CsvCell>& row = rows.emplace_back();
+      row.emplace_back(state.plan->nodes[node].id);
+      for (const Scalar& field : fields)
+        if (const auto* text = std::get_if<std::string>(&field)) row.emplace_back(*text);
+        else row.emplace_back(std::get<double>(field));
+    }
+  }
+  return {std::string(part.id) + ".csv", write_csv(header, rows), !rows.empty()};
+}
+
+// A limit that nobody has set stands at a default that nothing reaches; what was measured or computed can be as large.
+bool is_no_limit(double number, const PortDefinition& port) {
+  constexpr double kBeyondReach = 1e9;
+  const double* fallback = std::get_if<double>(&port.default_value);
+  return !port.is_computed && fallback != nullptr && std::abs(*fallback) >= kBeyondReach && number == *fallback;
+}
+
+bool is_text(const PortDefinition& port) {
+  return port.kind == ValueKind::text || port.kind == ValueKind::choice || port.kind == ValueKind::port;
+}
+
+// A column that is empty in all rows is left away, such as remarks where there are none.
+std::vector<const FigureColumn*> page_columns(const State& state, const FigureTable& table,
+                                              const std::vector<std::uint32_t>& nodes) {
+  std::vector<const FigureColumn*> columns;
+  for (const FigureColumn& column : table.columns) {
+    if (column.shown != Shown::everywhere) continue;
+    const bool says_something = std::any_of(nodes.begin(), nodes.end(), [&](std::uint32_t node) {
+      const Value* value = nullptr;
+      const PortDefinition* port = port_of(state, node, table.type, column.port, value);
+      return port != nullptr && !figure_text(*value, *port, false).empty();
+    });
+    if (says_something) columns.push_back(&column);
+  }
+  return columns;
+}
+
+void write_one(Markup& page, const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
+  constexpr std::size_t kMostRows = 300;
+  const std::vector<const FigureColumn*> columns = page_columns(state, table, nodes);
+  if (columns.empty()) return;
+  const std::string heading(table.heading);
+  page.element("h2", heading, {{"id", std::string(table.id)}});
+  page.open("div", {{"class", "wide"}, {"role", "region"}, {"aria-label", heading}, {"tabindex", "0"}}).open("table");
+  std::string caption(table.caption);
+  if (nodes.size() > kMostRows)
+    caption += " The first " + std::to_string(kMostRows) + " of " + std::to_string(nodes.size()) + "; " + std::string(table.id) +
+               ".csv has them all.";
+  if (!caption.empty()) page.element("caption", caption);
+  page.open("thead").open("tr").element("th", "Name", {{"scope", "col"}});
+  std::vector<bool> texts;
+  for (const FigureColumn* column : columns) {
+    const Value* value = nullptr;
+    const PortDefinition* port = port_of(state, nodes.front(), table.type, column->port, value);
+    texts.push_back(port == nullptr || is_text(*port));
+    page.element("th", column->heading, {{"scope", "col"}, {"class", texts.back() ? "t" : "n"}});
+  }
+  page.close().close().open("tbody");
+  for (std::size_t r = 0; r < std::min(kMostRows, nodes.size()); ++r) {
+    page.open("tr").element("th", name_at(state, nodes[r]), {{"scope", "row"}});
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const Value* value = nullptr;
+      const PortDefinition* port = port_of(state, nodes[r], table.type, columns[c]->port, value);
+      page.element("td", port == nullptr ? "" : figure_text(*value, *port, columns[c]->is_share),
+                   {{"class", texts[c] ? "reason" : "n"}});
+    }
+    page.close();
+  }
+  page.close().close().close();
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> rows_of(const State& state, const FigureTable& table) {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    if (has_type(state, n, table.type)) nodes.push_back(n);
+  return nodes;
+}
+
+std::string figure_text(const Value& value, const PortDefinition& port, bool is_share) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
+  const double number = as_number(value);
+  if (!std::isfinite(number) || is_no_limit(number, port)) return "\xE2\x80\x93";
+  if (port.unit == Unit::count && number == std::floor(number)) return grouped(number);
+  if (!port.unit_from.empty()) return readable(number);
+  if (is_share) return percent(number);
+  return port.unit == Unit::ratio ? grouped(number, 2) : quantity(number, port.unit);
+}
+
+void write_figure_tables(Markup& page, const State& state) {
+  for (const FigureTable& table : figure_tables())
+    if (const auto nodes = rows_of(state, table); !nodes.empty()) write_one(page, state, table, nodes);
+}
+
+std::vector<CsvFile> figure_files(const State& state) {
+  std::vector<CsvFile> files;
+  for (const FigureTable& table : figure_tables()) {
+    const std::vector<std::uint32_t> nodes = rows_of(state, table);
+    files.push_back(nodes_file(state, table, nodes));
+    for (const FigurePart& part : table.parts) files.push_back(part_file(state, table, part, nodes));
+  }
+  return files;
+}
+
+Json figure_json(const State& state) {
+  Json all = Json::object();
+  for (const FigureTable& table : figure_tables()) {
+    for (const std::uint32_t node : rows_of(state, table)) {
+      Json row = {{"id", state.plan->nodes[node].id}, {"name", name_at(state, node)}};
+      const auto add = [&](std::string_view id) {
+        const Value* value = nullptr;
+        if (const PortDefinition* port = port_of(state, node, table.type, id, value))
+          row[std::string(id)] = value_to_json(*value, *port);
+      };
+      for (const FigureColumn& column : table.columns) add(column.port);
+      for (const FigurePart& part : table.parts) add(part.port);
+      all[std::string(table.id)].push_back(std::move(row));
+    }
+  }
+  return all;
+}
+
+}  // namespace bl::report

@@ -1,0 +1,263 @@
+// The tables of the page; every row that the model has is in one of them.
+#include <algorithm>
+#include <cmath>
+
+#include "core/reading/figures.h"
+#include "core/report/page.h"
+
+namespace bl::report {
+
+namespace {
+
+constexpr std::size_t kMostConflicts = 60;
+
+void head(Markup& page, std::string_view label, std::string_view unit = "", bool is_number = true) {
+  page.open("th", {{"scope", "col"}, {"class", is_number ? "n" : "t"}}).text(label);
+  if (!unit.empty()) page.element("small", unit);
+  page.close();
+}
+
+void number_cell(Markup& page, const std::string& text, const std::string& more = "") {
+  page.element("td", text, {{"class", more.empty() ? "n" : "n " + more}});
+}
+
+void open_table(Markup& page, const std::string& label, const std::string& caption) {
+  page.open("div", {{"class", "wide"}, {"role", "region"}, {"aria-label", label}, {"tabindex", "0"}}).open("table");
+  page.element("caption", caption);
+}
+
+// As a bar and in words; more than all fills the bar, the words say how much.
+void met_cell(Markup& page, const Account& account) {
+  const std::string words = share_of(account.volume, account.asked);
+  page.open("td");
+  if (account.asked > 0 && words.find('%') != std::string::npos) {
+    page.open("span", {{"class", "bar"}, {"aria-hidden", "true"}});
+    page.open("span", {{"style", "width:" + pixels(std::clamp(account.volume / account.asked, 0.0, 1.0) * 100) + "%"}})
+        .close()
+        .close();
+  }
+  page.text(words).close();
+}
+
+// What is missing by the measure in which more of it is missing.
+std::string short_text(const Account& account, double tolerance) {
+  return account.is_short(tolerance) ? percent(account.short_share()) : "\xE2\x80\x93";
+}
+
+// Caps and other limits lower demands before the solver sees them.
+std::string held_back(const Account& all) {
+  return all.withheld() > 0.001 * all.asked
+             ? " Limits hold " + quantity(all.withheld(), Unit::cubic_metre) + " of the demand back."
+             : "";
+}
+
+void volume_row(Markup& page, const State& state, const ReportModel& model, const VolumeRow& volume, const Palette& palette) {
+  const double tolerance = model.accounts.tolerance;
+  const std::string standing = standing_of(volume, tolerance);
+  const bool is_good = standing == "met";
+  page.open("tr");
+  number_cell(page, std::to_string(volume.number));
+  page.element("th", volume.name, {{"scope", "row"}});
+  page.open("td");
+  write_use(page, volume.use, palette);
+  page.close();
+  number_cell(page, readable(volume.asked));
+  number_cell(page, readable(volume.limited));
+  number_cell(page, readable(volume.volume));
+  number_cell(page, difference_of(volume.volume, volume.asked), is_good ? "" : "bad");
+  number_cell(page, readable(volume.floor_area));
+  number_cell(page, volume.is_by_area ? difference_of(volume.floor_area, volume.asked_area) : "\xE2\x80\x93",
+              is_good ? "" : "bad");
+  number_cell(page, readable(volume.surface_area));
+  number_cell(page, readable(volume.footprint));
+  number_cell(page, readable(volume.height));
+  page.element("td", standing, {{"class", is_good ? "good" : "bad"}});
+  const std::string why = volume.state == "alive" ? why_short(state, model.accounts, volume) : "";
+  page.element("td", volume.reason + (volume.reason.empty() || why.empty() ? "" : "; ") + why, {{"class", "reason"}}).close();
+}
+
+void use_row(Markup& page, const State& state, const ReportModel& model, const UseAccount& use, const Palette& palette) {
+  const double tolerance = model.accounts.tolerance;
+  page.open("tr").open("th", {{"scope", "row"}});
+  write_use(page, use.use, palette);
+  if (!use.is_in_programme) page.text(" *");
+  page.close();
+  number_cell(page, readable(use.asked_area));
+  number_cell(page, readable(use.limited_area));
+  number_cell(page, readable(use.floor_area));
+  number_cell(page, difference_of(use.floor_area, use.asked_area));
+  number_cell(page, std::to_string(use.volumes), use.volumes == 0 ? "bad" : "");
+  met_cell(page, use);
+  number_cell(page, short_text(use, tolerance), use.is_short(tolerance) ? "bad" : "");
+  page.element("td", why_short(state, model.accounts, use), {{"class", "reason"}}).close();
+}
+
+}  // namespace
+
+std::string standing_of(const VolumeRow& volume, double tolerance) {
+  if (volume.state != "alive") return volume.state.empty() ? "unknown" : volume.state;
+  return volume.is_short(tolerance) ? "short" : volume.difference() > tolerance ? "over" : "met";
+}
+
+void write_use(Markup& page, const std::string& use, const Palette& palette) {
+  page.open("span", {{"class", "use"}});
+  page.element("span", palette.letter(use), {{"class", "swatch"}, {"style", "background:" + hex(palette.colour(use))}});
+  page.text(use.empty() ? "no use given" : use).close();
+}
+
+void write_programme(Markup& page, const ReportModel& model, const State& state, const Palette& palette) {
+  const Accounts& accounts = model.accounts;
+  page.element("h2", "Programme", {{"id", "programme"}});
+  if (accounts.uses.empty()) {
+    page.element("p", "The scene has no programme and no volumes.");
+    return;
+  }
+  const bool has_own =
+      std::any_of(accounts.uses.begin(), accounts.uses.end(), [](const UseAccount& use) { return !use.is_in_programme; });
+  open_table(
+      page, "Programme",
+      "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(accounts.all) +
+          std::string(has_own ? " Uses with * stand in no programme; their area follows from what their volumes ask for." : ""));
+  page.open("thead").open("tr");
+  head(page, "Use", "", false);
+  head(page, "Asked for", "m\xC2\xB2");
+  head(page, "Limited to", "m\xC2\xB2");
+  head(page, "Reached", "m\xC2\xB2");
+  head(page, "Difference");
+  head(page, "Volumes");
+  head(page, "Volume met", "", false);
+  head(page, "Short");
+  head(page, "Why", "", false);
+  page.close().close().open("tbody");
+  for (const UseAccount& use : accounts.uses) use_row(page, state, model, use, palette);
+  page.close().open("tfoot").open("tr").element("th", "All uses", {{"scope", "row"}});
+  number_cell(page, readable(accounts.all.asked_area));
+  number_cell(page, readable(accounts.all.limited_area));
+  number_cell(page, readable(accounts.all.floor_area));
+  number_cell(page, difference_of(accounts.all.floor_area, accounts.all.asked_area));
+  number_cell(page, std::to_string(model.volumes.size()));
+  met_cell(page, accounts.all);
+  number_cell(page, short_text(accounts.all, accounts.tolerance));
+  page.element("td", "").close().close().close().close();
+}
+
+void write_volumes(Markup& page, const ReportModel& model, const State& state, const Palette& palette) {
+  page.element("h2", "Volumes", {{"id", "volumes"}});
+  if (model.volumes.empty()) {
+    page.element("p", "The scene has no volumes.");
+    return;
+  }
+  open_table(page, "Volumes",
+             "Every volume, numbered as in the drawings. Met: within " + percent(model.accounts.tolerance) +
+                 " of what was asked for; where a programme asks, of its floor area too.");
+  page.open("thead").open("tr");
+  head(page, "No.");
+  head(page, "Name", "", false);
+  head(page, "Use", "", false);
+  head(page, "Asked for", "m\xC2\xB3");
+  head(page, "Limited to", "m\xC2\xB3");
+  head(page, "Volume", "m\xC2\xB3");
+  head(page, "Difference");
+  head(page, "Floor area", "m\xC2\xB2");
+  head(page, "Difference");
+  head(page, "Surface", "m\xC2\xB2");
+  head(page, "Footprint", "m\xC2\xB2");
+  head(page, "Height", "m");
+  head(page, "State", "", false);
+  head(page, "Reason", "", false);
+  page.close().close().open("tbody");
+  double surface = 0;
+  for (const VolumeRow& volume : model.volumes) {
+    volume_row(page, state, model, volume, palette);
+    surface += volume.surface_area;
+  }
+  // Of the volumes alone: a use that no volume has asks in the programme's table.
+  Account sum;
+  for (const VolumeRow& volume : model.volumes) sum.add(volume);
+  page.close().open("tfoot").open("tr");
+  page.element("th", "All", {{"scope", "row"}, {"colspan", "3"}});
+  number_cell(page, readable(sum.asked));
+  number_cell(page, readable(sum.limited));
+  number_cell(page, readable(sum.volume));
+  number_cell(page, difference_of(sum.volume, sum.asked));
+  number_cell(page, readable(sum.floor_area));
+  number_cell(page, "");
+  number_cell(page, readable(surface));
+  page.element("td", "", {{"colspan", "4"}});
+  page.close().close().close().close();
+}
+
+void write_conflicts(Markup& page, const ReportModel& model) {
+  page.element("h2", "Conflicts", {{"id", "conflicts"}});
+  const std::string minor =
+      model.minor_conflicts == 0 ? "" : counted(model.minor_conflicts, "port") + " under a tension too small to matter.";
+  if (model.conflicts.empty()) {
+    page.element("p", "No links pull against each other. " + minor);
+    return;
+  }
+  const std::size_t shown = std::min(kMostConflicts, model.conflicts.size());
+  std::string caption =
+      "Tension is how far proposals disagree with what came of them; the hardest conflicts, measured against the size of what is "
+      "pulled at, come first.";
+  if (shown < model.conflicts.size())
+    caption += " The first " + std::to_string(shown) + " of " + std::to_string(model.conflicts.size()) + ".";
+  if (!minor.empty()) caption += " Besides, " + minor;
+  open_table(page, "Conflicts", caption);
+  page.open("thead").open("tr");
+  head(page, "Node", "", false);
+  head(page, "Port", "", false);
+  head(page, "Tension");
+  head(page, "Who pulls, and how", "", false);
+  page.close().close().open("tbody");
+  for (std::size_t i = 0; i < shown; ++i) {
+    const ConflictRow& row = model.conflicts[i];
+    page.open("tr").element("th", row.node, {{"scope", "row"}}).element("td", row.port);
+    number_cell(page, row.tension);
+    page.open("td").open("ul", {{"class", "plain"}});
+    for (std::size_t k = 0; k < std::min<std::size_t>(row.pulls.size(), 8); ++k) page.element("li", row.pulls[k]);
+    if (row.pulls.size() > 8) page.element("li", "and " + std::to_string(row.pulls.size() - 8) + " more");
+    if (row.pulls.empty()) page.element("li", "a limit of the port itself");
+    page.close().close().close();
+  }
+  page.close().close().close();
+}
+
+// Everybody who pulls, with how often and how hard: who stands in most conflicts stands first.
+void write_pullers(Markup& page, const ReportModel& model) {
+  if (model.pullers.empty()) return;
+  open_table(
+      page, "Conflicts by link and person",
+      "Who stands in these conflicts, in how many of them, and how hard: tension against the size of what is pulled at, shared "
+      "evenly among those who pull.");
+  page.open("thead").open("tr");
+  head(page, "Who", "", false);
+  head(page, "Kind", "", false);
+  head(page, "Conflicts");
+  head(page, "Share");
+  page.close().close().open("tbody");
+  for (const PullerRow& row : model.pullers) {
+    page.open("tr").element("th", row.link.empty() ? "People, by hand" : row.link, {{"scope", "row"}}).element("td", row.kind);
+    number_cell(page, std::to_string(row.conflicts));
+    number_cell(page, percent(row.share));
+    page.close();
+  }
+  page.close().close().close();
+}
+
+void write_problems(Markup& page, const ReportModel& model) {
+  page.element("h2", "Problems", {{"id", "problems"}});
+  if (model.problems.empty()) {
+    page.element("p", "No node and no link reported an error.");
+    return;
+  }
+  open_table(page, "Problems", "Nodes and links that failed keep their last good output; the rest runs on.");
+  page.open("thead").open("tr");
+  head(page, "Where", "", false);
+  head(page, "What", "", false);
+  page.close().close().open("tbody");
+  for (const ProblemRow& row : model.problems)
+    page.open("tr").element("th", row.place, {{"scope", "row"}}).element("td", row.message).close();
+  page.close().close().close();
+}
+
+}  // namespace bl::report

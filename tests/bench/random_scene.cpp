@@ -1,0 +1,52 @@
+// Random volumes, the same on every machine.
+#include "tests/bench/random_scene.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/mathematics.h"
+#include "core/base/random.h"
+#include "core/define/codec.h"
+#include "core/session/session.h"
+
+namespace bl::cli::bench {
+
+namespace {
+
+constexpr double kSpacing = 10;  // [m]
+constexpr double kFill = 0.5;
+
+std::string padded(int number, int count) {
+  const std::string text = std::to_string(number), last = std::to_string(count);
+  return "v" + std::string(last.size() - text.size(), '0') + text;
+}
+
+}  // namespace
+
+Result<Scene> random_scene(int count, const Registry& registry) {
+  Random random(2007);
+  // The cube root is rounded to millimetres, so that the box does not depend on the machine's library.
+  const double side = std::round(kSpacing * mathematics::cube_root(static_cast<double>(count)) * 1000) / 1000;
+  std::vector<double> shares;
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += shares.emplace_back(random.uniform(0.25, 1.75));
+  Json commands = Json::array();
+  const auto add = [&](const std::string& id, const Json& node) {
+    commands.push_back(command_to_json(registry, command<AddNode>({id, {write_json_line(node)}})));
+  };
+  const Json plan = {{0.0, 0.0, 0.0}, {side, 0.0, 0.0}, {side, side, 0.0}, {0.0, side, 0.0}};
+  add("box", {{"types", {{"boundary", {{"form", "plan"}, {"plan", plan}, {"height", side}}}}}});
+  add("solver", {{"types", {{"smart_volumes_solver", Json::object()}}}});
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(0, side), y = random.uniform(0, side), z = random.uniform(0, side);
+    const double demand = kFill * side * side * side * shares[static_cast<std::size_t>(i)] / sum;
+    add(padded(i + 1, count), {{"position", {x, y, z}}, {"types", {{"smart_volume", {{"demand", demand}}}}}});
+  }
+  auto session = Session::start(registry, Scene{}, nullptr, 1);
+  if (!session) return session.error();
+  if (auto done = (*session)->submit(command<Batch>({{write_json_line(commands)}}), "bench"); !done) return done.error();
+  return (*session)->scene();
+}
+
+}  // namespace bl::cli::bench

@@ -1,0 +1,13 @@
+// A scene of random volumes in a box: what the bench runs where it is given no scene.
+#pragma once
+
+#include "core/graph/scene.h"
+
+namespace bl::cli::bench {
+
+/// `count` SmartVolumes at random places in a box, with random demands that fill half of it; always the same for a count.
+/// Made by commands through a session. Each volume has a cube of 10 m to a side, so that the density does not depend on the
+/// count.
+Result<Scene> random_scene(int count, const Registry& registry);
+
+}  // namespace bl::cli::bench

@@ -1,0 +1,45 @@
+// The table core/layers.txt as the tests of the house read it: who may include whom, and how long a file may be.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bl::house {
+
+/// One folder of the tree, with the folders that its files may include besides their own.
+struct Room {
+  std::string folder;
+  int lines = 0;
+  std::vector<std::string> sees;
+};
+
+/// One file that may be longer than its room allows.
+struct LongFile {
+  std::string path;
+  int lines = 0;
+  std::string reason;
+};
+
+struct Layers {
+  std::vector<Room> rooms;
+  std::vector<LongFile> files;
+  std::vector<std::string> faults;  ///< lines of the table that say nothing, "line 3: ..."
+
+  /// The room with the longest folder that `path` lies in, or nothing.
+  const Room* room_of(std::string_view path) const;
+  /// The largest number of lines that the file may have; 0 where it lies in no room.
+  int line_limit(std::string_view path) const;
+};
+
+Layers read_layers(std::string_view text);
+/// The table of this checkout.
+const Layers& layers();
+
+/// The drawing of the rooms of core for a README: one line each, what it includes after it, what others include left out.
+std::string drawing_of(const Layers& layers);
+
+/// Does `path` lie in `folder`, or is it the folder itself?
+bool lies_in(std::string_view path, std::string_view folder);
+
+}  // namespace bl::house
