@@ -3,9 +3,9 @@
 #include <set>
 
 #include "core/base/text.h"
-#include "core/define/brief_sums.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
+#include "core/demand/brief_sums.h"
 
 namespace bl {
 

@@ -7,10 +7,9 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/foreign_bytes.h"
 #include "core/base/plural.h"
 #include "core/base/stop_check.h"
-#include "core/import/context_shape.h"
-#include "core/base/foreign_bytes.h"
 
 namespace bl {
 
@@ -144,7 +143,7 @@ Result<void> parse_lines(std::string_view text, std::size_t first_line, CsvText&
   std::size_t empty = 0;
   bool in_record = false;
   for (std::size_t line = first_line; !text.empty(); ++line) {
-    if (line % 4096 == 0 && is_stop_wished()) return stopped_error();
+    if (line % 4096 == 0 && is_stop_wished()) return Error{ErrorCode::cancelled, "", "Reading the table was stopped."};
     const std::size_t length = std::min(text.find('\n'), text.size() - 1) + 1;
     const std::string_view piece = text.substr(0, length);
     text.remove_prefix(length);

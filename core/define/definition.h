@@ -82,6 +82,7 @@ struct PortDefinition {
   bool is_required = false;    ///< has no usable default (ids in commands)
   bool is_residual = false;    ///< a scene is settled when every residual is within its tolerance
   OfScene of_scene = OfScene::no;
+  double setting_tolerance = 0;  ///< of a port that stands for a setting unless set: a larger difference is told as a problem
   CombineRule rule = CombineRule::none;
   double step_limit = std::numeric_limits<double>::infinity();  ///< largest change in one tick
   Value default_value = 0.0;

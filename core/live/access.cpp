@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/base/password_source.h"
+#include "core/address/password_source.h"
 #include "core/file/file_io.h"
 #include "core/live/port_values.h"
 
@@ -13,7 +13,7 @@ namespace bl {
 namespace {
 
 constexpr std::uintmax_t kLongestCertificates = 16u << 20;  // [bytes]
-constexpr std::uintmax_t kLongestPassword = 65535;  // [bytes] the protocol has no longer ones
+constexpr std::uintmax_t kLongestPassword = 65535;          // [bytes] the protocol has no longer ones
 
 }  // namespace
 
@@ -39,7 +39,8 @@ Result<std::string> Access::password() const {
 Result<std::string> Access::certificates() const {
   if (ca_file.empty()) return std::string();
   const std::string path = (std::filesystem::path(folder) / ca_file).string();
-  if (const auto text = read_plain_file(path, kLongestCertificates); !text || text->find("-----BEGIN CERTIFICATE-----") == std::string::npos)
+  if (const auto text = read_plain_file(path, kLongestCertificates);
+      !text || text->find("-----BEGIN CERTIFICATE-----") == std::string::npos)
     return Error{
         ErrorCode::io, "",
         text ? "the file `" + ca_file + "` holds no certificate in PEM form" : "the file `" + ca_file + "` cannot be read"};

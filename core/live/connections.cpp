@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "core/base/live_address.h"
+#include "core/address/live_address.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "core/live/port_values.h"

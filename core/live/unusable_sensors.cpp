@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/base/live_address.h"
+#include "core/address/live_address.h"
 #include "core/live/port_values.h"
 
 namespace bl {

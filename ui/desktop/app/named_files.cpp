@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/live_address.h"
+#include "core/address/live_address.h"
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
 #include "core/session/commands.h"

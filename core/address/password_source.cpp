@@ -1,5 +1,5 @@
 // Takes the two forms apart, and refuses names that could mean something else than a password for this program.
-#include "core/base/password_source.h"
+#include "core/address/password_source.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Who can give way no further, and the words for it.
-#include "core/base/demand_limit.h"
+#include "core/demand/demand_limit.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Takes addresses of live data apart, by hand: four forms, each with its own rules for what may stand in it.
-#include "core/base/live_address.h"
+#include "core/address/live_address.h"
 
 #include <algorithm>
 #include <charconv>

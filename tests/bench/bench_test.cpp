@@ -1,4 +1,4 @@
-// The bench of the solver measures every kind of row, and what it measures does not depend on the number of threads.
+// The bench measures every kind of row, and what it measures does not depend on the number of threads.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -11,13 +11,28 @@ namespace bl::test {
 
 namespace {
 
+TEST(Bench, RowsHoldWhatWasAsked) {
+  const Workplace place;
+  const Outcome outcome =
+      place.bench({"--sites", "30", "50", "--threads", "1", "2", "--repeat", "1", "--ticks", "3", "--json", "b.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json rows = place.json("b.json");
+  ASSERT_EQ(rows.size(), 4u);
+  for (const auto& row : rows)
+    for (const char* key :
+         {"case", "sites", "threads", "seconds", "microseconds_per_cell", "yardstick_seconds", "voropp_seconds", "hash"})
+      EXPECT_TRUE(row.contains(key)) << key;
+  EXPECT_EQ(rows[0]["hash"], rows[1]["hash"]) << "the threads must not change the result";
+  EXPECT_EQ(rows[2]["sites"], 50);
+}
+
 std::string study_scene() { return scene_text(volume_text("a", "[8, 0, 8]") + "," + volume_text("b", "[-8, 0, 8]", "2000")); }
 
 TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
   const Workplace place;
   place.write("study.json", study_scene());
-  const Outcome outcome = place.run({"bench", "--solver", "--quick", "--seeds", "2", "--sites", "60", "--json", "rows.json",
-                                     "--chart", "charts", "study.json"});
+  const Outcome outcome = place.bench(
+      {"--solver", "--quick", "--seeds", "2", "--sites", "60", "--json", "rows.json", "--chart", "charts", "study.json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(outcome.out.starts_with("Machine: ")) << outcome.out;
   const auto all = place.json("rows.json");
@@ -66,8 +81,7 @@ TEST(SolverBench, QuickRunHasAllRowsAndOneHashForAllThreads) {
 
 TEST(SolverBench, FitsAreMetAndDragsKeepTheirTolerance) {
   const Workplace place;
-  const Outcome outcome =
-      place.run({"bench", "--solver", "--quick", "--rows", "fit", "drag", "--sites", "80", "--json", "rows.json"});
+  const Outcome outcome = place.bench({"--solver", "--quick", "--rows", "fit", "drag", "--sites", "80", "--json", "rows.json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto all = place.json("rows.json");
   EXPECT_EQ(all["rows"].size(), 13u);
@@ -83,8 +97,8 @@ TEST(SolverBench, FitsAreMetAndDragsKeepTheirTolerance) {
 
 TEST(SolverBench, ChartsAreWholeDrawings) {
   const Workplace place;
-  const Outcome outcome = place.run({"bench", "--solver", "--quick", "--rows", "growth", "study", "--sites", "30", "60",
-                                     "--chart", "charts", "--json", "rows.json", "--threads", "1"});
+  const Outcome outcome = place.bench({"--solver", "--quick", "--rows", "growth", "study", "--sites", "30", "60", "--chart",
+                                       "charts", "--json", "rows.json", "--threads", "1"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("sixty_volumes"), std::string::npos) << "there is no such study in the folder";
   const std::string growth = place.text("charts/growth.svg");
@@ -107,8 +121,7 @@ TEST(SolverBench, SmallMarksOfAChartAreWhatTheySay) {
 TEST(SolverBench, HeadingsAreLinesOfText) {
   const Workplace place;
   place.write("study.json", study_scene());
-  const Outcome outcome =
-      place.run({"bench", "study.json", "--solver", "--quick", "--seeds", "1", "--sites", "30", "--threads", "1"});
+  const Outcome outcome = place.bench({"study.json", "--solver", "--quick", "--seeds", "1", "--sites", "30", "--threads", "1"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out.find('\\'), std::string::npos) << outcome.out;
   for (const char c : outcome.out) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n') << static_cast<int>(c);
@@ -119,9 +132,9 @@ TEST(SolverBench, HeadingsAreLinesOfText) {
 
 TEST(SolverBench, ItsOptionsWantTheSolver) {
   const Workplace place;
-  EXPECT_EQ(place.run({"bench", "--quick"}).code, 2);
-  EXPECT_EQ(place.run({"bench", "--solver", "--rows", "cells"}).code, 2);
-  EXPECT_EQ(place.run({"bench", "--solver", "--seeds", "0"}).code, 2);
+  EXPECT_EQ(place.bench({"--quick"}).code, 2);
+  EXPECT_EQ(place.bench({"--solver", "--rows", "cells"}).code, 2);
+  EXPECT_EQ(place.bench({"--solver", "--seeds", "0"}).code, 2);
 }
 
 }  // namespace
