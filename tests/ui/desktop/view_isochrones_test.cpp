@@ -21,7 +21,7 @@ class ViewIsochrones : public ::testing::Test {
   void set(const std::string& node, const std::string& port, const std::string& value) {
     ASSERT_TRUE(editor().submit(command<SetPort>({node, {port}, {value}}))) << node << "/" << port;
   }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   const State& state() { return editor().state(); }
   std::uint32_t index(const std::string& id) { return editor().index_of(id); }
   std::vector<StreetFacts> streets() { return read_facts(editor().moment->state, nullptr)->urban.streets; }

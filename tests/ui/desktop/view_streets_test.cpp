@@ -27,7 +27,7 @@ class ViewStreets : public ::testing::Test {
   void set(const std::string& node, const std::string& port, const std::string& value) {
     ASSERT_TRUE(editor().submit(command<SetPort>({node, {port}, {value}}))) << node << "/" << port;
   }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   const SceneFacts& facts() { return *editor().view->facts(); }
   const StreetFacts& bent() {
     const auto& all = facts().urban.streets;

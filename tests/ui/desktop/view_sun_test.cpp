@@ -18,7 +18,7 @@ constexpr double kNoon = 43200;
 class ViewSun : public ::testing::Test {
  protected:
   void SetUp() override { desktop.ticks(30); }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   SceneView& view() { return *editor().view; }
   const SunFacts& sun() { return view().facts()->urban.suns.front(); }
   ImVec2 track_at(double seconds) {

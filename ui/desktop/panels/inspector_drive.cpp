@@ -16,7 +16,7 @@ constexpr const char *kNode = "expression", *kLink = "map_value";
 
 }  // namespace
 
-bool can_be_driven(const Editor& editor, const PortDefinition& port) {
+bool can_be_driven(const Workbench& editor, const PortDefinition& port) {
   const bool is_choosing = port.rule == CombineRule::blend || port.rule == CombineRule::min || port.rule == CombineRule::max;
   return port.kind == ValueKind::number && is_choosing && editor.types().typification(kNode) != nullptr &&
          editor.types().link(kLink) != nullptr;
@@ -24,7 +24,7 @@ bool can_be_driven(const Editor& editor, const PortDefinition& port) {
 
 // The formula begins as `a`, with the number that stands there now: nothing jumps, and the formula is then changed in its own
 // node.
-void drive_by_expression(Editor& editor, const std::string& node, const std::string& path, double now, Unit unit) {
+void drive_by_expression(Workbench& editor, const std::string& node, const std::string& path, double now, Unit unit) {
   const Scene& scene = editor.scene();
   const std::string subject = editor.name_of(node), port = path.substr(path.find('.') + 1);
   const std::string expression = editor.fresh_id(node + "_" + port), link = editor.fresh_id(expression + "_drive");

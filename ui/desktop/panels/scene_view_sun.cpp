@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/define/json_text.h"
 #include "core/reading/report_model.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {

@@ -28,7 +28,7 @@ double number_at(const State& state, std::uint32_t node, std::size_t type, const
 }
 
 // A unit that the program does not know stands behind the number as people have written it.
-std::string value_text(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+std::string value_text(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
   const double value = number_at(state, node, type, "value");
   const std::string written = text_at(state, node, type, "unit");
   const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
@@ -41,7 +41,7 @@ std::string value_text(const Editor& editor, const State& state, std::uint32_t n
   return report::quantity(value, unit_of(editor.types(), record->second, definition, *port));
 }
 
-StreamText sensor_text(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+StreamText sensor_text(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
   StreamText stream;
   const std::string quality = text_at(state, node, type, "quality");
   const double age = number_at(state, node, type, "age");
@@ -57,7 +57,7 @@ StreamText sensor_text(const Editor& editor, const State& state, std::uint32_t n
   return stream;
 }
 
-StreamText actuator_text(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+StreamText actuator_text(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
   StreamText stream;
   stream.value = value_text(editor, state, node, type);
   const Value* is_on = find_value(state, node, type, "is_on");
@@ -108,14 +108,14 @@ bool is_stream(const TypificationDefinition& type) {
   return type.id == "actuator" || (computes("value") && computes("age") && computes("quality"));
 }
 
-std::optional<StreamText> stream_of(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+std::optional<StreamText> stream_of(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
   if (node >= state.nodes.size() || type >= state.nodes[node].types.size()) return std::nullopt;
   const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
   if (!is_stream(definition)) return std::nullopt;
   return definition.id == "actuator" ? actuator_text(editor, state, node, type) : sensor_text(editor, state, node, type);
 }
 
-std::optional<StreamText> stream_of(const Editor& editor, const State& state, std::uint32_t node) {
+std::optional<StreamText> stream_of(const Workbench& editor, const State& state, std::uint32_t node) {
   if (node >= state.nodes.size()) return std::nullopt;
   for (std::size_t type = 0; type < state.nodes[node].types.size(); ++type)
     if (auto found = stream_of(editor, state, node, type)) return found;

@@ -9,7 +9,7 @@
 #include "core/geometry/mesh_lines.h"
 #include "core/reading/report_model.h"
 #include "core/traffic/street_line.h"
-#include "ui/desktop/view/media_place.h"
+#include "ui/desktop/document/media_place.h"
 
 namespace bl::desktop {
 

@@ -1,5 +1,5 @@
 // Keys and menus over the declared actions.
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 
 #include <cstring>
 
@@ -30,7 +30,7 @@ std::string name_of_key(int key) {
   return "?";
 }
 
-void run(const Action& action, Editor& editor) {
+void run(const Action& action, Workbench& editor) {
   if (action.can == nullptr || action.can(editor)) action.run(editor);
 }
 
@@ -48,8 +48,8 @@ bool is_pressed(const Chord& chord, bool repeats) {
          ImGui::IsKeyPressed(chord.key, repeats);
 }
 
-bool has_document(const Editor& editor) { return editor.document != nullptr; }
-bool has_picks(const Editor& editor) {
+bool has_document(const Workbench& editor) { return editor.document != nullptr; }
+bool has_picks(const Workbench& editor) {
   return has_document(editor) && (!editor.picks.nodes.empty() || !editor.picks.links.empty());
 }
 
@@ -67,7 +67,7 @@ std::span<const Action> actions() {
   return all;
 }
 
-void run_pressed_actions(Editor& editor) {
+void run_pressed_actions(Workbench& editor) {
   // The key that closes a menu does nothing else: the menu is gone before this frame has begun.
   const bool is_elsewhere = ImGui::GetIO().WantTextInput || !editor.menu_opening.menu.empty() ||
                             ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
@@ -93,7 +93,7 @@ bool is_opening_release(const MenuOpening& opening) {
 // Walks along the menus of the bar; those of one menu, and of one submenu, stand together in the list of actions.
 class MenuBar {
  public:
-  explicit MenuBar(Editor& editor) : editor_(&editor), is_deaf_(is_opening_release(editor.menu_opening)) {}
+  explicit MenuBar(Workbench& editor) : editor_(&editor), is_deaf_(is_opening_release(editor.menu_opening)) {}
 
   void draw(const Action& action) {
     const bool is_same_menu = is_same_text(menu_, action.menu),
@@ -148,7 +148,7 @@ class MenuBar {
     if (is_taken && !is_deaf_) action.run(*editor_);
   }
 
-  Editor* editor_;
+  Workbench* editor_;
   bool is_deaf_;
   const char *menu_ = nullptr, *submenu_ = nullptr;
   bool is_open_ = false, is_submenu_open_ = false, is_newly_open_ = false;
@@ -157,7 +157,7 @@ class MenuBar {
 
 }  // namespace
 
-void draw_menus(Editor& editor) {
+void draw_menus(Workbench& editor) {
   MenuBar bar(editor);
   for (const Action& action : actions()) bar.draw(action);
   bar.end();

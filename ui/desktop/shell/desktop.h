@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
@@ -20,7 +20,7 @@ class Desktop {
 
   /// One frame, between ImGui::NewFrame and ImGui::Render; `now` on the window's clock [s].
   void frame(double now);
-  Editor& editor() { return *editor_; }
+  Workbench& editor() { return *editor_; }
   /// What the window is called: the scene, and a mark where it has unsaved changes.
   std::string title();
   /// A file that was dropped onto the window: a scene is opened, a link script (.lua) is taken into the open scene.
@@ -40,7 +40,7 @@ class Desktop {
   void draw_notices();
   void watch_journal();
 
-  std::unique_ptr<Editor> editor_;
+  std::unique_ptr<Workbench> editor_;
   std::unique_ptr<Canvas> canvas_;
   std::unique_ptr<SceneView> view_;
   std::unique_ptr<Dialogs> dialogs_;

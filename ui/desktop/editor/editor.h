@@ -9,16 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "ui/desktop/app/document.h"
-#include "ui/desktop/app/person_settings.h"
-#include "ui/desktop/app/script_watch.h"
-#include "ui/desktop/app/theme.h"
+#include "ui/desktop/document/document.h"
+#include "ui/desktop/document/person_settings.h"
+#include "ui/desktop/editor/script_watch.h"
+#include "ui/desktop/look/theme.h"
 
 namespace bl::desktop {
 
-class Canvas;
-class Dialogs;
-class SceneView;
 struct PanelMemory;
 
 /// What is selected and pointed at, in all panels alike. Each person's own: no part of the scene, and not undone.
@@ -46,13 +43,6 @@ struct Notice {
 /// The wish, or the first of wish-2, wish-3 and so on that is not taken.
 std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken);
 
-/// How a menu of the menu bar was opened.
-struct MenuOpening {
-  std::string menu;      ///< the innermost that is open; empty: none
-  float x = 0, y = 0;    ///< where the mouse was then
-  bool is_held = false;  ///< by a press whose release has not been seen yet
-};
-
 /// How an actuator's messages fare, as the connection knows it; no part of the state.
 struct Delivery {
   std::int64_t messages = 0;
@@ -73,14 +63,10 @@ class Editor {
   std::string problem_file;              ///< that file
   std::uint64_t problems_revision = 0;   ///< another one for each list
   std::shared_ptr<const Moment> moment;  ///< taken once for each frame; none without a document
-  Canvas* canvas = nullptr;              ///< for actions that concern it
-  SceneView* view = nullptr;             ///< the same
-  Dialogs* dialogs = nullptr;            ///< the same
   double now = 0;                        ///< the window's clock [s]
   Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
-  MenuOpening menu_opening;
   ScriptWatch script_watch;                    ///< files that link kinds of this scene are read from
   std::shared_ptr<PanelMemory> panels;         ///< what inspector, lists and charts remember of this document
   std::uint64_t bytes_sent = 0;                ///< to the graphics processor, since the window opened
@@ -115,8 +101,6 @@ class Editor {
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
   bool open(const std::string& path, bool plays = false);
   void take(std::unique_ptr<Document> fresh);
-  /// Saves the document with the places of all boxes that people have seen since they changed something.
-  Result<void> save(const std::string& path);
   /// At the beginning of a frame: lets go of scripts that nobody can hold pointers into any more.
   void begin_frame();
 

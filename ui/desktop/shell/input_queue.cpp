@@ -1,5 +1,5 @@
 // Which events share a frame.
-#include "ui/desktop/app/input_queue.h"
+#include "ui/desktop/shell/input_queue.h"
 
 #include <cfloat>
 

@@ -1,5 +1,5 @@
 // The look of the buttons that panes and dialogs share.
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
 // Lays out the panels and lets each draw itself.
-#include "ui/desktop/app/desktop.h"
+#include "ui/desktop/shell/desktop.h"
 
 #include <algorithm>
 
 #include "core/making/context_import.h"
 #include "core/making/media_making.h"
-#include "ui/desktop/app/actions.h"
-#include "ui/desktop/app/splitter.h"
+#include "ui/desktop/look/splitter.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/panels.h"
@@ -46,7 +46,7 @@ void pane(const char* name, ImVec2 at, ImVec2 size, ImU32 ground, ImVec2 padding
 }  // namespace
 
 Desktop::Desktop(const Registry& registry, PersonSettings& person, Renderer& renderer)
-    : editor_(std::make_unique<Editor>(registry, person)),
+    : editor_(std::make_unique<Workbench>(registry, person)),
       canvas_(std::make_unique<Canvas>(*editor_)),
       view_(std::make_unique<SceneView>(*editor_, renderer)),
       dialogs_(std::make_unique<Dialogs>(*editor_)),
@@ -65,7 +65,7 @@ std::string Desktop::title() {
 }
 
 void Desktop::place_picture(const std::string& path) {
-  Editor& editor = *editor_;
+  Workbench& editor = *editor_;
   cli::MediaOptions options;
   options.scene = editor.document->source();
   const auto made = cli::make_media(path, editor.scene(), options);
@@ -110,7 +110,7 @@ void Desktop::watch_journal() {
 }
 
 void Desktop::frame(double now) {
-  Editor& editor = *editor_;
+  Workbench& editor = *editor_;
   editor.now = now;
   editor.begin_frame();
   editor.script_watch.poll(editor);
@@ -149,7 +149,7 @@ void Desktop::frame(double now) {
 
 // Toolbar, then canvas and 3D view side by side, the inspector to their right and lists and charts below.
 void Desktop::draw_workspace(float top) {
-  Editor& editor = *editor_;
+  Workbench& editor = *editor_;
   PersonSettings& person = editor.person;
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
@@ -176,7 +176,7 @@ void Desktop::draw_workspace(float top) {
   const ImVec2 view_size{middle_width - left - gap, middle_height};
   pane("view", {left + gap, y}, view_size, c.sky, {0, 0}, [&] { view_->draw(view_size); });
   const ImVec2 padding{theme.px(12), theme.px(10)};
-  const auto fields = [&](const char* name, ImVec2 at, ImVec2 room, void (*draw)(Editor&)) {
+  const auto fields = [&](const char* name, ImVec2 at, ImVec2 room, void (*draw)(Workbench&)) {
     pane(name, at, room, c.panel, padding, [&] {
       if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) && ImGui::IsMouseClicked(0)) editor.area = Area::panels;
       draw(editor);
@@ -199,7 +199,7 @@ void Desktop::draw_workspace(float top) {
 }
 
 void Desktop::draw_notices() {
-  Editor& editor = *editor_;
+  Workbench& editor = *editor_;
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   std::erase_if(editor.notices, [&](const Notice& n) { return n.until < editor.now; });

@@ -1,5 +1,5 @@
 // Planes on the ground, upright, and across a camera's line of sight.
-#include "ui/desktop/view/media_place.h"
+#include "ui/desktop/document/media_place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,8 @@ std::string frame_file(const std::string& file, std::int64_t tick, double rate, 
   std::size_t end = begin;
   while (end < file.size() && file[end] == '#') ++end;
   const double gone = std::floor(static_cast<double>(std::max<std::int64_t>(0, tick)) * rate / kTicksPerSecond);
-  const std::int64_t count = std::max<std::int64_t>(1, frames), frame = static_cast<std::int64_t>(std::fmod(gone, static_cast<double>(count))) + 1;
+  const std::int64_t count = std::max<std::int64_t>(1, frames),
+                     frame = static_cast<std::int64_t>(std::fmod(gone, static_cast<double>(count))) + 1;
   std::string number = std::to_string(frame);
   number.insert(0, std::max(end - begin, number.size()) - number.size(), '0');
   return file.substr(0, begin) + number + file.substr(end);

@@ -1,8 +1,8 @@
 // A pane as thin as the gap, which follows the mouse.
-#include "ui/desktop/app/splitter.h"
+#include "ui/desktop/look/splitter.h"
 
-#include "ui/desktop/app/buttons.h"
-#include "ui/desktop/app/theme.h"
+#include "ui/desktop/look/buttons.h"
+#include "ui/desktop/look/theme.h"
 
 namespace bl::desktop {
 

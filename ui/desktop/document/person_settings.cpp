@@ -1,5 +1,5 @@
 // The person's settings as a small JSON file, read forgivingly: a window never fails to open because of it.
-#include "ui/desktop/app/person_settings.h"
+#include "ui/desktop/document/person_settings.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Two palettes and a type scale, put into ImGui's style.
-#include "ui/desktop/app/theme.h"
+#include "ui/desktop/look/theme.h"
 
 #include <algorithm>
 #include <cmath>

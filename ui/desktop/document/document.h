@@ -13,7 +13,7 @@
 #include "core/import/import_report.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/app/live_session.h"
-#include "ui/desktop/app/named_files.h"
+#include "ui/desktop/document/named_files.h"
 
 namespace bl::desktop {
 

@@ -1,5 +1,5 @@
 // Rewrites paths, and nothing where both folders are the same.
-#include "ui/desktop/app/named_files.h"
+#include "ui/desktop/document/named_files.h"
 
 #include <filesystem>
 #include <optional>
@@ -10,7 +10,7 @@
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
 #include "core/session/commands.h"
-#include "ui/desktop/view/media_place.h"
+#include "ui/desktop/document/media_place.h"
 
 namespace bl::desktop {
 

@@ -1,5 +1,5 @@
 // Each word of the pattern is looked for by itself, as a piece of the text or as letters with gaps.
-#include "ui/desktop/app/fuzzy.h"
+#include "ui/desktop/look/fuzzy.h"
 
 #include <algorithm>
 

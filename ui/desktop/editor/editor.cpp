@@ -1,5 +1,5 @@
 // The shared verbs of the panels: submit, undo, open, tell.
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/editor/editor.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,7 +10,6 @@
 
 #include "core/base/scarcity.h"
 #include "core/base/text.h"
-#include "ui/desktop/panels/canvas/canvas.h"
 
 namespace bl::desktop {
 
@@ -127,11 +126,6 @@ void Editor::take(std::unique_ptr<Document> fresh) {
   picks = {};
   panels = nullptr;
   script_watch.clear();
-}
-
-Result<void> Editor::save(const std::string& path) {
-  if (canvas != nullptr) canvas->store_places();
-  return document->save(path);
 }
 
 const Registry& Editor::types() const {

@@ -1,5 +1,5 @@
 // GLFW, ImGui's backends and the loop: one frame at the display's rate, whatever the simulation does.
-#include "ui/desktop/app/window.h"
+#include "ui/desktop/shell/window.h"
 
 #include <chrono>
 #include <cstdio>
@@ -20,10 +20,10 @@
 #include "core/base/printable.h"
 #include "core/file/file_io.h"
 #include "core/session/types/plugins.h"
-#include "ui/desktop/app/desktop.h"
-#include "ui/desktop/app/input_queue.h"
 #include "ui/desktop/app/journal.h"
 #include "ui/desktop/app/live_scene.h"
+#include "ui/desktop/shell/desktop.h"
+#include "ui/desktop/shell/input_queue.h"
 #include "ui/desktop/view/gl_renderer.h"
 
 namespace bl::desktop {

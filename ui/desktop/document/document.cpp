@@ -1,5 +1,5 @@
 // Opening, saving and recovering a scene; its history as steps with names.
-#include "ui/desktop/app/document.h"
+#include "ui/desktop/document/document.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,8 +10,8 @@
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
 #include "core/reading/figures.h"
-#include "ui/desktop/app/named_files.h"
 #include "ui/desktop/app/step_labels.h"
+#include "ui/desktop/document/named_files.h"
 
 namespace bl::desktop {
 

@@ -15,9 +15,9 @@ struct MediaPlace {
 };
 
 struct MediaStance {
-  std::string placement;  ///< ground, billboard or camera
-  Point3 position;        ///< [m]
-  double azimuth = 0, tilt = 0;             ///< [degree]
+  std::string placement;                       ///< ground, billboard or camera
+  Point3 position;                             ///< [m]
+  double azimuth = 0, tilt = 0;                ///< [degree]
   double width = 1, height = 1, distance = 1;  ///< [m]
 };
 MediaPlace place_of(const MediaStance& stance);

@@ -1,5 +1,5 @@
 // One thread for one import; whatever is thrown in it ends as an error.
-#include "ui/desktop/app/import_task.h"
+#include "ui/desktop/document/import_task.h"
 
 #include <exception>
 #include <new>

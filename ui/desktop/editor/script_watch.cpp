@@ -1,10 +1,10 @@
 // From a file to a set_script command; what cannot be read stands in the problems list, and the old version stays in force.
-#include "ui/desktop/app/script_watch.h"
+#include "ui/desktop/editor/script_watch.h"
 
 #include <algorithm>
 
 #include "core/making/script_file.h"
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/editor/editor.h"
 
 namespace bl::desktop {
 

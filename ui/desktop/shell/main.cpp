@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/base/scarcity.h"
-#include "ui/desktop/app/window.h"
+#include "ui/desktop/shell/window.h"
 
 int main(int count, char** arguments) {
   bl::prepare_for_scarcity(bl::desktop::kComfort);
