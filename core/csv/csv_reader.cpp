@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/base/foreign_bytes.h"
+#include "core/base/text.h"
 #include "core/base/plural.h"
 #include "core/base/stop_check.h"
 
@@ -180,12 +181,6 @@ std::string_view trimmed(std::string_view text) {
   while (const std::size_t length = blank_front()) text.remove_prefix(length);
   while (const std::size_t length = blank_back()) text.remove_suffix(length);
   return text;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
 }
 
 Result<CsvText> read_csv(std::string_view text, std::optional<char> separator) {

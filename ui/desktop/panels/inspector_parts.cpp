@@ -5,22 +5,14 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/base/text.h"
 #include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
 
 namespace bl::desktop {
 
-namespace {
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-}  // namespace
-
 bool passes_filter(const std::string& filter, const std::string& text) {
-  return lower(text).find(lower(filter)) != std::string::npos;
+  return lower_case(text).find(lower_case(filter)) != std::string::npos;
 }
 
 void filter_field(Workbench& editor, float width) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/geometry/plan_ring.h"
+
 namespace bl::desktop::canvas {
 
 namespace {
@@ -52,23 +54,10 @@ std::optional<Site> site_of(const Registry& registry, const Scene& scene) {
   return std::nullopt;
 }
 
-bool is_inside(const std::vector<Point3>& plan, double x, double y) {
-  bool inside = false;
-  for (std::size_t k = 0, last = plan.size() - 1; k < plan.size(); last = k++)
-    if ((plan[k].y > y) != (plan[last].y > y) &&
-        x < (plan[last].x - plan[k].x) * (y - plan[k].y) / (plan[last].y - plan[k].y) + plan[k].x)
-      inside = !inside;
-  return inside;
-}
-
-double distance_to_outline(const std::vector<Point3>& plan, double x, double y) {
-  double least = 1e30;
-  for (std::size_t k = 0, last = plan.size() - 1; k < plan.size(); last = k++) {
-    const double dx = plan[k].x - plan[last].x, dy = plan[k].y - plan[last].y, square = dx * dx + dy * dy;
-    const double t = square > 0 ? std::clamp(((x - plan[last].x) * dx + (y - plan[last].y) * dy) / square, 0.0, 1.0) : 0;
-    least = std::min(least, std::hypot(x - plan[last].x - t * dx, y - plan[last].y - t * dy));
-  }
-  return least;
+// Along the ground [m].
+double distance_to_outline(const std::vector<Point3>& plan, const Point3& point) {
+  const Point3 nearest = nearest_on_ring(plan, point);
+  return std::hypot(nearest.x - point.x, nearest.y - point.y);
 }
 
 }  // namespace
