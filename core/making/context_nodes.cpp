@@ -14,7 +14,7 @@
 #include "core/geometry/plan_ring.h"
 #include "core/import/thin_line.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -406,4 +406,4 @@ void ContextNodes::add(const DataLayer& layer, const NodeMaking& making, ImportR
   ++made_["data_layer"];
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

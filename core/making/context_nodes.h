@@ -14,7 +14,7 @@
 #include "core/making/site_buildings.h"
 #include "core/session/commands.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 /// Where nodes come from, and how they are made.
 struct NodeMaking {
@@ -76,4 +76,4 @@ class ContextNodes {
   std::pair<Point3, Point3> bounds_{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
 };
 
-}  // namespace bl::cli
+}  // namespace bl::making

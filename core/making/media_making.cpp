@@ -15,7 +15,7 @@
 #include "core/import/image_facts.h"
 #include "core/session/commands.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -157,4 +157,4 @@ Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const 
   return made;
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

@@ -13,7 +13,7 @@
 #include "core/define/codec.h"
 #include "core/making/spread_points.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -206,4 +206,4 @@ Result<Command> new_scene_command(const SceneParts& parts, const Registry& regis
   return builder.batch();
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

@@ -61,7 +61,7 @@ class Run {
     std::string lines = log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr));
     session_->on_entry([&lines](const LogEntry& entry) { lines += log_line(entry, full_registry()); });
     for (const std::string& file : options_.scripts) {
-      auto command = script_command(file);
+      auto command = making::script_command(file);
       if (!command) return fail(file, command.error());
       if (auto done = session_->submit(*command, "command line"); !done) return fail(file, done.error());
     }
