@@ -171,7 +171,7 @@ int write_imported(const making::ImportOptions& options, const making::ImportedS
 }  // namespace
 
 int import_command(const making::ImportOptions& given) {
-  if (std::all_of(given.files.begin(), given.files.end(), is_picture_name)) return import_pictures(given);
+  if (std::all_of(given.files.begin(), given.files.end(), making::is_picture_name)) return import_pictures(given);
   making::ImportOptions options = given;
   if (options.keeps && options.clears) {
     complain("--keep and --clear say two things of the same buildings: choose one.");

@@ -63,7 +63,7 @@ class Dialogs {
   void draw_unsaved();
   void draw_recovery();
   Recovered recover(const Journal::Remains& remains);
-  void making::make_scene();
+  void make_scene();
 
   // import_dialog.cpp
   void draw_import();

@@ -55,7 +55,7 @@ void Dialogs::draw_new_scene() {
   ImGui::Checkbox("Take the convex hull of a plan that is not convex", &fresh_.use_hull);
   const bool is_ready = !fresh_.boundary.empty() && !fresh_.programme.empty();
   if (draw_foot("Make the scene", "new_scene/make", is_ready ? "" : "A boundary and a programme are needed."))
-    making::make_scene();
+    make_scene();
   if (!told_.empty() && !is_told_error_) close();
   ImGui::EndPopup();
 }
