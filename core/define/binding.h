@@ -74,6 +74,19 @@ struct Binding<Table> : SharedBinding<Table, ValueKind::table> {};
 template <>
 struct Binding<Shared<Table>> : DirectBinding<Shared<Table>, ValueKind::table> {};
 
+template <>
+struct Binding<Numbers> : DirectBinding<Numbers, ValueKind::numbers> {};
+
+/// Objects that others make; nullptr where there is none. Meshes are a kind of their own.
+template <class T>
+struct Binding<std::shared_ptr<const T>> {
+  static constexpr ValueKind kKind = ValueKind::made;
+  static std::shared_ptr<const T> from_value(const Value& value) {
+    const Made* made = std::get_if<Made>(&value);
+    return made ? made->get<T>() : nullptr;
+  }
+};
+
 /// Whole numbers and truth values read as numbers, so that links may read any numeric port into a double.
 template <>
 struct Binding<double> {
@@ -126,6 +139,20 @@ std::optional<Value> offered(const T& member) {
   }
 }
 
+/// Of which type a member's made object has to be; none for members of other kinds.
+template <class M>
+struct made_type_of {
+  static MadeType get() { return {}; }
+};
+template <class T>
+struct made_type_of<std::shared_ptr<const T>> {
+  static MadeType get() { return made_type<T>(); }
+};
+template <>
+struct made_type_of<MeshPointer> {
+  static MadeType get() { return {}; }
+};
+
 template <class T>
 struct offered_type {
   using type = T;
@@ -139,6 +166,7 @@ struct offered_type<std::optional<T>> {
 template <class Owner, class M>
 void bind_read(ReadDefinition& read, M Owner::*member) {
   read.kind = Binding<M>::kKind;
+  read.made = made_type_of<M>::get();
   read.assign = [member](void* owner, std::span<const Value* const> values) {
     static_cast<Owner*>(owner)->*member = Binding<M>::from_value(*values.front());
   };
@@ -146,6 +174,7 @@ void bind_read(ReadDefinition& read, M Owner::*member) {
 template <class Owner, class M>
 void bind_read(ReadDefinition& read, All<M> Owner::*member) {
   read.kind = Binding<M>::kKind;
+  read.made = made_type_of<M>::get();
   read.is_whole = true;
   read.assign = [member](void* owner, std::span<const Value* const> values) {
     auto& all = (static_cast<Owner*>(owner)->*member).values;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/define/list_json.h"
 
 namespace bl {
 
@@ -88,11 +89,19 @@ Result<Scalar> field_from_json(const ColumnDefinition& column, const Json& json,
     return Scalar(json.get<std::string>());
   }
   PortDefinition port;
+  if (column.list == ListOf::indices) {
+    auto indices = indices_in(json);
+    if (indices) return Scalar(std::move(*indices));
+    return Error{ErrorCode::wrong_kind, place,
+                 "expects a list of whole numbers from 0 to " + std::to_string(kLargestIndex) + ", found " + shown(json)};
+  }
+  port.kind = column.list == ListOf::numbers ? ValueKind::numbers : ValueKind::number;
   port.unit = column.unit;
   port.hard_minimum = column.minimum;
   port.hard_maximum = column.maximum;
   auto number = read(port, json, place);
   if (!number) return number.error();
+  if (port.kind == ValueKind::numbers) return Scalar(std::get<Numbers>(std::move(*number)));
   return Scalar(std::get<double>(*number));
 }
 
@@ -166,9 +175,14 @@ Result<Value> decode_kind(const PortDefinition& port, const Json& json, const st
       return Value(Shared<Selection>(std::move(*selection)));
     }
     case ValueKind::table: return as_value(table_from_json(port, json, place, value_from_json));
-    case ValueKind::mesh: break;
+    case ValueKind::numbers: {
+      auto numbers = numbers_in(json);
+      return numbers ? Result<Value>(Value(std::move(*numbers))) : wrong_kind(port, json, place);
+    }
+    case ValueKind::mesh:
+    case ValueKind::made: break;
   }
-  return Error{ErrorCode::wrong_kind, place, "meshes cannot be set; they are computed"};
+  return Error{ErrorCode::wrong_kind, place, "meshes and made objects cannot be set; they are computed"};
 }
 
 Result<Value> decode(const PortDefinition& port, const Json& json, const std::string& place) {
@@ -239,8 +253,7 @@ Json row_to_json(const PortDefinition& port, const TableRow& row) {
   Json object = Json::object();
   for (std::size_t c = 0; c < row.size() && c < columns.size(); ++c) {
     if (!columns[c].is_required && row[c] == columns[c].default_value) continue;
-    if (const double* number = std::get_if<double>(&row[c])) object[columns[c].id] = *number;
-    else object[columns[c].id] = std::get<std::string>(row[c]);
+    object[columns[c].id] = field_to_json(row[c]);
   }
   return object;
 }
@@ -269,6 +282,7 @@ Json value_to_json(const Value& value, const PortDefinition& port) {
   if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&value)) return **texts;
   if (const auto* selection = std::get_if<Shared<Selection>>(&value)) return selection_to_json(**selection);
   if (const auto* table = std::get_if<Shared<Table>>(&value)) return table_to_json(**table, port);
+  if (const auto* numbers = std::get_if<Numbers>(&value)) return **numbers;
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) {
     Json list = Json::array();
     for (const Point3& p : **points) list.push_back(vector_to_json(p));
@@ -283,6 +297,10 @@ bool is_within_reach(const Vector3& v) {
   return std::abs(v.x) <= kCoordinateLimit && std::abs(v.y) <= kCoordinateLimit && std::abs(v.z) <= kCoordinateLimit;
 }
 
+Error too_large(const std::string& place, double number) {
+  return {ErrorCode::out_of_range, place, "must be between -1e15 and 1e15, found " + shortest(number)};
+}
+
 Error far_away(const std::string& place) {
   return {ErrorCode::out_of_range, place, "lies farther than 10 000 km from the origin; use local metric coordinates"};
 }
@@ -295,10 +313,14 @@ Result<void> check_value(const PortDefinition& port, const Value& value, const s
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value))
     for (std::size_t i = 0; i < (*points)->size(); ++i)
       if (!is_within_reach((**points)[i])) return far_away(place + "/" + std::to_string(i));
+  if (const auto* numbers = std::get_if<Numbers>(&value))
+    if (const auto far =
+            std::find_if((*numbers)->begin(), (*numbers)->end(), [](double x) { return std::abs(x) > kNumberLimit; });
+        far != (*numbers)->end())
+      return too_large(place + "/" + std::to_string(far - (*numbers)->begin()), *far);
   if (port.kind == ValueKind::number || port.kind == ValueKind::integer) {
     const double number = as_number(value);
-    if (std::abs(number) > kNumberLimit)
-      return Error{ErrorCode::out_of_range, place, "must be between -1e15 and 1e15, found " + shortest(number)};
+    if (std::abs(number) > kNumberLimit) return too_large(place, number);
     if (number < port.hard_minimum || number > port.hard_maximum) {
       const std::string unit(info(port.unit).pretty.empty() ? "" : " " + std::string(info(port.unit).pretty));
       std::string range = std::isinf(port.hard_maximum) ? "at least " + shortest(port.hard_minimum)
@@ -346,7 +368,7 @@ Result<Value> running_value_from_json(const PortDefinition& port, const Json& js
     return table ? Result<Value>(Value(std::move(*table))) : Result<Value>(table.error());
   }
   const bool has_range = port.kind == ValueKind::number || port.kind == ValueKind::integer || port.kind == ValueKind::point ||
-                         port.kind == ValueKind::points;
+                         port.kind == ValueKind::points || port.kind == ValueKind::numbers;
   if (!has_range) return value_from_json(port, json, place);
   return decode(port, json, place);
 }

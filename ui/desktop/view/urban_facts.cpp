@@ -6,7 +6,7 @@
 
 #include "core/reading/report_model.h"
 #include "core/sun/solar_position.h"
-#include "core/traffic/packed_numbers.h"
+#include "core/traffic/trip_flows.h"
 #include "ui/desktop/view/scene_facts.h"
 
 namespace bl::desktop {
@@ -59,24 +59,19 @@ void read_street(const State& state, std::uint32_t node, UrbanFacts& urban) {
   urban.streets.push_back(std::move(street));
 }
 
-// The flows of a network are kept by origin: "street:forth" or "street:back" of each zone's trips.
 void read_routes(const State& state, std::uint32_t node, UrbanFacts& urban) {
-  const Table *links = report::table_at(state, node, "traffic_network", "links"),
-              *ways = report::table_at(state, node, "traffic_network", "ways");
-  if (links == nullptr || ways == nullptr) return;
+  const Value* value = value_at(state, node, "traffic_network", "trip_flows");
+  const Made* made = value == nullptr ? nullptr : std::get_if<Made>(value);
+  const auto trips = made == nullptr ? nullptr : made->get<TripFlows>();
+  if (!trips) return;
   std::vector<std::uint32_t> street_of;  // by link; the number of nodes where it is no street
-  for (std::size_t l = 0; l < links->rows.size(); ++l) {
-    const std::string& link = links->text(l, "link");
-    street_of.push_back(state.plan->node_index(link.substr(0, link.rfind(':'))));
-  }
-  for (std::size_t row = 0; row < ways->rows.size(); ++row) {
-    const std::uint32_t from = state.plan->node_index(ways->text(row, "zone"));
-    const auto used = unpacked_indices(ways->text(row, "links"));
-    const auto flows = unpacked_numbers(ways->text(row, "flows"));
-    if (from == state.plan->nodes.size() || !used || !flows) continue;
-    for (std::size_t k = 0; k < std::min(used->size(), flows->size()); ++k)
-      if ((*used)[k] < street_of.size() && street_of[(*used)[k]] < state.plan->nodes.size())
-        urban.routes[from][street_of[(*used)[k]]] += (*flows)[k];
+  for (const std::string& place : trips->places) street_of.push_back(state.plan->node_index(place));
+  for (const TripFlows::Zone& zone : trips->zones) {
+    const std::uint32_t from = state.plan->node_index(zone.id);
+    if (from == state.plan->nodes.size()) continue;
+    for (std::size_t k = 0; k < std::min(zone.links->size(), zone.flows->size()); ++k)
+      if (const std::uint32_t link = (*zone.links)[k]; link < street_of.size() && street_of[link] < state.plan->nodes.size())
+        urban.routes[from][street_of[link]] += (*zone.flows)[k];
   }
 }
 
