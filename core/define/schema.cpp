@@ -71,6 +71,13 @@ Json form_of(const PortDefinition& port) {
     case ValueKind::selection: return selection_schema(true);
     case ValueKind::table: return table_schema(port);
     case ValueKind::mesh: return {{"not", Json::object()}};
+    case ValueKind::commands:
+      return {{"type", "array"},
+              {"items",
+               {{"type", "object"},
+                {"properties", {{"command", text_schema()}, {"arguments", {{"type", "object"}}}}},
+                {"required", {"command"}},
+                {"additionalProperties", false}}}};
   }
   return Json::object();
 }
@@ -165,19 +172,18 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
   const Json tick = {{"type", "integer"}, {"minimum", 0}, {"maximum", std::int64_t{1} << 53}};
   const Json object = {{"type", "object"}};
   const Json objects = {{"type", "object"}, {"additionalProperties", object}};
-  const Json state = {
-      {"type", "object"},
-      {"properties",
-       {{"tick", tick},
-        {"calm", tick},
-        {"nodes", objects},
-        {"voices", objects},
-        {"held", objects},  // of older files
-        {"errors", objects},
-        {"link_errors", objects},
-        {"analyses", objects},
-        {"meshes", objects}}},
-      {"additionalProperties", false}};
+  const Json state = {{"type", "object"},
+                      {"properties",
+                       {{"tick", tick},
+                        {"calm", tick},
+                        {"nodes", objects},
+                        {"voices", objects},
+                        {"held", objects},  // of older files
+                        {"errors", objects},
+                        {"link_errors", objects},
+                        {"analyses", objects},
+                        {"meshes", objects}}},
+                      {"additionalProperties", false}};
   const Json properties = {{"format", {{"const", "behaviourlinks"}}},
                            {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},
                            {"revisions", {{"type", "object"}, {"additionalProperties", {{"type", "integer"}, {"minimum", 1}}}}},

@@ -11,6 +11,7 @@
 #include "core/base/hash.h"
 #include "core/base/mesh.h"
 #include "core/base/vector.h"
+#include "core/define/payload.h"
 
 namespace bl {
 
@@ -62,12 +63,29 @@ struct Table {
   const std::string& text(std::size_t row, std::string_view name) const;
 };
 
-/// `port` is a text of the form `typification.port`; `json` a text that holds one JSON value as it stood in a file.
-enum class ValueKind { boolean, integer, number, text, choice, port, json, point, points, texts, selection, table, mesh };
+/// `port` is a text of the form `typification.port`; `json` one JSON value as it stood in a file; `commands` what a batch holds.
+enum class ValueKind {
+  boolean,
+  integer,
+  number,
+  text,
+  choice,
+  port,
+  json,
+  point,
+  points,
+  texts,
+  selection,
+  table,
+  mesh,
+  commands
+};
 
-/// Text, choice, port and json share std::string; the declared kind tells them apart.
-using Value = std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>,
-                           Shared<std::vector<std::string>>, Shared<Selection>, Shared<Table>, MeshPointer>;
+/// Text, choice and port share std::string; the declared kind tells them apart. New kinds stand at the end: the place of a kind
+/// is a part of the hash.
+using Value =
+    std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>, Shared<std::vector<std::string>>,
+                 Shared<Selection>, Shared<Table>, MeshPointer, JsonValue, CommandList>;
 
 std::string_view name_of(ValueKind kind);
 /// Can a link propose values of this kind?

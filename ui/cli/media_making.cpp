@@ -46,8 +46,8 @@ Vector3 local_place(double latitude, double longitude, const Settings& settings)
           north * mathematics::cosine(turn) - east * mathematics::sine(turn), 0};
 }
 
-// How high the scene's zero lies above the sea [m]: heights of terrains count from the sea, and a sun knows the height of its site.
-// Nothing where the scene does not say.
+// How high the scene's zero lies above the sea [m]: heights of terrains count from the sea, and a sun knows the height of its
+// site. Nothing where the scene does not say.
 std::optional<double> height_of_zero(const Scene& scene) {
   std::optional<double> height;
   for (const auto& [id, node] : scene.nodes) {
@@ -59,14 +59,16 @@ std::optional<double> height_of_zero(const Scene& scene) {
   return height;
 }
 
-// The height of the camera in the scene [m]: as its GPS says where the scene tells how high it lies itself, else of people's eyes.
+// The height of the camera in the scene [m]: as its GPS says where the scene tells how high it lies itself, else of people's
+// eyes.
 double height_of(const ImageFacts& facts, const Scene& scene, std::vector<std::string>& notes) {
   if (!facts.altitude) return kEyeHeight;
   const std::string told = "the picture was taken " + fixed(*facts.altitude, 1) + " m above the sea";
   const auto zero = height_of_zero(scene);
   if (!zero) {
-    notes.push_back(told + ", but the scene does not say how high it lies (by a terrain, or the `elevation` of its sun): it stands "
-                           "at the height of people's eyes");
+    notes.push_back(told +
+                    ", but the scene does not say how high it lies (by a terrain, or the `elevation` of its sun): it stands "
+                    "at the height of people's eyes");
     return kEyeHeight;
   }
   notes.push_back(told + " and stands there: such heights can be wrong by ten metres and more");
@@ -80,7 +82,8 @@ Vector3 position_of(const ImageFacts& facts, const Scene& scene, std::vector<std
     return {0, 0, kEyeHeight};
   }
   if (settings.latitude == 0 && settings.longitude == 0) {
-    notes.emplace_back("the scene does not say where on Earth it lies (`latitude`, `longitude`): the picture stands at the origin");
+    notes.emplace_back(
+        "the scene does not say where on Earth it lies (`latitude`, `longitude`): the picture stands at the origin");
     return {0, 0, kEyeHeight};
   }
   const Vector3 place = local_place(*facts.latitude, *facts.longitude, settings);
@@ -113,7 +116,8 @@ std::string fresh_id(const std::string& file, const Scene& scene) {
 
 bool is_picture_name(const std::string& file) {
   std::string end = std::filesystem::path(file).extension().string();
-  std::transform(end.begin(), end.end(), end.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return end == ".jpg" || end == ".jpeg" || end == ".png";
 }
 
@@ -149,7 +153,7 @@ Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const 
   const Json node{{"name", std::filesystem::path(file).stem().string()},
                   {"position", {at.x, at.y, at.z}},
                   {"types", {{"media", std::move(media)}}}};
-  made.command = command<AddNode>({made.id, {write_json_line(node)}});
+  made.command = command<AddNode>({made.id, JsonValue::of(node)});
   return made;
 }
 

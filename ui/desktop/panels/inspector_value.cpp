@@ -302,6 +302,7 @@ std::optional<Change> value_field(Editor& editor, const Subject& subject, float 
       return constant(Shared<Selection>(*chosen));
     }
     case ValueKind::json:
+    case ValueKind::commands:
     case ValueKind::mesh: break;
   }
   return fixed_field(editor, subject, width);
