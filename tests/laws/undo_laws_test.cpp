@@ -1,6 +1,9 @@
 // Law of commands: a command and then its inverse give the same scene, for every registered command.
+#include <array>
 #include <map>
+#include <optional>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +11,7 @@
 #include "core/base/random.h"
 #include "core/define/codec.h"
 #include "tests/support/random_commands.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/world.h"
 
 namespace bl {
@@ -230,6 +234,45 @@ TEST(UndoLaws, WhatCannotBeUndoneSaysWhyAndChangesNothing) {
   ASSERT_FALSE(undone.ok());
   EXPECT_EQ(undone.error().message, "cannot be undone: ben has changed nodes/b since");
   EXPECT_EQ(hash_of(world.session().scene()), before);
+}
+
+// What has to come again, so that rows and links are there to be changed.
+std::optional<Command> missing_thing(const Scene& scene, int number) {
+  if (!scene.nodes.contains("brief"))
+    return command<AddNode>({"brief", {R"({"types": {"programme": {"rows": [{"use": "shop", "floor_area": 7}]}}})"}});
+  const std::string one = scene.nodes.begin()->first, other = scene.nodes.rbegin()->first;
+  if (scene.nodes.size() > 1 && scene.links.size() < 4)
+    return command<AddLink>(
+        {"again" + std::to_string(number), {R"({"kind": "attract", "from": ")" + one + R"(", "to": ")" + other + "\"}"}});
+  return std::nullopt;
+}
+
+// However they wrote over each other: where each takes back what was done last, nothing is left of it, and all of it comes again.
+TEST(UndoLaws, WhatThreeDidIsUndoneByAllToTheSameBytes) {
+  const std::array<const char*, 3> authors = {"anna", "ben", "carla"};
+  const Scene before = read_scene(kScene, full_registry()).scene;
+  Ledger ledger(full_registry(), before);
+  Random random(2026);
+  std::vector<const char*> steps;
+  std::map<std::string, int> taken;
+  const int count = test::kIsSanitized ? 1000 : 10000;
+  for (int k = 0; k < count; ++k) {
+    const Command command = missing_thing(ledger.scene(), k).value_or(random_command(ledger.scene(), random, k));
+    const char* author = authors[random.below(authors.size())];
+    if (!ledger.submit(command, author, k)) continue;
+    steps.push_back(author);
+    ++taken[command.id];
+  }
+  for (const auto& [id, command] : full_registry().commands()) EXPECT_GT(taken[id], 0) << id;
+  const std::string after = write_scene(ledger.scene(), full_registry());
+  for (auto author = steps.rbegin(); author != steps.rend(); ++author) {
+    const auto undone = ledger.undo(*author, count);
+    ASSERT_TRUE(undone.ok()) << undone.error().text() << ", step " << steps.rend() - author;
+    ASSERT_TRUE(undone->left.empty()) << text_of(undone->left.front());
+  }
+  EXPECT_EQ(write_scene(ledger.scene(), full_registry()), write_scene(before, full_registry()));
+  for (const char* author : steps) ASSERT_TRUE(ledger.redo(author, count).ok());
+  EXPECT_EQ(write_scene(ledger.scene(), full_registry()), after);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Sets one field of a table, so that people who change other rows at the same time keep what they wrote.
 #include <nlohmann/json.hpp>
 
-#include "core/base/near_names.h"
+#include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/session/table_rows.h"
 
