@@ -18,12 +18,6 @@ struct PortChoice {
   bool operator==(const PortChoice&) const = default;
 };
 
-/// One JSON value kept as text, as a member type of its own.
-struct JsonText {
-  std::string text = "{}";
-  bool operator==(const JsonText&) const = default;
-};
-
 /// The values of all nodes of an end (or of a table of replies) in ascending node id, where a plain T is one node's.
 template <class T>
 struct All {
@@ -61,6 +55,10 @@ template <>
 struct Binding<std::string> : DirectBinding<std::string, ValueKind::text> {};
 template <>
 struct Binding<Vector3> : DirectBinding<Vector3, ValueKind::point> {};
+template <>
+struct Binding<JsonValue> : DirectBinding<JsonValue, ValueKind::json> {};
+template <>
+struct Binding<CommandList> : DirectBinding<CommandList, ValueKind::commands> {};
 template <>
 struct Binding<MeshPointer> : DirectBinding<MeshPointer, ValueKind::mesh> {};
 template <>
@@ -107,13 +105,6 @@ struct Binding<PortChoice> {
   static constexpr ValueKind kKind = ValueKind::port;
   static Value to_value(const PortChoice& member) { return member.path; }
   static PortChoice from_value(const Value& value) { return {Binding<std::string>::from_value(value)}; }
-};
-
-template <>
-struct Binding<JsonText> {
-  static constexpr ValueKind kKind = ValueKind::json;
-  static Value to_value(const JsonText& member) { return member.text; }
-  static JsonText from_value(const Value& value) { return {Binding<std::string>::from_value(value)}; }
 };
 
 /// Enumerations are kept as the text of the choice; the builder supplies the texts.

@@ -139,7 +139,6 @@ Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& js
 
 // Kinds whose values look alike in JSON and in memory.
 Result<Value> text_like(const PortDefinition& port, const Json& json, const std::string& place) {
-  if (port.kind == ValueKind::json) return Value(write_json_line(json));
   if (!json.is_string()) return wrong_kind(port, json, place);
   return Value(json.get<std::string>());
 }
@@ -164,8 +163,8 @@ Result<Value> decode_kind(const PortDefinition& port, const Json& json, const st
       return Value(json.get<double>());
     case ValueKind::text:
     case ValueKind::choice:
-    case ValueKind::port:
-    case ValueKind::json: return text_like(port, json, place);
+    case ValueKind::port: return text_like(port, json, place);
+    case ValueKind::json: return Value(JsonValue::of(json));
     case ValueKind::point: return as_value(vector_from_json(json, place));
     case ValueKind::points: return as_value(points_from_json(port, json, place));
     case ValueKind::texts: return as_value(texts_from_json(port, json, place));
@@ -179,6 +178,7 @@ Result<Value> decode_kind(const PortDefinition& port, const Json& json, const st
       auto numbers = numbers_in(json);
       return numbers ? Result<Value>(Value(std::move(*numbers))) : wrong_kind(port, json, place);
     }
+    case ValueKind::commands: return Error{ErrorCode::wrong_kind, place, "only commands hold commands"};
     case ValueKind::mesh:
     case ValueKind::made: break;
   }
@@ -273,7 +273,10 @@ Json table_to_json(const Table& table, const PortDefinition& port) {
 }  // namespace
 
 Json value_to_json(const Value& value, const PortDefinition& port) {
-  if (port.kind == ValueKind::json) return Json::parse(std::get<std::string>(value), nullptr, false);
+  if (const auto* payload = std::get_if<JsonValue>(&value)) {
+    const auto json = payload->read();
+    return json ? **json : Json();
+  }
   if (const auto* flag = std::get_if<bool>(&value)) return *flag;
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
   if (const auto* number = std::get_if<double>(&value)) return *number;
@@ -388,8 +391,9 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
                                                      std::span<const std::string_view> beside) {
   if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"port\": value, ...}, found " + shown(json)};
   std::map<std::string, Value> values;
+  const auto is_beside = [&](const std::string& key) { return std::find(beside.begin(), beside.end(), key) != beside.end(); };
   for (const auto& [key, content] : json.get_ref<const Json::object_t&>()) {
-    if (std::find(beside.begin(), beside.end(), key) != beside.end()) continue;
+    if (is_beside(key)) continue;
     const std::string here = place.empty() ? key : place + "/" + key;
     const PortDefinition* port = type.find_port(key);
     if (port == nullptr) return unknown_port(type, key, here);
@@ -399,7 +403,7 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
     if (is_kept(*port, *value)) values[key] = std::move(*value);
   }
   for (const PortDefinition& port : type.ports)
-    if (port.is_required && !values.contains(port.id))
+    if (port.is_required && !values.contains(port.id) && !is_beside(port.id))
       return Error{ErrorCode::missing, place, "`" + type.id + "` needs `" + port.id + "`"};
   return values;
 }
@@ -410,33 +414,6 @@ Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value
     if (const auto it = values.find(port.id); it != values.end() && is_kept(port, it->second))
       append_field(json, port.id) = value_to_json(it->second, port);
   return json;
-}
-
-Json command_to_json(const Registry& registry, const Command& command) {
-  Json json = Json::object();
-  json["command"] = command.id;
-  if (const CommandDefinition* definition = registry.command(command.id))
-    if (Json arguments = ports_to_json(*definition, command.arguments); !arguments.empty())
-      json["arguments"] = std::move(arguments);
-  return json;
-}
-
-Result<Command> command_from_json(const Registry& registry, const Json& json, const std::string& place) {
-  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"command\": ..., \"arguments\": {...}}"};
-  if (auto keys = check_keys(json, {"command", "arguments"}, place); !keys) return keys.error();
-  const auto name = json.find("command");
-  if (name == json.end() || !name->is_string()) return Error{ErrorCode::missing, place, "`command` is missing"};
-  const CommandDefinition* definition = registry.command(name->get_ref<const std::string&>());
-  if (definition == nullptr)
-    return Error{ErrorCode::unknown_type, place,
-                 "unknown command `" + name->get<std::string>() + "`" +
-                     did_you_mean(name->get<std::string>(), keys_of(registry.commands()))};
-  static const Json kNoArguments = Json::object();
-  const auto given = json.find("arguments");
-  auto arguments = ports_from_json(*definition, given == json.end() ? kNoArguments : *given,
-                                   place.empty() ? "arguments" : place + "/arguments");
-  if (!arguments) return arguments.error();
-  return Command{definition->id, std::move(*arguments)};
 }
 
 }  // namespace bl

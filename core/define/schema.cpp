@@ -86,6 +86,13 @@ Json form_of(const PortDefinition& port) {
     case ValueKind::numbers: return numbers_schema(-kNumberLimit, kNumberLimit);
     case ValueKind::mesh:
     case ValueKind::made: return {{"not", Json::object()}};
+    case ValueKind::commands:
+      return {{"type", "array"},
+              {"items",
+               {{"type", "object"},
+                {"properties", {{"command", text_schema()}, {"arguments", {{"type", "object"}}}}},
+                {"required", {"command"}},
+                {"additionalProperties", false}}}};
   }
   return Json::object();
 }

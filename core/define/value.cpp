@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/define/command_builder.h"
+
 namespace bl {
 
 std::size_t Table::column(std::string_view name) const {
@@ -40,6 +42,7 @@ std::string_view name_of(ValueKind kind) {
     case ValueKind::choice: return "one of its choices";
     case ValueKind::port: return "a port written `typification.port`";
     case ValueKind::json: return "a JSON object";
+    case ValueKind::commands: return "a list of commands";
     case ValueKind::point: return "a point [x, y, z]";
     case ValueKind::points: return "a list of points [[x, y, z], ...]";
     case ValueKind::texts: return "a list of texts";
@@ -165,6 +168,17 @@ struct Adder {
   void operator()(const MeshPointer&) const {}
   void operator()(const Numbers& numbers) const { numbers.add_to(hash); }
   void operator()(const Made&) const {}
+  void operator()(const JsonValue& json) const { hash.add(std::string_view(json.text())); }
+  void operator()(const CommandList& commands) const {
+    hash.add(std::uint64_t{commands->size()});
+    for (const Command& command : *commands) {
+      hash.add(std::string_view(command.id));
+      for (const auto& [name, value] : command.arguments) {
+        hash.add(std::string_view(name));
+        add_to(hash, value);
+      }
+    }
+  }
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/base/mesh.h"
 #include "core/base/number_list.h"
 #include "core/base/vector.h"
+#include "core/define/payload.h"
 
 namespace bl {
 
@@ -70,8 +71,8 @@ struct Table {
   const T& field(std::size_t row, std::string_view name) const;
 };
 
-/// `port` is a text of the form `typification.port`; `json` a text that holds one JSON value as it stood in a file; `made` an
-/// object for code.
+/// `port` is a text of the form `typification.port`; `json` one JSON value as it stood in a file; `made` an object for code;
+/// `commands` what a batch holds.
 enum class ValueKind {
   boolean,
   integer,
@@ -87,12 +88,15 @@ enum class ValueKind {
   table,
   mesh,
   numbers,
-  made
+  made,
+  commands
 };
 
-/// Text, choice, port and json share std::string; the declared kind tells them apart.
+/// Text, choice and port share std::string; the declared kind tells them apart. New kinds stand at the end: the place of a kind
+/// is a part of the hash.
 using Value = std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>,
-                           Shared<std::vector<std::string>>, Shared<Selection>, Shared<Table>, MeshPointer, Numbers, Made>;
+                           Shared<std::vector<std::string>>, Shared<Selection>, Shared<Table>, MeshPointer, Numbers, Made, JsonValue,
+                           CommandList>;
 
 std::string_view name_of(ValueKind kind);
 /// Do values of this kind follow from others, so that no file holds them?

@@ -70,7 +70,7 @@ class ContextNodes {
   const Registry* registry_;
   std::set<std::string> taken_;
   std::map<std::string, std::size_t> numbers_;  // the last one given to each stem
-  std::vector<std::string> commands_;           // each a JSON text
+  std::vector<Command> commands_;
   std::map<std::string, std::size_t> made_;
   std::vector<std::string> notes_;
   std::pair<Point3, Point3> bounds_{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};

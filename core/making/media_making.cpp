@@ -153,7 +153,7 @@ Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const 
   const Json node{{"name", std::filesystem::path(file).stem().string()},
                   {"position", {at.x, at.y, at.z}},
                   {"types", {{"media", std::move(media)}}}};
-  made.command = command<AddNode>({made.id, {write_json_line(node)}});
+  made.command = command<AddNode>({made.id, JsonValue::of(node)});
   return made;
 }
 

@@ -63,7 +63,9 @@ double coordinate(lua_State* lua, int index, const char* axis, const char* name)
 
 }  // namespace
 
-bool is_readable(ValueKind kind) { return !is_derived(kind) && kind != ValueKind::json && kind != ValueKind::selection; }
+bool is_readable(ValueKind kind) {
+  return !is_derived(kind) && kind != ValueKind::json && kind != ValueKind::selection && kind != ValueKind::commands;
+}
 
 // Nothing in here may hold something with a destructor while Lua is called: an error leaves by a jump.
 void push_value(lua_State* lua, const Value& value) {

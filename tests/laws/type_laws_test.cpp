@@ -150,7 +150,7 @@ TEST(TypeLaws, ValuesSurviveJson) {
   for_each_type([](const TypeDefinition& type) {
     Random random(7, Hash::mix(type.ports.size()));
     for (const PortDefinition& port : type.ports) {
-      if (is_derived(port.kind)) continue;
+      if (is_derived(port.kind) || port.kind == ValueKind::commands) continue;  // no value of a node, or a law of its own
       for (int i = 0; i < 50; ++i) {
         const Value value = random_value(port, random);
         const std::string text = write_json(value_to_json(value, port));

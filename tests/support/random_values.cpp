@@ -89,7 +89,8 @@ Value random_value(const PortDefinition& port, Random& random) {
       return random_number(port.hard_minimum, port.hard_maximum, port.soft_minimum, port.soft_maximum, random);
     case ValueKind::choice: return port.choices[random.below(port.choices.size())].id;
     case ValueKind::port: return std::string(random.below(2) == 0 ? "smart_volume.volume" : "node.position");
-    case ValueKind::json: return std::string("{}");
+    case ValueKind::json: return JsonValue();
+    case ValueKind::commands: return CommandList();
     case ValueKind::text: return random_word(random);
     case ValueKind::point: return random_point(random);
     case ValueKind::points: {

@@ -60,7 +60,7 @@ const std::string* text_of(const NodeRecord& node, const std::string& type, cons
 }
 
 Command set_text(const std::string& node, const std::string& port, const std::string& text) {
-  return command<SetPort>({node, {port}, {write_json_line(Json(text))}});
+  return command<SetPort>({node, {port}, JsonValue::of(Json(text))});
 }
 
 }  // namespace

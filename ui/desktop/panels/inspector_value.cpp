@@ -306,6 +306,7 @@ std::optional<Change> value_field(Workbench& editor, const Subject& subject, flo
     case ValueKind::json:
     case ValueKind::numbers:
     case ValueKind::made:
+    case ValueKind::commands:
     case ValueKind::mesh: break;
   }
   return fixed_field(editor, subject, width);
