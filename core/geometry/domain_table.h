@@ -1,5 +1,5 @@
-// Domains and rings of plans as rows of a table: how they travel between nodes. Works with any table that hands out numbers and
-// texts by row and column, so that geometry need not know the declarative layer.
+// Domains and rings of plans as rows of a table: how files and settings hold them. Works with any table that hands out numbers
+// and texts by row and column, so that geometry need not know the declarative layer.
 #pragma once
 
 #include <cstdint>
