@@ -9,7 +9,7 @@
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/app/actions.h"
 #include "ui/desktop/app/fuzzy.h"
-#include "ui/desktop/app/journal.h"
+#include "core/host/journal.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/scene_view.h"
 

@@ -80,6 +80,7 @@ class Editor {
   Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
+  bool serves_ticks = false;  ///< somebody serves each tick of a scene with recordings: they wait for it
   MenuOpening menu_opening;
   ScriptWatch script_watch;                    ///< files that link kinds of this scene are read from
   std::shared_ptr<PanelMemory> panels;         ///< what inspector, lists and charts remember of this document
@@ -97,8 +98,12 @@ class Editor {
   std::string name_of(const std::string& node) const;
 
   // --- Changing. Errors become notices; whether it went well.
-  bool submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
+  /// `label`: what the step is called in the history, where its commands alone do not say what was meant.
+  bool submit(const std::vector<Command>& commands, std::int64_t gesture = 0, const std::string& label = "");
   bool submit(const Command& command, std::int64_t gesture = 0) { return submit(std::vector<Command>{command}, gesture); }
+  /// One frame of a gesture: values that the next frame sets anew. It is seen at once.
+  bool show(const std::vector<Command>& commands, std::int64_t gesture);
+  void end_gesture(std::int64_t gesture);
   /// A patch of the scene's view (canvas layout, cameras), as one step.
   bool arrange(const JsonValue& patch, std::int64_t gesture = 0);
   std::int64_t new_gesture() { return document->session().new_gesture(); }
@@ -117,7 +122,8 @@ class Editor {
   void take(std::unique_ptr<Document> fresh);
   /// Saves the document with the places of all boxes that people have seen since they changed something.
   Result<void> save(const std::string& path);
-  /// At the beginning of a frame: lets go of scripts that nobody can hold pointers into any more.
+  /// At the beginning of a frame: says what a gesture still shows once it is due, and lets go of scripts that nobody can hold
+  /// pointers into any more.
   void begin_frame();
 
  private:

@@ -5,21 +5,22 @@
 
 namespace bl::desktop {
 
-void LiveScene::frame(Editor& editor) {
+void LiveScene::frame() {
+  Editor& editor = *editor_;
   const std::uint64_t number = editor.document ? editor.document->id() : 0;
   const std::string folder = editor.document ? editor.document->folder() : std::string();
   if (number != document_ || folder != folder_) {
     document_ = number;
     folder_ = folder;
-    connections_.reset();
+    devices_.reset();
     editor.deliveries.clear();
     tick_ = -1;
-    entries_ = 0;
-    if (number != 0) connections_ = std::make_unique<Connections>(LiveOptions{folder, is_live_, {}});
+    if (number != 0) devices_ = std::make_unique<DeviceDoor>(LiveOptions{folder, is_live_, {}});
   }
-  if (!connections_ || !editor.moment) return;
+  if (!devices_ || !editor.moment) return;
   LiveSession& session = editor.document->session();
-  follow(session);
+  if (devices_->follow(session.said(), session.last_seq()) && devices_->has_recordings() != session.do_ticks_wait())
+    session.make_ticks_wait(devices_->has_recordings());
   std::int64_t tick = editor.moment->state->tick;
   if (session.do_ticks_wait()) {
     const auto unserved = session.unserved_tick();
@@ -29,39 +30,26 @@ void LiveScene::frame(Editor& editor) {
     return;
   }
   tick_ = tick;
-  for (const Report& report : connections_->take(tick)) {
-    LogEntry entry;
-    entry.gesture = session.new_gesture();
-    entry.author = report.author;
-    entry.command = report.command;
-    if (auto done = session.replay(std::move(entry)); !done) editor.tell(NoticeKind::warning, done.error().text());
-  }
+  for (const Error& refused : devices_->bring(tick, [&](Submission said) { return session.submit(std::move(said)); }))
+    editor.tell(NoticeKind::warning, refused.text());
   session.serve(tick);
-  connections_->send(*editor.moment->state);
-  note_deliveries(editor);
+  devices_->send(*editor.moment->state);
+  note_deliveries();
 }
 
 // The window's clock is read here, for the eye: no tick hears of it.
-void LiveScene::note_deliveries(Editor& editor) const {
+void LiveScene::note_deliveries() const {
   std::map<std::string, Delivery> now;
-  for (const ConnectionStatus& status : connections_->status()) {
+  for (const ConnectionStatus& status : devices_->status()) {
     if (status.is_sensor) continue;
-    const auto before = editor.deliveries.find(status.node);
+    const auto before = editor_->deliveries.find(status.node);
     Delivery& delivery = now[status.node];
-    if (before != editor.deliveries.end()) delivery = before->second;
-    if (status.traffic.sent != delivery.messages) delivery.sent_at = editor.now;
+    if (before != editor_->deliveries.end()) delivery = before->second;
+    if (status.traffic.sent != delivery.messages) delivery.sent_at = editor_->now;
     delivery.messages = status.traffic.sent;
     delivery.problem = status.line;
   }
-  editor.deliveries = std::move(now);
-}
-
-void LiveScene::follow(LiveSession& session) {
-  if (entries_ == session.log().size() + 1) return;
-  entries_ = session.log().size() + 1;
-  connections_->follow(session.scene());
-  const bool is_waiting = connections_->has_recordings();
-  if (is_waiting != session.do_ticks_wait()) session.make_ticks_wait(is_waiting);
+  editor_->deliveries = std::move(now);
 }
 
 }  // namespace bl::desktop

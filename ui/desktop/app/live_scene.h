@@ -1,10 +1,10 @@
-// The connections of the open scene: readings go into its log between ticks, and what actuators say goes out.
+// The devices of the open scene: served once for each tick, between two frames of the window.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
-#include "core/live/connections.h"
+#include "core/host/device_door.h"
 #include "ui/desktop/app/editor.h"
 
 namespace bl::desktop {
@@ -12,23 +12,22 @@ namespace bl::desktop {
 // What a recording says belongs to a tick, however fast ticks and frames are: so with recordings, ticks wait for a frame each.
 class LiveScene {
  public:
-  explicit LiveScene(bool is_live) : is_live_(is_live) { ++LiveSession::servers; }
-  ~LiveScene() { --LiveSession::servers; }
+  LiveScene(Editor& editor, bool is_live) : editor_(&editor), is_live_(is_live) { editor.serves_ticks = true; }
+  ~LiveScene() { editor_->serves_ticks = false; }
   LiveScene(const LiveScene&) = delete;
   LiveScene& operator=(const LiveScene&) = delete;
   /// Once for each frame of the window.
-  void frame(Editor& editor);
+  void frame();
 
  private:
-  void follow(LiveSession& session);
-  void note_deliveries(Editor& editor) const;
+  void note_deliveries() const;
 
+  Editor* editor_;
   bool is_live_;
   std::uint64_t document_ = 0;  // its number; 0: none
-  std::unique_ptr<Connections> connections_;
-  std::string folder_;       // where the recordings of its sensors are
-  std::int64_t tick_ = -1;   // the last one that was served
-  std::size_t entries_ = 0;  // of the log, when the connections last followed it, and one more
+  std::unique_ptr<DeviceDoor> devices_;
+  std::string folder_;      // where the recordings of its sensors are
+  std::int64_t tick_ = -1;  // the last one that was served
 };
 
 }  // namespace bl::desktop

@@ -21,7 +21,6 @@
 #include "core/file/file_io.h"
 #include "ui/desktop/app/desktop.h"
 #include "ui/desktop/app/input_queue.h"
-#include "ui/desktop/app/journal.h"
 #include "ui/desktop/app/live_scene.h"
 #include "ui/desktop/view/gl_renderer.h"
 
@@ -218,7 +217,7 @@ int run_window(const WindowOptions& options) noexcept {
     Desktop desktop(full_registry(), person, *renderer);
     Editor& editor = desktop.editor();
     Hands hands{desktop, {}};
-    LiveScene live(options.is_live);
+    LiveScene live(editor, options.is_live);
     listen(window.handle(), hands);
     Look look;
     if (!options.scene.empty()) editor.open(options.scene, options.is_playing);
@@ -235,7 +234,7 @@ int run_window(const WindowOptions& options) noexcept {
       if (options.seconds > 0 && begin > options.seconds) break;
       look.follow(editor);
       draw_frame(window.handle(), hands, begin);
-      live.frame(editor);
+      live.frame();
       if (!options.times.empty()) times.milliseconds.push_back(1000 * (glfwGetTime() - begin));
       if (editor.wants_picture) take_picture(editor, options.pictures, window.handle());
       editor.wants_picture = false;

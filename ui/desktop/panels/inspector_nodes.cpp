@@ -194,7 +194,8 @@ void change_ports(Editor& editor, const std::vector<std::string>& nodes, const T
       commands.push_back(command<SetPort>({id, {path_of(type, port)}, JsonValue::of(value_to_json(fresh, port))}));
     }
   }
-  editor.submit(commands, change.is_live ? memory.scrub.gesture : 0);
+  if (change.is_live) editor.show(commands, memory.scrub.gesture);
+  else editor.submit(commands);
 }
 
 void inspect_nodes(Editor& editor, InspectorView& view) {

@@ -1,0 +1,146 @@
+// A document while the clock runs: what is saved is one moment, logs replay, and nothing waits for a late clock.
+#include <filesystem>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "core/file/file_io.h"
+#include "core/session/session.h"
+#include "tests/support/world.h"
+#include "tests/ui/desktop/null_desktop.h"
+
+namespace bl::desktop {
+namespace {
+
+// A clock that plays, has just ticked, and will not tick again for ten seconds.
+void play_slowly(LiveSession& session) {
+  const std::int64_t tick = session.moment()->state->tick;
+  session.set_rate(0.1);
+  session.play(true);
+  while (session.moment()->state->tick == tick) std::this_thread::yield();
+}
+
+void expect_opens(const std::string& path) {
+  std::vector<Problem> problems;
+  EXPECT_TRUE(Document::open(full_registry(), path, 1, problems));
+  for (const Problem& problem : problems) ADD_FAILURE() << problem.error.text();
+}
+
+TEST(RunningDocument, ASaveBetweenTwoTicksOpensAgain) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  Editor& editor = desktop.editor();
+  desktop.ticks(3);
+  play_slowly(editor.document->session());
+  ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
+  const std::string path = ::testing::TempDir() + "between_ticks.json";
+  ASSERT_TRUE(editor.document->save(path).ok());
+  expect_opens(path);
+}
+
+TEST(RunningDocument, ASaveBetweenTwoTicksKeepsAMove) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  Editor& editor = desktop.editor();
+  desktop.ticks(3);
+  play_slowly(editor.document->session());
+  ASSERT_TRUE(editor.submit(command<SetPort>({"cafe", {"node.position"}, {"[1, 2, 3]"}})));
+  const std::string path = ::testing::TempDir() + "moved_between_ticks.json";
+  ASSERT_TRUE(editor.document->save(path).ok());
+  std::vector<Problem> problems;
+  const auto opened = Document::open(full_registry(), path, 1, problems);
+  ASSERT_TRUE(opened);
+  EXPECT_EQ(std::get<Vector3>(value_in(*opened->session().moment()->state, "cafe", "node.position")), (Vector3{1, 2, 3}));
+}
+
+TEST(RunningDocument, ARewindBetweenTwoTicksLeavesAJournalThatOpens) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  Editor& editor = desktop.editor();
+  desktop.ticks(5);
+  play_slowly(editor.document->session());
+  ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
+  editor.document->session().rewind(2);
+  const std::string path = ::testing::TempDir() + "rewound_between_ticks.log";
+  ASSERT_TRUE(editor.document->save_log(path).ok());
+  const auto log = read_log(read_file(path).value(), full_registry());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  const auto report = replay(*log, full_registry(), 1);
+  ASSERT_TRUE(report.ok()) << report.error().text();
+  EXPECT_FALSE(report->first_mismatch.has_value());
+}
+
+// A save leaves the running state and the log as they are: it replays, whatever comes and goes.
+TEST(RunningDocument, LogAfterASaveReplays) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  Editor& editor = desktop.editor();
+  desktop.ticks(5);
+  ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
+  desktop.frames(2);
+  ASSERT_TRUE(editor.document->save(::testing::TempDir() + "log_after_save.json").ok());
+  editor.undo();
+  desktop.ticks(3);
+  const std::string path = ::testing::TempDir() + "after_save.log";
+  ASSERT_TRUE(editor.document->save_log(path).ok());
+  const auto log = read_log(read_file(path).value(), full_registry());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  const auto report = replay(*log, full_registry(), 1);
+  ASSERT_TRUE(report.ok()) << report.error().text();
+  EXPECT_FALSE(report->first_mismatch.has_value());
+  EXPECT_EQ(report->hash, hex_digits(editor.state().hash));
+}
+
+TEST(RunningDocument, LogSavedAfterAnEditOnAStandingClockReplays) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  Editor& editor = desktop.editor();
+  desktop.ticks(5);
+  ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
+  desktop.frames(2);
+  const std::string path = ::testing::TempDir() + "edited_standing.log";
+  ASSERT_TRUE(editor.document->save_log(path).ok());
+  const auto log = read_log(read_file(path).value(), full_registry());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  const auto report = replay(*log, full_registry(), 1);
+  ASSERT_TRUE(report.ok()) << report.error().text();
+  EXPECT_EQ(report->checks, 1u);
+  EXPECT_FALSE(report->first_mismatch.has_value());
+}
+
+// A clock that cannot keep up ticks without a pause; a window that waits for one would stand still.
+TEST(RunningDocument, NothingWaitsForAClockThatIsBehind) {
+  NullDesktop desktop("scenes/studies/thousand_volumes.json");
+  LiveSession& session = desktop.editor().document->session();
+  session.set_rate(1000);
+  session.play(true);
+  while (session.moment()->state->tick < 3) std::this_thread::yield();
+  ASSERT_TRUE(session.moment()->is_behind());
+  session.rewind(1);
+  session.settle();
+  EXPECT_TRUE(session.moment()->is_playing);
+  const auto saved = session.coming_state();
+  EXPECT_GE(saved->tick, 1);
+}
+
+TEST(RunningDocument, AHigherRateCountsAtOnce) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  LiveSession& session = desktop.editor().document->session();
+  play_slowly(session);
+  const std::int64_t tick = session.moment()->state->tick;
+  const auto begin = std::chrono::steady_clock::now();
+  session.set_rate(1000);
+  while (session.moment()->state->tick == tick) std::this_thread::yield();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5)) << "it was to tick after ten seconds";
+}
+
+TEST(RunningDocument, AnUndoThatDoesNotFitAnyMoreSaysWhy) {
+  NullDesktop desktop("scenes/start/quarter.json");
+  Editor& editor = desktop.editor();
+  editor.undo();
+  ASSERT_FALSE(editor.notices.empty());
+  EXPECT_EQ(editor.notices.back().text, "Nothing to undo.");
+  ASSERT_TRUE(editor.submit(command<AddNode>({"shed", {"{}"}})));
+  ASSERT_TRUE(editor.document->session().submit({.command = command<RemoveNode>({"shed"}), .author = "somebody"}).ok());
+  editor.undo();
+  EXPECT_NE(editor.notices.back().text.find("cannot be undone: somebody has changed nodes/shed since"), std::string::npos)
+      << editor.notices.back().text;
+}
+
+}  // namespace
+}  // namespace bl::desktop
