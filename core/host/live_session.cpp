@@ -286,6 +286,7 @@ Result<void> LiveSession::show(const Command& command, std::int64_t gesture) {
 }
 
 Result<void> LiveSession::keep_up() {
+  gestures_.forget_past();
   if (!gestures_.is_waiting()) return {};
   const std::lock_guard lock(shared_->mutex);
   shared_->wake.notify_all();

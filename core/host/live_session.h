@@ -48,7 +48,7 @@ class LiveSession {
 
   // Of the holder's thread: the scene as people have left it, and the ways to change it. Commands are checked and applied at
   // once; the ticks see them from the next one on.
-  /// With what a gesture shows that is under way.
+  /// With what a gesture shows that is under way. What this has returned can be read until keep_up() is called.
   const Scene& scene() const { return gestures_.shown(); }
   /// Without: as the log has it.
   const Scene& said() const { return ledger_.scene(); }
@@ -62,7 +62,7 @@ class LiveSession {
   std::int64_t new_gesture() { return ledger_.new_gesture(); }
   /// One frame of a gesture of the holder: is seen at once, and said ten times a second at most (`OpenGestures`).
   Result<void> show(const Command& command, std::int64_t gesture);
-  /// To be called often, as with each frame of a window: says what has waited long enough.
+  /// To be called often, as at the beginning of each frame of a window: says what has waited long enough.
   Result<void> keep_up();
   Result<void> end_gesture(std::int64_t gesture);
   /// Takes back the gesture that the holder is in the middle of, as if it had never begun: nothing brings it back.
