@@ -7,6 +7,9 @@ namespace bl {
 
 namespace {
 
+// Scenes that were shown, where nobody says that they can go.
+constexpr std::size_t kMostPast = 8;
+
 bool covers(const std::vector<Touch>& places, const std::vector<Touch>& others) {
   return std::all_of(others.begin(), others.end(),
                      [&](const Touch& place) { return std::find(places.begin(), places.end(), place) != places.end(); });
@@ -23,21 +26,27 @@ OpenGestures::OpenGestures(Ledger& ledger)
 // Anew from what was said. What does not fit any more is not seen; whoever says it hears why.
 void OpenGestures::show_again() {
   if (!shown_) return;
-  shown_ = ledger_->scene();
+  stop_showing();
+  shown_ = std::make_unique<Scene>(ledger_->scene());
   ++revision_;
   SceneEdit edit(*shown_, ledger_->registry());
   for (const auto& [number, gesture] : open_)
     for (const Frame& frame : gesture.frames) (void)bl::apply(edit, frame.said.command);
 }
 
+void OpenGestures::stop_showing() {
+  if (past_.size() == kMostPast) past_.erase(past_.begin());
+  if (shown_) past_.push_back(std::move(shown_));
+}
+
 Result<void> OpenGestures::show(Submission frame, std::int64_t tick, double now) {
   const auto known = open_.find(frame.gesture);
   if (known != open_.end() && known->second.author != frame.author)
     return Error{ErrorCode::conflict, "gesture", "the gesture " + std::to_string(frame.gesture) + " is somebody else's"};
-  if (!shown_) shown_ = ledger_->scene();
+  if (!shown_) shown_ = std::make_unique<Scene>(ledger_->scene());
   SceneEdit edit(*shown_, ledger_->registry());
   if (auto done = bl::apply(edit, frame.command); !done) {
-    if (open_.empty()) shown_.reset();
+    if (open_.empty()) stop_showing();
     return done.error();
   }
   Gesture& gesture = known != open_.end() ? known->second : open_[frame.gesture];
@@ -83,7 +92,7 @@ Result<void> OpenGestures::end(std::int64_t number, std::int64_t tick) {
   if (gesture == open_.end()) return {};
   const auto done = say(gesture->second, tick);
   open_.erase(gesture);
-  if (open_.empty()) shown_.reset();
+  if (open_.empty()) stop_showing();
   return done;
 }
 
@@ -100,7 +109,7 @@ Result<void> OpenGestures::end_all(const Author& author, std::int64_t tick) {
 void OpenGestures::drop(std::int64_t number) {
   if (open_.erase(number) == 0) return;
   ++revision_;
-  if (open_.empty()) shown_.reset();
+  if (open_.empty()) stop_showing();
   else show_again();
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <optional>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -40,8 +40,10 @@ class OpenGestures {
   void drop(std::int64_t gesture);
   bool is_open(std::int64_t gesture) const { return open_.contains(gesture); }
 
-  /// The scene as people see it: with what waits to be said.
+  /// The scene as people see it: with what waits to be said. What this has returned can be read until forget_past() is called,
+  /// also where the gesture has ended meanwhile: a window may hold on to it while it draws.
   const Scene& shown() const { return shown_ ? *shown_ : ledger_->scene(); }
+  void forget_past() { past_.clear(); }
   bool is_waiting() const;
   /// The ports that what waits has put somewhere, by node and path.
   std::set<std::pair<std::string, std::string>> placed() const;
@@ -61,10 +63,12 @@ class OpenGestures {
   };
   Result<void> say(Gesture& gesture, std::int64_t tick);
   void show_again();
+  void stop_showing();
 
   Ledger* ledger_;
   std::size_t listener_;
-  std::optional<Scene> shown_;  // while a gesture is open
+  std::unique_ptr<Scene> shown_;              // while a gesture is open
+  std::vector<std::unique_ptr<Scene>> past_;  // that were shown, while somebody may still read them
   std::map<std::int64_t, Gesture> open_;
   std::uint64_t revision_ = 0;
   bool is_saying_ = false;

@@ -1,9 +1,7 @@
 // Keeps a run and its connections in step, and tells people about them.
 #include "ui/cli/live_run.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <thread>
 
 #include "core/base/text.h"
 #include "core/live/unusable_sensors.h"
@@ -17,11 +15,7 @@ namespace bl::cli {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double kUsualTick = 0.05;  // [s] where no sensor says otherwise
-constexpr std::chrono::milliseconds kSlice{50};
-constexpr std::chrono::seconds kBetweenReadings{1};
+constexpr double kBetweenReadings = 1;  // [s]
 
 std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "sensor " : "actuator ") + status.node; }
 
@@ -35,19 +29,6 @@ std::string reading_of(const State& state, const std::string& node) {
          report::text_at(state, index, "sensor", "quality") + (message.empty() ? "" : " (" + message + ")");
 }
 
-// The shortest tick that a sensor of the scene stands for [s].
-double tick_length(const Scene& scene) {
-  double shortest_tick = 0;
-  for (const auto& [id, node] : scene.nodes) {
-    const auto sensor = node.types.find("sensor");
-    if (sensor == node.types.end()) continue;
-    const auto set = sensor->second.find("tick_length");
-    const double length = set != sensor->second.end() ? as_number(set->second) : kUsualTick;
-    shortest_tick = shortest_tick > 0 ? std::min(shortest_tick, length) : length;
-  }
-  return shortest_tick > 0 ? shortest_tick : kUsualTick;
-}
-
 // Rows that were not played are told of, since a scene may settle before a recording ends.
 std::string rows_of(const ConnectionStatus& status) {
   std::string text = "; " + std::to_string(status.played) + " of " + std::to_string(status.rows) + " rows played";
@@ -59,17 +40,20 @@ std::string rows_of(const ConnectionStatus& status) {
 
 }  // namespace
 
-LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere)
+LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere, Clock& clock)
     : is_live_(is_live),
       rate_(rate),
-      connections_({std::filesystem::path(scene_file).parent_path().string(), is_live, {}, reads_anywhere}),
-      due_(Clock::now()) {}
+      devices_({std::filesystem::path(scene_file).parent_path().string(), is_live, {}, reads_anywhere}),
+      clock_(&clock),
+      told_readings_(clock.now() - kBetweenReadings),
+      pace_(clock) {}
 
 void LiveRun::before_tick(Session& session) {
-  connections_.follow(session.scene());
+  devices_.follow(session.scene(), session.ledger().last_seq());
   if (is_live_) tell_unusable(session.scene());
-  for (const Report& report : connections_.take(session.state()->tick))
-    if (auto done = session.submit(report.command, report.author); !done) print_error(report.author.id, done.error());
+  for (const Error& refused :
+       devices_.bring(session.state()->tick, [&](Submission said) { return session.submit(std::move(said)); }))
+    print_error("", refused);
 }
 
 // Once for each fault: an address may be set while the scene runs.
@@ -79,16 +63,16 @@ void LiveRun::tell_unusable(const Scene& scene) {
 }
 
 void LiveRun::after_tick(const Session& session) {
-  if (connections_.is_empty()) return;
-  connections_.send(*session.state());
+  if (devices_.is_empty()) return;
+  devices_.send(*session.state());
   tell();
-  if (is_live_ && Clock::now() >= told_readings_ + kBetweenReadings) tell_readings(*session.state());
+  if (is_live_ && clock_->now() >= told_readings_ + kBetweenReadings) tell_readings(*session.state());
 }
 
 // Only what is new: a sensor that stands still needs no lines.
 void LiveRun::tell_readings(const State& state) {
-  told_readings_ = Clock::now();
-  for (const ConnectionStatus& status : connections_.status()) {
+  told_readings_ = clock_->now();
+  for (const ConnectionStatus& status : devices_.status()) {
     if (!status.is_sensor) continue;
     const std::string reading = reading_of(state, status.node);
     std::string& last = read_[status.node];
@@ -98,7 +82,7 @@ void LiveRun::tell_readings(const State& state) {
 }
 
 void LiveRun::tell() {
-  for (const ConnectionStatus& status : connections_.status()) {
+  for (const ConnectionStatus& status : devices_.status()) {
     std::string& told = told_[call(status)];
     if (told == status.line) continue;
     told = status.line;
@@ -108,15 +92,11 @@ void LiveRun::tell() {
 
 void LiveRun::wait(const Session& session) {
   if (!is_live_) return;
-  const double seconds = rate_ > 0 ? 1 / rate_ : tick_length(session.scene());
-  // A late tick is not made up for, so that ticks never queue behind themselves.
-  due_ = std::max(Clock::now(), due_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));
-  while (!is_interrupted() && Clock::now() < due_)
-    std::this_thread::sleep_for(std::min(due_ - Clock::now(), Clock::duration(kSlice)));
+  pace_.wait(rate_ > 0 ? 1 / rate_ : tick_length(session.scene(), full_registry()), is_interrupted);
 }
 
 void LiveRun::sum_up(const State& state) const {
-  for (const ConnectionStatus& status : connections_.status()) {
+  for (const ConnectionStatus& status : devices_.status()) {
     const Traffic& t = status.traffic;
     std::string text = call(status) + ": ";
     if (status.is_sensor)

@@ -1,12 +1,12 @@
 // What a run does with sensors and actuators: recordings are played, and with --live the network is listened and sent to.
 #pragma once
 
-#include <chrono>
 #include <map>
 #include <set>
 #include <string>
 
-#include "core/live/connections.h"
+#include "core/host/clock.h"
+#include "core/host/device_door.h"
 #include "core/session/session.h"
 
 namespace bl::cli {
@@ -14,7 +14,7 @@ namespace bl::cli {
 class LiveRun {
  public:
   /// `rate` in ticks per second; 0 for the pace that the sensors' tick lengths say.
-  LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere = false);
+  LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere = false, Clock& clock = real_clock());
 
   /// Hands the session what has come for its next tick.
   void before_tick(Session& session);
@@ -32,12 +32,13 @@ class LiveRun {
 
   bool is_live_;
   double rate_;
-  Connections connections_;
+  DeviceDoor devices_;
   std::map<std::string, std::string> told_;  // by sensor or actuator: the last sentence about its connection
   std::set<std::string> unusable_;           // sentences about sensors' addresses that were told
   std::map<std::string, std::string> read_;  // by node: the last sentence about its value
-  std::chrono::steady_clock::time_point told_readings_;
-  std::chrono::steady_clock::time_point due_;
+  Clock* clock_;
+  double told_readings_;  // [s] on the clock
+  Pace pace_;
 };
 
 }  // namespace bl::cli

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/stop.h"
+#include "core/base/text.h"
 #include "core/session/gestures.h"
 #include "tests/support/world.h"
 
@@ -136,13 +137,29 @@ TEST(Log, SaysWhichAuthorsAreDevices) {
   EXPECT_EQ(why_refused(entry(1, 0, 1, R"(, "kind": "ghost")")), "line 2/kind: expects `person`, `device` or `program`");
 }
 
-// Logs of the program before: no base, no kinds of authors.
-TEST(Log, VersionOneIsRead) {
-  std::string header = log_header(kScene);
-  header.replace(header.find("\"version\": 3"), 12, "\"version\": 1");
-  const auto log = read_log(header + entry(1, 0, 1) + mark("end", 2), full_registry());
-  ASSERT_TRUE(log.ok()) << log.error().text();
-  EXPECT_EQ(log->entries.size(), 1u);
+// Logs of the programs before: no base, no kinds of authors, and then neither rewinds nor sources. Their batches are read as
+// ever.
+TEST(Log, OlderVersionsAreReadAndReplay) {
+  World world = World::from_text(kScene);
+  std::string lines = R"({"seq": 1, "tick": 0, "author": "anna", "gesture": 1, "command": "batch", "arguments": {"commands": [)"
+                      R"({"command": "rename_node", "arguments": {"id": "a", "name": "A"}}, )"
+                      R"({"command": "set_port", "arguments": {"node": "a", "port": "node.position", "value": [1, 2, 3]}}]}})"
+                      "\n";
+  const Command rename = command<RenameNode>({"a", "A"}), move = command<SetPort>({"a", {"node.position"}, {"[1, 2, 3]"}});
+  ASSERT_EQ(world.submit(command<Batch>({std::vector{rename, move}}), "anna"), "");
+  EXPECT_EQ(log_line(world.session().log().front(), full_registry()), lines) << "the form of a line has not changed";
+  world.tick(2);
+  lines += log_line(LogCheck{.tick = 2, .hash = hex_digits(world.state().hash), .is_end = true});
+  for (const char* version : {"1", "2", "3"}) {
+    std::string header = log_header(kScene);
+    header.replace(header.find("\"version\": 3"), 12, std::string("\"version\": ") + version);
+    const auto log = read_log(header + lines, full_registry());
+    ASSERT_TRUE(log.ok()) << log.error().text();
+    const auto report = replay(*log, full_registry(), 1);
+    ASSERT_TRUE(report.ok()) << report.error().text();
+    EXPECT_EQ(report->checks, 1u);
+    EXPECT_FALSE(report->first_mismatch.has_value()) << version;
+  }
 }
 
 TEST(Log, LinesBeforeItsSceneAreRefused) {

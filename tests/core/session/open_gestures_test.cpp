@@ -82,6 +82,21 @@ TEST_F(OpenGesturesTest, OthersAreSeenUnderWhatWaits) {
   EXPECT_EQ(show(demand("b", "1"), 0.02, 1, "ben"), "gesture: the gesture 1 is somebody else's");
 }
 
+// A panel holds on to what it read while the end of a drag is noticed.
+TEST_F(OpenGesturesTest, WhatWasShownCanBeReadUntilItMayBeForgotten) {
+  EXPECT_EQ(show(demand("a", "11"), 0), "");
+  EXPECT_EQ(show(demand("a", "12"), 0.01), "");
+  const Scene& first = gestures_.shown();
+  ASSERT_TRUE(ledger_.submit(demand("b", "33"), "ben", 0).ok());
+  const Scene& second = gestures_.shown();
+  ASSERT_TRUE(gestures_.end(1, 0).ok());
+  EXPECT_EQ(demand_in(first, "a"), 12);
+  EXPECT_EQ(demand_in(first, "b"), 20);
+  EXPECT_EQ(demand_in(second, "b"), 33);
+  gestures_.forget_past();
+  EXPECT_EQ(&gestures_.shown(), &ledger_.scene());
+}
+
 TEST_F(OpenGesturesTest, WhatFitsNoMoreIsToldByWhoSaysIt) {
   EXPECT_EQ(show(demand("a", "11"), 0), "");
   EXPECT_EQ(show(demand("a", "12"), 0.01), "");

@@ -11,7 +11,7 @@
 #include "core/define/json_text.h"
 #include "core/file/file_io.h"
 #include "tests/ui/desktop/canvas_support.h"
-#include "ui/desktop/app/journal.h"
+#include "core/host/journal.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/stored_places.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/file/file_io.h"
 #include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/app/journal.h"
+#include "core/host/journal.h"
 #include "ui/desktop/look/fuzzy.h"
 #include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/dialogs.h"

@@ -95,7 +95,7 @@ TEST(Editing, WhileTheClockStandsChangesAreSeenAndDoNotChangeTheNextTick) {
   EXPECT_EQ(report->hash, hex_digits(desktop.editor().state().hash));
 }
 
-TEST(Editing, LogAfterARewindStartsFromTheStateReturnedTo) {
+TEST(Editing, ALogWithARewindReplaysToTheSameHash) {
   NullDesktop desktop("scenes/start/quarter.json");
   LiveSession& session = desktop.editor().document->session();
   desktop.ticks(10);

@@ -8,7 +8,7 @@
 #include "tests/core/live/live_support.h"
 #include "tests/support/world.h"
 #include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/app/live_scene.h"
+#include "ui/desktop/shell/live_scene.h"
 
 namespace bl::desktop {
 namespace {
@@ -27,7 +27,7 @@ class Recorded : public ::testing::Test {
   void frames_until(LiveScene& live, std::int64_t tick) {
     for (int frame = 0; frame < 2000 && window.editor().document->session().moment()->state->tick < tick; ++frame) {
       window.frames();
-      live.frame(window.editor());
+      live.frame();
     }
     window.frames();
   }
@@ -41,7 +41,7 @@ class Recorded : public ::testing::Test {
 TEST_F(Recorded, GivesTheStatesOfARun) {
   test::LiveWorld run(nodes, "", {folder.path(), false, {}});
   for (int tick = 0; tick < kTicks; ++tick) run.step();
-  LiveScene live(false);
+  LiveScene live(window.editor(), false);
   window.editor().open(folder.path("scene.json"), false);
   window.editor().document->session().step(kTicks);
   frames_until(live, kTicks);
@@ -51,7 +51,7 @@ TEST_F(Recorded, GivesTheStatesOfARun) {
 }
 
 TEST_F(Recorded, LosesNoRowWhenTheClockRunsFasterThanTheFrames) {
-  LiveScene live(false);
+  LiveScene live(window.editor(), false);
   window.editor().open(folder.path("scene.json"), true);
   LiveSession& session = window.editor().document->session();
   session.set_rate(1000);
@@ -68,7 +68,7 @@ TEST_F(Recorded, LosesNoRowWhenTheClockRunsFasterThanTheFrames) {
 }
 
 TEST_F(Recorded, WhatDevicesSayIsNoUnsavedChange) {
-  LiveScene live(false);
+  LiveScene live(window.editor(), false);
   window.editor().open(folder.path("scene.json"), false);
   Document& document = *window.editor().document;
   EXPECT_FALSE(document.is_unsaved()) << "an opened scene counts as saved";
@@ -87,7 +87,7 @@ TEST_F(Recorded, WhatDevicesSayIsNoUnsavedChange) {
 }
 
 TEST_F(Recorded, GoesBackWithTheClock) {
-  LiveScene live(false);
+  LiveScene live(window.editor(), false);
   window.editor().open(folder.path("scene.json"), false);
   LiveSession& session = window.editor().document->session();
   session.step(kTicks);

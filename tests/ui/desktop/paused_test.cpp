@@ -4,7 +4,7 @@
 
 #include "core/file/file_io.h"
 #include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/app/journal.h"
+#include "core/host/journal.h"
 #include "ui/desktop/view/scene_facts.h"
 
 namespace bl::desktop {

@@ -11,7 +11,7 @@
 #include "core/file/file_io.h"
 #include "tests/support/sanitized.h"
 #include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/app/journal.h"
+#include "core/host/journal.h"
 #include "ui/desktop/shell/window.h"
 
 namespace bl::desktop {

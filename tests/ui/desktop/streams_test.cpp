@@ -1,6 +1,6 @@
 // Sensors and actuators show their last value with its age and quality, on the canvas and in the 3D view alike.
 #include "tests/ui/desktop/import_support.h"
-#include "ui/desktop/app/live_scene.h"
+#include "ui/desktop/shell/live_scene.h"
 #include "ui/desktop/panels/canvas/model.h"
 #include "ui/desktop/panels/stream_text.h"
 
@@ -17,11 +17,7 @@ class StreamTest : public ::testing::Test {
     desktop.frames(2);
   }
   void submit(const Command& command, const std::string& author) {
-    LogEntry entry;
-    entry.gesture = desktop.editor().document->session().new_gesture();
-    entry.author = author;
-    entry.command = command;
-    ASSERT_TRUE(desktop.editor().document->session().replay(std::move(entry)));
+    ASSERT_TRUE(desktop.editor().document->session().submit({.command = command, .author = {author, AuthorKind::device}}));
   }
   void receive(double value, const std::string& problem = "") {
     submit(command<Receive>({"warmth", value, "noon", problem, desktop.editor().state().tick + 1}), "mqtt://127.0.0.1/warmth");
@@ -72,13 +68,13 @@ TEST_F(StreamTest, AnActuatorSaysWhetherItIsHeard) {
   desktop.ticks(1);
   EXPECT_EQ(of("lamp").text(), "0.500, not connected");
   EXPECT_EQ(of("lamp").standing, StreamStanding::silent);
-  LiveScene live(true);
+  LiveScene live(desktop.editor(), true);
   Workbench& editor = desktop.editor();
   editor.document->session().play(true);
   // OSC is sent without an answer; the connection's own thread sends it.
   for (int k = 0; k < 5000 && (editor.deliveries["lamp"].sent_at < 0); ++k) {
     desktop.frames(1);
-    live.frame(editor);
+    live.frame();
   }
   editor.document->session().play(false);
   desktop.frames(1);

@@ -1,19 +1,21 @@
-// Opening, saving and recovering a scene; its history as steps with names.
+// Opening, saving and recovering a scene.
 #include "ui/desktop/document/document.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <map>
 
-#include <nlohmann/json.hpp>
-
-#include "core/define/codec.h"
 #include "core/file/file_io.h"
 #include "core/reading/figures.h"
-#include "ui/desktop/app/step_labels.h"
 #include "ui/desktop/document/named_files.h"
 
 namespace bl::desktop {
+
+namespace {
+
+// How the window signs what is done in it.
+constexpr const char* kAuthor = "desk";
+constexpr const char* kOrigin = "window";
+
+}  // namespace
 
 Document::Document(const Registry& registry, std::string path) : registry_(&registry) {
   (is_shipped(path) ? origin_ : path_) = std::move(path);
@@ -47,17 +49,17 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   SceneReading reading = read_scene(text, registry);
   problems.insert(problems.end(), reading.problems.begin(), reading.problems.end());
   if (!reading.is_usable()) return nullptr;
-  auto session = LiveSession::start(registry, reading.scene, reading.state ? &*reading.state : nullptr, threads);
-  if (!session) {
-    problems.push_back({true, session.error().within("state")});
+  const SavedState* state = reading.state ? &*reading.state : nullptr;
+  auto host = Host::start(registry, reading.scene, state, {.author = kAuthor, .origin = kOrigin, .threads = threads});
+  if (!host) {
+    problems.push_back({true, host.error().within("state")});
     return nullptr;
   }
   std::unique_ptr<Document> document(new Document(registry, path));
-  document->session_ = std::move(*session);
-  document->log_start_ = write_scene(reading.scene, registry, reading.state ? &*reading.state : nullptr);
+  document->host_ = std::move(*host);
+  document->host_->begin_journal(document->source(), write_scene(reading.scene, registry, state));
   if (!path.empty()) document->saved_ = std::move(reading.scene);  // without a file there is nothing that holds it
   document->read_imports(problems);
-  document->begin_journal();
   return document;
 }
 
@@ -65,28 +67,9 @@ std::unique_ptr<Document> Document::recover(const Registry& registry, const Jour
                                             std::vector<Problem>& problems) {
   auto document = from_text(registry, remains.log.scene, remains.scene_path, threads, problems);
   if (!document) return nullptr;
-  for (const LogEntry& entry : remains.log.entries)
-    if (auto done = document->session_->replay(entry); !done)
-      problems.push_back({false, done.error().within("journal entry " + std::to_string(entry.seq))});
+  for (Error& misfit : document->host_->recover(remains.log.entries)) problems.push_back({false, std::move(misfit)});
   document->saved_.reset();  // whatever the file holds, it does not hold this
   return document;
-}
-
-// Every entry goes to the disk at once; after a rewind the log starts again from the state that was returned to.
-void Document::begin_journal() {
-  (void)journal_.begin(source(), log_start_, 0);  // without it everything else works; journal_problem() tells people
-  session_->on_entry([this](const LogEntry& entry) { journal_.add(entry, *registry_); });
-  session_->on_rewind([this] {
-    const SavedState state = bl::save(*session_->take_on_changes());
-    begin_log(write_scene(scene(), *registry_, &state));
-  });
-}
-
-// From here on the log starts from this scene, and so does what a crash would leave.
-void Document::begin_log(const std::string& scene_text) {
-  log_start_ = scene_text;
-  log_begin_ = session_->log().size();
-  (void)journal_.begin(source(), log_start_, base_of_log());
 }
 
 std::string Document::name() const {
@@ -105,10 +88,9 @@ std::int64_t Document::name_files_from(const NamedFiles& named) {
     note("Passwords and certificates were not copied: put " + names + " beside the new file.");
   }
   if (named.commands.empty()) return 0;
-  const std::int64_t gesture = session_->new_gesture();
-  if (auto done = submit(named.commands, gesture); !done)
+  const std::int64_t gesture = session().new_gesture();
+  if (auto done = submit(named.commands, gesture, "Name files from the new folder"); !done)
     return 0;  // somebody has taken the node away: then it names no file any more
-  name_step(gesture, "Name files from the new folder");
   if (!named.copies.empty())
     note(report::counted(named.copies.size(), "recorded table") +
          " copied into the scene's new folder, where recordings are played from.");
@@ -139,10 +121,10 @@ Result<void> Document::save(const std::string& path) {
   const std::int64_t gesture = name_files_from(named);
   // Scene and running state of one and the same moment.
   const auto text_to_save = [this] {
-    const SavedState state = bl::save(*session_->take_on_changes());
+    const SavedState state = bl::save(*session().coming_state());
     return write_scene(scene(), *registry_, state.tick > 0 ? &state : nullptr);
   };
-  std::string text = text_to_save();
+  const std::string text = text_to_save();
   const auto copied = copy_all(named.copies);
   const auto written = copied ? write_file(path, text) : copied;
   if (written) {
@@ -150,15 +132,13 @@ Result<void> Document::save(const std::string& path) {
     origin_.clear();
     saved_ = scene();
     is_unsaved_ = false;
-    compared_size_ = session_->log().size();
+    compared_size_ = session().log().size();
     write_imports(path);
   } else if (gesture != 0) {
     save_note_.clear();
-    abandon(gesture);
-    text = text_to_save();
+    session().abandon(gesture);
   }
-  // Also where the file cannot be written: the simulation has taken on what was said, which no tick of the old log has.
-  begin_log(text);
+  if (written) host_->begin_journal(source(), text);  // what was before it is safe
   return written;
 }
 
@@ -193,11 +173,11 @@ void Document::write_imports(const std::string& scene_path) {
 // What devices have said since the file was written is no change of anybody's: it is taken on in what is compared with, too.
 bool Document::is_unsaved() {
   if (!saved_) return true;
-  const auto& log = session_->log();
+  const auto& log = session().log();
   bool has_persons = false;
   for (; compared_size_ < log.size(); ++compared_size_) {
     const LogEntry& entry = log[compared_size_];
-    if (entry.author == LiveSession::kAuthor) {
+    if (entry.author.kind != AuthorKind::device) {
       has_persons = true;
       continue;
     }
@@ -209,84 +189,6 @@ bool Document::is_unsaved() {
   return is_unsaved_;
 }
 
-std::int64_t Document::base_of_log() const { return log_begin_ == 0 ? 0 : session_->log()[log_begin_ - 1].seq; }
-
-Result<void> Document::save_log(const std::string& path) const {
-  std::string text = log_header(log_start_, base_of_log());
-  const auto& log = session_->log();
-  Gestures gestures;
-  for (std::size_t i = log_begin_; i < log.size(); ++i) {
-    const LogEntry entry = gestures.fitted(log[i]);
-    gestures.take(entry);
-    text += log_line(entry, *registry_);
-  }
-  // A replay compares before it applies what was said in that tick: as the tick itself has left it.
-  const State& state = *session_->moment()->ticked;
-  text += log_line(LogCheck{state.tick, hex_digits(state.hash), true});
-  return write_file(path, text);
-}
-
-void Document::name_step(std::int64_t gesture, std::string label) {
-  for (HistoryStep& step : history_)
-    if (step.gesture == gesture) step.label = label;
-  named_[gesture] = std::move(label);
-}
-
-const std::vector<HistoryStep>& Document::history() {
-  const auto& log = session_->log();
-  for (; history_size_ < log.size(); ++history_size_) {
-    const LogEntry& entry = log[history_size_];
-    if (entry.author != LiveSession::kAuthor) continue;  // readings of sensors are nobody's steps
-    const std::int64_t shown = entry.undoes != 0 ? entry.undoes : entry.redoes != 0 ? entry.redoes : entry.gesture;
-    auto step = std::find_if(history_.begin(), history_.end(), [&](const HistoryStep& s) { return s.gesture == shown; });
-    if (entry.undoes != 0 || entry.redoes != 0) {
-      if (step == history_.end()) continue;
-      if (abandoned_.contains(shown)) {
-        history_.erase(step);
-        continue;
-      }
-      // The gesture that took it back is the one that a redo, or a further undo, will name.
-      step->is_undone = entry.undoes != 0;
-      step->gesture = entry.gesture;
-      continue;
-    }
-    if (step == history_.end()) {
-      // A new step ends what was undone before it.
-      std::erase_if(history_, [](const HistoryStep& s) { return s.is_undone; });
-      const auto named = named_.find(entry.gesture);
-      const std::string label = named != named_.end() ? named->second : label_of_step(*registry_, entry.command, scene());
-      history_.push_back({entry.gesture, entry.tick, label, false, 0});
-      step = history_.end() - 1;
-    }
-    ++step->entries;
-  }
-  return history_;
-}
-
-std::int64_t Document::last_step() const {
-  const auto& log = session_->log();
-  const auto last = std::find_if(log.rbegin(), log.rend(), [](const LogEntry& e) { return e.author == LiveSession::kAuthor; });
-  return last == log.rend() || last->undoes != 0 || last->redoes != 0 ? 0 : last->gesture;
-}
-
-void Document::abandon(std::int64_t gesture) {
-  const auto& log = session_->log();
-  const auto last = std::find_if(log.rbegin(), log.rend(), [](const LogEntry& e) { return e.author == LiveSession::kAuthor; });
-  if (gesture == 0 || last == log.rend() || last->gesture != gesture || last->undoes != 0) return;
-  abandoned_.insert(gesture);
-  // The ticks have seen it, so that the log keeps it and what takes it back; the history does not.
-  (void)session_->undo(gesture);
-}
-
-bool Document::has_redo() {
-  const auto& steps = history();
-  return std::any_of(steps.begin(), steps.end(), [](const HistoryStep& step) { return step.is_undone; });
-}
-
-Result<void> Document::submit(const std::vector<Command>& commands, std::int64_t gesture) {
-  if (commands.empty()) return {};
-  if (commands.size() == 1) return session_->submit(commands.front(), gesture);
-  return session_->submit(bl::command<Batch>({commands}), gesture);
-}
+Result<void> Document::save_log(const std::string& path) const { return write_file(path, host_->log_text()); }
 
 }  // namespace bl::desktop

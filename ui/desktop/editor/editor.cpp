@@ -10,6 +10,7 @@
 
 #include "core/base/scarcity.h"
 #include "core/base/text.h"
+#include "core/host/device_door.h"
 
 namespace bl::desktop {
 
@@ -47,11 +48,23 @@ std::string Editor::name_of(const std::string& node) const {
   return found == scene().nodes.end() || found->second.name.empty() ? node : found->second.name;
 }
 
-bool Editor::submit(const std::vector<Command>& commands, std::int64_t gesture) {
+bool Editor::submit(const std::vector<Command>& commands, std::int64_t gesture, const std::string& label) {
   if (!document) return false;
-  auto done = document->submit(commands, gesture);
+  auto done = document->submit(commands, gesture, label);
   if (!done) tell(NoticeKind::error, done.error().text());
   return done.ok();
+}
+
+bool Editor::show(const std::vector<Command>& commands, std::int64_t gesture) {
+  if (!document) return false;
+  auto done = document->show(commands, gesture);
+  if (!done) tell(NoticeKind::error, done.error().text());
+  return done.ok();
+}
+
+void Editor::end_gesture(std::int64_t gesture) {
+  if (!document) return;
+  if (auto done = document->session().end_gesture(gesture); !done) tell(NoticeKind::error, done.error().text());
 }
 
 bool Editor::arrange(const JsonValue& patch, std::int64_t gesture) { return submit(command<SetView>({patch, false}), gesture); }
@@ -63,8 +76,6 @@ void Editor::undo() {
 
 void Editor::redo() {
   if (!document) return;
-  // What was abandoned lies below all that was undone since: where the history has nothing undone, there is only that.
-  if (!document->has_redo()) return tell(NoticeKind::told, "Nothing to redo.");
   tell_left(*this, document->session().redo(), "Nothing to redo.");
 }
 
@@ -120,6 +131,7 @@ bool Editor::open(const std::string& wanted, bool plays) {
 
 void Editor::take(std::unique_ptr<Document> fresh) {
   document = std::move(fresh);
+  document->session().make_ticks_wait(serves_ticks && has_recordings(document->scene()));
   moment = document->session().moment();
   picks = {};
   panels = nullptr;
@@ -135,6 +147,8 @@ const Registry& Editor::types() const {
 }
 
 void Editor::begin_frame() {
+  if (document)
+    if (auto done = document->session().keep_up(); !done) tell(NoticeKind::error, done.error().text());
   held_before_ = std::move(held_);
   held_.clear();
   (void)types();

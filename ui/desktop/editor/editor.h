@@ -67,6 +67,7 @@ class Editor {
   Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
+  bool serves_ticks = false;  ///< somebody serves each tick of a scene with recordings: they wait for it
   ScriptWatch script_watch;                    ///< files that link kinds of this scene are read from
   std::shared_ptr<PanelMemory> panels;         ///< what inspector, lists and charts remember of this document
   std::uint64_t bytes_sent = 0;                ///< to the graphics processor, since the window opened
@@ -83,8 +84,12 @@ class Editor {
   std::string name_of(const std::string& node) const;
 
   // --- Changing. Errors become notices; whether it went well.
-  bool submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
+  /// `label`: what the step is called in the history, where its commands alone do not say what was meant.
+  bool submit(const std::vector<Command>& commands, std::int64_t gesture = 0, const std::string& label = "");
   bool submit(const Command& command, std::int64_t gesture = 0) { return submit(std::vector<Command>{command}, gesture); }
+  /// One frame of a gesture: values that the next frame sets anew. It is seen at once.
+  bool show(const std::vector<Command>& commands, std::int64_t gesture);
+  void end_gesture(std::int64_t gesture);
   /// A patch of the scene's view (canvas layout, cameras), as one step.
   bool arrange(const JsonValue& patch, std::int64_t gesture = 0);
   std::int64_t new_gesture() { return document->session().new_gesture(); }
@@ -101,7 +106,8 @@ class Editor {
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
   bool open(const std::string& path, bool plays = false);
   void take(std::unique_ptr<Document> fresh);
-  /// At the beginning of a frame: lets go of scripts that nobody can hold pointers into any more.
+  /// At the beginning of a frame: says what a gesture still shows once it is due, and lets go of scripts that nobody can hold
+  /// pointers into any more.
   void begin_frame();
 
  private:

@@ -242,17 +242,15 @@ bool Dialogs::take_import(making::ImportedScene& imported) {
     return false;
   }
   Document& document = *editor_->document;
-  const std::int64_t gesture = editor_->new_gesture();
-  if (auto done = document.submit({imported.command}, gesture); !done) {
-    told_ = {done.error().text(), "Nothing was added to the scene: it has changed since the import began. Import again."};
-    return false;
-  }
   std::string names;
   for (auto& [file, report] : imported.reports) {
     file = name_of_file(file);  // the folders of one person say nothing to another
     names += (names.empty() ? "" : ", ") + file;
   }
-  document.name_step(gesture, "Import \xc2\xb7 " + names);
+  if (auto done = document.submit({imported.command}, editor_->new_gesture(), "Import \xc2\xb7 " + names); !done) {
+    told_ = {done.error().text(), "Nothing was added to the scene: it has changed since the import began. Import again."};
+    return false;
+  }
   document.add_imports(imported.reports);
   std::vector<Problem> problems = editor_->problems;
   for (const std::string& note : imported.notes) problems.push_back({false, {ErrorCode::missing, "import", note}});

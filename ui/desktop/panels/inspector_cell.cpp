@@ -73,9 +73,11 @@ void scrub(Workbench& editor, const std::string& key, CellEvent& event) {
   // Before anything else: with keyboard navigation Esc lets go of the item in the same frame.
   if (memory.scrub.key == key && memory.scrub.has_moved && !memory.scrub.is_abandoned &&
       ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
-    editor.document->abandon(memory.scrub.gesture);
+    editor.document->session().abandon(memory.scrub.gesture);
     memory.scrub.is_abandoned = true;
   }
+  if (memory.scrub.key == key && memory.scrub.has_moved && !memory.scrub.is_abandoned && ImGui::IsItemDeactivated())
+    editor.end_gesture(memory.scrub.gesture);
   if (memory.scrub.key != key || memory.scrub.is_abandoned || !ImGui::IsItemActive()) return;
   if (!memory.scrub.has_moved && ImGui::IsMouseDragging(0, kScrubThreshold)) {
     memory.scrub.has_moved = event.has_scrub_begun = true;

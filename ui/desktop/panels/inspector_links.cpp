@@ -33,11 +33,12 @@ bool has_ports(const Workbench& editor, const LinkDefinition& kind, End end, con
 }
 
 template <class Make>
-void submit_each(Workbench& editor, const std::vector<std::string>& links, std::int64_t gesture, Make make) {
+void submit_each(Workbench& editor, const std::vector<std::string>& links, std::int64_t live_gesture, Make make) {
   std::vector<Command> commands;
   for (const std::string& id : links)
     if (editor.scene().links.contains(id)) commands.push_back(make(id));
-  editor.submit(commands, gesture);
+  if (live_gesture != 0) editor.show(commands, live_gesture);
+  else editor.submit(commands);
 }
 
 void draw_ends(Workbench& editor, const InspectorView& view) {
@@ -146,7 +147,8 @@ void change_parameter(Workbench& editor, const InspectorView& view, const PortDe
     if (auto checked = check_value(port, fresh, ""); !checked) return complain(editor, key, checked.error().message);
     commands.push_back(command<SetLinkParameter>({id, port.id, JsonValue::of(value_to_json(fresh, port))}));
   }
-  editor.submit(commands, change.is_live ? memory.scrub.gesture : 0);
+  if (change.is_live) editor.show(commands, memory.scrub.gesture);
+  else editor.submit(commands);
 }
 
 void draw_parameters(Workbench& editor, const InspectorView& view) {

@@ -194,7 +194,8 @@ void change_ports(Workbench& editor, const std::vector<std::string>& nodes, cons
       commands.push_back(command<SetPort>({id, {path_of(type, port)}, JsonValue::of(value_to_json(fresh, port))}));
     }
   }
-  editor.submit(commands, change.is_live ? memory.scrub.gesture : 0);
+  if (change.is_live) editor.show(commands, memory.scrub.gesture);
+  else editor.submit(commands);
 }
 
 void inspect_nodes(Workbench& editor, InspectorView& view) {

@@ -53,10 +53,14 @@ void inspect_scene(Workbench& editor) {
     PanelMemory& memory = memory_of(editor);
     if (memory.complaint_key == key) memory.complaint_key.clear();
     const Value fresh = change->make(value);
-    if (auto checked = check_value(port, fresh, ""); !checked) complain(editor, key, checked.error().message);
-    else if (!(fresh == value) || (port.keeps_default && is_default))
-      editor.submit(command<SetSetting>({port.id, JsonValue::of(value_to_json(fresh, port))}),
-                    change->is_live ? memory.scrub.gesture : 0);
+    if (auto checked = check_value(port, fresh, ""); !checked) {
+      complain(editor, key, checked.error().message);
+      continue;
+    }
+    if (fresh == value && !(port.keeps_default && is_default)) continue;
+    const Command set = command<SetSetting>({port.id, JsonValue::of(value_to_json(fresh, port))});
+    if (change->is_live) editor.show({set}, memory.scrub.gesture);
+    else editor.submit(set);
   }
   list_scripts(editor);
 }

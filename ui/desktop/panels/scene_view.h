@@ -109,7 +109,6 @@ class SceneView {
     Vector3 shift;        // so far
     std::map<std::string, Point3> starts;
     std::int64_t gesture = 0;
-    bool has_submitted = false;
     std::string typed;
   };
   enum class Drag { none, pressed, orbit, pan, zoom, box };

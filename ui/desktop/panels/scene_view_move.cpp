@@ -209,18 +209,18 @@ void SceneView::apply_move() {
   std::vector<Command> commands;
   for (const auto& [id, start] : move_->starts)
     commands.push_back(command<SetPort>({id, {"node.position"}, {json_of(start + move_->shift)}}));
-  if (editor_->submit(commands, move_->gesture)) move_->has_submitted = true;
+  editor_->show(commands, move_->gesture);
 }
 
 void SceneView::end_move(bool is_kept) {
   if (!move_) return;
-  const std::int64_t abandoned = !is_kept && move_->has_submitted ? move_->gesture : 0;
   // What was read before the slip is not what is meant: it can be mended, or taken back.
   if (is_kept && !move_->typed.empty() && !typed_length(move_->typed))
     return editor_->tell(NoticeKind::warning, "`" + move_->typed + "` is no length: type a number, and a unit such as m or cm.");
+  if (is_kept) editor_->end_gesture(move_->gesture);
+  else editor_->document->session().abandon(move_->gesture);
   move_.reset();
   drag_ = Drag::none;
-  if (abandoned != 0) editor_->document->abandon(abandoned);
 }
 
 void SceneView::draw_gizmo() {

@@ -20,8 +20,7 @@
 #include "core/base/printable.h"
 #include "core/file/file_io.h"
 #include "core/session/types/plugins.h"
-#include "ui/desktop/app/journal.h"
-#include "ui/desktop/app/live_scene.h"
+#include "ui/desktop/shell/live_scene.h"
 #include "ui/desktop/shell/desktop.h"
 #include "ui/desktop/shell/input_queue.h"
 #include "ui/desktop/view/gl_renderer.h"
@@ -221,7 +220,7 @@ int run_window(const WindowOptions& options) noexcept {
     Desktop desktop(full_registry(), person, *renderer);
     Editor& editor = desktop.editor();
     Hands hands{desktop, {}};
-    LiveScene live(options.is_live);
+    LiveScene live(editor, options.is_live);
     listen(window.handle(), hands);
     Look look;
     if (!options.scene.empty()) editor.open(options.scene, options.is_playing);
@@ -238,7 +237,7 @@ int run_window(const WindowOptions& options) noexcept {
       if (options.seconds > 0 && begin > options.seconds) break;
       look.follow(editor);
       draw_frame(window.handle(), hands, begin);
-      live.frame(editor);
+      live.frame();
       if (!options.times.empty()) times.milliseconds.push_back(1000 * (glfwGetTime() - begin));
       if (editor.wants_picture) take_picture(editor, options.pictures, window.handle());
       editor.wants_picture = false;

@@ -134,9 +134,7 @@ std::set<std::string> links_of_choice(const Board& board) {
 }
 
 bool submit_as(Board& board, const std::vector<Command>& commands, const std::string& label) {
-  const std::int64_t gesture = board.editor.new_gesture();
-  board.editor.document->name_step(gesture, label);
-  return board.editor.submit(commands, gesture);
+  return board.editor.submit(commands, board.editor.new_gesture(), label);
 }
 
 namespace {

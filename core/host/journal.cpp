@@ -1,5 +1,5 @@
 // Journals are named by the process that writes them; one whose process is gone is what a crash has left.
-#include "ui/desktop/app/journal.h"
+#include "core/host/journal.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,7 +13,7 @@
 
 #include "core/file/file_io.h"
 
-namespace bl::desktop {
+namespace bl {
 
 namespace {
 
@@ -111,8 +111,8 @@ Result<void> Journal::begin(const std::string& scene_path, const std::string& sc
 }
 
 void Journal::add(const LogEntry& entry, const Registry& registry) {
-  if (!writer_) return;
-  // Where a rewind could not begin a new journal, ticks go back; recovery does not look at them, but wants them in order.
+  // A recovery wants what was said, whatever the ticks; but it wants them in order, and after a rewind they are not.
+  if (!writer_ || entry.rewinds_to) return;
   LogEntry ordered = gestures_.fitted(entry);
   gestures_.take(ordered);
   last_tick_ = ordered.tick = std::max(entry.tick, last_tick_);
@@ -168,4 +168,4 @@ std::vector<Journal::Remains> Journal::find(const Registry& registry, std::vecto
 
 void Journal::discard(const Remains& remains) { remove_both(remains.path); }
 
-}  // namespace bl::desktop
+}  // namespace bl

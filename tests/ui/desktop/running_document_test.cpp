@@ -1,12 +1,9 @@
-// The clock's thread beside people's: what is saved is one moment, nothing waits for a late clock, and no edit is lost.
-#include <atomic>
+// A document while the clock runs: what is saved is one moment, logs replay, and nothing waits for a late clock.
 #include <filesystem>
-#include <new>
 #include <thread>
 
 #include <gtest/gtest.h>
 
-#include "core/define/link_builder.h"
 #include "core/file/file_io.h"
 #include "core/session/session.h"
 #include "tests/support/world.h"
@@ -14,60 +11,6 @@
 
 namespace bl::desktop {
 namespace {
-
-// A link kind that people can make fail, or wait, in the middle of a tick; it changes nothing.
-struct Trap {
-  struct In {
-    double number = 0;
-  };
-  struct Ends {
-    Point3 to;
-  };
-  struct Out {
-    std::optional<Vector3> to;
-  };
-  static inline std::atomic<bool> fails_to_begin = false, fails = false, waits = false;
-  static inline std::atomic<int> begun = 0;
-
-  static void declare(LinkBuilder<Trap>& l) {
-    l.id("trap").label("Trap").doc("Fails when it is told to.");
-    l.param(&In::number, "number").doc("A number.");
-    l.reads(&Ends::to, End::to, "node.position", Unit::metre);
-    l.proposes(&Out::to, End::to, "node.position", Unit::metre);
-  }
-  static Result<Out> evaluate(const In&, const Ends&, const Tick&) {
-    ++begun;
-    while (waits) std::this_thread::yield();
-    if (fails) throw std::bad_alloc();
-    return Out{};
-  }
-  static void disarm() { fails_to_begin = fails = waits = false; }
-};
-
-const Registry& registry_with_trap() {
-  static const Registry kRegistry = [] {
-    Registry registry = full_registry();
-    LinkDefinition trap = LinkBuilder<Trap>::build();
-    trap.instantiate = [made = trap.instantiate](std::span<const Value> values) {
-      if (Trap::fails_to_begin) throw std::bad_alloc();
-      return made(values);
-    };
-    registry.add(std::move(trap));
-    return registry;
-  }();
-  return kRegistry;
-}
-
-constexpr const char* kTrapScene = R"({"format": "behaviourlinks", "version": 1,
-  "nodes": [{"id": "a", "types": {"control": {}}}, {"id": "b", "types": {"control": {}}}],
-  "links": [{"id": "trap", "kind": "trap", "from": "a", "to": "b"}]})";
-
-std::unique_ptr<Document> trap_document() {
-  std::vector<Problem> problems;
-  auto document = Document::from_text(registry_with_trap(), kTrapScene, "", 1, problems);
-  EXPECT_TRUE(document) << (problems.empty() ? "" : problems.front().error.text());
-  return document;
-}
 
 // A clock that plays, has just ticked, and will not tick again for ten seconds.
 void play_slowly(LiveSession& session) {
@@ -83,7 +26,7 @@ void expect_opens(const std::string& path) {
   for (const Problem& problem : problems) ADD_FAILURE() << problem.error.text();
 }
 
-TEST(LiveSession, ASaveBetweenTwoTicksOpensAgain) {
+TEST(RunningDocument, ASaveBetweenTwoTicksOpensAgain) {
   NullDesktop desktop("scenes/start/quarter.json");
   Workbench& editor = desktop.editor();
   desktop.ticks(3);
@@ -94,7 +37,7 @@ TEST(LiveSession, ASaveBetweenTwoTicksOpensAgain) {
   expect_opens(path);
 }
 
-TEST(LiveSession, ASaveBetweenTwoTicksKeepsAMove) {
+TEST(RunningDocument, ASaveBetweenTwoTicksKeepsAMove) {
   NullDesktop desktop("scenes/start/quarter.json");
   Workbench& editor = desktop.editor();
   desktop.ticks(3);
@@ -108,7 +51,7 @@ TEST(LiveSession, ASaveBetweenTwoTicksKeepsAMove) {
   EXPECT_EQ(std::get<Vector3>(value_in(*opened->session().moment()->state, "cafe", "node.position")), (Vector3{1, 2, 3}));
 }
 
-TEST(LiveSession, ARewindBetweenTwoTicksLeavesAJournalThatOpens) {
+TEST(RunningDocument, ARewindBetweenTwoTicksLeavesAJournalThatOpens) {
   NullDesktop desktop("scenes/start/quarter.json");
   Workbench& editor = desktop.editor();
   desktop.ticks(5);
@@ -124,8 +67,8 @@ TEST(LiveSession, ARewindBetweenTwoTicksLeavesAJournalThatOpens) {
   EXPECT_FALSE(report->first_mismatch.has_value());
 }
 
-// What is saved is also what the next tick goes on from: the log that begins with the save replays, whatever comes and goes.
-TEST(LiveSession, LogAfterASaveReplays) {
+// A save leaves the running state and the log as they are: it replays, whatever comes and goes.
+TEST(RunningDocument, LogAfterASaveReplays) {
   NullDesktop desktop("scenes/start/quarter.json");
   Workbench& editor = desktop.editor();
   desktop.ticks(5);
@@ -144,7 +87,7 @@ TEST(LiveSession, LogAfterASaveReplays) {
   EXPECT_EQ(report->hash, hex_digits(editor.state().hash));
 }
 
-TEST(LiveSession, LogSavedAfterAnEditOnAStandingClockReplays) {
+TEST(RunningDocument, LogSavedAfterAnEditOnAStandingClockReplays) {
   NullDesktop desktop("scenes/start/quarter.json");
   Workbench& editor = desktop.editor();
   desktop.ticks(5);
@@ -161,7 +104,7 @@ TEST(LiveSession, LogSavedAfterAnEditOnAStandingClockReplays) {
 }
 
 // A clock that cannot keep up ticks without a pause; a window that waits for one would stand still.
-TEST(LiveSession, NothingWaitsForAClockThatIsBehind) {
+TEST(RunningDocument, NothingWaitsForAClockThatIsBehind) {
   NullDesktop desktop("scenes/studies/thousand_volumes.json");
   LiveSession& session = desktop.editor().document->session();
   session.set_rate(1000);
@@ -171,11 +114,11 @@ TEST(LiveSession, NothingWaitsForAClockThatIsBehind) {
   session.rewind(1);
   session.settle();
   EXPECT_TRUE(session.moment()->is_playing);
-  const auto saved = session.take_on_changes();
+  const auto saved = session.coming_state();
   EXPECT_GE(saved->tick, 1);
 }
 
-TEST(LiveSession, AHigherRateCountsAtOnce) {
+TEST(RunningDocument, AHigherRateCountsAtOnce) {
   NullDesktop desktop("scenes/start/quarter.json");
   LiveSession& session = desktop.editor().document->session();
   play_slowly(session);
@@ -186,75 +129,14 @@ TEST(LiveSession, AHigherRateCountsAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5)) << "it was to tick after ten seconds";
 }
 
-TEST(LiveSession, AnEditOutlivesATickThatCannotBegin) {
-  const auto document = trap_document();
-  ASSERT_TRUE(document);
-  LiveSession& session = document->session();
-  session.step(1);
-  session.settle();
-  Trap::fails_to_begin = true;
-  ASSERT_TRUE(session.submit(command<SetPort>({"a", {"control.value"}, {"7"}})).ok());
-  ASSERT_TRUE(session.submit(command<RenameNode>({"a", "Anna"})).ok());  // a name asks for a new plan
-  session.step(1);
-  session.settle();
-  EXPECT_NE(session.moment()->failure, "");
-  EXPECT_EQ(session.moment()->state->tick, 1);
-  Trap::disarm();
-  session.step(1);
-  session.settle();
-  EXPECT_EQ(session.moment()->failure, "");
-  EXPECT_EQ(std::get<double>(value_in(*session.moment()->state, "a", "control.value")), 7);
-}
-
-TEST(LiveSession, AFailureStaysUntilATickGoesWell) {
-  const auto document = trap_document();
-  ASSERT_TRUE(document);
-  LiveSession& session = document->session();
-  Trap::fails = true;
-  session.step(1);
-  session.settle();
-  Trap::disarm();
-  ASSERT_NE(session.moment()->failure, "");
-  session.set_rate(0.1);
-  session.play(false);
-  ASSERT_TRUE(session.submit(command<SetPort>({"a", {"control.value"}, {"3"}})).ok());
-  session.settle();
-  EXPECT_NE(session.moment()->failure, "");
-  session.step(1);
-  session.settle();
-  EXPECT_EQ(session.moment()->failure, "");
-}
-
-// The tick that an edit was made for never comes: what follows stands in the log behind it all the same.
-TEST(LiveSession, LogAroundAFailedTickCanBeRead) {
-  const auto document = trap_document();
-  ASSERT_TRUE(document);
-  LiveSession& session = document->session();
-  Trap::fails = Trap::waits = true;
-  const int begun = Trap::begun;
-  session.step(1);
-  while (Trap::begun == begun) std::this_thread::yield();
-  ASSERT_TRUE(session.submit(command<RenameNode>({"a", "During"})).ok());
-  Trap::waits = false;
-  session.settle();
-  Trap::disarm();
-  ASSERT_NE(session.moment()->failure, "");
-  ASSERT_TRUE(session.submit(command<RenameNode>({"b", "After"})).ok());
-  const std::string path = ::testing::TempDir() + "failed_tick.log";
-  ASSERT_TRUE(document->save_log(path).ok());
-  const auto log = read_log(read_file(path).value(), registry_with_trap());
-  ASSERT_TRUE(log.ok()) << log.error().text();
-  EXPECT_EQ(log->entries.size(), 2u);
-}
-
-TEST(LiveSession, AnUndoThatDoesNotFitAnyMoreSaysWhy) {
+TEST(RunningDocument, AnUndoThatDoesNotFitAnyMoreSaysWhy) {
   NullDesktop desktop("scenes/start/quarter.json");
   Workbench& editor = desktop.editor();
   editor.undo();
   ASSERT_FALSE(editor.notices.empty());
   EXPECT_EQ(editor.notices.back().text, "Nothing to undo.");
   ASSERT_TRUE(editor.submit(command<AddNode>({"shed", {"{}"}})));
-  ASSERT_TRUE(editor.document->session().replay({0, 0, 99, "somebody", command<RemoveNode>({"shed"}), 0, 0}).ok());
+  ASSERT_TRUE(editor.document->session().submit({.command = command<RemoveNode>({"shed"}), .author = "somebody"}).ok());
   editor.undo();
   EXPECT_NE(editor.notices.back().text.find("cannot be undone: somebody has changed nodes/shed since"), std::string::npos)
       << editor.notices.back().text;

@@ -1,11 +1,12 @@
 // The ticking thread: takes the newest scene before each tick, keeps past states for rewinding, and publishes what it made.
-#include "ui/desktop/app/live_session.h"
+#include "core/host/live_session.h"
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <limits>
+#include <map>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -14,52 +15,52 @@
 #include <thread>
 #include <utility>
 
-namespace bl::desktop {
+namespace bl {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // States kept for rewinding: their meshes and tables are shared between them as long as nothing changes.
 constexpr std::size_t kKeptStates = 400;
-// In place of a number of entries: not even the state without any has been looked at.
-constexpr std::size_t kNeverShown = static_cast<std::size_t>(-1);
 // New ticks count so much in the smoothed times.
 constexpr double kSmoothing = 0.15;
 
-bool has_recordings(const Scene& scene) {
-  return std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const auto& entry) {
-    const auto sensor = entry.second.types.find("sensor");
-    if (sensor == entry.second.types.end()) return false;
-    const auto address = sensor->second.find("address");
-    const auto* text = address != sensor->second.end() ? std::get_if<std::string>(&address->second) : nullptr;
-    return text != nullptr && text->starts_with("replay:");
-  });
-}
+// Of the phases of a tick, for benches: nothing but the real time will do.
+double phase_time() { return real_clock().now(); }
 
-double seconds_now() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+constexpr double kFarAhead = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 struct LiveSession::Shared {
-  Shared(const Registry& registry, Ledger& the_ledger, int threads)
-      : ledger(the_ledger), simulation(registry, threads, seconds_now) {}
+  Shared(const Registry& registry, Ledger& the_ledger, OpenGestures& the_gestures, const LiveSessionOptions& options)
+      : clock(*options.clock),
+        ledger(the_ledger),
+        gestures(the_gestures),
+        simulation(registry, options.threads, phase_time),
+        last_tick(clock.now()) {}
 
+  Clock& clock;
   std::mutex mutex;
   std::condition_variable wake, done;
-  // Behind the mutex. Scene and log of the ledger are changed by people's thread alone, which therefore reads them without a
-  // lock and locks to change them; the ticking thread locks to read them, and to take the list of what has changed.
+  // Behind the mutex. Ledger and gestures are changed by the holder's thread alone, which therefore reads them without a lock and
+  // locks to change them; the ticking thread locks to read them, and to take the list of what has changed.
   Ledger& ledger;
+  OpenGestures& gestures;
   std::shared_ptr<const Moment> published;
   std::int64_t next_tick = 0;  // the tick whose links read what people say now
   int steps_due = 0;
-  int holds = 0;  // people's thread waits for the pause between two ticks; no tick begins meanwhile
-  std::int64_t rewind_by = 0;
+  int holds = 0;  // the holder waits for the pause between two ticks; no tick begins meanwhile
   bool is_playing = false, is_ending = false, is_ticking = false;
   bool do_ticks_wait = false;  // for somebody who serves them
   std::int64_t served = -1;    // the last tick that was
   double wanted_rate = 20;
-  std::size_t shown_entries = kNeverShown;  // of the log: what they have said is in what is published
+  // What of the log and of the gestures is in what is published; none where not even the state has been looked at.
+  struct Seen {
+    std::int64_t seq = 0;
+    std::uint64_t gestures = 0;
+    bool operator==(const Seen&) const = default;
+  };
+  std::optional<Seen> shown;
   std::shared_ptr<const State> preview;  // the last tick's state with what people have changed since, and with what nodes make of
                                          // settings that no tick has seen; none where there is nothing of it
   std::string failure;                   // of the last tick; a tick that goes well ends it
@@ -69,24 +70,29 @@ struct LiveSession::Shared {
   std::set<std::pair<std::string, std::string>> pending_placed;
   // Of the ticking thread alone.
   std::deque<std::shared_ptr<const State>> past;
-  double tick_seconds = 0, rate = 0;
-  Clock::time_point last_tick{};
+  double tick_seconds = 0, rate = 0, last_tick;
   std::thread thread;
+  std::map<std::size_t, std::function<void(const std::shared_ptr<const Moment>&)>> listeners;
+  std::size_t last_listener = 0;
 
   void run();
   bool tick(std::unique_lock<std::mutex>& lock);
-  void go_back(std::int64_t ticks);
+  std::shared_ptr<const State> take_past(std::int64_t ticks);
   bool is_held_up() const { return do_ticks_wait && served != simulation.state()->tick; }
-  bool is_news() const { return !is_playing && steps_due == 0 && shown_entries != ledger.log().size(); }
+  Seen said() const { return {ledger.last_seq(), gestures.revision()}; }
+  // A clock that stands shows all that people do; one that runs shows what its ticks do not know yet.
+  bool is_news() const {
+    const bool stands = !is_playing && steps_due == 0;
+    return stands ? shown != said() : !shown || shown->gestures != gestures.revision();
+  }
   void show_changes(std::unique_lock<std::mutex>& lock);
   void show(std::shared_ptr<const State> seen) { preview = seen == simulation.state() ? nullptr : std::move(seen); }
   void gather_changes();
-  void take_on_changes();
   void wait_between_ticks(std::unique_lock<std::mutex>& lock);
   void publish();
 };
 
-// The next five are called with the mutex held, and not while a tick is computed.
+// The next four are called with the mutex held, and not while a tick is computed.
 void LiveSession::Shared::publish() {
   auto moment = std::make_shared<Moment>();
   moment->ticked = simulation.state();
@@ -99,6 +105,7 @@ void LiveSession::Shared::publish() {
   moment->times = simulation.times();
   moment->failure = failure;
   published = std::move(moment);
+  for (const auto& [number, listener] : listeners) listener(published);
 }
 
 // What is taken from the ledger stays pending until a simulation has really taken it on: a tick that fails loses nothing.
@@ -106,12 +113,6 @@ void LiveSession::Shared::gather_changes() {
   Ledger::Changes changes = ledger.take_changes();
   pending_placed.merge(changes.placed);
   if (changes.is_logic_changed) pending = ledger.scene();
-}
-
-void LiveSession::Shared::take_on_changes() {
-  if (pending) simulation.set_scene(*pending, pending_placed);
-  pending.reset();
-  pending_placed.clear();
 }
 
 // Returns with the mutex held; until it is given up, no tick begins.
@@ -122,48 +123,54 @@ void LiveSession::Shared::wait_between_ticks(std::unique_lock<std::mutex>& lock)
   wake.notify_all();
 }
 
-void LiveSession::Shared::go_back(std::int64_t ticks) {
-  const std::int64_t wanted = simulation.state()->tick - ticks;
-  while (past.size() > 1 && past.back()->tick > wanted) past.pop_back();
-  if (past.empty() || past.back()->tick >= simulation.state()->tick) return;
-  simulation.return_to(past.back());
+// The newest kept state that is so many ticks old, or the oldest; those after it are given up. None where there is none.
+std::shared_ptr<const State> LiveSession::Shared::take_past(std::int64_t ticks) {
+  const std::int64_t now = simulation.state()->tick;
+  if (past.empty() || past.front()->tick >= now) return nullptr;
+  while (past.size() > 1 && past.back()->tick > std::min(now - ticks, now - 1)) past.pop_back();
+  const std::shared_ptr<const State> found = past.back();
   past.pop_back();
+  return found;
 }
 
-// While the clock stands, what people change is to be seen all the same: as the next tick will begin with it. The simulation
-// itself waits for that tick, so that a replay of the log meets the same states.
+// What no tick has seen is to be seen all the same: as the next tick will begin with it. The simulation itself waits for that
+// tick, so that a replay of the log meets the same states.
 void LiveSession::Shared::show_changes(std::unique_lock<std::mutex>& lock) {
-  const std::size_t entries = ledger.log().size();
+  const Seen now = said();
   gather_changes();
-  if (pending || shown_entries == kNeverShown) {
-    is_ticking = true;
-    lock.unlock();
-    std::shared_ptr<const State> seen = simulation.state();
-    try {
-      if (pending) seen = simulation.with_scene(*pending, pending_placed);
-      seen = simulation.shown(std::move(seen));
-    } catch (const std::exception&) {
-      // The next tick will say so.
-    }
-    lock.lock();
-    is_ticking = false;
-    show(std::move(seen));
-    publish();
+  std::optional<Scene> scene = gestures.is_waiting() ? std::optional(gestures.shown()) : pending;
+  auto placed = pending_placed;
+  placed.merge(gestures.placed());
+  is_ticking = true;
+  lock.unlock();
+  std::shared_ptr<const State> seen = simulation.state();
+  try {
+    if (scene) seen = simulation.with_scene(*scene, placed);
+    seen = simulation.shown(std::move(seen));
+  } catch (const std::exception&) {
+    // The next tick will say so.
   }
-  shown_entries = entries;
+  lock.lock();
+  is_ticking = false;
+  show(std::move(seen));
+  shown = now;
+  publish();
 }
 
 // One tick; the lock is given up while it computes. Whether it went well.
 bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   gather_changes();
-  shown_entries = ledger.log().size();
+  shown = said();
   is_ticking = true;
   next_tick = simulation.state()->tick + 1;
   std::string trouble;
   lock.unlock();
-  const Clock::time_point begin = Clock::now();
+  const double begin = clock.now();
   try {
-    take_on_changes();
+    // What is taken from the ledger stays pending until the simulation has really taken it on.
+    if (pending) simulation.set_scene(*pending, pending_placed);
+    pending.reset();
+    pending_placed.clear();
     past.push_back(simulation.state());
     if (past.size() > kKeptStates) past.pop_front();
     simulation.step();
@@ -172,10 +179,9 @@ bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
   } catch (const std::exception& exception) {
     trouble = std::string("a tick failed (") + exception.what() + "); the last good state is kept, and the clock is stopped";
   }
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  const double end = clock.now(), seconds = end - begin, since = end - last_tick;
   tick_seconds = tick_seconds == 0 ? seconds : tick_seconds + kSmoothing * (seconds - tick_seconds);
-  const double since = std::chrono::duration<double>(Clock::now() - last_tick).count();
-  last_tick = Clock::now();
+  last_tick = end;
   rate = since > 2 ? 0 : rate + kSmoothing * (1 / std::max(1e-4, since) - rate);
   lock.lock();
   is_ticking = false;
@@ -188,35 +194,27 @@ bool LiveSession::Shared::tick(std::unique_lock<std::mutex>& lock) {
     // The entries of a log are in the order of their ticks, also where the tick that some were made for never came.
     if (!ledger.log().empty()) next_tick = std::max(next_tick, std::min(ledger.log().back().tick, next_tick + 1));
   }
-  publish();
+  if (gestures.is_waiting() && holds == 0) show_changes(lock);
+  else publish();
   return failure.empty();
 }
 
 void LiveSession::Shared::run() {
   std::unique_lock lock(mutex);
-  Clock::time_point due = Clock::now();
+  double due = clock.now();
   while (!is_ending) {
     if (holds > 0) {
       done.notify_all();
       wake.wait(lock);
       continue;
     }
-    if (rewind_by > 0) {
-      go_back(std::exchange(rewind_by, 0));
-      preview = nullptr;
-      served = -1;
-      shown_entries = kNeverShown;
-      next_tick = simulation.state()->tick;
-      publish();
-      done.notify_all();
-    }
     // A clock that has been set to go faster does not wait as long as it was to wait before.
-    const auto step = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / wanted_rate));
+    const double step = 1 / wanted_rate;
     due = std::min(due, last_tick + step);
-    const bool is_due = !is_held_up() && (steps_due > 0 || (is_playing && Clock::now() >= due));
+    const bool is_due = !is_held_up() && (steps_due > 0 || (is_playing && clock.now() >= due));
     if (is_due) {
       // A late tick is not made up for: the clock goes on from now, so that ticks never queue behind themselves.
-      due = std::max(Clock::now(), due + step);
+      due = std::max(clock.now(), due + step);
       if (steps_due > 0) --steps_due;
       tick(lock);
       done.notify_all();
@@ -227,24 +225,26 @@ void LiveSession::Shared::run() {
       continue;
     }
     done.notify_all();
-    if (is_playing && !is_held_up()) wake.wait_until(lock, due);
+    if (is_playing && !is_held_up()) clock.wait(wake, lock, due);
     else wake.wait(lock);
   }
 }
 
-LiveSession::LiveSession(const Registry& registry, const Scene& scene, int threads)
-    : ledger_(registry, scene), shared_(std::make_unique<Shared>(registry, ledger_, threads)) {
+LiveSession::LiveSession(const Registry& registry, const Scene& scene, LiveSessionOptions options)
+    : options_(std::move(options)),
+      ledger_(registry, scene),
+      gestures_(ledger_),
+      shared_(std::make_unique<Shared>(registry, ledger_, gestures_, options_)) {
   shared_->simulation.set_scene(scene);
 }
 
 Result<std::unique_ptr<LiveSession>> LiveSession::start(const Registry& registry, const Scene& scene, const SavedState* state,
-                                                        int threads) {
-  std::unique_ptr<LiveSession> session(new LiveSession(registry, scene, threads));
+                                                        LiveSessionOptions options) {
+  std::unique_ptr<LiveSession> session(new LiveSession(registry, scene, std::move(options)));
   Shared& shared = *session->shared_;
   if (state != nullptr)
     if (auto restored = shared.simulation.restore_state(*state); !restored) return restored.error();
   shared.next_tick = shared.simulation.state()->tick;
-  shared.do_ticks_wait = servers > 0 && has_recordings(scene);
   shared.publish();
   shared.thread = std::thread([&shared] { shared.run(); });
   return session;
@@ -260,29 +260,83 @@ LiveSession::~LiveSession() {
   shared_->thread.join();
 }
 
-Result<void> LiveSession::submit(const Command& command, std::int64_t gesture) {
+// With the mutex held, as the next eight.
+Result<void> LiveSession::end_own_gestures(std::int64_t but) {
+  return but != 0 && gestures_.is_open(but) ? Result<void>() : gestures_.end_all(options_.author, shared_->next_tick);
+}
+
+Result<void> LiveSession::submit(const Command& command, std::int64_t gesture, const std::string& label) {
   const std::lock_guard lock(shared_->mutex);
   shared_->wake.notify_all();
-  return ledger_.submit(command, kAuthor, shared_->next_tick, gesture);
+  if (auto ended = end_own_gestures(gesture); !ended) return ended;
+  return ledger_.submit({command, options_.author, gesture, {options_.origin}, label}, shared_->next_tick);
+}
+
+Result<void> LiveSession::submit(Submission submission) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->wake.notify_all();
+  return ledger_.submit(std::move(submission), shared_->next_tick);
+}
+
+Result<void> LiveSession::show(const Command& command, std::int64_t gesture) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->wake.notify_all();
+  if (auto ended = end_own_gestures(gesture); !ended) return ended;
+  return gestures_.show({command, options_.author, gesture, {options_.origin}, {}}, shared_->next_tick, shared_->clock.now());
+}
+
+Result<void> LiveSession::keep_up() {
+  gestures_.forget_past();
+  if (!gestures_.is_waiting()) return {};
+  const std::lock_guard lock(shared_->mutex);
+  shared_->wake.notify_all();
+  return gestures_.say_due(shared_->next_tick, shared_->clock.now());
+}
+
+Result<void> LiveSession::end_gesture(std::int64_t gesture) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->wake.notify_all();
+  return gestures_.end(gesture, shared_->next_tick);
+}
+
+void LiveSession::abandon(std::int64_t gesture) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->wake.notify_all();
+  gestures_.drop(gesture);
+  // The ticks have seen what was said of it, so that the log keeps it and what takes it back.
+  if (gesture != 0) (void)ledger_.abandon(options_.author, shared_->next_tick, gesture);
 }
 
 Result<TakenBack> LiveSession::undo(std::int64_t gesture) {
   const std::lock_guard lock(shared_->mutex);
   shared_->wake.notify_all();
-  return ledger_.undo(kAuthor, shared_->next_tick, gesture);
+  if (auto ended = end_own_gestures(); !ended) return ended.error();
+  return ledger_.undo(options_.author, shared_->next_tick, gesture, {options_.origin});
 }
 
 Result<TakenBack> LiveSession::redo() {
   const std::lock_guard lock(shared_->mutex);
   shared_->wake.notify_all();
-  return ledger_.redo(kAuthor, shared_->next_tick);
+  if (auto ended = end_own_gestures(); !ended) return ended.error();
+  return ledger_.redo(options_.author, shared_->next_tick, 0, {options_.origin});
 }
 
-Result<void> LiveSession::replay(LogEntry entry) {
+Result<void> LiveSession::recover(LogEntry entry) {
   const std::lock_guard lock(shared_->mutex);
   entry.tick = shared_->next_tick;
   shared_->wake.notify_all();
   return ledger_.replay(entry);
+}
+
+std::size_t LiveSession::subscribe_moments(std::function<void(const std::shared_ptr<const Moment>&)> listener) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->listeners.emplace(++shared_->last_listener, std::move(listener));
+  return shared_->last_listener;
+}
+
+void LiveSession::unsubscribe_moments(std::size_t number) {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->listeners.erase(number);
 }
 
 std::shared_ptr<const Moment> LiveSession::moment() const {
@@ -333,7 +387,7 @@ std::optional<std::int64_t> LiveSession::unserved_tick() const {
   const std::lock_guard lock(shared_->mutex);
   const Shared& shared = *shared_;
   const bool is_wanted = shared.is_playing || shared.steps_due > 0;
-  if (shared.is_ticking || shared.rewind_by > 0 || !is_wanted || !shared.is_held_up()) return std::nullopt;
+  if (shared.is_ticking || !is_wanted || !shared.is_held_up()) return std::nullopt;
   return shared.simulation.state()->tick;
 }
 
@@ -346,25 +400,28 @@ void LiveSession::serve(std::int64_t tick) {
 }
 
 void LiveSession::rewind(std::int64_t ticks) {
-  {
-    std::unique_lock lock(shared_->mutex);
-    shared_->rewind_by += std::max<std::int64_t>(0, ticks);
-    shared_->wake.notify_all();
-    // A clock that is late ticks on without a pause: only the going back itself is waited for.
-    shared_->done.wait(lock, [this] { return shared_->rewind_by == 0; });
-  }
-  if (rewound_) rewound_();
+  std::unique_lock lock(shared_->mutex);
+  Shared& shared = *shared_;
+  shared.wait_between_ticks(lock);
+  (void)gestures_.say_due(shared.next_tick, kFarAhead);  // what fits no more is not shown any longer, either
+  const auto state = ticks > 0 ? shared.take_past(ticks) : nullptr;
+  if (state == nullptr) return;
+  (void)ledger_.rewind(options_.author, shared.next_tick, state->tick);  // it is before the next tick
+  shared.simulation.return_to(state);
+  shared.preview = nullptr;
+  shared.served = -1;
+  shared.shown.reset();
+  shared.next_tick = state->tick;
+  shared.publish();
 }
 
-std::shared_ptr<const State> LiveSession::take_on_changes() {
+std::shared_ptr<const State> LiveSession::coming_state() {
   std::unique_lock lock(shared_->mutex);
-  shared_->wait_between_ticks(lock);
-  shared_->gather_changes();
-  shared_->take_on_changes();
-  shared_->show(shared_->simulation.shown(shared_->simulation.state()));
-  shared_->shown_entries = ledger_.log().size();
-  shared_->publish();
-  return shared_->simulation.state();
+  Shared& shared = *shared_;
+  shared.wait_between_ticks(lock);
+  (void)gestures_.say_due(shared.next_tick, kFarAhead);
+  shared.gather_changes();
+  return shared.pending ? shared.simulation.with_scene(*shared.pending, shared.pending_placed) : shared.simulation.state();
 }
 
 void LiveSession::settle() {
@@ -372,10 +429,9 @@ void LiveSession::settle() {
   shared_->wake.notify_all();
   shared_->done.wait(lock, [this] {
     // Ticks that wait to be served are not waited for: who serves them may be who asks.
-    return shared_->rewind_by == 0 && (shared_->steps_due == 0 || (!shared_->is_ticking && shared_->is_held_up())) &&
-           !shared_->is_news();
+    return (shared_->steps_due == 0 || (!shared_->is_ticking && shared_->is_held_up())) && !shared_->is_news();
   });
   shared_->wait_between_ticks(lock);
 }
 
-}  // namespace bl::desktop
+}  // namespace bl

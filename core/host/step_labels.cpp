@@ -1,5 +1,5 @@
 // Reads commands as people mean them: names for ids, what a change of the view does, and one word for many alike.
-#include "ui/desktop/app/step_labels.h"
+#include "core/host/step_labels.h"
 
 #include <algorithm>
 #include <vector>
@@ -7,13 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/scene_file.h"
-#include "core/reading/figures.h"
 
-namespace bl::desktop {
+namespace bl {
 
 namespace {
 
 constexpr std::size_t kMostLetters = 28;  // of a comment
+
+// "3 nodes", which no line breaks apart.
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + "\xC2\xA0" + noun + (count == 1 ? "" : "s");
+}
 
 const std::string* text_argument(const Command& command, const char* argument) {
   const auto found = command.arguments.find(argument);
@@ -64,7 +68,7 @@ bool takes_all_away(const Json& part) {
 
 // "Library" or "3 nodes".
 std::string who(const Json& part, const Scene& scene, const std::string& noun) {
-  return part.size() == 1 ? name_of(scene, part.begin().key()) : report::counted(part.size(), noun);
+  return part.size() == 1 ? name_of(scene, part.begin().key()) : counted(part.size(), noun);
 }
 
 std::string label_of_frames(const Json& frames) {
@@ -74,14 +78,14 @@ std::string label_of_frames(const Json& frames) {
     if (!frame.contains("colour")) return name.empty() ? "Rename frame" : "Rename frame · " + name;
     const std::size_t count = part_of(frame, "nodes").size();
     if (name != "Frame") return "Frame · " + name;
-    return count > 0 ? "Frame " + report::counted(count, "node") : "Frame";
+    return count > 0 ? "Frame " + counted(count, "node") : "Frame";
   }
-  if (takes_all_away(frames)) return "Remove " + report::counted(frames.size(), "frame");
+  if (takes_all_away(frames)) return "Remove " + counted(frames.size(), "frame");
   return "";
 }
 
 std::string label_of_comments(const Json& comments) {
-  if (takes_all_away(comments)) return "Remove " + report::counted(comments.size(), "comment");
+  if (takes_all_away(comments)) return "Remove " + counted(comments.size(), "comment");
   for (const auto& [id, comment] : comments.items()) {
     if (!comment.is_object()) continue;
     if (comment.contains("text") && comment["text"].is_string()) {
@@ -112,8 +116,8 @@ std::string label_of_view(const Json& patch, const Scene& scene) {
   if (const std::size_t count = boxes.size() + sets.size() + comments.size(); count > 0)
     return "Move " + (boxes.size() == 1 && count == 1   ? who(boxes, scene, "")
                       : sets.size() == 1 && count == 1  ? std::string("set")
-                      : comments.size() == count        ? report::counted(count, "comment")
-                      : boxes.size() + sets.size() == 0 ? report::counted(count, "thing")
+                      : comments.size() == count        ? counted(count, "comment")
+                      : boxes.size() + sets.size() == 0 ? counted(count, "thing")
                                                         : std::to_string(count) + " boxes");
   if (const Json part = part_of(patch, "dots"); !part.empty())
     return (takes_all_away(part) ? "Remove dots of " : "Dot on ") + who(part, scene, "link");
@@ -132,14 +136,14 @@ std::string label_of_many(const Registry& registry, std::vector<Command> command
   // Nodes come and go with their links.
   for (const auto& [id, verb] : {std::pair{"add_node", "Add "}, std::pair{"remove_node", "Remove "}}) {
     const std::size_t nodes = count(id);
-    if (nodes > 1) return verb + report::counted(nodes, "node");
+    if (nodes > 1) return verb + counted(nodes, "node");
     if (nodes == 1)
       return label_of_step(registry,
                            *std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.id == id; }), scene);
   }
   const std::string& id = commands.front().id;
   if (commands.size() > 1 && count(id.c_str()) == commands.size()) {
-    const std::string links = report::counted(commands.size(), "link");
+    const std::string links = counted(commands.size(), "link");
     if (id == "mute_link") return (is_off(commands.front(), "muted") ? "Unmute " : "Mute ") + links;
     if (id == "enable_link") return (is_off(commands.front(), "enabled") ? "Disable " : "Enable ") + links;
     if (id == "remove_link") return "Remove " + links;
@@ -175,4 +179,4 @@ std::string label_of_step(const Registry& registry, const Command& command, cons
   return label + (subject.empty() ? "" : " · " + subject) + what;
 }
 
-}  // namespace bl::desktop
+}  // namespace bl

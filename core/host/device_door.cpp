@@ -1,0 +1,53 @@
+// Devices sign with their address, and are marked as devices: nobody's undo takes a reading back.
+#include "core/host/device_door.h"
+
+#include <algorithm>
+
+namespace bl {
+
+namespace {
+
+constexpr double kUsualTick = 0.05;  // [s] where there is no sensor
+
+}  // namespace
+
+double tick_length(const Scene& scene, const Registry& registry) {
+  const TypificationDefinition* sensor = registry.typification("sensor");
+  const PortDefinition* length = sensor != nullptr ? sensor->find_port("tick_length") : nullptr;
+  std::optional<double> shortest;
+  for (const auto& [id, node] : scene.nodes) {
+    if (length == nullptr || !node.types.contains(sensor->id)) continue;
+    const double seconds = as_number(set_value(scene, node, *sensor, *length));
+    shortest = std::min(shortest.value_or(seconds), seconds);
+  }
+  return shortest && *shortest > 0 ? *shortest : kUsualTick;
+}
+
+bool has_recordings(const Scene& scene) {
+  return std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const auto& entry) {
+    const auto sensor = entry.second.types.find("sensor");
+    if (sensor == entry.second.types.end()) return false;
+    const auto address = sensor->second.find("address");
+    const auto* text = address != sensor->second.end() ? std::get_if<std::string>(&address->second) : nullptr;
+    return text != nullptr && text->starts_with("replay:");
+  });
+}
+
+bool DeviceDoor::follow(const Scene& scene, std::int64_t last_seq) {
+  if (followed_ == last_seq) return false;
+  followed_ = last_seq;
+  connections_.follow(scene);
+  return true;
+}
+
+std::vector<Error> DeviceDoor::bring(std::int64_t tick, const std::function<Result<void>(Submission)>& submit) {
+  std::vector<Error> refused;
+  for (Report& report : connections_.take(tick)) {
+    const std::string address = report.author.id;
+    auto done = submit({std::move(report.command), std::move(report.author), 0, {"connection"}, {}});
+    if (!done) refused.push_back(done.error().within(address));
+  }
+  return refused;
+}
+
+}  // namespace bl

@@ -1,0 +1,44 @@
+// The history of a session: each step that its holder has made, with its name, and whether it is undone.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/define/registry.h"
+#include "core/graph/scene.h"
+#include "core/session/log.h"
+
+namespace bl {
+
+/// All commands of one gesture.
+struct HistoryStep {
+  std::int64_t gesture = 0, tick = 0;
+  std::string label;        ///< what was done, such as "Set port · Library"
+  bool is_undone = false;   ///< taken back, and not brought back since
+  std::size_t entries = 0;  ///< commands in it
+};
+
+/// Follows the log entry by entry. What devices and others say is no step of the holder's, and neither is a rewind.
+class History {
+ public:
+  History(const Registry& registry, Author author) : registry_(&registry), author_(std::move(author)) {}
+
+  /// `scene`: as it is with the entry, for names.
+  void take(const LogEntry& entry, const Scene& scene);
+  /// Oldest first.
+  const std::vector<HistoryStep>& steps() const { return steps_; }
+  /// The gesture of the step that was made last, which can still be added to; 0 where there is none, or where something was
+  /// undone or redone since.
+  std::int64_t last_step() const { return last_step_; }
+
+ private:
+  void take_back(const LogEntry& entry);
+
+  const Registry* registry_;
+  Author author_;
+  std::vector<HistoryStep> steps_;
+  std::int64_t last_step_ = 0;
+};
+
+}  // namespace bl

@@ -1,0 +1,128 @@
+// Ticks that fail: no edit is lost, people hear why, and the log around it can be read.
+#include "core/host/live_session.h"
+
+#include <atomic>
+#include <new>
+#include <optional>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "core/define/link_builder.h"
+#include "core/host/host.h"
+#include "tests/support/world.h"
+
+namespace bl {
+namespace {
+
+// A link kind that people can make fail, or wait, in the middle of a tick; it changes nothing.
+struct Trap {
+  struct In {
+    double number = 0;
+  };
+  struct Ends {
+    Point3 to;
+  };
+  struct Out {
+    std::optional<Vector3> to;
+  };
+  static inline std::atomic<bool> fails_to_begin = false, fails = false, waits = false;
+  static inline std::atomic<int> begun = 0;
+
+  static void declare(LinkBuilder<Trap>& l) {
+    l.id("trap").label("Trap").doc("Fails when it is told to.");
+    l.param(&In::number, "number").doc("A number.");
+    l.reads(&Ends::to, End::to, "node.position", Unit::metre);
+    l.proposes(&Out::to, End::to, "node.position", Unit::metre);
+  }
+  static Result<Out> evaluate(const In&, const Ends&, const Tick&) {
+    ++begun;
+    while (waits) std::this_thread::yield();
+    if (fails) throw std::bad_alloc();
+    return Out{};
+  }
+  static void disarm() { fails_to_begin = fails = waits = false; }
+};
+
+const Registry& registry_with_trap() {
+  static const Registry kRegistry = [] {
+    Registry registry = full_registry();
+    LinkDefinition trap = LinkBuilder<Trap>::build();
+    trap.instantiate = [made = trap.instantiate](std::span<const Value> values) {
+      if (Trap::fails_to_begin) throw std::bad_alloc();
+      return made(values);
+    };
+    registry.add(std::move(trap));
+    return registry;
+  }();
+  return kRegistry;
+}
+
+constexpr const char* kTrapScene = R"({"format": "behaviourlinks", "version": 1,
+  "nodes": [{"id": "a", "types": {"control": {}}}, {"id": "b", "types": {"control": {}}}],
+  "links": [{"id": "trap", "kind": "trap", "from": "a", "to": "b"}]})";
+
+std::unique_ptr<Host> trap_host() {
+  const SceneReading reading = read_scene(kTrapScene, registry_with_trap());
+  EXPECT_TRUE(reading.is_usable());
+  return std::move(*Host::start(registry_with_trap(), reading.scene, nullptr, {.author = "desk"}));
+}
+
+TEST(LiveSession, AnEditOutlivesATickThatCannotBegin) {
+  const auto host = trap_host();
+  LiveSession& session = host->session();
+  session.step(1);
+  session.settle();
+  Trap::fails_to_begin = true;
+  ASSERT_TRUE(session.submit(command<SetPort>({"a", {"control.value"}, {"7"}})).ok());
+  ASSERT_TRUE(session.submit(command<RenameNode>({"a", "Anna"})).ok());  // a name asks for a new plan
+  session.step(1);
+  session.settle();
+  EXPECT_NE(session.moment()->failure, "");
+  EXPECT_EQ(session.moment()->state->tick, 1);
+  Trap::disarm();
+  session.step(1);
+  session.settle();
+  EXPECT_EQ(session.moment()->failure, "");
+  EXPECT_EQ(std::get<double>(value_in(*session.moment()->state, "a", "control.value")), 7);
+}
+
+TEST(LiveSession, AFailureStaysUntilATickGoesWell) {
+  const auto host = trap_host();
+  LiveSession& session = host->session();
+  Trap::fails = true;
+  session.step(1);
+  session.settle();
+  Trap::disarm();
+  ASSERT_NE(session.moment()->failure, "");
+  session.set_rate(0.1);
+  session.play(false);
+  ASSERT_TRUE(session.submit(command<SetPort>({"a", {"control.value"}, {"3"}})).ok());
+  session.settle();
+  EXPECT_NE(session.moment()->failure, "");
+  session.step(1);
+  session.settle();
+  EXPECT_EQ(session.moment()->failure, "");
+}
+
+// The tick that an edit was made for never comes: what follows stands in the log behind it all the same.
+TEST(LiveSession, LogAroundAFailedTickCanBeRead) {
+  const auto host = trap_host();
+  LiveSession& session = host->session();
+  Trap::fails = Trap::waits = true;
+  const int begun = Trap::begun;
+  session.step(1);
+  while (Trap::begun == begun) std::this_thread::yield();
+  ASSERT_TRUE(session.submit(command<RenameNode>({"a", "During"})).ok());
+  Trap::waits = false;
+  session.settle();
+  Trap::disarm();
+  ASSERT_NE(session.moment()->failure, "");
+  ASSERT_TRUE(session.submit(command<RenameNode>({"b", "After"})).ok());
+  const auto log = read_log(host->log_text(), registry_with_trap());
+  ASSERT_TRUE(log.ok()) << log.error().text();
+  EXPECT_EQ(log->entries.size(), 2u);
+}
+
+}  // namespace
+}  // namespace bl
