@@ -239,8 +239,7 @@ class Compiler {
 
   Result<void> check_kind(PortRef ref, ValueKind expected, const char* verb) const {
     const ValueKind found = plan_->port(ref).kind;
-    const bool is_numeric = found == ValueKind::integer || found == ValueKind::boolean, is_word = found == ValueKind::choice;
-    if (found == expected || (expected == ValueKind::number && is_numeric) || (expected == ValueKind::text && is_word)) return {};
+    if (can_read(expected, found)) return {};
     return Error{ErrorCode::wrong_kind, "",
                  "the " + std::string(verb) + " " + std::string(name_of(expected)) + ", but `" + plan_->path_text(ref) +
                      "` holds " + std::string(name_of(found))};

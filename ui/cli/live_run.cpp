@@ -7,10 +7,9 @@
 
 #include "core/base/text.h"
 #include "core/live/unusable_sensors.h"
-#include "core/reading/report_model.h"
+#include "core/reading/views/stream.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/scene_loading.h"
-#include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -19,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kUsualTick = 0.05;  // [s] where no sensor says otherwise
+constexpr double kTickWithoutSensors = 0.05;  // [s] there is nothing whose time could be kept
 constexpr std::chrono::milliseconds kSlice{50};
 constexpr std::chrono::seconds kBetweenReadings{1};
 
@@ -29,23 +28,19 @@ std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "s
 std::string reading_of(const State& state, const std::string& node) {
   const std::uint32_t index = state.plan->node_index(node);
   if (index >= state.nodes.size()) return "it is no longer in the scene";
-  const std::string unit = report::text_at(state, index, "sensor", "unit"),
-                    message = report::text_at(state, index, "sensor", "message");
-  return shortest(report::number_at(state, index, "sensor", "value")) + (unit.empty() ? "" : " " + unit) + ", " +
-         report::text_at(state, index, "sensor", "quality") + (message.empty() ? "" : " (" + message + ")");
+  const auto sensor = reading::row_of<reading::SensorFigures>(state, index).value_or(reading::SensorFigures{});
+  return shortest(sensor.value) + (sensor.unit.empty() ? "" : " " + sensor.unit) + ", " + sensor.quality +
+         (sensor.message.empty() ? "" : " (" + sensor.message + ")");
 }
 
 // The shortest tick that a sensor of the scene stands for [s].
 double tick_length(const Scene& scene) {
   double shortest_tick = 0;
   for (const auto& [id, node] : scene.nodes) {
-    const auto sensor = node.types.find("sensor");
-    if (sensor == node.types.end()) continue;
-    const auto set = sensor->second.find("tick_length");
-    const double length = set != sensor->second.end() ? as_number(set->second) : kUsualTick;
-    shortest_tick = shortest_tick > 0 ? std::min(shortest_tick, length) : length;
+    const auto length = reading::setting<&reading::SensorFigures::tick_length>(scene, full_registry(), node);
+    if (length) shortest_tick = shortest_tick > 0 ? std::min(shortest_tick, *length) : *length;
   }
-  return shortest_tick > 0 ? shortest_tick : kUsualTick;
+  return shortest_tick > 0 ? shortest_tick : kTickWithoutSensors;
 }
 
 // Rows that were not played are told of, since a scene may settle before a recording ends.
