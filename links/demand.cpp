@@ -5,10 +5,10 @@
 #include <string>
 
 #include "core/base/text.h"
-#include "core/define/brief_sums.h"
 #include "core/define/link_builder.h"
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
+#include "core/demand/brief_sums.h"
 
 namespace bl {
 

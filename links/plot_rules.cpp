@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "core/base/demand_limit.h"
 #include "core/base/text.h"
 #include "core/define/link_builder.h"
 #include "core/define/link_remark.h"
 #include "core/define/registry.h"
+#include "core/demand/demand_limit.h"
 #include "core/geometry/plan_ring.h"
 
 namespace bl {

@@ -1,5 +1,5 @@
 // An actuator: a number that leaves the scene, for a lamp, a screen or a machine.
-#include "core/base/live_address.h"
+#include "core/address/live_address.h"
 #include "core/base/text.h"
 #include "core/base/unit.h"
 #include "core/define/registry.h"

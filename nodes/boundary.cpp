@@ -80,6 +80,10 @@ struct Boundary {
         .column(height_column("bottom", "Height of the underside above the origin, in the first row."))
         .column(height_column("top", "Height of the top above the origin, in the first row."))
         .doc("Solids that are no part of the boundary, such as buildings that stay: plans between two heights.");
+    declare_results(t);
+  }
+
+  static void declare_results(TypificationBuilder<Boundary>& t) {
     t.out(&Out::planes, "planes")
         .column({.id = "x", .doc = "First component of the outward unit normal."})
         .column({.id = "y", .doc = "Second component of the outward unit normal."})

@@ -1,5 +1,5 @@
 // An MQTT broker: who we are there, and how the connection to it is secured.
-#include "core/base/password_source.h"
+#include "core/address/password_source.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 

@@ -63,6 +63,19 @@ struct Plot {
         .range(0, 1000)
         .soft(0, 20)
         .doc("How far from the sides of the plot volumes have to stay.");
+    declare_results(t);
+    auto set = t.set("volumes", &Sets::volumes);
+    set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
+    set.reads(&Member::centroid, "smart_volume.centroid", Unit::metre)
+        .reads(&Member::floor_area, "smart_volume.floor_area", Unit::square_metre);
+    set.reads(&Member::footprint, "smart_volume.footprint", Unit::square_metre)
+        .reads(&Member::bottom, "smart_volume.bottom", Unit::metre);
+    set.reads(&Member::height, "smart_volume.height", Unit::metre)
+        .reads(&Member::storey_height, "smart_volume.storey_height", Unit::metre);
+    set.reads(&Member::volume, "smart_volume.volume", Unit::cubic_metre);
+  }
+
+  static void declare_results(TypificationBuilder<Plot>& t) {
     t.out(&Out::count, "count").unit(Unit::count).doc("Number of volumes on the plot.");
     t.out(&Out::area, "area").unit(Unit::square_metre).doc("Area of the plot.");
     t.out(&Out::floor_area, "floor_area").unit(Unit::square_metre).doc("Floor area of the volumes on the plot.");
@@ -89,15 +102,6 @@ struct Plot {
         .doc("The worst overshoot of FSI, GSI and height, as a share of what is allowed.");
     t.out(&Out::message, "message")
         .doc("Volumes that no smaller demand brings below the largest height; empty where there are none.");
-    auto set = t.set("volumes", &Sets::volumes);
-    set.reads(&Member::id, "node.id").reads(&Member::position, "node.position", Unit::metre);
-    set.reads(&Member::centroid, "smart_volume.centroid", Unit::metre)
-        .reads(&Member::floor_area, "smart_volume.floor_area", Unit::square_metre);
-    set.reads(&Member::footprint, "smart_volume.footprint", Unit::square_metre)
-        .reads(&Member::bottom, "smart_volume.bottom", Unit::metre);
-    set.reads(&Member::height, "smart_volume.height", Unit::metre)
-        .reads(&Member::storey_height, "smart_volume.storey_height", Unit::metre);
-    set.reads(&Member::volume, "smart_volume.volume", Unit::cubic_metre);
   }
 
   // How much of what is allowed is exceeded; what is forbidden altogether counts as exceeded once.

@@ -3,9 +3,9 @@
 #include <set>
 
 #include "core/base/text.h"
-#include "core/define/brief_sums.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
+#include "core/demand/brief_sums.h"
 
 namespace bl {
 
@@ -70,6 +70,10 @@ struct Programme {
                         "two)."})
         .column({.id = "note", .is_text = true, .default_value = std::string(), .doc = "A remark for people."})
         .doc("The uses that are wanted; each use stands in one row.");
+    declare_totals(t);
+  }
+
+  static void declare_totals(TypificationBuilder<Programme>& t) {
     t.out(&Out::total_floor_area, "total_floor_area")
         .shown_first()
         .unit(Unit::square_metre)

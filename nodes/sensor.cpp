@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/live_address.h"
+#include "core/address/live_address.h"
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/base/unit.h"
@@ -82,7 +82,8 @@ struct Sensor {
     t.in(&In::reading_time, "reading_time").doc("When that was, as a text.");
     t.in(&In::reading_problem, "reading_problem").doc("Why the last message holds no number; empty where it does.");
     t.in(&In::connection, "connection").doc("What is wrong with the connection; empty where nothing is known to be.");
-    t.in(&In::reading_tick, "reading_tick").min(-1e15)
+    t.in(&In::reading_tick, "reading_tick")
+        .min(-1e15)
         .doc("The tick of the last reading; -1 before the first one, and below it where it was measured before the clock began.");
     t.out(&Out::value, "value").traced().unit_from("unit").doc("The last good reading, scaled and filtered, or the fallback.");
     t.out(&Out::age, "age").unit(Unit::second).doc("Time since the last reading; 0 before the first one.");

@@ -109,6 +109,11 @@ struct SmartVolumesSolver {
             "do not follow it, but the mesh's own volume does: it lies below that of the shape, by a tenth on average at 1 and "
             "by "
             "less than a hundredth at 4.");
+    declare_results(t);
+    declare_sets(t);
+  }
+
+  static void declare_results(TypificationBuilder<SmartVolumesSolver>& t) {
     t.out(&Out::count, "count").unit(Unit::count).doc("Number of members that have a volume.");
     t.out(&Out::total_demand, "total_demand").unit(Unit::cubic_metre).doc("Sum of what the members want.");
     t.out(&Out::total_volume, "total_volume").unit(Unit::cubic_metre).doc("Sum of the volumes of the members.");
@@ -129,6 +134,9 @@ struct SmartVolumesSolver {
     memory(t, &Memory::share, "share", "Share of Newton's full step that was taken last.");
     memory(t, &Memory::least_ratio, "least_ratio", "Smallest share of a demand that Newton's steps may lead to.");
     memory(t, &Memory::problem, "problem", "Hash of the problem that the last step belongs to; another problem starts afresh.");
+  }
+
+  static void declare_sets(TypificationBuilder<SmartVolumesSolver>& t) {
     t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::planes, "boundary.planes");
     auto set = t.set("members", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id")

@@ -45,8 +45,8 @@ struct SunAndSky {
   }
 
   static void declare_place(TypificationBuilder<SunAndSky>& t) {
-    t.in(&In::latitude, "latitude").unit(Unit::degree).range(-90, 90).of_scene(OfScene::unless_set).doc("North is positive.");
-    t.in(&In::longitude, "longitude").unit(Unit::degree).range(-180, 180).of_scene(OfScene::unless_set).doc("East is positive.");
+    t.in(&In::latitude, "latitude").unit(Unit::degree).range(-90, 90).of_scene(OfScene::unless_set, 0.1).doc("North is positive.");
+    t.in(&In::longitude, "longitude").unit(Unit::degree).range(-180, 180).of_scene(OfScene::unless_set, 0.1).doc("East is positive.");
     t.in(&In::elevation, "elevation").unit(Unit::metre).range(-500, 9000).soft(0, 2000).doc("Height above the sea.");
     t.in(&In::true_north, "true_north")
         .unit(Unit::degree)

@@ -59,4 +59,10 @@ std::string to_identifier(std::string_view text) {
   return id.empty() ? "item" : id;
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
 }  // namespace bl

@@ -25,4 +25,7 @@ bool is_identifier(std::string_view text);
 /// Text from people (names, uses) as an identifier: lower case, other characters folded to `_`; never empty.
 std::string to_identifier(std::string_view text);
 
+/// ASCII letters in lower case.
+std::string lower_case(std::string_view text);
+
 }  // namespace bl

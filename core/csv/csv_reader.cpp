@@ -7,10 +7,10 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/foreign_bytes.h"
+#include "core/base/text.h"
 #include "core/base/plural.h"
 #include "core/base/stop_check.h"
-#include "core/import/context_shape.h"
-#include "core/base/foreign_bytes.h"
 
 namespace bl {
 
@@ -144,7 +144,7 @@ Result<void> parse_lines(std::string_view text, std::size_t first_line, CsvText&
   std::size_t empty = 0;
   bool in_record = false;
   for (std::size_t line = first_line; !text.empty(); ++line) {
-    if (line % 4096 == 0 && is_stop_wished()) return stopped_error();
+    if (line % 4096 == 0 && is_stop_wished()) return Error{ErrorCode::cancelled, "", "Reading the table was stopped."};
     const std::size_t length = std::min(text.find('\n'), text.size() - 1) + 1;
     const std::string_view piece = text.substr(0, length);
     text.remove_prefix(length);
@@ -181,12 +181,6 @@ std::string_view trimmed(std::string_view text) {
   while (const std::size_t length = blank_front()) text.remove_prefix(length);
   while (const std::size_t length = blank_back()) text.remove_suffix(length);
   return text;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
 }
 
 Result<CsvText> read_csv(std::string_view text, std::optional<char> separator) {

@@ -28,7 +28,5 @@ Result<CsvText> read_csv(std::string_view text, std::optional<char> separator = 
 
 /// Without the spaces, tabs and no-break spaces at both ends.
 std::string_view trimmed(std::string_view text);
-/// ASCII letters in lower case.
-std::string lower_case(std::string_view text);
 
 }  // namespace bl

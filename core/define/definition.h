@@ -91,6 +91,7 @@ struct PortDefinition {
   bool is_shown_first = false;  ///< where there is room for few results only; without any such port these are the first ones
   bool is_traced = false;       ///< its course is drawn where there is room for one curve only
   OfScene of_scene = OfScene::no;
+  double setting_tolerance = 0;  ///< of a port that stands for a setting unless set: a larger difference is told as a problem
   CombineRule rule = CombineRule::none;
   double step_limit = std::numeric_limits<double>::infinity();  ///< largest change in one tick
   Value default_value = 0.0;

@@ -27,8 +27,10 @@ class PortBuilder {
     return *this;
   }
   /// The scene's setting of the same id, kind and unit is handed in: what holds for the whole scene is said in one place.
-  PortBuilder& of_scene(OfScene when) {
+  /// Where it stands for the setting unless set, values that differ by more than `tolerance` are told when a scene is checked.
+  PortBuilder& of_scene(OfScene when, double tolerance = 0) {
     port_->of_scene = when;
+    port_->setting_tolerance = tolerance;
     port_->keeps_default = when == OfScene::unless_set;
     return *this;
   }

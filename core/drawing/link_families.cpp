@@ -22,6 +22,7 @@ constexpr std::array kInks = {FamilyInk{"adjacency, attraction", "#117733", ""},
                               FamilyInk{"alignment, stacking", "#882288", "9 3"},
                               FamilyInk{"numbers: ratios, caps, mapped values", "#666a73", "8 3 1.5 3"},
                               FamilyInk{"other kinds", "#8a5a00", "3 2 1 2"}};
+static_assert(kInks.size() == static_cast<std::size_t>(LinkFamily::brief), "each family that joins places has an ink");
 
 }  // namespace
 

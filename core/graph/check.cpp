@@ -56,29 +56,21 @@ void check_node(const Scene& scene, const std::string& id, const NodeRecord& nod
   }
 }
 
-// A type that turns its directions to true north should stand where the scene says that it lies, or it tells of the sun of
-// another town. Other types may know places of their own, such as where a picture was taken.
-void check_place(const Scene& scene, const std::string& id, const NodeRecord& node, const TypificationDefinition& type,
-                 std::vector<Problem>& problems) {
-  const Settings settings = settings_of(scene);
-  constexpr double kApart = 0.1;  // [degrees] more is no rounding
-  const PortDefinition* north = type.find_port("true_north");
-  if (north == nullptr || north->of_scene != OfScene::always) return;
-  const struct {
-    const char* port;
-    double scene;
-  } sides[] = {{"latitude", settings.latitude}, {"longitude", settings.longitude}};
-  for (const auto& side : sides) {
-    const PortDefinition* port = type.find_port(side.port);
-    const PortValues& said = node.types.at(type.id);
-    if (port == nullptr || port->kind != ValueKind::number || !said.contains(port->id) || !scene.settings.contains(port->id))
-      continue;
-    const double own = as_number(set_value(scene, node, type, *port));
-    if (std::abs(own - side.scene) <= kApart) continue;
+// A node that says for itself what a setting of the scene says as well, such as where it lies on Earth, should say the same.
+void check_settings(const Scene& scene, const std::string& id, const NodeRecord& node, const TypificationDefinition& type,
+                    std::vector<Problem>& problems) {
+  const PortValues& said = node.types.at(type.id);
+  for (const PortDefinition& port : type.ports) {
+    if (port.of_scene != OfScene::unless_set || port.kind != ValueKind::number || !said.contains(port.id)) continue;
+    const auto setting = scene.settings.find(port.id);
+    if (setting == scene.settings.end()) continue;
+    const double own = as_number(set_value(scene, node, type, port)), of_all = as_number(setting->second);
+    if (std::abs(own - of_all) <= port.setting_tolerance) continue;
+    const std::string unit(info(port.unit).pretty);
     problems.push_back({false,
-                        {ErrorCode::conflict, "nodes/" + id + "/" + type.id + "/" + side.port,
-                         "is " + shortest(own) + "°, and the setting `" + side.port + "` of the scene is " +
-                             shortest(side.scene) + "°: make them one, unless the node is to tell of another place"}});
+                        {ErrorCode::conflict, "nodes/" + id + "/" + type.id + "/" + port.id,
+                         "is " + shortest(own) + unit + ", and the setting `" + port.id + "` of the scene is " +
+                             shortest(of_all) + unit + ": make them one, unless the node is to tell of another place"}});
   }
 }
 
@@ -89,7 +81,7 @@ std::vector<Problem> check_scene(const Scene& scene, const Registry& registry) {
   for (const auto& [id, node] : scene.nodes) {
     check_node(scene, id, node, registry, problems);
     for (const auto& [type_id, values] : node.types)
-      if (const TypificationDefinition* type = registry.typification(type_id)) check_place(scene, id, node, *type, problems);
+      if (const TypificationDefinition* type = registry.typification(type_id)) check_settings(scene, id, node, *type, problems);
   }
   for (const auto& [id, link] : scene.links) {
     check_selection(scene, link.from, "links/" + id + "/from", registry, problems);

@@ -54,6 +54,7 @@ void assume_heights(const ContextOptions& options, Context& context);
 
 /// The middle of the box around those points that have a place; nothing where none has.
 std::optional<std::array<double, 2>> place_of(const std::vector<Point3>& points);
+
 /// What an importer answers that was stopped.
 Error stopped_error();
 

@@ -7,12 +7,12 @@
 #include <limits>
 #include <map>
 
+#include "core/base/foreign_bytes.h"
 #include "core/base/plural.h"
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/csv/csv_reader.h"
 #include "core/import/context_shape.h"
-#include "core/base/foreign_bytes.h"
 #include "core/import/inflate.h"
 
 namespace bl {
@@ -55,9 +55,10 @@ Error no_grid(const std::string& place, const std::string& what) {
           what + " An ASCII grid begins with ncols, nrows, xllcorner, yllcorner, cellsize and NODATA_value."};
 }
 
-Result<TerrainGrid> read_ascii(std::string_view text) {
-  Words words(text);
-  std::map<std::string, double> header;
+using GridHeader = std::map<std::string, double>;
+
+Result<GridHeader> read_header(Words& words) {
+  GridHeader header;
   const std::vector<std::string> known{"ncols",     "nrows",    "xllcorner", "yllcorner", "xllcenter",
                                        "yllcenter", "cellsize", "dx",        "dy",        "nodata_value"};
   while (true) {
@@ -72,6 +73,11 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
     if (!value || !std::isfinite(*value)) return no_grid(words.place(), "`" + name + "` has no number.");
     header[name] = *value;
   }
+  return header;
+}
+
+// The grid without its cells, and the value that stands for none.
+Result<std::pair<TerrainGrid, double>> grid_of(GridHeader header) {
   const auto has = [&header](const char* name) { return header.contains(name); };
   for (const char* name : {"ncols", "nrows"})
     if (!has(name) || !(header[name] >= 1) || header[name] != std::floor(header[name]))
@@ -91,6 +97,16 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
   const double south = has("yllcenter") ? header["yllcenter"] : header["yllcorner"] + grid.cell_y / 2;
   grid.north = south + grid.cell_y * static_cast<double>(grid.rows - 1);
   const double nodata = has("nodata_value") ? header["nodata_value"] : -9999;
+  return std::pair{std::move(grid), nodata};
+}
+
+Result<TerrainGrid> read_ascii(std::string_view text) {
+  Words words(text);
+  auto header = read_header(words);
+  if (!header) return header.error();
+  auto empty = grid_of(std::move(*header));
+  if (!empty) return empty.error();
+  auto& [grid, nodata] = *empty;
   const std::size_t count = grid.columns * grid.rows;
   // A cell takes two characters at least; a header that promises more than the file can hold is not believed.
   if (count > text.size())
@@ -116,7 +132,7 @@ Result<TerrainGrid> read_ascii(std::string_view text) {
   if (!words.next().empty())
     grid.notes.push_back("What follows after the last cell, from " + words.place() + " on, was left out.");
   summarise(grid);
-  return grid;
+  return std::move(grid);
 }
 
 constexpr double kSmallestCell = 0.01;  // [m]

@@ -4,16 +4,16 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/base/password_source.h"
+#include "core/address/password_source.h"
 #include "core/file/file_io.h"
-#include "core/live/port_values.h"
+#include "core/reading/views/stream.h"
 
 namespace bl {
 
 namespace {
 
 constexpr std::uintmax_t kLongestCertificates = 16u << 20;  // [bytes]
-constexpr std::uintmax_t kLongestPassword = 65535;  // [bytes] the protocol has no longer ones
+constexpr std::uintmax_t kLongestPassword = 65535;          // [bytes] the protocol has no longer ones
 
 }  // namespace
 
@@ -39,7 +39,8 @@ Result<std::string> Access::password() const {
 Result<std::string> Access::certificates() const {
   if (ca_file.empty()) return std::string();
   const std::string path = (std::filesystem::path(folder) / ca_file).string();
-  if (const auto text = read_plain_file(path, kLongestCertificates); !text || text->find("-----BEGIN CERTIFICATE-----") == std::string::npos)
+  if (const auto text = read_plain_file(path, kLongestCertificates);
+      !text || text->find("-----BEGIN CERTIFICATE-----") == std::string::npos)
     return Error{
         ErrorCode::io, "",
         text ? "the file `" + ca_file + "` holds no certificate in PEM form" : "the file `" + ca_file + "` cannot be read"};
@@ -49,13 +50,10 @@ Result<std::string> Access::certificates() const {
 std::map<std::string, Access> accesses_of(const Scene& scene, const std::string& folder) {
   std::map<std::string, Access> accesses;
   for (const auto& [id, node] : scene.nodes) {
-    const PortValues* values = values_of(node, "mqtt_broker");
-    if (values == nullptr) continue;
-    const std::string place =
-        value_of<std::string>(*values, "host", "localhost") + ":" + std::to_string(value_of<std::int64_t>(*values, "port", 1883));
-    accesses.emplace(place,
-                     Access{id, value_of<std::string>(*values, "user", ""), value_of<std::string>(*values, "password_from", ""),
-                            value_of<std::string>(*values, "ca_file", ""), value_of(*values, "is_encrypted", false), folder});
+    const auto broker = reading::settings_of<reading::BrokerSettings>(scene, full_registry(), node);
+    if (!broker) continue;
+    accesses.emplace(broker->host + ":" + std::to_string(broker->port),
+                     Access{id, broker->user, broker->password_from, broker->ca_file, broker->is_encrypted, folder});
   }
   return accesses;
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/live_address.h"
+#include "core/address/live_address.h"
 #include "core/base/result.h"
 
 namespace bl {

@@ -31,15 +31,9 @@ constexpr std::size_t kHead = 65536;
 
 enum class Format { osm, cityjson, geojson, grid, table, unknown };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 // By the name first, since a table can look like anything; then by how the file begins.
 Format format_of(const std::string& path, std::string_view text) {
-  std::string name = lower(path);
+  std::string name = lower_case(path);
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   const auto ends = [&name](std::initializer_list<const char*> list) {
     return std::any_of(list.begin(), list.end(), [&name](const char* ending) { return name.ends_with(ending); });
@@ -55,20 +49,20 @@ Format format_of(const std::string& path, std::string_view text) {
   if (head.find("<osm") != std::string_view::npos || head.substr(0, 64).find("OSMHeader") != std::string_view::npos)
     return Format::osm;
   if (head.starts_with("II") || head.starts_with("MM") ||
-      lower(std::string(head.substr(0, 64))).find("ncols") != std::string::npos)
+      lower_case(std::string(head.substr(0, 64))).find("ncols") != std::string::npos)
     return Format::grid;
   return Format::unknown;
 }
 
 // A name promises one format; what is something else altogether is told so in its words.
 std::optional<Error> foreign_to_name(const std::string& path, Format format, std::string_view text) {
-  const std::string name = lower(path);
+  const std::string name = lower_case(path);
   const auto ends = [&name](const char* ending) { return name.ends_with(ending) || name.ends_with(std::string(ending) + ".gz"); };
   const std::string_view wanted = ends(".tif") || ends(".tiff") ? "GeoTIFF" : ends(".asc") || ends(".grd") ? "ASCII grid" : "";
   const bool is_raster = text.starts_with("II") || text.starts_with("MM");
   if (format == Format::grid && !wanted.empty() && !is_raster && !text.empty()) {
     if (auto foreign = foreign_bytes(text, wanted, "export it again")) return foreign;
-    if (wanted == "GeoTIFF" && lower(std::string(text.substr(0, 64))).find("ncols") == std::string::npos)
+    if (wanted == "GeoTIFF" && lower_case(std::string(text.substr(0, 64))).find("ncols") == std::string::npos)
       return Error{ErrorCode::parse, "byte 0", "This is no GeoTIFF but text: export it again."};
   }
   if (format == Format::unknown && !text.empty())
@@ -178,7 +172,7 @@ class Import {
         continue;
       }
       const bool is_there = std::any_of(properties_.begin(), properties_.end(),
-                                        [&theirs = theirs](const std::string& name) { return lower(name) == lower(theirs); });
+                                        [&theirs = theirs](const std::string& name) { return lower_case(name) == lower_case(theirs); });
       if (is_there) continue;
       const std::vector<std::string> names(properties_.begin(), properties_.end());
       std::string list;
@@ -323,7 +317,7 @@ bool is_context_file(const std::string& path) {
   head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
   const Format format = format_of(path, head);
   if (format == Format::unknown) return false;
-  const bool can_be_scene = lower(path).ends_with(".json") && format == Format::geojson;
+  const bool can_be_scene = lower_case(path).ends_with(".json") && format == Format::geojson;
   return !can_be_scene || head.find("\"behaviourlinks\"") == std::string::npos;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/define/brief_sums.h"
+#include "core/demand/brief_sums.h"
 #include "core/reading/figures.h"
 #include "core/reading/views/plot.h"
 #include "core/reading/views/programme.h"

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/base/mathematics.h"
 #include "core/base/text.h"
 #include "core/reading/figures.h"
 #include "core/reading/place_problems.h"
@@ -19,10 +20,10 @@ namespace {
 // "north-east and up", by true north.
 std::string direction_of(const Vector3& pull, double true_north) {
   constexpr std::array kNames = {"north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"};
-  const double across = std::hypot(pull.x, pull.y), length = norm(pull);
+  const double across = mathematics::hypotenuse(pull.x, pull.y), length = norm(pull);
   std::string text;
   if (across > 0.38 * length) {
-    const double angle = std::atan2(pull.x, pull.y) * 180 / std::numbers::pi - true_north;
+    const double angle = mathematics::arc_tangent(pull.x, pull.y) * 180 / std::numbers::pi - true_north;
     const double eighth = std::round(angle / 45);
     text = kNames[static_cast<std::size_t>(eighth - 8 * std::floor(eighth / 8)) % 8];
   }

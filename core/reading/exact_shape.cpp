@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/mathematics.h"
 #include "core/geometry/solid_part.h"
 #include "core/reading/views/solver.h"
 
@@ -29,7 +30,7 @@ Corners circle(const Point3& centre, const Vector3& normal, double radius) {
   Corners out;
   for (int i = 0; i < kArcPoints; ++i) {
     const double angle = 2 * std::numbers::pi * i / kArcPoints;
-    out.push_back(centre + first * (radius * std::cos(angle)) + second * (radius * std::sin(angle)));
+    out.push_back(centre + first * (radius * mathematics::cosine(angle)) + second * (radius * mathematics::sine(angle)));
   }
   return out;
 }

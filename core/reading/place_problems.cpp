@@ -121,7 +121,7 @@ Holding who_holds(const State& state, std::uint32_t node) {
   for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
     const LinkPlan& link = state.plan->links[l];
     if (link.definition == nullptr || !link.is_enabled || link.is_muted || link.error) continue;
-    if (link.definition->id == "stand") {
+    if (reading::is_a<reading::StandParameters>(*link.definition)) {
       if (std::find(link.nodes[1].begin(), link.nodes[1].end(), node) != link.nodes[1].end()) holding.stand = link.id;
       continue;
     }

@@ -168,7 +168,7 @@ bool is_a(const NodeRecord& node) {
   return node.types.contains(type_of<V>());
 }
 template <class V>
-bool is_a(const TypificationDefinition& type) {
+bool is_a(const TypeDefinition& type) {
   return type.id == type_of<V>();
 }
 

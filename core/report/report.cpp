@@ -19,39 +19,42 @@ namespace {
 using report::ReportModel;
 using report::VolumeRow;
 
+const std::vector<std::string> kVolumeHeader = {
+    "number",
+    "id",
+    "name",
+    "use",
+    "x [m]",
+    "y [m]",
+    "z [m]",
+    "storey_height [m]",
+    "asked [m3]",
+    "limited_to [m3]",
+    "volume [m3]",
+    "short_of_volume [m3]",
+    "short_of_volume [%]",
+    "asked_floor_area [m2]",
+    "floor_area [m2]",
+    "short_of_floor_area [m2]",
+    "short_of_floor_area [%]",
+    "cell_volume [m3]",
+    "error",
+    "surface_area [m2]",
+    "footprint [m2]",
+    "bottom [m]",
+    "height [m]",
+    "weight [m2]",
+    "state",
+    "reason",
+    "why_short",
+    "facade_style",
+    "facade_area [m2]",
+    "glazed_area [m2]",
+    "opaque_area [m2]",
+    "facade_cost [EUR]",
+};
+
 std::string csv_of(const ReportModel& model, const State& state) {
-  const std::vector<std::string> header = {"number",
-                                           "id",
-                                           "name",
-                                           "use",
-                                           "x [m]",
-                                           "y [m]",
-                                           "z [m]",
-                                           "storey_height [m]",
-                                           "asked [m3]",
-                                           "limited_to [m3]",
-                                           "volume [m3]",
-                                           "short_of_volume [m3]",
-                                           "short_of_volume [%]",
-                                           "asked_floor_area [m2]",
-                                           "floor_area [m2]",
-                                           "short_of_floor_area [m2]",
-                                           "short_of_floor_area [%]",
-                                           "cell_volume [m3]",
-                                           "error",
-                                           "surface_area [m2]",
-                                           "footprint [m2]",
-                                           "bottom [m]",
-                                           "height [m]",
-                                           "weight [m2]",
-                                           "state",
-                                           "reason",
-                                           "why_short",
-                                           "facade_style",
-                                           "facade_area [m2]",
-                                           "glazed_area [m2]",
-                                           "opaque_area [m2]",
-                                           "facade_cost [EUR]"};
   std::vector<std::vector<CsvCell>> rows;
   for (const VolumeRow& v : model.volumes) {
     rows.push_back({v.number,
@@ -87,7 +90,7 @@ std::string csv_of(const ReportModel& model, const State& state) {
     for (const double figure : {facade->facade_area, facade->glazed_area, facade->opaque_area, facade->cost})
       rows.back().emplace_back(figure);
   }
-  return write_csv(header, rows);
+  return write_csv(kVolumeHeader, rows);
 }
 
 std::string uses_csv_of(const ReportModel& model, const State& state) {

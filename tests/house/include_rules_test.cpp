@@ -112,11 +112,14 @@ TEST(House, FunctionsStaySmall) {
 }
 
 TEST(House, TheReadmesShowTheTableOfLayers) {
-  const std::string drawing = drawing_of(layers());
-  for (const char* readme : {"README.md", "core/README.md"})
-    EXPECT_NE(read(fs::path(BL_SOURCE_DIR) / readme).find("```\n" + drawing + "```\n"), std::string::npos)
-        << readme << " has another drawing of the folders than core/layers.txt; it reads now:\n"
-        << drawing;
+  const fs::path root = BL_SOURCE_DIR;
+  const std::string list = "```\n" + list_of(layers()) + "```\n", picture = "```mermaid\n" + picture_of(layers()) + "```\n";
+  EXPECT_NE(read(root / "core/README.md").find(list), std::string::npos)
+      << "core/README.md has another list of the folders than core/layers.txt; it reads now:\n"
+      << list;
+  EXPECT_NE(read(root / "README.md").find(picture), std::string::npos)
+      << "README.md has another picture of the folders than core/layers.txt; it reads now:\n"
+      << picture;
 }
 
 TEST(House, EveryFolderHasAReadme) {
@@ -144,7 +147,7 @@ struct Sample {
 TEST(HouseRules, IncludesOfSamples) {
   const Sample samples[] = {
       {"core/define/a.cpp", "#include \"core/base/text.h\"", ""},
-      {"core/define/a.cpp", "#include \"core/geometry/cell.h\"", "core/define/ may not include core/geometry/cell.h"},
+      {"core/define/a.cpp", "#include \"core/geometry/cell.h\"", "core/define may not include core/geometry/cell.h"},
       {"core/base/a.h", "#include \"core/define/port.h\"", "may not include"},
       {"core/graph/a.cpp", "#include \"core/geometry/cell.h\"", "may not include"},
       {"core/graph/a.cpp", "#include \"nodes/volume.h\"", "may not include"},
@@ -272,7 +275,8 @@ TEST(HouseRules, LayersOfSamples) {
   EXPECT_EQ(table.line_limit("a/bc/x.cpp"), 10);
   EXPECT_EQ(table.line_limit("a/long.cpp"), 20);
   EXPECT_EQ(table.room_of("ab/x.cpp"), nullptr);
-  EXPECT_EQ(drawing_of(table), "a\na/b -> a\n");
+  EXPECT_EQ(list_of(table), "a\na/b -> a\n");
+  EXPECT_EQ(picture_of(table), "flowchart BT\n  a/b --> a\n");
 }
 
 TEST(HouseRules, FindingsNameTheirLine) {

@@ -55,8 +55,11 @@ Layers read_layers(std::string_view text) {
     const bool is_complete = !words.fail() && name.size() > 1 && name.back() == ':' && lines > 0;
     if (is_complete) name.pop_back();
     if (is_complete && kind == "room") {
-      Room room{name, lines, {}};
-      for (std::string seen; words >> seen;) room.sees.push_back(seen);
+      Room room{name, lines, {}, false};
+      for (std::string seen; words >> seen;) {
+        if (seen == "alone") room.is_alone = true;
+        else room.sees.push_back(seen);
+      }
       layers.rooms.push_back(std::move(room));
     } else if (std::string reason; is_complete && kind == "file" && std::getline(words >> std::ws, reason)) {
       layers.files.push_back({name, lines, reason});
@@ -78,7 +81,7 @@ const Layers& layers() {
   return read;
 }
 
-std::string drawing_of(const Layers& layers) {
+std::string list_of(const Layers& layers) {
   std::size_t width = 0;
   for (const Room& room : layers.rooms) width = std::max(width, room.folder.size());
   std::string drawing;
@@ -91,6 +94,14 @@ std::string drawing_of(const Layers& layers) {
     drawing += line + "\n";
   }
   return drawing;
+}
+
+std::string picture_of(const Layers& layers) {
+  std::string picture = "flowchart BT\n";
+  for (const Room& room : layers.rooms)
+    if (room.folder != "tests")
+      for (const std::string& seen : arrows(layers, room)) picture += "  " + room.folder + " --> " + seen + "\n";
+  return picture;
 }
 
 }  // namespace bl::house

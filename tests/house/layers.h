@@ -12,6 +12,7 @@ struct Room {
   std::string folder;
   int lines = 0;
   std::vector<std::string> sees;
+  bool is_alone = false;  ///< its files do not include each other
 };
 
 /// One file that may be longer than its room allows.
@@ -36,8 +37,10 @@ Layers read_layers(std::string_view text);
 /// The table of this checkout.
 const Layers& layers();
 
-/// The drawing of the rooms of core for a README: one line each, what it includes after it, what others include left out.
-std::string drawing_of(const Layers& layers);
+/// The rooms but `tests` as a list, one line each: what a room includes after it, without what that includes anyway.
+std::string list_of(const Layers& layers);
+/// The same as a picture: a flow chart in the language of Mermaid, which Markdown viewers draw.
+std::string picture_of(const Layers& layers);
 
 /// Does `path` lie in `folder`, or is it the folder itself?
 bool lies_in(std::string_view path, std::string_view folder);

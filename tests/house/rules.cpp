@@ -224,7 +224,7 @@ std::vector<Finding> check_includes(std::string_view path, std::string_view text
     const std::array<std::string_view, 5> ours = {"core/", "nodes/", "links/", "ui/", "tests/"};
     if (starts_with_any(name, ours)) {
       const bool is_allowed =
-          layers().room_of(name) == room ||
+          (layers().room_of(name) == room && !room->is_alone) ||
           std::any_of(room->sees.begin(), room->sees.end(), [&](const std::string& f) { return lies_in(name, f); });
       if (!is_allowed) report(joined({room->folder, " may not include ", name, " (core/layers.txt: who may include whom)"}));
       if (const std::size_t inside = name.find("/inside/");
@@ -301,7 +301,9 @@ std::vector<Finding> check_functions(std::string_view path, std::string_view tex
       const bool is_scope = holds_word(declaration, "namespace") || holds_word(declaration, "class") ||
                             holds_word(declaration, "struct") || holds_word(declaration, "enum") ||
                             holds_word(declaration, "union");
-      const bool has_brackets = declaration.find('(') != std::string_view::npos;
+      const char last = trimmed(declaration).empty() ? '=' : trimmed(declaration).back();
+      const bool is_value = last == '(' || last == ',' || last == '=';  // the brace of a table
+      const bool has_brackets = !is_value && declaration.find('(') != std::string_view::npos;
       open.push_back({!is_inner && has_brackets && (!is_scope || declaration.find(')') != std::string_view::npos), head_line});
     } else if (c == '}' && !open.empty()) {
       const Block block = open.back();

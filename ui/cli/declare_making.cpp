@@ -54,6 +54,29 @@ void declare_new(CLI::App& app, NewOptions& o) {
   c.footer("Example:\n  behaviourlinks new --boundary site.geojson --height 45 --programme brief.csv --out scene.json");
 }
 
+namespace {
+
+// What files of surroundings leave open, such as heights.
+void declare_assumptions(CLI::App& c, ImportOptions& o) {
+  c.add_option(
+       "--height-unit", o.context.height_unit,
+       "Metres of one unit of height in city models and terrains, such as 0.3048. Default: what the file or its CRS says.")
+      ->type_name("METRES");
+  c.add_option("--storey-height", o.context.storey_height,
+               "Height of storeys where only their number is known, in m. Default: 3.2.")
+      ->type_name("METRES");
+  c.add_option("--default-height", o.context.default_height,
+               "Height of buildings that nothing is known about, in m. Default: 9.6.")
+      ->type_name("METRES");
+  c.add_option("--neighbours", o.context.neighbour_distance,
+               "How near buildings are whose heights are taken over, in m. Default: 100.")
+      ->type_name("METRES");
+  c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")
+      ->type_name("LEVEL");
+}
+
+}  // namespace
+
 void declare_import(CLI::App& app, ImportOptions& o) {
   CLI::App& c =
       *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
@@ -87,21 +110,7 @@ void declare_import(CLI::App& app, ImportOptions& o) {
   c.add_option("--source", o.source, "Who made the data, for the nodes that keep it. Default: the name of the file.")
       ->type_name("TEXT");
   c.add_option("--licence", o.licence, "What may be done with the data, for the nodes that keep it.")->type_name("TEXT");
-  c.add_option(
-       "--height-unit", o.context.height_unit,
-       "Metres of one unit of height in city models and terrains, such as 0.3048. Default: what the file or its CRS says.")
-      ->type_name("METRES");
-  c.add_option("--storey-height", o.context.storey_height,
-               "Height of storeys where only their number is known, in m. Default: 3.2.")
-      ->type_name("METRES");
-  c.add_option("--default-height", o.context.default_height,
-               "Height of buildings that nothing is known about, in m. Default: 9.6.")
-      ->type_name("METRES");
-  c.add_option("--neighbours", o.context.neighbour_distance,
-               "How near buildings are whose heights are taken over, in m. Default: 100.")
-      ->type_name("METRES");
-  c.add_option("--lod", o.context.level_of_detail, "Of city models: the finest level of detail up to this. Default: 9.")
-      ->type_name("LEVEL");
+  declare_assumptions(c, o);
   c.add_flag("--extruded", o.is_extruded, "Makes buildings from outline and height even where the file has solids.");
   c.add_flag("--all-streets", o.takes_all_streets, "Takes footpaths, cycleways and steps as well, not only streets for cars.");
   c.add_flag("--keep", o.keeps,

@@ -153,6 +153,21 @@ int import_pictures(const ImportOptions& options) {
   return place_command(place);
 }
 
+// Writes the scene with all that was imported, and says what that is.
+int write_imported(const ImportOptions& options, const ImportedScene& imported, const std::vector<Problem>& problems,
+                   const std::string& text) {
+  print_problems(options.out, problems);
+  if (auto written = write_file(options.out, text); !written) {
+    print_error(options.out, written.error());
+    return kBadInput;
+  }
+  std::string made;
+  for (const auto& [type, number] : imported.nodes) made += (made.empty() ? "" : ", ") + std::to_string(number) + " " + type;
+  print_line("wrote " + options.out + ": " + (made.empty() ? "no new nodes" : "new nodes: " + made) + "; " +
+             counted(imported.scene->nodes.size(), "node") + " in all");
+  return kDone;
+}
+
 }  // namespace
 
 int import_command(const ImportOptions& given) {
@@ -206,16 +221,7 @@ int import_command(const ImportOptions& given) {
   if (!write_import_report(options, imported.reports)) return kBadInput;
   if (is_interrupted()) return interrupt_exit_code();
   if (!imported.scene) return kBadInput;
-  print_problems(options.out, problems);
-  if (auto written = write_file(options.out, text); !written) {
-    print_error(options.out, written.error());
-    return kBadInput;
-  }
-  std::string made;
-  for (const auto& [type, number] : imported.nodes) made += (made.empty() ? "" : ", ") + std::to_string(number) + " " + type;
-  print_line("wrote " + options.out + ": " + (made.empty() ? "no new nodes" : "new nodes: " + made) + "; " +
-             counted(imported.scene->nodes.size(), "node") + " in all");
-  return kDone;
+  return write_imported(options, imported, problems, text);
 }
 
 }  // namespace bl::cli

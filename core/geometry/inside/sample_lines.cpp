@@ -59,6 +59,33 @@ bool clip(const FramePlane& plane, std::size_t along, double rest, SampleLines::
   return stretch.from < stretch.to;
 }
 
+// The pieces of the domain in the frame; `faces` gets a row for each plane that bounds something.
+std::vector<FramePiece> frame_pieces(const Domain& domain, const SampleFrame& frame, std::size_t along,
+                                     std::vector<SampleLines::Face>& faces) {
+  faces.clear();
+  std::vector<FramePiece> pieces;
+  for (const Domain::Piece& piece : domain.pieces) {
+    FramePiece made;
+    for (std::size_t k = 0; k < piece.shape.planes.size(); ++k) {
+      if (piece.shape.faces[k].size() < 3) continue;  // bounds nothing
+      const Vector3 n = frame.turned(piece.shape.planes[k].normal);
+      const double offset = dot(n, frame.to_frame(piece.shape.vertices[piece.shape.faces[k].front()]));
+      made.planes.push_back({{n.x, n.y, n.z}, offset, static_cast<std::uint32_t>(faces.size())});
+      faces.push_back({piece.sides[k], std::abs(component(n, along))});
+    }
+    for (std::size_t k = 0; k < 3; ++k) made.low[k] = 1e300, made.high[k] = -1e300;
+    for (const Point3& vertex : piece.shape.vertices) {
+      const Vector3 f = frame.to_frame(vertex);
+      for (std::size_t k = 0; k < 3; ++k) {
+        made.low[k] = std::min(made.low[k], component(f, k));
+        made.high[k] = std::max(made.high[k], component(f, k));
+      }
+    }
+    pieces.push_back(std::move(made));
+  }
+  return pieces;
+}
+
 }  // namespace
 
 SampleFrame tilted_frame(const Domain& domain, double step) {
@@ -84,27 +111,7 @@ SampleFrame upright_frame(const Domain& domain, double step) {
 
 void SampleLines::build(const Domain& domain, const SampleFrame& frame, std::size_t along, ThreadPool* pool) {
   const std::size_t across_u = (along + 1) % 3, across_v = (along + 2) % 3;
-  faces_.clear();
-  std::vector<FramePiece> pieces;
-  for (const Domain::Piece& piece : domain.pieces) {
-    FramePiece made;
-    for (std::size_t k = 0; k < piece.shape.planes.size(); ++k) {
-      if (piece.shape.faces[k].size() < 3) continue;  // bounds nothing
-      const Vector3 n = frame.turned(piece.shape.planes[k].normal);
-      const double offset = dot(n, frame.to_frame(piece.shape.vertices[piece.shape.faces[k].front()]));
-      made.planes.push_back({{n.x, n.y, n.z}, offset, static_cast<std::uint32_t>(faces_.size())});
-      faces_.push_back({piece.sides[k], std::abs(component(n, along))});
-    }
-    for (std::size_t k = 0; k < 3; ++k) made.low[k] = 1e300, made.high[k] = -1e300;
-    for (const Point3& vertex : piece.shape.vertices) {
-      const Vector3 f = frame.to_frame(vertex);
-      for (std::size_t k = 0; k < 3; ++k) {
-        made.low[k] = std::min(made.low[k], component(f, k));
-        made.high[k] = std::max(made.high[k], component(f, k));
-      }
-    }
-    pieces.push_back(std::move(made));
-  }
+  const std::vector<FramePiece> pieces = frame_pieces(domain, frame, along, faces_);
   const auto row = [&](int v) {
     std::vector<std::pair<int, Stretch>> found;
     const double at_v = frame.line_at(across_v, v);

@@ -6,6 +6,8 @@ namespace bl::reading {
 void SensorFigures::declare(ViewBuilder<SensorFigures>& v) {
   v.of("sensor");
   v.reads(&SensorFigures::address, "sensor.address");
+  v.reads(&SensorFigures::field, "sensor.field");
+  v.reads(&SensorFigures::period, "sensor.period", Unit::second);
   v.reads(&SensorFigures::unit, "sensor.unit");
   v.reads(&SensorFigures::tick_length, "sensor.tick_length", Unit::second);
   v.reads(&SensorFigures::connection, "sensor.connection");
@@ -20,7 +22,12 @@ void ActuatorFigures::declare(ViewBuilder<ActuatorFigures>& v) {
   v.of("actuator");
   v.reads(&ActuatorFigures::value, "actuator.value");
   v.reads(&ActuatorFigures::unit, "actuator.unit");
+  v.reads(&ActuatorFigures::address, "actuator.address");
+  v.reads(&ActuatorFigures::format, "actuator.format");
+  v.reads(&ActuatorFigures::interval, "actuator.interval", Unit::second);
+  v.reads(&ActuatorFigures::change, "actuator.change");
   v.reads(&ActuatorFigures::is_on, "actuator.is_on");
+  v.reads(&ActuatorFigures::message, "actuator.message");
 }
 BL_VIEW(ActuatorFigures)
 

@@ -8,6 +8,8 @@ namespace bl::reading {
 /// The last reading of a device, and where it comes from.
 struct SensorFigures {
   std::string address;
+  std::string field;       ///< which part of a message is the number
+  double period = 0;       ///< between two questions [s]
   std::string unit;        ///< as people have written it
   double tick_length = 0;  ///< that a tick stands for [s]
   std::string connection;  ///< what is wrong with the line
@@ -24,7 +26,12 @@ struct SensorFigures {
 struct ActuatorFigures {
   double value = 0;
   std::string unit;  ///< as people have written it
+  std::string address;
+  std::string format;   ///< of the message
+  double interval = 0;  ///< between two messages at least [s]
+  double change = 0;    ///< smaller ones are not sent
   bool is_on = false;
+  std::string message;  ///< as it is sent
 
   static void declare(ViewBuilder<ActuatorFigures>& v);
   static const ViewDefinition& view();

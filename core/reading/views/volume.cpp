@@ -34,6 +34,12 @@ void VolumeFigures::declare(ViewBuilder<VolumeFigures>& v) {
 }
 BL_VIEW(VolumeFigures)
 
-BL_VIEWS(volume, VolumeFigures)
+void StandParameters::declare(ViewBuilder<StandParameters>& v) {
+  v.of_links("stand");
+  v.reads(&StandParameters::stiffness, "stand.stiffness", Unit::ratio);
+}
+BL_VIEW(StandParameters)
+
+BL_VIEWS(volume, VolumeFigures, StandParameters)
 
 }  // namespace bl::reading

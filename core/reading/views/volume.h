@@ -38,4 +38,12 @@ struct VolumeFigures {
   static const ViewDefinition& view();
 };
 
+/// How a link lets volumes down.
+struct StandParameters {
+  double stiffness = 0;  ///< share of the way down that is made in one tick
+
+  static void declare(ViewBuilder<StandParameters>& v);
+  static const ViewDefinition& view();
+};
+
 }  // namespace bl::reading

@@ -1,7 +1,7 @@
 // Brokers that want a name and a password, or TLS: who is let in, and what is said to those who are not.
 #include <cstdlib>
 
-#include "core/base/password_source.h"
+#include "core/address/password_source.h"
 #include "tests/core/live/live_support.h"
 
 namespace bl {

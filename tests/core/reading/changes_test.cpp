@@ -16,7 +16,7 @@ namespace {
 using reading::Changes;
 using reading::changes_between;
 
-constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "nodes": [
+constexpr const char* kPair = R"({"format": "behaviourlinks", "version": 1, "nodes": [
   {"id": "one", "position": [0, 0, 0], "types": {"control": {"value": 3}}},
   {"id": "two", "position": [5, 0, 0], "types": {"control": {"value": 4}}}],
   "links": [{"id": "pair", "kind": "keep_distance", "from": "one", "to": "two", "muted": true}]})";
@@ -28,24 +28,24 @@ std::vector<std::string> paths(const State& state, const Changes& changes) {
 }
 
 TEST(Changes, AStateDiffersFromItselfInNothing) {
-  World world = World::from_text(kScene);
+  World world = World::from_text(kPair);
   world.tick(3);
   EXPECT_TRUE(changes_between(world.state(), world.state()).is_empty());
 }
 
 TEST(Changes, PortsThatHoldSomethingElseAreNamed) {
-  World world = World::from_text(kScene);
+  World world = World::from_text(kPair);
   world.tick();
   const auto before = world.session().state();
   ASSERT_EQ(world.submit(command<SetPort>({"two", {"control.value"}, {"7"}})), "");
   world.tick();
   const Changes changes = changes_between(*before, world.state());
-  EXPECT_EQ(paths(world.state(), changes), (std::vector<std::string>{"two/control.output", "two/control.value"}));
+  EXPECT_EQ(paths(world.state(), changes), (std::vector<std::string>{"two/control.value", "two/control.output"}));
   EXPECT_TRUE(changes.retyped_nodes.empty() && changes.added_nodes.empty() && changes.removed_links.empty());
 }
 
 TEST(Changes, WhoComesAndGoesIsTold) {
-  World world = World::from_text(kScene);
+  World world = World::from_text(kPair);
   world.tick();
   const auto before = world.session().state();
   ASSERT_EQ(world.submit(command<RemoveLink>({"pair"})), "");

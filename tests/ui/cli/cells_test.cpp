@@ -106,21 +106,6 @@ TEST(Cells, BadInputHasAPlace) {
   }
 }
 
-TEST(Bench, RowsHoldWhatWasAsked) {
-  const Workplace place;
-  const Outcome outcome =
-      place.run({"bench", "--sites", "30", "50", "--threads", "1", "2", "--repeat", "1", "--ticks", "3", "--json", "b.json"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const nlohmann::json rows = place.json("b.json");
-  ASSERT_EQ(rows.size(), 4u);
-  for (const auto& row : rows)
-    for (const char* key :
-         {"case", "sites", "threads", "seconds", "microseconds_per_cell", "yardstick_seconds", "voropp_seconds", "hash"})
-      EXPECT_TRUE(row.contains(key)) << key;
-  EXPECT_EQ(rows[0]["hash"], rows[1]["hash"]) << "the threads must not change the result";
-  EXPECT_EQ(rows[2]["sites"], 50);
-}
-
 }  // namespace
 
 }  // namespace bl::test

@@ -239,13 +239,14 @@ TEST_F(FileRule, HoldsForEveryPairOfOptionsOfEveryTask) {
   int pairs = 0;
   for (const std::string task : {"run", "new", "check", "docs", "schema", "replay", "bench", "cells", "fit", "assign", "import",
                                  "script", "compare", "place"}) {
-    const std::vector<FileOption> options = file_options(place.run({task, "--help"}).out);
+    const bool is_bench = task == "bench";
+    const std::vector<FileOption> options = file_options((is_bench ? place.bench({"--help"}) : place.run({task, "--help"})).out);
     ASSERT_FALSE(options.empty()) << task;
     for (std::size_t a = 0; a < options.size(); ++a)
       for (std::size_t b = a + 1; b < options.size(); ++b) {
         place.write("twice", moving_scene());
-        std::vector<std::string> call = {task};
-        if (task == "bench") call.insert(call.end(), {"--solver", "--quick", "--rows", "drag"});
+        std::vector<std::string> call =
+            is_bench ? std::vector<std::string>{"--solver", "--quick", "--rows", "drag"} : std::vector<std::string>{task};
         if (task == "new") call.insert(call.end(), {"--height", "9", "--force"});
         for (std::size_t i = 0; i < options.size(); ++i) {
           const bool is_one = i == a || i == b;
@@ -253,7 +254,7 @@ TEST_F(FileRule, HoldsForEveryPairOfOptionsOfEveryTask) {
           if (!options[i].name.empty()) call.push_back(options[i].name);
           call.push_back(is_one ? "twice" : "other" + std::to_string(i));
         }
-        const Outcome outcome = place.run(call);
+        const Outcome outcome = is_bench ? place.bench(call) : place.run(call);
         const std::string what = task + " " + options[a].name + options[a].type + " " + options[b].name + options[b].type;
         EXPECT_EQ(outcome.err.find("defect"), std::string::npos) << what << "\n" << outcome.err;
         const bool is_changing =

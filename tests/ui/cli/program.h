@@ -65,8 +65,14 @@ class Workplace {
     const int status = std::system(full.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text(".out"), text(".err")};
   }
-  Outcome run(const std::vector<std::string>& arguments) const {
-    std::string line = "\"$BEHAVIOURLINKS\"";
+  Outcome run(const std::vector<std::string>& arguments) const { return start("\"$BEHAVIOURLINKS\"", arguments); }
+  /// The bench, which stands in build/X/tests/bench.
+  Outcome bench(const std::vector<std::string>& arguments) const {
+    return start("\"$(dirname \"$BEHAVIOURLINKS\")\"/../../tests/bench/behaviourlinks-bench", arguments);
+  }
+
+ private:
+  Outcome start(std::string line, const std::vector<std::string>& arguments) const {
     for (const std::string& argument : arguments) {
       std::string quoted;
       for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -75,7 +81,6 @@ class Workplace {
     return shell(line);
   }
 
- private:
   std::filesystem::path folder_;
 };
 

@@ -10,7 +10,7 @@
 namespace bl::desktop {
 namespace {
 
-canvas::BarFigures bar_of(Editor& editor, const std::string& id) {
+canvas::BarFigures bar_of(Workbench& editor, const std::string& id) {
   const canvas::Model& model = editor.canvas->board().model;
   const canvas::NodeBox& box = model.boxes.at(model.find_box(id));
   for (const canvas::Section& section : box.sections)
@@ -58,7 +58,7 @@ TEST(CanvasBarsLaw, BoxesAgreeWithTheAccount) {
   for (const char* scene : {"scenes/start/quarter.json", "scenes/studies/sixty_volumes.json", "scenes/studies/urban_mode.json"}) {
     NullDesktop desktop(scene);
     desktop.ticks(12);
-    Editor& editor = desktop.editor();
+    Workbench& editor = desktop.editor();
     const report::Accounts accounts = report::accounts_of(editor.state());
     ASSERT_FALSE(accounts.volumes.empty()) << scene;
     for (const report::VolumeAccount& volume : accounts.volumes) {

@@ -35,7 +35,7 @@ class EnteredTest : public ::testing::Test {
     before = desktop.scene_text();
     steps_before = steps();
   }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   Canvas& canvas() { return *editor().canvas; }
   canvas::Board& board() { return canvas().board(); }
   canvas::Model& model() { return board().model; }

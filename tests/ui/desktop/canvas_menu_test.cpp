@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/ui/desktop/canvas_support.h"
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/canvas/context_menu.h"
 
 namespace bl::desktop {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 

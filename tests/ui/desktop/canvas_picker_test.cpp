@@ -13,7 +13,7 @@ namespace {
 class PickerTest : public ::testing::Test {
  protected:
   PickerTest() : desktop("scenes/start/quarter.json") { desktop.ticks(1); }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   canvas::Board& board() { return editor().canvas->board(); }
   // The choices as they are listed, with nothing typed.
   std::vector<canvas::Choice> offered() {

@@ -40,7 +40,7 @@ class Editing {
 
   // One random edit of the scene, as it may come from any panel; what it was.
   std::string act() {
-    Editor& editor = desktop_.editor();
+    Workbench& editor = desktop_.editor();
     const int deed = static_cast<int>(draw(6));
     const std::string number = std::to_string(++count_);
     bool is_done = false;

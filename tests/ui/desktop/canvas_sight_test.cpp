@@ -19,7 +19,7 @@ class SightTest : public ::testing::Test {
     canvas().fit(true);
     desktop.frames(30);
   }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   Canvas& canvas() { return *editor().canvas; }
   canvas::Board& board() { return canvas().board(); }
   const canvas::NodeBox& box(const std::string& id) { return board().model.boxes[board().model.find_box(id)]; }

@@ -176,7 +176,7 @@ TEST_F(CanvasStored, WhatIsNewGivesWayToWhatTheFileHasPlaced) {
 }
 
 // One random edit, as it may come from any panel.
-void edit_somehow(Editor& editor, std::minstd_rand& random, int number) {
+void edit_somehow(Workbench& editor, std::minstd_rand& random, int number) {
   const auto draw = [&](std::size_t below) { return static_cast<std::size_t>(random() % below); };
   const auto node = [&] {
     auto at = editor.scene().nodes.begin();
@@ -205,7 +205,7 @@ class CanvasStoredLaw : public ::testing::TestWithParam<unsigned> {};
 TEST_P(CanvasStoredLaw, ThePictureOutlivesTheWindow) {
   std::minstd_rand random(GetParam());
   NullDesktop desktop(GetParam() % 2 == 0 ? "scenes/start/quarter.json" : "scenes/studies/sixty_volumes.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   canvas::Model& model = editor.canvas->board().model;
   const std::string opened = desktop.scene_text();
   const SeenPlaces first = places_on(model);

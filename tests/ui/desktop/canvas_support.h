@@ -15,7 +15,7 @@ namespace bl::desktop {
 class CanvasFixture : public ::testing::Test {
  protected:
   explicit CanvasFixture(const std::string& scene = "scenes/start/quarter.json") : desktop(scene) { desktop.ticks(1); }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   Canvas& canvas() { return *editor().canvas; }
   canvas::Board& board() { return canvas().board(); }
   const Scene& scene() { return editor().scene(); }

@@ -7,7 +7,7 @@
 
 #include "core/define/json_text.h"
 #include "tests/ui/desktop/canvas_support.h"
-#include "ui/desktop/app/fuzzy.h"
+#include "ui/desktop/look/fuzzy.h"
 #include "ui/desktop/panels/canvas/fits.h"
 
 namespace bl::desktop {

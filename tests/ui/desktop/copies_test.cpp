@@ -10,7 +10,7 @@ namespace files = std::filesystem;
 
 constexpr const char* kMedia = BL_SOURCE_DIR "/scenes/nodes/media.json";
 
-std::string media_file(Editor& editor, const std::string& node) {
+std::string media_file(Workbench& editor, const std::string& node) {
   return std::get<std::string>(editor.scene().nodes.at(node).types.at("media").at("file"));
 }
 
@@ -25,7 +25,7 @@ TEST(Copies, AShippedSceneIsNeverWrittenOver) {
   const Folder folder("copies_save");
   const std::string before = read_file(kMedia).value();
   ImportDesktop desktop("scenes/nodes/media.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   EXPECT_TRUE(editor.document->path().empty());
   EXPECT_EQ(editor.document->source(), kMedia);
   EXPECT_EQ(desktop.desktop().title(), "media (copy, not saved yet) - BehaviourLinks");
@@ -51,7 +51,7 @@ TEST(Copies, AShippedSceneIsNeverWrittenOver) {
 TEST(Copies, FilesThatASceneNamesAreFoundFromItsNewFolder) {
   const Folder folder("copies_files");
   ImportDesktop desktop("scenes/nodes/media.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   EXPECT_EQ(editor.document->folder(), files::path(kMedia).parent_path().string())
       << "until it is saved, pictures are those of the original";
   ASSERT_TRUE(editor.document->save(folder.at("mine.json")));
@@ -73,7 +73,7 @@ TEST(Copies, RecordedTablesAndPicturesBelowTheNewFolderAreNamedRelativeToIt) {
   folder.write("a/scene.json", R"({"format": "behaviourlinks", "version": 1, "nodes": [
     {"id": "warmth", "types": {"sensor": {"address": "replay:data/table.csv?site=7#t"}}}], "links": []})");
   ImportDesktop desktop;
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   ASSERT_TRUE(editor.open(folder.at("a/scene.json")));
   const auto address = [&] { return std::get<std::string>(editor.scene().nodes.at("warmth").types.at("sensor").at("address")); };
   ASSERT_TRUE(editor.document->save(folder.at("a/again.json")));
@@ -94,7 +94,7 @@ TEST(Copies, RecordedTablesGoAlongToAFolderBesideTheOldOne) {
     {"id": "broker", "types": {"mqtt_broker": {"password_from": "file:ours.password"}}},
     {"id": "warmth", "types": {"sensor": {"address": "replay:table.csv#t"}}}], "links": []})");
   ImportDesktop desktop;
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   ASSERT_TRUE(editor.open(folder.at("a/scene.json")));
   for (int i = 0; i < 2; ++i) {  // saved there again it is the same table, and no third one
     ASSERT_TRUE(editor.document->save(folder.at("b/mine.json")));
@@ -109,7 +109,7 @@ TEST(Copies, RecordedTablesGoAlongToAFolderBesideTheOldOne) {
 
 TEST(Copies, AFailedSaveLeavesTheNamesAsTheyWere) {
   ImportDesktop desktop("scenes/nodes/media.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   const std::string before = desktop.scene_text();
   EXPECT_FALSE(editor.document->save("/proc/nowhere/mine.json"));
   EXPECT_EQ(desktop.scene_text(), before);

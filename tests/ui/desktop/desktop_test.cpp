@@ -57,7 +57,7 @@ TEST(Desktop, KeysOnTheCanvasLeaveTheMouseAlone) {
 TEST(Desktop, PanesTakeTurnsWithTheKeys) {
   NullDesktop desktop("scenes/start/quarter.json");
   desktop.move_to({200, 500});
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   EXPECT_EQ(editor.area, Area::canvas);
   desktop.key(GLFW_KEY_F6);
   EXPECT_EQ(editor.area, Area::view);
@@ -79,7 +79,7 @@ TEST(Desktop, PanesTakeTurnsWithTheKeys) {
 
 TEST(Desktop, DelFromTheListsRemovesWhatIsChosenAndFromAFieldDoesNot) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   editor.picks.only_node("library");
   editor.area = Area::panels;
   desktop.frames(3);
@@ -121,7 +121,7 @@ TEST(Desktop, AWindowOpensNoLargerThanItsScreen) {
 // The lines' colours are the theme's, also where nothing is edited in between.
 TEST(Desktop, LinesTakeTheColoursOfTheThemeAtOnce) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   const auto colours = [&] {
     desktop.frames(2);
     std::vector<ImU32> all;

@@ -7,9 +7,9 @@
 
 #include "core/file/file_io.h"
 #include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/app/actions.h"
-#include "ui/desktop/app/fuzzy.h"
 #include "ui/desktop/app/journal.h"
+#include "ui/desktop/look/fuzzy.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/scene_view.h"
 
@@ -281,7 +281,7 @@ TEST(Dialogs, AJournalThatWasRecoveredInPartStays) {
 // A key that means two things at one place and time is a trap.
 TEST(Actions, KeysAreUniqueWhereTheyCount) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   editor.picks.only_node("library");
   for (const bool is_beamer : {false, true})
     for (const Area area : {Area::canvas, Area::view}) {

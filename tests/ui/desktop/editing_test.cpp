@@ -116,7 +116,7 @@ TEST(Editing, LogAfterARewindStartsFromTheStateReturnedTo) {
 // A gesture of many commands is one step, and redo brings it back.
 TEST(Editing, ADragIsOneStep) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   const std::string before = desktop.scene_text();
   const std::int64_t gesture = editor.new_gesture();
   for (int k = 0; k < 30; ++k)
@@ -135,7 +135,7 @@ TEST(Editing, ADragIsOneStep) {
 
 TEST(Editing, WhatACrashLeavesIsRecovered) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   ASSERT_TRUE(editor.submit(command<RenameNode>({"library", "Reading room"})));
   ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
   // A window that has crashed is a process that is gone, with its journal still there.
@@ -161,7 +161,7 @@ TEST(Editing, WhatACrashLeavesIsRecovered) {
 
 TEST(Editing, SavedSceneOpensAsItWasLeft) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   desktop.ticks(6);
   ASSERT_TRUE(editor.submit(command<RenameNode>({"library", "Reading room"})));
   const std::string path = ::testing::TempDir() + "left.json";
@@ -177,7 +177,7 @@ TEST(Editing, SavedSceneOpensAsItWasLeft) {
 
 TEST(Editing, ABadSceneLeavesTheOldOneOpenAndSaysWhy) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   const std::string path = ::testing::TempDir() + "bad.json";
   ASSERT_TRUE(write_file(path, R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "a", "typos": {}}]})").ok());
   EXPECT_FALSE(editor.open(path));

@@ -27,7 +27,7 @@ class HiddenTest : public ::testing::Test {
     EXPECT_EQ(editor().scene().view.find("hidden"), std::string::npos);
     EXPECT_EQ(desktop.logic_text(), logic_before);
   }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   SceneView& view() { return *editor().view; }
   bool is_drawn(const std::string& id) { return view().facts()->volume_of(editor().index_of(id)) != nullptr; }
   ImVec2 spot_of(const std::string& id) {

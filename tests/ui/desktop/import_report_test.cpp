@@ -103,7 +103,7 @@ TEST_F(ReportTest, WhatWasTakenIsChosenAndFramed) {
   desktop.ticks(1);  // so that there are shapes to frame
   desktop.press_on(row_of("features/1"));
   desktop.frames(60);
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   EXPECT_EQ(editor.picks.nodes, (std::set<std::string>{"building_2"}));
   const Vector3 at = std::get<Vector3>(editor.scene().nodes.at("building_2").types.at("node").at("position"));
   EXPECT_LT(distance(at, editor.view->camera().target), 10);
@@ -111,7 +111,7 @@ TEST_F(ReportTest, WhatWasTakenIsChosenAndFramed) {
 }
 
 TEST_F(ReportTest, WhatWasSkippedGetsAPinAtItsPlace) {
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   editor.picks.only_node("building_1");
   desktop.frames(2);
   desktop.press_on(row_of("features/2"));
@@ -155,7 +155,7 @@ TEST_F(ReportTest, AnUndoneImportLeavesPlaces) {
 }
 
 TEST_F(ReportTest, IsKeptBesideTheSceneAndReadAgain) {
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   const std::string scene = folder.at("site.json");
   ASSERT_TRUE(editor.document->save(scene));
   const auto text = read_file(folder.at("site.import.csv"));

@@ -4,13 +4,13 @@
 
 #include "tests/support/reference_files.h"
 #include "tests/ui/desktop/import_support.h"
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
 namespace {
 
-std::size_t steps_of(Editor& editor) { return editor.document->history().size(); }
+std::size_t steps_of(Workbench& editor) { return editor.document->history().size(); }
 
 TEST(WindowImport, IsOneStepThatCanBeUndone) {
   const Folder folder("import_step");
@@ -18,7 +18,7 @@ TEST(WindowImport, IsOneStepThatCanBeUndone) {
   const std::string before = desktop.scene_text();
   desktop.import({folder.write("houses.geojson", houses_text())});
   EXPECT_FALSE(desktop.is_open()) << desktop.told();
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   ASSERT_TRUE(editor.scene().nodes.contains("building_1"));
   ASSERT_TRUE(editor.scene().nodes.contains("building_2"));
   EXPECT_EQ(steps_of(editor), 1u);
@@ -37,7 +37,7 @@ constexpr const char* kNorth =
     R"({"type": "Feature", "properties": {"building": "yes", "gid": 7}, "crs": {"type": "name", "properties": {"name": "EPSG:28992"}},
     "geometry": {"type": "Polygon", "coordinates": [[[85000, 447020], [85020, 447020], [85020, 447030], [85000, 447030], [85000, 447020]]]}})";
 
-Vector3 position_of(Editor& editor, const std::string& id) {
+Vector3 position_of(Workbench& editor, const std::string& id) {
   return std::get<Vector3>(editor.scene().nodes.at(id).types.at("node").at("position"));
 }
 
@@ -45,7 +45,7 @@ TEST(WindowImport, LaterFilesLandInTheFrameOfTheFirst) {
   const Folder folder("import_frame");
   ImportDesktop desktop;
   desktop.import({folder.write("houses.geojson", houses_text())});
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   ASSERT_TRUE(editor.document) << "where no scene is open, a new one begins";
   EXPECT_EQ(desktop.desktop().title(), "* Untitled scene - BehaviourLinks");
   const double origin = settings_of(editor.scene()).origin_x;
@@ -97,7 +97,7 @@ TEST(WindowImport, BadInputSaysWhatAndWhereAndChangesNothing) {
       {"houses.geojson", houses, "houses.geojson: crs", "EPSG:1"},
       {"noise.bin", std::string("\0\1\2\3", 4), "noise.bin: byte 0: This is no file that is read but binary data", ""}};
   ImportDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   const std::string before = desktop.scene_text();
   for (const Case& one : cases) {
     const std::string path = folder.write(one.name, one.bytes);

@@ -5,7 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "ui/desktop/app/input_queue.h"
+#include "ui/desktop/shell/input_queue.h"
 
 namespace bl::desktop {
 namespace {

@@ -92,7 +92,7 @@ TEST_F(JournalTest, OneThatCannotBeFollowedGoesOnInOrder) {
 TEST_F(JournalTest, PeopleHearOnceThatItCannotBeWritten) {
   NullDesktop desktop;
   setenv("XDG_STATE_HOME", "/dev/null", 1);
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   ASSERT_TRUE(editor.open(BL_SOURCE_DIR "/scenes/start/quarter.json"));
   desktop.frames(2);
   const auto told = [&] {

@@ -85,7 +85,7 @@ void expect_opens(const std::string& path) {
 
 TEST(LiveSession, ASaveBetweenTwoTicksOpensAgain) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   desktop.ticks(3);
   play_slowly(editor.document->session());
   ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
@@ -96,7 +96,7 @@ TEST(LiveSession, ASaveBetweenTwoTicksOpensAgain) {
 
 TEST(LiveSession, ASaveBetweenTwoTicksKeepsAMove) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   desktop.ticks(3);
   play_slowly(editor.document->session());
   ASSERT_TRUE(editor.submit(command<SetPort>({"cafe", {"node.position"}, {"[1, 2, 3]"}})));
@@ -110,7 +110,7 @@ TEST(LiveSession, ASaveBetweenTwoTicksKeepsAMove) {
 
 TEST(LiveSession, ARewindBetweenTwoTicksLeavesAJournalThatOpens) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   desktop.ticks(5);
   play_slowly(editor.document->session());
   ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
@@ -127,7 +127,7 @@ TEST(LiveSession, ARewindBetweenTwoTicksLeavesAJournalThatOpens) {
 // What is saved is also what the next tick goes on from: the log that begins with the save replays, whatever comes and goes.
 TEST(LiveSession, LogAfterASaveReplays) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   desktop.ticks(5);
   ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
   desktop.frames(2);
@@ -146,7 +146,7 @@ TEST(LiveSession, LogAfterASaveReplays) {
 
 TEST(LiveSession, LogSavedAfterAnEditOnAStandingClockReplays) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   desktop.ticks(5);
   ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
   desktop.frames(2);
@@ -249,14 +249,15 @@ TEST(LiveSession, LogAroundAFailedTickCanBeRead) {
 
 TEST(LiveSession, AnUndoThatDoesNotFitAnyMoreSaysWhy) {
   NullDesktop desktop("scenes/start/quarter.json");
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   editor.undo();
   ASSERT_FALSE(editor.notices.empty());
   EXPECT_EQ(editor.notices.back().text, "Nothing to undo.");
   ASSERT_TRUE(editor.submit(command<AddNode>({"shed", {"{}"}})));
   ASSERT_TRUE(editor.document->session().replay({0, 0, 99, "somebody", command<RemoveNode>({"shed"}), 0, 0}).ok());
   editor.undo();
-  EXPECT_NE(editor.notices.back().text.find("cannot be undone: somebody has changed nodes/shed since"), std::string::npos) << editor.notices.back().text;
+  EXPECT_NE(editor.notices.back().text.find("cannot be undone: somebody has changed nodes/shed since"), std::string::npos)
+      << editor.notices.back().text;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/ui/desktop/null_desktop.h"
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 
 namespace bl::desktop {
 namespace {
@@ -47,7 +47,7 @@ class Menus : public ::testing::Test {
   }
   // All that an action could change.
   std::string standing() {
-    Editor& e = desktop->editor();
+    Workbench& e = desktop->editor();
     const PersonSettings& p = e.person;
     std::string text = desktop->scene_text() + (e.is_beamer ? " beamer" : "") + (e.wants_quit ? " quit" : "") +
                        (e.wants_picture ? " picture" : "") + (p.is_dark ? " dark" : " light") + std::to_string(p.scale) +
@@ -83,7 +83,7 @@ TEST_F(Menus, NoneActsOnTheReleaseThatOpenedIt) {
 
 TEST_F(Menus, AClickOnAnEntryActsAndSoDoesADragToIt) {
   open({1280, 720});
-  Editor& editor = desktop->editor();
+  Workbench& editor = desktop->editor();
   ASSERT_FALSE(editor.is_beamer);
   desktop->click(title("View"));
   ASSERT_NE(open_menu_window(), nullptr);

@@ -6,7 +6,7 @@
 
 #include <imgui.h>
 
-#include "ui/desktop/app/desktop.h"
+#include "ui/desktop/shell/desktop.h"
 #include "ui/desktop/view/renderer.h"
 
 namespace bl::desktop {
@@ -19,7 +19,7 @@ class NullDesktop {
   NullDesktop(const NullDesktop&) = delete;
   NullDesktop& operator=(const NullDesktop&) = delete;
 
-  Editor& editor() { return desktop_->editor(); }
+  Workbench& editor() { return desktop_->editor(); }
   Desktop& desktop() { return *desktop_; }
   /// Draws so many frames with the input as it is.
   void frames(int count = 1);

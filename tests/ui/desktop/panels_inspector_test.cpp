@@ -228,7 +228,7 @@ TEST(Inspector, ASlowHandMovesSeveralWholeNumbers) {
 
 TEST(Inspector, FieldsThatGoUnderTheHandDoNotHoldItStill) {
   PanelDesktop desktop(kInspectedQuarter);
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   for (const bool is_typing : {false, true}) {
     ASSERT_TRUE(editor.submit(command<AddNode>({"passing", {R"({"types": {"smart_volume": {}}})"}})));
     desktop.choose("passing");

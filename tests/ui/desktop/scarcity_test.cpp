@@ -12,7 +12,7 @@
 #include "tests/support/sanitized.h"
 #include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/app/journal.h"
-#include "ui/desktop/app/window.h"
+#include "ui/desktop/shell/window.h"
 
 namespace bl::desktop {
 namespace {

@@ -31,7 +31,7 @@ class Scripts : public testing::Test {
            "evaluate = function() return {move = point(0, 0, " +
            height + ")} end}";
   }
-  std::string problem(Editor& editor) {
+  std::string problem(Workbench& editor) {
     ProblemList list;
     list.refresh(editor, report::ReportModel{});
     for (const ProblemItem& item : list.items())
@@ -46,7 +46,7 @@ class Scripts : public testing::Test {
 
 TEST_F(Scripts, ADroppedFileIsALinkKindAndReadAgainWhenSaved) {
   NullDesktop window("scenes/links/ratio.json");
-  Editor& editor = window.editor();
+  Workbench& editor = window.editor();
   save(lift("1"));
   window.desktop().drop(path_);
   ASSERT_NE(editor.types().link("lift"), nullptr);
@@ -86,7 +86,7 @@ TEST_F(Scripts, WithoutASceneNothingIsDropped) {
 // Undo of a script while panels and canvas show its links: nothing may point to what is gone.
 TEST_F(Scripts, PanelsOutliveAnUndoneScript) {
   NullDesktop window("scenes/studies/scripted_terraces.json");
-  Editor& editor = window.editor();
+  Workbench& editor = window.editor();
   save(project_file("links/scripts/lean_uphill.lua"));
   editor.picks.only_link("rise");
   window.frames(3);

@@ -27,7 +27,7 @@ class StreamTest : public ::testing::Test {
     submit(command<Receive>({"warmth", value, "noon", problem, desktop.editor().state().tick + 1}), "mqtt://127.0.0.1/warmth");
   }
   StreamText of(const std::string& node) {
-    const Editor& editor = desktop.editor();
+    const Workbench& editor = desktop.editor();
     const auto found = stream_of(editor, editor.state(), editor.index_of(node));
     EXPECT_TRUE(found) << node;
     return found.value_or(StreamText{});
@@ -73,7 +73,7 @@ TEST_F(StreamTest, AnActuatorSaysWhetherItIsHeard) {
   EXPECT_EQ(of("lamp").text(), "0.500, not connected");
   EXPECT_EQ(of("lamp").standing, StreamStanding::silent);
   LiveScene live(true);
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   editor.document->session().play(true);
   // OSC is sent without an answer; the connection's own thread sends it.
   for (int k = 0; k < 5000 && (editor.deliveries["lamp"].sent_at < 0); ++k) {

@@ -14,7 +14,7 @@ namespace {
 class UsesTest : public ::testing::Test {
  protected:
   UsesTest() : desktop("scenes/start/quarter.json") { desktop.ticks(2); }
-  Editor& editor() { return desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
   std::map<std::string, std::size_t> numbers_in_programme() {
     const UseNumbers numbers(editor().scene());
     std::map<std::string, std::size_t> all;

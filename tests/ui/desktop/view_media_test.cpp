@@ -7,8 +7,8 @@
 
 #include "tests/support/world.h"
 #include "tests/ui/desktop/offscreen_gl.h"
+#include "ui/desktop/document/media_place.h"
 #include "ui/desktop/view/gl_renderer.h"
-#include "ui/desktop/view/media_place.h"
 #include "ui/desktop/view/view_builder.h"
 
 namespace bl::desktop {
@@ -140,7 +140,9 @@ TEST_F(ViewMedia, SceneShowsItsPictures) {
     std::fprintf(file, "P6\n%d %d\n255\n", renderer_->width(), renderer_->height());
     for (int y = renderer_->height() - 1; y >= 0; --y)
       for (int x = 0; x < renderer_->width(); ++x)
-        std::fwrite(&pixels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(renderer_->width()) + static_cast<std::size_t>(x))], 1, 3, file);
+        std::fwrite(&pixels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(renderer_->width()) +
+                                 static_cast<std::size_t>(x))],
+                    1, 3, file);
     std::fclose(file);
   }
   set_layer(person, "media", false);

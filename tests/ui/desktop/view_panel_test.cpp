@@ -32,8 +32,8 @@ class ViewPanel : public ::testing::Test {
   }
   // Below the tools, beside the site.
   ImVec2 empty_place() { return {1440 - 330 - 30, 130}; }
-  Editor& editor() { return desktop.editor(); }
-  const Editor& desktop_editor() const { return const_cast<ViewPanel*>(this)->desktop.editor(); }
+  Workbench& editor() { return desktop.editor(); }
+  const Workbench& desktop_editor() const { return const_cast<ViewPanel*>(this)->desktop.editor(); }
   Point3 place(const std::string& id) {
     return std::get<Vector3>(
         editor().state().value(*editor().state().plan->find(editor().index_of(id), {"node", "position", ""})));
@@ -307,9 +307,9 @@ TEST_F(ViewPanel, VolumesWithoutAShapeAreChosenByTheirMarks) {
   fresh.move_to(empty_place());
   fresh.key(GLFW_KEY_1);
   fresh.frames(30);
-  Editor& e = fresh.editor();
+  Workbench& e = fresh.editor();
   ASSERT_EQ(e.view->facts()->volume_of(e.index_of("theatre"))->cell, nullptr);
-  const Seen at = e.view->place_in_window(e.view->facts()->volume_of(e.index_of("theatre"))->position);
+  const Seen at = e.view->place_in_window(e.view->facts()->volume_of(e.index_of("theatre"))->figures.position);
   const ImVec2 spot{static_cast<float>(at.x), static_cast<float>(at.y)};
   for (const bool are_marks_on : {true, false}) {
     set_layer(e.person, "marks", are_marks_on);

@@ -36,7 +36,7 @@ Traffic measure(const std::string& path, int ticks) {
     ADD_FAILURE() << failure;
     return traffic;
   }
-  Editor& editor = desktop.editor();
+  Workbench& editor = desktop.editor();
   std::shared_ptr<const SceneFacts> facts;
   ViewChoices choices;
   for (int k = -2; k < ticks; ++k) {

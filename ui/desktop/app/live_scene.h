@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/live/connections.h"
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/editor/editor.h"
 
 namespace bl::desktop {
 

@@ -7,13 +7,13 @@
 
 namespace bl::desktop {
 
-void watch_run(Editor& editor) {
+void watch_run(Workbench& editor) {
   PanelMemory& memory = memory_of(editor);
   memory.record->sample(editor);
   memory.problems->refresh(editor, memory.record->figures(editor));
 }
 
-void draw_bottom(Editor& editor) {
+void draw_bottom(Workbench& editor) {
   PanelMemory& memory = memory_of(editor);
   if (!ImGui::BeginTabBar("bottom")) return;
   const auto flags = [&](const char* name) {

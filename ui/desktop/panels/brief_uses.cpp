@@ -61,7 +61,7 @@ std::vector<std::string> known_uses(const Scene& scene) {
   return uses;
 }
 
-std::vector<std::string> uses_by_need(Editor& editor) {
+std::vector<std::string> uses_by_need(Workbench& editor) {
   std::vector<std::string> uses = uses_of_briefs(editor.scene());
   const report::ReportModel& figures = memory_of(editor).record->figures(editor);
   std::map<std::string, double> missing;  // [m²]
@@ -75,7 +75,7 @@ std::vector<std::string> uses_by_need(Editor& editor) {
   return uses;
 }
 
-void tell_uses(Editor& editor, const std::vector<std::string>& nodes) {
+void tell_uses(Workbench& editor, const std::vector<std::string>& nodes) {
   std::set<std::string> uses;
   for (const std::string& id : nodes)
     if (const auto node = editor.scene().nodes.find(id); node != editor.scene().nodes.end())
@@ -88,7 +88,7 @@ void tell_uses(Editor& editor, const std::vector<std::string>& nodes) {
                                     "; choose another in the inspector.");
 }
 
-std::string first_values(Editor& editor, const std::string& type, std::size_t number) {
+std::string first_values(Workbench& editor, const std::string& type, std::size_t number) {
   Json values = Json::object();
   const std::vector<std::string> uses =
       type == reading::type_of<VolumeFigures>() ? uses_by_need(editor) : std::vector<std::string>();

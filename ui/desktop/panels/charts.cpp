@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/reading/figures.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/unit.h"
-#include "ui/desktop/app/theme.h"
+#include "ui/desktop/look/theme.h"
 
 namespace bl::desktop {
 

@@ -5,7 +5,7 @@
 
 #include "core/base/text.h"
 #include "core/reading/figures.h"
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/panels.h"
 
 namespace bl::desktop {
@@ -22,18 +22,18 @@ std::int64_t rewind_ticks(const Moment& moment) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(kRewindSeconds * rate));
 }
 
-void change_rate(Editor& editor, double factor) {
+void change_rate(Workbench& editor, double factor) {
   editor.document->session().set_rate(std::clamp(editor.moment->wanted_rate * factor, kSlowest, kFastest));
 }
 
-void toggle_play(Editor& editor) { editor.document->session().play(!editor.moment->is_playing); }
-void one_tick(Editor& editor) { editor.document->session().step(1); }
-void rewind(Editor& editor) { editor.document->session().rewind(rewind_ticks(*editor.moment)); }
-bool can_rewind(const Editor& editor) {
+void toggle_play(Workbench& editor) { editor.document->session().play(!editor.moment->is_playing); }
+void one_tick(Workbench& editor) { editor.document->session().step(1); }
+void rewind(Workbench& editor) { editor.document->session().rewind(rewind_ticks(*editor.moment)); }
+bool can_rewind(const Workbench& editor) {
   return has_document(editor) && editor.moment && editor.moment->oldest < editor.state().tick;
 }
 
-bool tool_button(Editor& editor, const char* sign, const char* hint, bool is_on = false, bool is_possible = true) {
+bool tool_button(Workbench& editor, const char* sign, const char* hint, bool is_on = false, bool is_possible = true) {
   const Colours& c = editor.theme.colours();
   ImGui::BeginDisabled(!is_possible);
   if (is_on) {
@@ -53,7 +53,7 @@ std::string distance_text(double metres) {
 }
 
 // What the simulation is doing, in one sentence with a colour.
-void draw_standing(Editor& editor) {
+void draw_standing(Workbench& editor) {
   const Moment& moment = *editor.moment;
   const State& state = *moment.state;
   const Colours& c = editor.theme.colours();
@@ -84,7 +84,7 @@ void draw_standing(Editor& editor) {
 
 }  // namespace
 
-void draw_clock(Editor& editor) {
+void draw_clock(Workbench& editor) {
   const Moment& moment = *editor.moment;
   const Theme& theme = editor.theme;
   if (tool_button(editor, icon::kRewind, "Rewind five seconds (Backspace)", false, can_rewind(editor))) rewind(editor);
@@ -109,13 +109,13 @@ void draw_clock(Editor& editor) {
 }
 
 void add_clock_actions(std::vector<Action>& list) {
-  auto is_playing = [](const Editor& e) { return e.moment && e.moment->is_playing; };
-  auto is_paused = [](const Editor& e) { return e.moment && !e.moment->is_playing; };
+  auto is_playing = [](const Workbench& e) { return e.moment && e.moment->is_playing; };
+  auto is_paused = [](const Workbench& e) { return e.moment && !e.moment->is_playing; };
   list.push_back({"Clock", "Play", {GLFW_KEY_P}, {}, Area::none, has_document, toggle_play, false, is_playing});
   list.push_back({"Clock", "One tick", {GLFW_KEY_PERIOD}, {}, Area::none, is_paused, one_tick, true});
   list.push_back({"Clock", "Rewind five seconds", {GLFW_KEY_BACKSPACE}, {}, Area::none, can_rewind, rewind});
-  list.push_back({"Clock", "Slower", {GLFW_KEY_MINUS}, {}, Area::none, has_document, [](Editor& e) { change_rate(e, 0.5); }});
-  list.push_back({"Clock", "Faster", {GLFW_KEY_EQUAL}, {}, Area::none, has_document, [](Editor& e) { change_rate(e, 2); }});
+  list.push_back({"Clock", "Slower", {GLFW_KEY_MINUS}, {}, Area::none, has_document, [](Workbench& e) { change_rate(e, 0.5); }});
+  list.push_back({"Clock", "Faster", {GLFW_KEY_EQUAL}, {}, Area::none, has_document, [](Workbench& e) { change_rate(e, 2); }});
 }
 
 }  // namespace bl::desktop

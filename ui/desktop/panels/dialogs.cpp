@@ -7,8 +7,8 @@
 
 #include "core/file/file_io.h"
 #include "core/report/report.h"
-#include "ui/desktop/app/buttons.h"
-#include "ui/desktop/app/import_task.h"
+#include "ui/desktop/document/import_task.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"
@@ -17,7 +17,7 @@ namespace bl::desktop {
 
 namespace {
 
-std::string folder_of(const Editor& editor) {
+std::string folder_of(const Workbench& editor) {
   return editor.document && !editor.document->path().empty() ? editor.document->path() : ".";
 }
 
@@ -35,7 +35,7 @@ std::string file_name_of(const std::string& title) {
 }
 
 // Where the chooser begins: at the file itself, or at a name for a new one, never among the shipped scenes.
-std::string place_to_save(const Editor& editor) {
+std::string place_to_save(const Workbench& editor) {
   const Document& document = *editor.document;
   if (!document.path().empty()) return document.path();
   const std::string name = document.source().empty() ? file_name_of(editor.state().plan->settings.title)
@@ -47,14 +47,14 @@ std::string place_to_save(const Editor& editor) {
   return (is_free || home == nullptr ? here / name : std::filesystem::path(home) / name).string();
 }
 
-void tell_saved(Editor& editor, const std::string& what) {
+void tell_saved(Workbench& editor, const std::string& what) {
   editor.tell(NoticeKind::told, "Saved " + what + ".");
   if (const std::string& note = editor.document->save_note(); !note.empty()) editor.tell(NoticeKind::warning, note);
 }
 
 }  // namespace
 
-Dialogs::Dialogs(Editor& editor) : editor_(&editor) {}
+Dialogs::Dialogs(Workbench& editor) : editor_(&editor) {}
 Dialogs::~Dialogs() = default;
 
 void Dialogs::show(Kind kind) {

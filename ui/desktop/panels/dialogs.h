@@ -8,8 +8,8 @@
 
 #include "core/making/context_import.h"
 #include "core/making/scene_making.h"
-#include "ui/desktop/app/editor.h"
 #include "ui/desktop/panels/file_chooser.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
@@ -17,7 +17,7 @@ class ImportTask;
 
 class Dialogs {
  public:
-  explicit Dialogs(Editor& editor);
+  explicit Dialogs(Workbench& editor);
   ~Dialogs();
   void draw();
 
@@ -74,7 +74,7 @@ class Dialogs {
   bool take_import(cli::ImportedScene& imported);
   bool prepare_scene_for_import();
 
-  Editor* editor_;
+  Workbench* editor_;
   Kind kind_ = Kind::none;
   bool is_fresh_ = false;
   FileChooser chooser_;

@@ -1,7 +1,7 @@
 // The commands of the menus File, Edit and Help.
 #include <GLFW/glfw3.h>
 
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/scene_view.h"
 
@@ -9,7 +9,7 @@ namespace bl::desktop {
 
 namespace {
 
-void close_document(Editor& editor) {
+void close_document(Workbench& editor) {
   editor.dialogs->guard([&editor] {
     editor.document.reset();
     editor.moment.reset();
@@ -20,53 +20,53 @@ void close_document(Editor& editor) {
   });
 }
 
-void back_to_saved(Editor& editor) {
+void back_to_saved(Workbench& editor) {
   if (editor.document->source().empty()) return;
   const std::string path = editor.document->source();
   editor.dialogs->guard([&editor, path] { editor.open(path, true); });
 }
 
-bool has_imports(const Editor& editor) { return has_document(editor) && !editor.document->imports().empty(); }
-bool has_file(const Editor& editor) { return has_document(editor) && !editor.document->source().empty(); }
+bool has_imports(const Workbench& editor) { return has_document(editor) && !editor.document->imports().empty(); }
+bool has_file(const Workbench& editor) { return has_document(editor) && !editor.document->source().empty(); }
 
 }  // namespace
 
 void add_file_actions(std::vector<Action>& list) {
-  auto file = [&](const char* label, Chord chord, bool (*can)(const Editor&), void (*run)(Editor&)) {
+  auto file = [&](const char* label, Chord chord, bool (*can)(const Workbench&), void (*run)(Workbench&)) {
     list.push_back({"File", label, chord, {}, Area::none, can, run});
   };
-  file("New from boundary and programme ...", {GLFW_KEY_N, true}, nullptr, [](Editor& e) { e.dialogs->show_new_scene(); });
-  file("Open ...", {GLFW_KEY_O, true}, nullptr, [](Editor& e) { e.dialogs->ask_open(); });
-  file("Import surroundings ...", {GLFW_KEY_I, true}, nullptr, [](Editor& e) { e.dialogs->show_import(); });
-  file("Add link script ...", {}, has_document, [](Editor& e) { e.dialogs->ask_script(); });
-  file("Save", {GLFW_KEY_S, true}, has_document, [](Editor& e) { e.dialogs->save(); });
-  file("Save as ...", {GLFW_KEY_S, true, true}, has_document, [](Editor& e) { e.dialogs->ask_save_as(); });
+  file("New from boundary and programme ...", {GLFW_KEY_N, true}, nullptr, [](Workbench& e) { e.dialogs->show_new_scene(); });
+  file("Open ...", {GLFW_KEY_O, true}, nullptr, [](Workbench& e) { e.dialogs->ask_open(); });
+  file("Import surroundings ...", {GLFW_KEY_I, true}, nullptr, [](Workbench& e) { e.dialogs->show_import(); });
+  file("Add link script ...", {}, has_document, [](Workbench& e) { e.dialogs->ask_script(); });
+  file("Save", {GLFW_KEY_S, true}, has_document, [](Workbench& e) { e.dialogs->save(); });
+  file("Save as ...", {GLFW_KEY_S, true, true}, has_document, [](Workbench& e) { e.dialogs->ask_save_as(); });
   file("Back to the saved scene", {}, has_file, back_to_saved);
-  file("Write the report ...", {GLFW_KEY_E, true}, has_document, [](Editor& e) { e.dialogs->ask_report(); });
-  file("Write the import report ...", {}, has_imports, [](Editor& e) { e.dialogs->ask_import_report(); });
-  file("Save the log for replay ...", {}, has_document, [](Editor& e) { e.dialogs->ask_log(); });
-  file("Take a picture of the window", {GLFW_KEY_F12}, nullptr, [](Editor& e) { e.wants_picture = true; });
+  file("Write the report ...", {GLFW_KEY_E, true}, has_document, [](Workbench& e) { e.dialogs->ask_report(); });
+  file("Write the import report ...", {}, has_imports, [](Workbench& e) { e.dialogs->ask_import_report(); });
+  file("Save the log for replay ...", {}, has_document, [](Workbench& e) { e.dialogs->ask_log(); });
+  file("Take a picture of the window", {GLFW_KEY_F12}, nullptr, [](Workbench& e) { e.wants_picture = true; });
   list.back().is_always = true;
   file("Close the scene", {GLFW_KEY_W, true}, has_document, close_document);
-  file("Quit", {GLFW_KEY_Q, true}, nullptr, [](Editor& e) { e.dialogs->guard([&e] { e.wants_quit = true; }); });
+  file("Quit", {GLFW_KEY_Q, true}, nullptr, [](Workbench& e) { e.dialogs->guard([&e] { e.wants_quit = true; }); });
 }
 
 void add_edit_actions(std::vector<Action>& list) {
-  list.push_back({"Edit", "Undo", {GLFW_KEY_Z, true}, {}, Area::none, has_document, [](Editor& e) { e.undo(); }, true});
+  list.push_back({"Edit", "Undo", {GLFW_KEY_Z, true}, {}, Area::none, has_document, [](Workbench& e) { e.undo(); }, true});
   list.push_back({"Edit",
                   "Redo",
                   {GLFW_KEY_Y, true},
                   {GLFW_KEY_Z, true, true},
                   Area::none,
                   has_document,
-                  [](Editor& e) { e.redo(); },
+                  [](Workbench& e) { e.redo(); },
                   true});
   list.push_back(
-      {"Edit", "Commands ...", {GLFW_KEY_K, true}, {}, Area::none, nullptr, [](Editor& e) { e.dialogs->show_palette(); }});
+      {"Edit", "Commands ...", {GLFW_KEY_K, true}, {}, Area::none, nullptr, [](Workbench& e) { e.dialogs->show_palette(); }});
 }
 
 void add_help_actions(std::vector<Action>& list) {
-  list.push_back({"Help", "Keys and gestures", {GLFW_KEY_SLASH, false, true}, {}, Area::none, nullptr, [](Editor& e) {
+  list.push_back({"Help", "Keys and gestures", {GLFW_KEY_SLASH, false, true}, {}, Area::none, nullptr, [](Workbench& e) {
                     e.dialogs->show_keys();
                   }});
 }

@@ -8,7 +8,7 @@
 
 #include <imgui_stdlib.h>
 
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 
 namespace bl::desktop {
 
@@ -63,7 +63,7 @@ void FileChooser::go(const std::string& folder) {
             [](const Item& a, const Item& b) { return a.is_folder != b.is_folder ? a.is_folder : a.name < b.name; });
 }
 
-void FileChooser::draw_places(Editor& editor) {
+void FileChooser::draw_places(Workbench& editor) {
   const char* home = std::getenv("HOME");
   std::vector<std::pair<std::string, std::string>> places;
   if (home != nullptr && *home == '/') places.emplace_back("Home", home);
@@ -140,7 +140,7 @@ void FileChooser::complain(const std::string& text) {
   message_ = text;
 }
 
-std::optional<std::string> FileChooser::draw(Editor& editor) {
+std::optional<std::string> FileChooser::draw(Workbench& editor) {
   if (!is_open_) return std::nullopt;
   const Theme& theme = editor.theme;
   const std::string id = title_ + "##chooser";

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
@@ -19,7 +19,7 @@ class FileChooser {
   /// What was chosen did not do: it is open again, with the name as it was, and says why.
   void complain(const std::string& text);
   /// The modal window; the path once it was chosen.
-  std::optional<std::string> draw(Editor& editor);
+  std::optional<std::string> draw(Workbench& editor);
 
  private:
   struct Item {
@@ -27,7 +27,7 @@ class FileChooser {
     bool is_folder = false;
   };
   void go(const std::string& folder);
-  void draw_places(Editor& editor);
+  void draw_places(Workbench& editor);
   std::optional<std::string> draw_list();
   std::optional<std::string> accept();
   bool is_listed(const std::string& name) const;

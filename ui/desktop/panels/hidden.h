@@ -4,16 +4,16 @@
 #include <set>
 #include <string>
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
 /// Those that the scene has; read anew after the view has changed only.
 class HiddenNodes {
  public:
-  const std::set<std::string>& of(const Editor& editor);
+  const std::set<std::string>& of(const Workbench& editor);
   /// "3 volumes hidden"; empty where none is.
-  std::string text(const Editor& editor);
+  std::string text(const Workbench& editor);
 
  private:
   std::set<std::string> nodes_;
@@ -21,9 +21,9 @@ class HiddenNodes {
 };
 
 /// Leaves the chosen nodes out of the 3D view; if all of them are, shows them again.
-void hide_chosen(Editor& editor);
-void show_all(Editor& editor);
-bool are_chosen_hidden(const Editor& editor);
-bool has_hidden(const Editor& editor);
+void hide_chosen(Workbench& editor);
+void show_all(Workbench& editor);
+bool are_chosen_hidden(const Workbench& editor);
+bool has_hidden(const Workbench& editor);
 
 }  // namespace bl::desktop

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/reading/figures.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panels.h"
 
@@ -10,14 +10,14 @@ namespace bl::desktop {
 
 namespace {
 
-std::size_t done_steps(Editor& editor) {
+std::size_t done_steps(Workbench& editor) {
   std::size_t count = 0;
   for (const HistoryStep& step : editor.document->history()) count += step.is_undone ? 0 : 1;
   return count;
 }
 
 // Until so many steps are done; stops where one cannot be taken back or brought back.
-void go_to_step(Editor& editor, std::size_t wanted) {
+void go_to_step(Workbench& editor, std::size_t wanted) {
   for (std::size_t done = done_steps(editor); done != wanted;) {
     if (done > wanted) editor.undo();
     else editor.redo();
@@ -28,7 +28,7 @@ void go_to_step(Editor& editor, std::size_t wanted) {
 }
 
 // Whether it was pressed.
-bool draw_step(Editor& editor, int index, const std::string& label, const std::string& detail, bool is_undone, bool is_current,
+bool draw_step(Workbench& editor, int index, const std::string& label, const std::string& detail, bool is_undone, bool is_current,
                float height) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
@@ -59,7 +59,7 @@ bool draw_step(Editor& editor, int index, const std::string& label, const std::s
 
 }  // namespace
 
-void draw_history(Editor& editor) {
+void draw_history(Workbench& editor) {
   if (!editor.document) return;
   const std::vector<HistoryStep>& steps = editor.document->history();
   const std::size_t done = done_steps(editor);

@@ -10,7 +10,7 @@
 #include <imgui_stdlib.h>
 
 #include "core/reading/figures.h"
-#include "ui/desktop/app/import_task.h"
+#include "ui/desktop/document/import_task.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/scene_view.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/csv/csv_reader.h"
+#include "core/base/text.h"
 #include "core/import/assumed_height.h"
 
 namespace bl::desktop {

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "core/reading/figures.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/panels/import_list.h"
@@ -42,14 +42,14 @@ RowSign sign_of(const Theme& theme, ImportOutcome outcome) {
 std::string number(std::size_t count) { return report::grouped(static_cast<double>(count)); }
 
 // Those of its nodes that are in the scene: an import can have been undone, and nodes removed since.
-std::vector<std::string> nodes_of(const Editor& editor, const ImportRow& row) {
+std::vector<std::string> nodes_of(const Workbench& editor, const ImportRow& row) {
   std::vector<std::string> nodes;
   std::copy_if(row.made.begin(), row.made.end(), std::back_inserter(nodes),
                [&](const std::string& id) { return editor.scene().nodes.contains(id); });
   return nodes;
 }
 
-std::string place_text(const Editor& editor, const ImportRow& row) {
+std::string place_text(const Workbench& editor, const ImportRow& row) {
   const std::vector<std::string> nodes = nodes_of(editor, row);
   if (nodes.size() == 1) return editor.name_of(nodes.front());
   if (nodes.size() > 1) return report::counted(nodes.size(), "node");
@@ -61,7 +61,7 @@ std::string place_text(const Editor& editor, const ImportRow& row) {
 std::string title_of(const ImportRow& row) { return row.kind + (row.id.empty() ? "" : " " + row.id); }
 
 // To its nodes; else a pin to its place; else a sentence why neither can be.
-void go_to(Editor& editor, const ImportRow& row) {
+void go_to(Workbench& editor, const ImportRow& row) {
   const std::vector<std::string> nodes = nodes_of(editor, row);
   if (!nodes.empty()) {
     editor.picks.links.clear();
@@ -82,7 +82,7 @@ void go_to(Editor& editor, const ImportRow& row) {
                             : "The file does not say where " + title_of(row) + " lies.");
 }
 
-void draw_outcomes(Editor& editor, ImportList& list) {
+void draw_outcomes(Workbench& editor, ImportList& list) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushFont(theme.fonts().small);
@@ -103,7 +103,7 @@ void draw_outcomes(Editor& editor, ImportList& list) {
 }
 
 // Counts by reason; a press shows those rows alone.
-void draw_groups(Editor& editor, ImportList& list, float width) {
+void draw_groups(Workbench& editor, ImportList& list, float width) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::BeginChild("groups", {width, 0});
@@ -136,7 +136,7 @@ void draw_groups(Editor& editor, ImportList& list, float width) {
   ImGui::EndChild();
 }
 
-void draw_row(Editor& editor, const ImportEntry& entry, int index, bool has_files) {
+void draw_row(Workbench& editor, const ImportEntry& entry, int index, bool has_files) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImportRow& row = *entry.row;
@@ -175,7 +175,7 @@ void draw_row(Editor& editor, const ImportEntry& entry, int index, bool has_file
   if (has_files) column(*entry.file, c.text_soft);
 }
 
-void draw_table(Editor& editor, ImportList& list) {
+void draw_table(Workbench& editor, ImportList& list) {
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate | ImGuiTableFlags_ScrollY |
                                      ImGuiTableFlags_Resizable | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV |
                                      ImGuiTableFlags_SizingStretchProp;
@@ -213,7 +213,7 @@ void draw_table(Editor& editor, ImportList& list) {
   ImGui::EndTable();
 }
 
-void draw_no_imports(Editor& editor) {
+void draw_no_imports(Workbench& editor) {
   ImGui::Dummy({0, editor.theme.px(6)});
   ImGui::TextUnformatted(
       "Nothing was imported into this scene. After an import, every element of the files stands here, with what became of it.");
@@ -223,7 +223,7 @@ void draw_no_imports(Editor& editor) {
 
 }  // namespace
 
-void draw_imports(Editor& editor) {
+void draw_imports(Workbench& editor) {
   if (!editor.document) return;
   PanelMemory& memory = memory_of(editor);
   ImportList& list = *memory.imports;

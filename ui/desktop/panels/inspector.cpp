@@ -18,7 +18,7 @@ void forget_gone_fields(PanelMemory& memory) {
 
 }  // namespace
 
-void draw_inspector(Editor& editor) {
+void draw_inspector(Workbench& editor) {
   PanelMemory& memory = memory_of(editor);
   if (!memory.view) memory.view = std::make_unique<InspectorView>();
   // A press elsewhere ends typing and may choose something else in one frame: what was typed still goes where it was meant to.

@@ -18,15 +18,15 @@ struct RowEvent {
   bool wants_reset = false, wants_lock = false, wants_drive = false;
 };
 /// Label and signs of a row; the field follows, `width` wide, and then end_row.
-RowEvent begin_row(Editor& editor, const std::string& key, const std::string& label, const std::string& doc,
+RowEvent begin_row(Workbench& editor, const std::string& key, const std::string& label, const std::string& doc,
                    const std::string& facts, const RowSigns& signs, float& width);
 void end_row();
 /// A heading that folds its rows away; `wants_removal` may be nothing.
-bool section(Editor& editor, const std::string& key, const std::string& label, const std::string& doc, bool* wants_removal);
+bool section(Workbench& editor, const std::string& key, const std::string& label, const std::string& doc, bool* wants_removal);
 /// The name of what is shown, and a quiet line below it.
-void heading(Editor& editor, const std::string& name, const std::string& below, ImU32 colour = 0);
+void heading(Workbench& editor, const std::string& name, const std::string& below, ImU32 colour = 0);
 /// JSON that this program does not understand, with a note.
-void draw_ghost(Editor& editor, const std::string& json, const std::string& note);
+void draw_ghost(Workbench& editor, const std::string& json, const std::string& note);
 
 /// A setting of several owners at once.
 struct SharedPort {
@@ -44,7 +44,7 @@ struct SharedType {
 /// What the chosen nodes and links have in common; made anew after changes, and per tick where it shows the state.
 class InspectorView {
  public:
-  void refresh(Editor& editor, const Picks& shown);
+  void refresh(Workbench& editor, const Picks& shown);
   const std::vector<std::string>& nodes() const { return nodes_; }
   const std::vector<std::string>& links() const { return links_; }
   const std::vector<SharedType>& types() const { return types_; }
@@ -57,8 +57,8 @@ class InspectorView {
   const report::ConflictRow& pulls(const State& state, PortRef ref);
 
  private:
-  void merge_nodes(const Editor& editor);
-  void merge_links(const Editor& editor);
+  void merge_nodes(const Workbench& editor);
+  void merge_links(const Workbench& editor);
 
   std::vector<std::string> nodes_, links_;
   std::set<std::string> asked_nodes_, asked_links_;
@@ -74,18 +74,18 @@ class InspectorView {
 };
 
 /// Changes a setting of all given nodes as one step; the gesture of the scrub where the change is live.
-void change_ports(Editor& editor, const std::vector<std::string>& nodes, const TypificationDefinition& type,
+void change_ports(Workbench& editor, const std::vector<std::string>& nodes, const TypificationDefinition& type,
                   const PortDefinition& port, const std::string& key, const Change& change);
 
-void inspect_nodes(Editor& editor, InspectorView& view);
-void inspect_links(Editor& editor, InspectorView& view);
+void inspect_nodes(Workbench& editor, InspectorView& view);
+void inspect_links(Workbench& editor, InspectorView& view);
 /// The links of the only chosen node, as a way to get to them.
-void list_links(Editor& editor, InspectorView& view);
-void inspect_scene(Editor& editor);
+void list_links(Workbench& editor, InspectorView& view);
+void inspect_scene(Workbench& editor);
 /// What the state makes of a setting: its effective value, what moved it, its tension.
-void draw_effective(Editor& editor, InspectorView& view, PortRef ref, const Value& set, float width);
+void draw_effective(Workbench& editor, InspectorView& view, PortRef ref, const Value& set, float width);
 /// Offers a formula for a number: a node that computes it and a link that carries it, in one step.
-void drive_by_expression(Editor& editor, const std::string& node, const std::string& path, double now, Unit unit);
-bool can_be_driven(const Editor& editor, const PortDefinition& port);
+void drive_by_expression(Workbench& editor, const std::string& node, const std::string& path, double now, Unit unit);
+bool can_be_driven(const Workbench& editor, const PortDefinition& port);
 
 }  // namespace bl::desktop

@@ -6,7 +6,7 @@
 
 #include <imgui_stdlib.h>
 
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
 namespace bl::desktop {
@@ -45,7 +45,7 @@ bool type_into(PanelMemory& memory, float width, bool is_long) {
   return typing.text != typing.start;
 }
 
-void draw_frame(Editor& editor, const std::string& shown, const CellLook& look, ImVec2 from, ImVec2 to, bool is_hot) {
+void draw_frame(Workbench& editor, const std::string& shown, const CellLook& look, ImVec2 from, ImVec2 to, bool is_hot) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -66,7 +66,7 @@ void draw_frame(Editor& editor, const std::string& shown, const CellLook& look, 
 }
 
 // A drag of the field sideways; a press that does not move is a click.
-void scrub(Editor& editor, const std::string& key, CellEvent& event) {
+void scrub(Workbench& editor, const std::string& key, CellEvent& event) {
   PanelMemory& memory = memory_of(editor);
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemActivated()) memory.scrub = {key, false, 0, 0, false};
@@ -88,7 +88,7 @@ void scrub(Editor& editor, const std::string& key, CellEvent& event) {
 
 }  // namespace
 
-void note_place(Editor& editor, const std::string& key) {
+void note_place(Workbench& editor, const std::string& key) {
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
   PanelMemory& memory = memory_of(editor);
   if (memory.places_frame != ImGui::GetFrameCount()) memory.places.clear();
@@ -108,7 +108,7 @@ std::string fitted(const std::string& text, float width) {
   return line.substr(0, static_cast<std::size_t>(rest - line.c_str())) + "\xE2\x80\xA6";
 }
 
-CellEvent cell(Editor& editor, const std::string& key, const std::string& shown, const std::string& start, float width,
+CellEvent cell(Workbench& editor, const std::string& key, const std::string& shown, const std::string& start, float width,
                const CellLook& look) {
   PanelMemory& memory = memory_of(editor);
   CellEvent event;
@@ -142,13 +142,13 @@ CellEvent cell(Editor& editor, const std::string& key, const std::string& shown,
   return event;
 }
 
-void complain(Editor& editor, const std::string& key, const std::string& sentence) {
+void complain(Workbench& editor, const std::string& key, const std::string& sentence) {
   PanelMemory& memory = memory_of(editor);
   memory.complaint_key = key;
   memory.complaint = sentence;
 }
 
-void draw_complaint(Editor& editor, const std::string& key, float width) {
+void draw_complaint(Workbench& editor, const std::string& key, float width) {
   const PanelMemory& memory = memory_of(editor);
   if (memory.complaint_key != key || memory.complaint.empty()) return;
   small_text(editor, std::string(icon::kError) + " " + memory.complaint + ". The old value stays.", editor.theme.colours().bad,

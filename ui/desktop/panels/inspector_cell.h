@@ -29,36 +29,37 @@ struct CellEvent {
 };
 
 /// One field. `key` is its own among all fields that are seen; `shown` stands there, `start` is what typing starts from.
-CellEvent cell(Editor& editor, const std::string& key, const std::string& shown, const std::string& start, float width,
+CellEvent cell(Workbench& editor, const std::string& key, const std::string& shown, const std::string& start, float width,
                const CellLook& look = {});
 
 /// A search field that filters a list; gets the keyboard when its popup opens.
-void filter_field(Editor& editor, float width);
+void filter_field(Workbench& editor, float width);
 bool passes_filter(const std::string& filter, const std::string& text);
 
 /// A switch with two states; whether it was switched.
-bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mixed);
+bool switch_field(Workbench& editor, const std::string& key, bool is_on, bool is_mixed);
 /// A field that opens a list; true while the list is open (then ImGui::EndPopup has to follow). `before`: how far to the left of
 /// the field the list begins.
-bool begin_list(Editor& editor, const std::string& key, const std::string& shown, float width, ImU32 colour = 0,
+bool begin_list(Workbench& editor, const std::string& key, const std::string& shown, float width, ImU32 colour = 0,
                 float before = 0);
 /// An entry of such a list: label, and a quieter line below it.
-bool list_entry(Editor& editor, const std::string& label, const std::string& doc, bool is_chosen);
+bool list_entry(Workbench& editor, const std::string& label, const std::string& doc, bool is_chosen);
 /// A small sign that can be pressed.
-bool sign_button(Editor& editor, const char* sign, const std::string& hint, ImU32 colour, bool is_shown = true);
+bool sign_button(Workbench& editor, const char* sign, const std::string& hint, ImU32 colour, bool is_shown = true);
 
 /// Words and small boxes that flow from line to line; each may have a cross to take it away. Index of the one that was, or -1.
-int chips(Editor& editor, const std::string& key, const std::vector<std::string>& labels, bool is_fixed, int* clicked = nullptr);
+int chips(Workbench& editor, const std::string& key, const std::vector<std::string>& labels, bool is_fixed,
+          int* clicked = nullptr);
 
 /// The text, shortened with an ellipsis where it is wider than `width`.
 std::string fitted(const std::string& text, float width);
 /// Remembers where a field stands.
-void note_place(Editor& editor, const std::string& key);
+void note_place(Workbench& editor, const std::string& key);
 /// A card with a heading and quieter lines, at the mouse.
-void card(Editor& editor, const std::string& heading, const std::string& text, const std::string& facts = "");
-void small_text(Editor& editor, const std::string& text, ImU32 colour, float wrap_width = 0);
+void card(Workbench& editor, const std::string& heading, const std::string& text, const std::string& facts = "");
+void small_text(Workbench& editor, const std::string& text, ImU32 colour, float wrap_width = 0);
 /// Refuses what was typed into a field, with a sentence that stays until the next try.
-void complain(Editor& editor, const std::string& key, const std::string& sentence);
-void draw_complaint(Editor& editor, const std::string& key, float width);
+void complain(Workbench& editor, const std::string& key, const std::string& sentence);
+void draw_complaint(Workbench& editor, const std::string& key, float width);
 
 }  // namespace bl::desktop

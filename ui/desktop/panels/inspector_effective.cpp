@@ -58,7 +58,7 @@ void draw_tension_bar(const Theme& theme, float width, double severity) {
 
 }  // namespace
 
-void draw_effective(Editor& editor, InspectorView& view, PortRef ref, const Value& set, float width) {
+void draw_effective(Workbench& editor, InspectorView& view, PortRef ref, const Value& set, float width) {
   const State& state = editor.state();
   const PortDefinition& port = state.plan->port(ref);
   if (port.rule == CombineRule::none) return;

@@ -3,7 +3,7 @@
 
 #include "core/define/codec.h"
 #include "core/reading/figures.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/inspector_value.h"
 
@@ -30,7 +30,7 @@ struct Grid {
 };
 
 // The line that shows how much there is, and folds it in and out.
-bool is_unfolded(Editor& editor, const Grid& grid, bool is_mixed, float width) {
+bool is_unfolded(Workbench& editor, const Grid& grid, bool is_mixed, float width) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushID(grid.key.c_str());
@@ -53,7 +53,7 @@ bool is_unfolded(Editor& editor, const Grid& grid, bool is_mixed, float width) {
 }
 
 // Typed text as a value of the column, or a complaint at the grid.
-bool read_field(Editor& editor, const Grid& grid, const ColumnDefinition& column, const std::string& text, double now,
+bool read_field(Workbench& editor, const Grid& grid, const ColumnDefinition& column, const std::string& text, double now,
                 Scalar& out) {
   if (column.is_text) {
     out = text;
@@ -76,7 +76,7 @@ bool read_field(Editor& editor, const Grid& grid, const ColumnDefinition& column
   return true;
 }
 
-void draw_field(Editor& editor, const Grid& grid, std::size_t r, std::size_t c, float width, GridEdit& edit) {
+void draw_field(Workbench& editor, const Grid& grid, std::size_t r, std::size_t c, float width, GridEdit& edit) {
   const ColumnDefinition& column = grid.columns[c];
   const Scalar value = grid.get(r, c);
   const double* number = std::get_if<double>(&value);
@@ -95,7 +95,7 @@ void draw_field(Editor& editor, const Grid& grid, std::size_t r, std::size_t c, 
   edit = {GridEdit::What::set, r, c, std::move(fresh)};
 }
 
-void draw_heads(Editor& editor, const Grid& grid) {
+void draw_heads(Workbench& editor, const Grid& grid) {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (std::size_t c = 0; c < grid.columns.size(); ++c) {
     const ColumnDefinition& column = grid.columns[c];
@@ -106,7 +106,7 @@ void draw_heads(Editor& editor, const Grid& grid) {
   }
 }
 
-GridEdit draw_rows(Editor& editor, const Grid& grid) {
+GridEdit draw_rows(Workbench& editor, const Grid& grid) {
   const Theme& theme = editor.theme;
   GridEdit edit;
   const float line = ImGui::GetFrameHeight() + theme.px(2);
@@ -153,7 +153,7 @@ GridEdit draw_rows(Editor& editor, const Grid& grid) {
   return edit;
 }
 
-GridEdit draw_grid(Editor& editor, const Grid& grid, bool is_mixed, float width) {
+GridEdit draw_grid(Workbench& editor, const Grid& grid, bool is_mixed, float width) {
   GridEdit edit;
   // Unfolded rows take the whole width of the panel, below label and line.
   if (!is_unfolded(editor, grid, is_mixed, width)) return edit;
@@ -175,7 +175,7 @@ GridEdit draw_grid(Editor& editor, const Grid& grid, bool is_mixed, float width)
 
 }  // namespace
 
-std::optional<Change> points_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> points_field(Workbench& editor, const Subject& subject, float width) {
   const auto& points = *std::get<Shared<std::vector<Point3>>>(subject.value);
   Grid grid{subject.key, {}, points.size(), {}, subject.is_fixed, "point"};
   for (const char* id : {"x", "y", "z"})
@@ -196,7 +196,7 @@ std::optional<Change> points_field(Editor& editor, const Subject& subject, float
   return constant(Shared<std::vector<Point3>>(std::move(fresh)));
 }
 
-std::optional<Change> table_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> table_field(Workbench& editor, const Subject& subject, float width) {
   const Table& table = *std::get<Shared<Table>>(subject.value);
   const auto& columns = subject.port->columns;
   const auto field = [&](std::size_t r, std::size_t c) {

@@ -5,7 +5,7 @@
 
 #include "core/define/codec.h"
 #include "core/reading/figures.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostListedVoices = 40;
 
 // Would the link find its ports at an end that names these nodes?
-bool has_ports(const Editor& editor, const LinkDefinition& kind, End end, const Selection& selection) {
+bool has_ports(const Workbench& editor, const LinkDefinition& kind, End end, const Selection& selection) {
   const auto fits = [&](const std::string& type) {
     if (type.empty() || type == kBaseNode) return true;
     if (selection.is_query()) return selection.typification == type;
@@ -33,14 +33,14 @@ bool has_ports(const Editor& editor, const LinkDefinition& kind, End end, const 
 }
 
 template <class Make>
-void submit_each(Editor& editor, const std::vector<std::string>& links, std::int64_t gesture, Make make) {
+void submit_each(Workbench& editor, const std::vector<std::string>& links, std::int64_t gesture, Make make) {
   std::vector<Command> commands;
   for (const std::string& id : links)
     if (editor.scene().links.contains(id)) commands.push_back(make(id));
   editor.submit(commands, gesture);
 }
 
-void draw_ends(Editor& editor, const InspectorView& view) {
+void draw_ends(Workbench& editor, const InspectorView& view) {
   if (view.links().size() != 1 || view.kind() == nullptr) return;
   const std::string& id = view.links().front();
   const LinkRecord link = editor.scene().links.at(id);
@@ -72,7 +72,7 @@ void draw_ends(Editor& editor, const InspectorView& view) {
   if (is_swapped && can_swap) editor.submit(command<SetLinkEnds>({id, link.to, link.from}));
 }
 
-void draw_strength(Editor& editor, const InspectorView& view) {
+void draw_strength(Workbench& editor, const InspectorView& view) {
   const LinkRecord& first = editor.scene().links.at(view.links().front());
   bool is_mixed = false;
   for (const std::string& id : view.links()) is_mixed = is_mixed || editor.scene().links.at(id).strength != first.strength;
@@ -107,7 +107,7 @@ void draw_strength(Editor& editor, const InspectorView& view) {
   });
 }
 
-void draw_switches(Editor& editor, const InspectorView& view) {
+void draw_switches(Workbench& editor, const InspectorView& view) {
   const LinkRecord first = editor.scene().links.at(view.links().front());
   bool is_mixed[2] = {false, false};
   for (const std::string& id : view.links()) {
@@ -132,7 +132,7 @@ void draw_switches(Editor& editor, const InspectorView& view) {
     });
 }
 
-void change_parameter(Editor& editor, const InspectorView& view, const PortDefinition& port, const std::string& key,
+void change_parameter(Workbench& editor, const InspectorView& view, const PortDefinition& port, const std::string& key,
                       const Change& change) {
   PanelMemory& memory = memory_of(editor);
   if (memory.complaint_key == key) memory.complaint_key.clear();
@@ -149,7 +149,7 @@ void change_parameter(Editor& editor, const InspectorView& view, const PortDefin
   editor.submit(commands, change.is_live ? memory.scrub.gesture : 0);
 }
 
-void draw_parameters(Editor& editor, const InspectorView& view) {
+void draw_parameters(Workbench& editor, const InspectorView& view) {
   if (view.kind() == nullptr || view.parameters().empty()) return;
   if (!section(editor, "parameters", "Parameters", view.kind()->doc, nullptr)) return;
   for (const SharedPort& shared : view.parameters()) {
@@ -167,7 +167,7 @@ void draw_parameters(Editor& editor, const InspectorView& view) {
 }
 
 // One row for each port that the link speaks to; a press goes to the node.
-void draw_voices(Editor& editor, const std::string& id) {
+void draw_voices(Workbench& editor, const std::string& id) {
   const State& state = editor.state();
   const Colours& c = editor.theme.colours();
   const std::size_t at = report::link_index(*state.plan, id);
@@ -213,7 +213,7 @@ void draw_voices(Editor& editor, const std::string& id) {
 
 }  // namespace
 
-void list_links(Editor& editor, InspectorView& view) {
+void list_links(Workbench& editor, InspectorView& view) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const State& state = editor.state();
@@ -249,7 +249,7 @@ void list_links(Editor& editor, InspectorView& view) {
     small_text(editor, "and " + std::to_string(links.size() - kMostListedVoices) + " more", c.text_faint);
 }
 
-void inspect_links(Editor& editor, InspectorView& view) {
+void inspect_links(Workbench& editor, InspectorView& view) {
   const LinkRecord& first = editor.scene().links.at(view.links().front());
   const bool is_single = view.links().size() == 1;
   if (is_single && !first.ghost.empty()) {

@@ -17,7 +17,7 @@ namespace {
 
 std::string path_of(const TypificationDefinition& type, const PortDefinition& port) { return type.id + "." + port.id; }
 
-void lock_ports(Editor& editor, const std::vector<std::string>& nodes, const std::string& path, bool is_locking) {
+void lock_ports(Workbench& editor, const std::vector<std::string>& nodes, const std::string& path, bool is_locking) {
   std::vector<Command> commands;
   for (const std::string& id : nodes) {
     if (editor.scene().nodes.at(id).locked.contains(path) == is_locking) continue;
@@ -26,7 +26,7 @@ void lock_ports(Editor& editor, const std::vector<std::string>& nodes, const std
   editor.submit(commands);
 }
 
-void draw_name(Editor& editor, const InspectorView& view) {
+void draw_name(Workbench& editor, const InspectorView& view) {
   if (view.nodes().size() != 1) return;
   const std::string& id = view.nodes().front();
   const std::string& name = editor.scene().nodes.at(id).name;
@@ -40,13 +40,13 @@ void draw_name(Editor& editor, const InspectorView& view) {
 }
 
 // Nothing is said at the nodes any more: the default holds, or what the scene says.
-void reset_ports(Editor& editor, const std::vector<std::string>& nodes, const std::string& path) {
+void reset_ports(Workbench& editor, const std::vector<std::string>& nodes, const std::string& path) {
   std::vector<Command> commands;
   for (const std::string& id : nodes) commands.push_back(command<SetPort>({id, {path}, {"null"}}));
   editor.submit(commands);
 }
 
-void draw_setting(Editor& editor, InspectorView& view, const TypificationDefinition& type, const SharedPort& shared) {
+void draw_setting(Workbench& editor, InspectorView& view, const TypificationDefinition& type, const SharedPort& shared) {
   const PortDefinition& port = *shared.port;
   const std::string path = path_of(type, port);
   const bool can_move = port.rule != CombineRule::none, is_single = view.nodes().size() == 1;
@@ -90,7 +90,7 @@ std::string span_text(const State& state, const std::vector<PortRef>& refs, cons
   return value_text(low, port, first_unit) + " to " + value_text(high, port, unit);
 }
 
-void draw_computed(Editor& editor, const InspectorView& view, const TypificationDefinition& type, const PortDefinition& port) {
+void draw_computed(Workbench& editor, const InspectorView& view, const TypificationDefinition& type, const PortDefinition& port) {
   constexpr std::size_t kMostRead = 64;
   const State& state = editor.state();
   std::vector<PortRef> refs;
@@ -117,7 +117,7 @@ void draw_computed(Editor& editor, const InspectorView& view, const Typification
   end_row();
 }
 
-void draw_failure(Editor& editor, const InspectorView& view, const TypificationDefinition& type) {
+void draw_failure(Workbench& editor, const InspectorView& view, const TypificationDefinition& type) {
   if (view.nodes().size() != 1) return;
   const State& state = editor.state();
   const std::uint32_t node = editor.index_of(view.nodes().front());
@@ -128,7 +128,7 @@ void draw_failure(Editor& editor, const InspectorView& view, const TypificationD
       small_text(editor, std::string(icon::kError) + "  " + state.nodes[node].types[t].error->text(), editor.theme.colours().bad);
 }
 
-void draw_type(Editor& editor, InspectorView& view, const SharedType& shared) {
+void draw_type(Workbench& editor, InspectorView& view, const SharedType& shared) {
   const TypificationDefinition& type = *shared.type;
   const bool is_base = type.id == kBaseNode;
   bool wants_removal = false;
@@ -152,7 +152,7 @@ void draw_type(Editor& editor, InspectorView& view, const SharedType& shared) {
   editor.submit(commands);
 }
 
-void draw_add_role(Editor& editor, const InspectorView& view) {
+void draw_add_role(Workbench& editor, const InspectorView& view) {
   ImGui::Dummy({0, editor.theme.px(6)});
   const float width = ImGui::GetContentRegionAvail().x;
   if (!begin_list(editor, "add role", std::string(icon::kPlus) + "  add a role", width, editor.theme.colours().text_soft)) return;
@@ -175,7 +175,7 @@ void draw_add_role(Editor& editor, const InspectorView& view) {
 
 }  // namespace
 
-void change_ports(Editor& editor, const std::vector<std::string>& nodes, const TypificationDefinition& type,
+void change_ports(Workbench& editor, const std::vector<std::string>& nodes, const TypificationDefinition& type,
                   const PortDefinition& port, const std::string& key, const Change& change) {
   PanelMemory& memory = memory_of(editor);
   if (memory.complaint_key == key) memory.complaint_key.clear();
@@ -198,7 +198,7 @@ void change_ports(Editor& editor, const std::vector<std::string>& nodes, const T
   editor.submit(commands, change.is_live ? memory.scrub.gesture : 0);
 }
 
-void inspect_nodes(Editor& editor, InspectorView& view) {
+void inspect_nodes(Workbench& editor, InspectorView& view) {
   const std::size_t count = view.nodes().size();
   if (count == 1) {
     const std::string& id = view.nodes().front();

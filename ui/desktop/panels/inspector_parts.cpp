@@ -5,25 +5,17 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "ui/desktop/app/buttons.h"
+#include "core/base/text.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector_cell.h"
 
 namespace bl::desktop {
 
-namespace {
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-}  // namespace
-
 bool passes_filter(const std::string& filter, const std::string& text) {
-  return lower(text).find(lower(filter)) != std::string::npos;
+  return lower_case(text).find(lower_case(filter)) != std::string::npos;
 }
 
-void filter_field(Editor& editor, float width) {
+void filter_field(Workbench& editor, float width) {
   PanelMemory& memory = memory_of(editor);
   if (ImGui::IsWindowAppearing()) {
     memory.filter.clear();
@@ -35,7 +27,7 @@ void filter_field(Editor& editor, float width) {
   note_place(editor, "filter");
 }
 
-bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mixed) {
+bool switch_field(Workbench& editor, const std::string& key, bool is_on, bool is_mixed) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushID(key.c_str());
@@ -57,7 +49,7 @@ bool switch_field(Editor& editor, const std::string& key, bool is_on, bool is_mi
   return is_pressed;
 }
 
-bool begin_list(Editor& editor, const std::string& key, const std::string& shown, float width, ImU32 colour, float before) {
+bool begin_list(Workbench& editor, const std::string& key, const std::string& shown, float width, ImU32 colour, float before) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushID(key.c_str());
@@ -81,7 +73,7 @@ bool begin_list(Editor& editor, const std::string& key, const std::string& shown
   return ImGui::BeginPopup(popup.c_str());
 }
 
-bool list_entry(Editor& editor, const std::string& label, const std::string& doc, bool is_chosen) {
+bool list_entry(Workbench& editor, const std::string& label, const std::string& doc, bool is_chosen) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushID(label.c_str());
@@ -103,7 +95,7 @@ bool list_entry(Editor& editor, const std::string& label, const std::string& doc
   return is_pressed;
 }
 
-bool sign_button(Editor& editor, const char* sign, const std::string& hint, ImU32 colour, bool is_shown) {
+bool sign_button(Workbench& editor, const char* sign, const std::string& hint, ImU32 colour, bool is_shown) {
   const Theme& theme = editor.theme;
   const ImVec2 size{theme.px(20), ImGui::GetFrameHeight()};
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -118,7 +110,7 @@ bool sign_button(Editor& editor, const char* sign, const std::string& hint, ImU3
   return is_pressed;
 }
 
-int chips(Editor& editor, const std::string& key, const std::vector<std::string>& labels, bool is_fixed, int* clicked) {
+int chips(Workbench& editor, const std::string& key, const std::vector<std::string>& labels, bool is_fixed, int* clicked) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x, gap = theme.px(4), pad = theme.px(7);
@@ -156,7 +148,7 @@ int chips(Editor& editor, const std::string& key, const std::vector<std::string>
   return removed;
 }
 
-void small_text(Editor& editor, const std::string& text, ImU32 colour, float wrap_width) {
+void small_text(Workbench& editor, const std::string& text, ImU32 colour, float wrap_width) {
   ImGui::PushFont(editor.theme.fonts().small);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   if (wrap_width >= 0) ImGui::PushTextWrapPos(wrap_width > 0 ? ImGui::GetCursorPosX() + wrap_width : 0);
@@ -166,7 +158,7 @@ void small_text(Editor& editor, const std::string& text, ImU32 colour, float wra
   ImGui::PopFont();
 }
 
-void card(Editor& editor, const std::string& heading, const std::string& text, const std::string& facts) {
+void card(Workbench& editor, const std::string& heading, const std::string& text, const std::string& facts) {
   const Theme& theme = editor.theme;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(12), theme.px(10)});
   ImGui::BeginTooltip();

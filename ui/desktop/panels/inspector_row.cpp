@@ -1,12 +1,12 @@
 // Rows, sections and headings: one grid of labels and fields for everything that can be inspected.
 #include <algorithm>
 
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/inspector.h"
 
 namespace bl::desktop {
 
-RowEvent begin_row(Editor& editor, const std::string& key, const std::string& label, const std::string& doc,
+RowEvent begin_row(Workbench& editor, const std::string& key, const std::string& label, const std::string& doc,
                    const std::string& facts, const RowSigns& signs, float& width) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
@@ -54,7 +54,7 @@ void end_row() {
   ImGui::PopID();
 }
 
-bool section(Editor& editor, const std::string& key, const std::string& label, const std::string& doc, bool* wants_removal) {
+bool section(Workbench& editor, const std::string& key, const std::string& label, const std::string& doc, bool* wants_removal) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushID(key.c_str());
@@ -88,7 +88,7 @@ bool section(Editor& editor, const std::string& key, const std::string& label, c
   return !is_folded;
 }
 
-void heading(Editor& editor, const std::string& name, const std::string& below, ImU32 colour) {
+void heading(Workbench& editor, const std::string& name, const std::string& below, ImU32 colour) {
   const Theme& theme = editor.theme;
   ImGui::PushFont(theme.fonts().title);
   const std::string text = fitted(name, ImGui::GetContentRegionAvail().x);
@@ -100,7 +100,7 @@ void heading(Editor& editor, const std::string& name, const std::string& below, 
   ImGui::Dummy({0, theme.px(4)});
 }
 
-void draw_ghost(Editor& editor, const std::string& json, const std::string& note) {
+void draw_ghost(Workbench& editor, const std::string& json, const std::string& note) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   small_text(editor, std::string(icon::kWarning) + "  " + note, c.warning);

@@ -12,7 +12,7 @@ namespace bl::desktop {
 namespace {
 
 // The scripts that the scene carries; the cross takes one away, and its links rest.
-void list_scripts(Editor& editor) {
+void list_scripts(Workbench& editor) {
   const Scripts scripts = editor.scene().scripts;
   for (const auto& [name, text] : scripts.texts()) {
     const auto kind = scripts.kinds().find(name);
@@ -30,7 +30,7 @@ void list_scripts(Editor& editor) {
 
 }  // namespace
 
-void inspect_scene(Editor& editor) {
+void inspect_scene(Workbench& editor) {
   const Scene& scene = editor.scene();
   const TypeDefinition& type = settings_type();
   const auto title = scene.settings.find("title");

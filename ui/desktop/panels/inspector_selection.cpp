@@ -13,12 +13,12 @@ namespace {
 // So many entries of a list are drawn; the search field finds the others.
 constexpr int kMostEntries = 200;
 
-std::string type_label(const Editor& editor, const std::string& id) {
+std::string type_label(const Workbench& editor, const std::string& id) {
   const TypificationDefinition* type = editor.types().typification(id);
   return type != nullptr ? type->label : id;
 }
 
-std::vector<std::string> labels_of(const Editor& editor, const Selection& selection) {
+std::vector<std::string> labels_of(const Workbench& editor, const Selection& selection) {
   std::vector<std::string> labels;
   if (!selection.typification.empty()) labels.push_back("every " + type_label(editor, selection.typification));
   if (!selection.tag.empty()) labels.push_back((labels.empty() ? "every node tagged " : "that is tagged ") + selection.tag);
@@ -54,13 +54,13 @@ Found types_and_tags(const Scene& scene) {
   return found;
 }
 
-void caption(Editor& editor, const char* text) {
+void caption(Workbench& editor, const char* text) {
   ImGui::Dummy({0, editor.theme.px(2)});
   small_text(editor, text, editor.theme.colours().text_faint, -1);
 }
 
 // The list behind "choose": roles and tags make a query, nodes a list of names; the last press counts.
-std::optional<Selection> selection_list(Editor& editor, const Selection& now) {
+std::optional<Selection> selection_list(Workbench& editor, const Selection& now) {
   std::optional<Selection> chosen;
   const std::string& filter = memory_of(editor).filter;
   filter_field(editor, ImGui::GetContentRegionAvail().x);
@@ -96,7 +96,7 @@ std::optional<Selection> selection_list(Editor& editor, const Selection& now) {
 
 }  // namespace
 
-std::optional<Selection> selection_field(Editor& editor, const std::string& key, const Selection& selection, bool is_mixed,
+std::optional<Selection> selection_field(Workbench& editor, const std::string& key, const Selection& selection, bool is_mixed,
                                          float width) {
   std::optional<Selection> chosen;
   const std::vector<std::string> labels = is_mixed ? std::vector<std::string>{} : labels_of(editor, selection);
@@ -125,7 +125,7 @@ std::optional<Selection> selection_field(Editor& editor, const std::string& key,
   return chosen;
 }
 
-std::optional<Change> texts_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> texts_field(Workbench& editor, const Subject& subject, float width) {
   const auto& texts = *std::get<Shared<std::vector<std::string>>>(subject.value);
   std::optional<Change> change;
   if (subject.is_mixed)
@@ -148,7 +148,7 @@ std::optional<Change> texts_field(Editor& editor, const Subject& subject, float 
                 false};
 }
 
-std::optional<Change> port_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> port_field(Workbench& editor, const Subject& subject, float width) {
   const auto& chosen = std::get<std::string>(subject.value);
   std::optional<Change> change;
   const Colours& c = editor.theme.colours();

@@ -6,6 +6,7 @@
 
 #include "core/define/codec.h"
 #include "core/reading/figures.h"
+#include "core/reading/views/volume.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
@@ -42,7 +43,7 @@ double at_most_nine_digits(double value) {
   return std::round(value * scale) / scale;
 }
 
-std::optional<Change> typed_change(Editor& editor, const Subject& subject, const std::string& text) {
+std::optional<Change> typed_change(Workbench& editor, const Subject& subject, const std::string& text) {
   const double now = as_number(subject.value);
   if (text == kNoLimit && is_no_limit(*subject.port, subject.port->hard_maximum)) return constant(subject.port->hard_maximum);
   const auto number = typed_number(text, subject.unit, now);
@@ -65,7 +66,7 @@ std::optional<Change> typed_change(Editor& editor, const Subject& subject, const
   return constant(as_kind(port, *number));
 }
 
-std::optional<Change> scrubbed_change(Editor& editor, const Subject& subject, const CellEvent& event, float width) {
+std::optional<Change> scrubbed_change(Workbench& editor, const Subject& subject, const CellEvent& event, float width) {
   Scrub& scrub = memory_of(editor).scrub;
   const PortDefinition& port = *subject.port;
   const double now = as_number(subject.value), worth = worth_of_pixel(port, now, width);
@@ -96,7 +97,7 @@ std::optional<Change> scrubbed_change(Editor& editor, const Subject& subject, co
   return change;
 }
 
-std::optional<Change> text_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> text_field(Workbench& editor, const Subject& subject, float width) {
   const auto& text = std::get<std::string>(subject.value);
   CellLook look;
   look.is_long = true;
@@ -127,7 +128,7 @@ std::optional<Change> text_field(Editor& editor, const Subject& subject, float w
 }
 
 // A use can be any text, and is mostly one that the scene knows: it is typed, or taken from the list behind it.
-std::optional<Change> use_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> use_field(Workbench& editor, const Subject& subject, float width) {
   const float arrow = ImGui::GetFrameHeight(), gap = editor.theme.px(2);
   std::optional<Change> change = text_field(editor, subject, width - arrow - gap);
   ImGui::SameLine(0, gap);
@@ -145,7 +146,7 @@ std::optional<Change> use_field(Editor& editor, const Subject& subject, float wi
   return change;
 }
 
-std::optional<Change> choice_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> choice_field(Workbench& editor, const Subject& subject, float width) {
   const auto& chosen = std::get<std::string>(subject.value);
   std::optional<Change> change;
   const Colours& c = editor.theme.colours();
@@ -161,7 +162,7 @@ std::optional<Change> choice_field(Editor& editor, const Subject& subject, float
   return change;
 }
 
-std::optional<Change> fixed_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> fixed_field(Workbench& editor, const Subject& subject, float width) {
   switch (subject.port->kind) {
     case ValueKind::table: return table_field(editor, subject, width);
     case ValueKind::points: return points_field(editor, subject, width);
@@ -182,7 +183,7 @@ Change constant(Value value) {
   return {[value = std::move(value)](const Value&) { return value; }, false};
 }
 
-std::optional<Change> number_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> number_field(Workbench& editor, const Subject& subject, float width) {
   const PortDefinition& port = *subject.port;
   const double number = as_number(subject.value);
   CellLook look;
@@ -200,7 +201,7 @@ std::optional<Change> number_field(Editor& editor, const Subject& subject, float
   return std::nullopt;
 }
 
-std::optional<Change> point_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> point_field(Workbench& editor, const Subject& subject, float width) {
   const Vector3 point = std::get<Vector3>(subject.value);
   const float gap = editor.theme.px(4), each = (width - 2 * gap) / 3;
   PortDefinition part;
@@ -277,7 +278,7 @@ std::string value_text(const Value& value, const PortDefinition& port, Unit unit
   return report::quantity(as_number(value), unit);
 }
 
-std::optional<Change> value_field(Editor& editor, const Subject& subject, float width) {
+std::optional<Change> value_field(Workbench& editor, const Subject& subject, float width) {
   if (subject.is_fixed) return fixed_field(editor, subject, width);
   switch (subject.port->kind) {
     case ValueKind::boolean: {
@@ -288,7 +289,8 @@ std::optional<Change> value_field(Editor& editor, const Subject& subject, float 
     case ValueKind::integer:
     case ValueKind::number: return number_field(editor, subject, width);
     case ValueKind::text:
-      return subject.port->id == "use" ? use_field(editor, subject, width) : text_field(editor, subject, width);
+      return subject.port->id == reading::port_name_of<&reading::VolumeFigures::use>() ? use_field(editor, subject, width)
+                                                                                       : text_field(editor, subject, width);
     case ValueKind::choice: return choice_field(editor, subject, width);
     case ValueKind::port: return port_field(editor, subject, width);
     case ValueKind::point: return point_field(editor, subject, width);

@@ -28,19 +28,19 @@ struct Change {
   bool is_live = false;  ///< part of a drag: goes into the gesture of the scrub
 };
 
-std::optional<Change> value_field(Editor& editor, const Subject& subject, float width);
+std::optional<Change> value_field(Workbench& editor, const Subject& subject, float width);
 /// The value in one line, for computed ones and for "now ...".
 std::string value_text(const Value& value, const PortDefinition& port, Unit unit);
 
 // The fields of single kinds.
-std::optional<Change> number_field(Editor& editor, const Subject& subject, float width);
-std::optional<Change> point_field(Editor& editor, const Subject& subject, float width);
-std::optional<Change> points_field(Editor& editor, const Subject& subject, float width);
-std::optional<Change> table_field(Editor& editor, const Subject& subject, float width);
-std::optional<Change> texts_field(Editor& editor, const Subject& subject, float width);
-std::optional<Change> port_field(Editor& editor, const Subject& subject, float width);
+std::optional<Change> number_field(Workbench& editor, const Subject& subject, float width);
+std::optional<Change> point_field(Workbench& editor, const Subject& subject, float width);
+std::optional<Change> points_field(Workbench& editor, const Subject& subject, float width);
+std::optional<Change> table_field(Workbench& editor, const Subject& subject, float width);
+std::optional<Change> texts_field(Workbench& editor, const Subject& subject, float width);
+std::optional<Change> port_field(Workbench& editor, const Subject& subject, float width);
 /// `members`: how many nodes it names, where somebody knows.
-std::optional<Selection> selection_field(Editor& editor, const std::string& key, const Selection& selection, bool is_mixed,
+std::optional<Selection> selection_field(Workbench& editor, const std::string& key, const Selection& selection, bool is_mixed,
                                          float width);
 /// The change to one constant value.
 Change constant(Value value);

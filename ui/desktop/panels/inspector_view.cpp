@@ -30,7 +30,7 @@ const Value& parameter_of(const LinkRecord& link, const PortDefinition& port) {
 
 // The unit of a parameter whose unit another one names: the unit of the port that is chosen there. Where that in turn depends on
 // the node, the first node of the scene's end decides.
-Unit unit_of_parameter(const Editor& editor, const LinkDefinition& kind, const LinkRecord& link, const PortDefinition& port) {
+Unit unit_of_parameter(const Workbench& editor, const LinkDefinition& kind, const LinkRecord& link, const PortDefinition& port) {
   const PortDefinition* namer = port.unit_from.empty() ? nullptr : kind.find_port(port.unit_from);
   if (namer == nullptr) return port.unit;
   const auto* text = std::get_if<std::string>(&parameter_of(link, *namer));
@@ -53,7 +53,7 @@ Unit unit_of_parameter(const Editor& editor, const LinkDefinition& kind, const L
 
 }  // namespace
 
-void InspectorView::refresh(Editor& editor, const Picks& shown) {
+void InspectorView::refresh(Workbench& editor, const Picks& shown) {
   const std::size_t log_size = editor.document->session().log().size();
   if (editor.moment->state != state_) {
     state_ = editor.moment->state;
@@ -73,7 +73,7 @@ void InspectorView::refresh(Editor& editor, const Picks& shown) {
   merge_links(editor);
 }
 
-void InspectorView::merge_nodes(const Editor& editor) {
+void InspectorView::merge_nodes(const Workbench& editor) {
   types_.clear();
   if (nodes_.empty()) return;
   const Scene& scene = editor.scene();
@@ -105,7 +105,7 @@ void InspectorView::merge_nodes(const Editor& editor) {
   }
 }
 
-void InspectorView::merge_links(const Editor& editor) {
+void InspectorView::merge_links(const Workbench& editor) {
   kind_ = nullptr;
   parameters_.clear();
   if (links_.empty()) return;

@@ -6,8 +6,8 @@
 
 #include <imgui_stdlib.h>
 
-#include "ui/desktop/app/actions.h"
-#include "ui/desktop/app/fuzzy.h"
+#include "ui/desktop/look/fuzzy.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/canvas/additions.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 
@@ -18,7 +18,7 @@ namespace {
 struct PaletteHit {
   std::string label, note;
   bool is_possible = true;
-  std::function<void(Editor&)> run;
+  std::function<void(Workbench&)> run;
   int score = 0;
 };
 
@@ -28,13 +28,13 @@ std::string keys_of(const Action& action) {
 }
 
 // In the middle of what is seen of the canvas.
-void add_in_sight(Editor& editor, const std::string& role) {
+void add_in_sight(Workbench& editor, const std::string& role) {
   canvas::Board& board = editor.canvas->board();
   canvas::add_node(board, role, board.camera.sight().centre());
 }
 
 // Actions and roles of new nodes that fit what was typed, the best first; what cannot be done now stands at the end.
-std::vector<PaletteHit> hits_of(const std::string& query, const Editor& editor) {
+std::vector<PaletteHit> hits_of(const std::string& query, const Workbench& editor) {
   constexpr int kImpossible = 100000;
   std::vector<PaletteHit> hits;
   for (const Action& action : actions()) {
@@ -48,7 +48,7 @@ std::vector<PaletteHit> hits_of(const std::string& query, const Editor& editor) 
     for (const auto& [id, type] : editor.types().typifications()) {
       const std::string label = "Add " + type.label;
       const int score = id == kBaseNode ? -1 : fuzzy_score(query, label + " " + id);
-      if (score >= 0) hits.push_back({label, "new node", true, [role = id](Editor& e) { add_in_sight(e, role); }, score});
+      if (score >= 0) hits.push_back({label, "new node", true, [role = id](Workbench& e) { add_in_sight(e, role); }, score});
     }
   std::stable_sort(hits.begin(), hits.end(), [](const PaletteHit& a, const PaletteHit& b) { return a.score > b.score; });
   return hits;

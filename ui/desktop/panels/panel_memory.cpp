@@ -9,12 +9,10 @@
 namespace bl::desktop {
 
 PanelMemory::PanelMemory()
-    : problems(std::make_unique<ProblemList>()),
-      record(std::make_unique<RunRecord>()),
-      imports(std::make_unique<ImportList>()) {}
+    : problems(std::make_unique<ProblemList>()), record(std::make_unique<RunRecord>()), imports(std::make_unique<ImportList>()) {}
 PanelMemory::~PanelMemory() = default;
 
-PanelMemory& memory_of(Editor& editor) {
+PanelMemory& memory_of(Workbench& editor) {
   if (!editor.panels) editor.panels = std::make_shared<PanelMemory>();
   return *editor.panels;
 }

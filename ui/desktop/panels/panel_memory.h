@@ -9,7 +9,7 @@
 
 #include <imgui.h>
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
@@ -57,6 +57,6 @@ struct PanelMemory {
 };
 
 /// The memory of this editor's panels; a fresh one after another document was opened.
-PanelMemory& memory_of(Editor& editor);
+PanelMemory& memory_of(Workbench& editor);
 
 }  // namespace bl::desktop

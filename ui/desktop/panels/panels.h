@@ -1,22 +1,22 @@
 // The panels around canvas and 3D view; each fills the pane that it is called in.
 #pragma once
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
 /// Takes note of each tick and of what is wrong in it, whether or not a pane shows it: once in every frame.
-void watch_run(Editor& editor);
+void watch_run(Workbench& editor);
 /// Toolbar: play, pause, one tick, rewind, speed; what the simulation does and whether it keeps up.
-void draw_clock(Editor& editor);
+void draw_clock(Workbench& editor);
 /// What is chosen, with all of its ports; several nodes are edited together.
-void draw_inspector(Editor& editor);
+void draw_inspector(Workbench& editor);
 /// Tabs below: problems and conflicts, history, statistics with charts.
-void draw_bottom(Editor& editor);
-void draw_problems(Editor& editor);
-void draw_history(Editor& editor);
-void draw_statistics(Editor& editor);
+void draw_bottom(Workbench& editor);
+void draw_problems(Workbench& editor);
+void draw_history(Workbench& editor);
+void draw_statistics(Workbench& editor);
 /// What became of every element of imported files; a press goes to it.
-void draw_imports(Editor& editor);
+void draw_imports(Workbench& editor);
 
 }  // namespace bl::desktop

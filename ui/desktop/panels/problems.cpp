@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "core/reading/figures.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/inspector_cell.h"
 #include "ui/desktop/panels/panels.h"
@@ -33,7 +33,7 @@ Sign sign_of(const Theme& theme, const ProblemItem& item) {
 }
 
 // Counts by kind; a press shows that kind alone, another one all again.
-void draw_filters(Editor& editor, ProblemList& problems) {
+void draw_filters(Workbench& editor, ProblemList& problems) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   ImGui::PushFont(theme.fonts().small);
@@ -56,7 +56,7 @@ void draw_filters(Editor& editor, ProblemList& problems) {
   ImGui::PopFont();
 }
 
-void go_to(Editor& editor, const ProblemItem& item) {
+void go_to(Workbench& editor, const ProblemItem& item) {
   if (!editor.document || (item.nodes.empty() && item.links.empty())) return;
   if (!ImGui::GetIO().KeyShift) editor.picks.clear();
   for (const std::string& node : item.nodes)
@@ -70,7 +70,7 @@ void go_to(Editor& editor, const ProblemItem& item) {
   if (editor.view != nullptr) editor.view->fit(false);
 }
 
-void draw_item(Editor& editor, ProblemItem& item, int index, float height) {
+void draw_item(Workbench& editor, ProblemItem& item, int index, float height) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -107,7 +107,7 @@ void draw_item(Editor& editor, ProblemItem& item, int index, float height) {
   if (is_pressed) go_to(editor, item);
 }
 
-void draw_nothing(Editor& editor) {
+void draw_nothing(Workbench& editor) {
   const Colours& c = editor.theme.colours();
   ImGui::Dummy({0, editor.theme.px(6)});
   ImGui::PushStyleColor(ImGuiCol_Text, c.good);
@@ -120,7 +120,7 @@ void draw_nothing(Editor& editor) {
 
 }  // namespace
 
-void draw_problems(Editor& editor) {
+void draw_problems(Workbench& editor) {
   PanelMemory& memory = memory_of(editor);
   ProblemList& problems = *memory.problems;
   if (problems.items().empty()) return draw_nothing(editor);

@@ -231,7 +231,7 @@ void ProblemList::add_idle(const State& state) {
   }
 }
 
-void ProblemList::add_file(const Editor& editor) {
+void ProblemList::add_file(const Workbench& editor) {
   const std::string file = editor.problem_file.substr(editor.problem_file.find_last_of('/') + 1);
   for (std::size_t k = 0; k < editor.problems.size(); ++k) {
     const Problem& problem = editor.problems[k];
@@ -256,7 +256,7 @@ void ProblemList::add_file(const Editor& editor) {
   }
 }
 
-void ProblemList::refresh(const Editor& editor, const report::ReportModel& figures) {
+void ProblemList::refresh(const Workbench& editor, const report::ReportModel& figures) {
   const std::shared_ptr<const State> state = editor.moment ? editor.moment->state : nullptr;
   if (state == state_ && revision_ == editor.problems_revision) return;
   if (state && state->plan.get() != plan_) bands_.clear();

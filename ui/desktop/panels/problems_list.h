@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/reading/report_model.h"
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
@@ -31,7 +31,7 @@ struct ProblemItem {
 class ProblemList {
  public:
   /// Reads the state again where it is another one.
-  void refresh(const Editor& editor, const report::ReportModel& figures);
+  void refresh(const Workbench& editor, const report::ReportModel& figures);
   const std::vector<ProblemItem>& items() const { return items_; }
   std::size_t count(ProblemKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
   /// How many want to be looked at: all but what people have switched off themselves.
@@ -50,7 +50,7 @@ class ProblemList {
   void add_volumes(const State& state, const report::ReportModel& figures);
   void add_places(const State& state);
   void add_idle(const State& state);
-  void add_file(const Editor& editor);
+  void add_file(const Workbench& editor);
 
   std::vector<ProblemItem> items_;
   std::array<std::size_t, kProblemKinds> counts_{};

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/sun/sun_day.h"
-#include "ui/desktop/app/editor.h"
 #include "ui/desktop/panels/hidden.h"
+#include "ui/desktop/panels/workbench.h"
 #include "ui/desktop/view/colouring.h"
 #include "ui/desktop/view/picking.h"
 #include "ui/desktop/view/renderer.h"
@@ -33,7 +33,7 @@ struct LegendPlaces {
 
 class SceneView {
  public:
-  SceneView(Editor& editor, Renderer& renderer) : editor_(&editor), renderer_(&renderer) {}
+  SceneView(Workbench& editor, Renderer& renderer) : editor_(&editor), renderer_(&renderer) {}
   /// Fills the current pane, of `size` pixels.
   void draw(ImVec2 size);
   /// There is no document any more: what was read from it goes.
@@ -196,7 +196,7 @@ class SceneView {
   void go_to(const Camera& camera);
   Point3 place_of(std::uint32_t node) const;
 
-  Editor* editor_;
+  Workbench* editor_;
   Renderer* renderer_;
   ViewChoices choices_;
   std::shared_ptr<const SceneFacts> all_facts_, facts_;  ///< of the state; of those nodes that are not hidden

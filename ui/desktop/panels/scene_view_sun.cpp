@@ -9,7 +9,7 @@
 #include "core/reading/report_model.h"
 #include "core/reading/views/sun.h"
 #include "core/reading/views/traffic.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/reading/figures.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/dialogs.h"
 #include "ui/desktop/view/colouring.h"
 

@@ -3,14 +3,14 @@
 
 #include <memory>
 
-#include "ui/desktop/app/editor.h"
 #include "ui/desktop/panels/scene_pictures.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
 class StartPage {
  public:
-  explicit StartPage(Editor& editor) : editor_(&editor) {}
+  explicit StartPage(Workbench& editor) : editor_(&editor) {}
   void draw();
   /// Pictures are made only while the page is looked at.
   void leave() { pictures_.reset(); }
@@ -20,7 +20,7 @@ class StartPage {
   void draw_shipped();
   bool draw_card(const ScenePicture& picture, float width);
 
-  Editor* editor_;
+  Workbench* editor_;
   std::unique_ptr<ScenePictures> pictures_;
 };
 

@@ -4,7 +4,7 @@
 
 #include "core/reading/figures.h"
 #include "core/reading/views/solver.h"
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/charts.h"
 #include "ui/desktop/panels/inspector_cell.h"
@@ -17,10 +17,10 @@ namespace bl::desktop {
 
 namespace {
 
-void column_title(Editor& editor, const std::string& text) { small_text(editor, text, editor.theme.colours().text_soft, -1); }
+void column_title(Workbench& editor, const std::string& text) { small_text(editor, text, editor.theme.colours().text_soft, -1); }
 
 // A number over time without axes: its name, its last value, and the shape of it.
-void draw_spark(Editor& editor, const Chart& chart, ImVec2 at, ImVec2 size) {
+void draw_spark(Workbench& editor, const Chart& chart, ImVec2 at, ImVec2 size) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const Series& series = chart.series.front();
@@ -41,7 +41,7 @@ void draw_spark(Editor& editor, const Chart& chart, ImVec2 at, ImVec2 size) {
   ImGui::SetTooltip("tick %s\n%s", report::grouped(chart.ticks[k]).c_str(), chart_number(chart, series.values[k]).c_str());
 }
 
-void draw_run(Editor& editor, const RunRecord& record, ImVec2 size) {
+void draw_run(Workbench& editor, const RunRecord& record, ImVec2 size) {
   const Colours& c = editor.theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float gap = editor.theme.px(16);
@@ -66,7 +66,7 @@ void draw_run(Editor& editor, const RunRecord& record, ImVec2 size) {
   draw_spark(editor, move, {at.x + wide + gap, at.y + half + gap}, {narrow, half});
 }
 
-void draw_orders(Editor& editor, RunRecord& record) {
+void draw_orders(Workbench& editor, RunRecord& record) {
   const Theme& theme = editor.theme;
   column_title(editor, "Demand and volume, by");
   constexpr std::pair<VolumeOrder, const char*> kOrders[] = {
@@ -91,7 +91,7 @@ void draw_orders(Editor& editor, RunRecord& record) {
   }
 }
 
-void draw_volume(Editor& editor, const report::VolumeRow& row, int index, float height, double largest, double tolerance,
+void draw_volume(Workbench& editor, const report::VolumeRow& row, int index, float height, double largest, double tolerance,
                  ImU32 colour_of_its_use) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
@@ -140,7 +140,7 @@ void draw_volume(Editor& editor, const report::VolumeRow& row, int index, float 
   if (editor.view != nullptr) editor.view->fit(false);
 }
 
-void draw_volumes(Editor& editor, RunRecord& record) {
+void draw_volumes(Workbench& editor, RunRecord& record) {
   draw_orders(editor, record);
   const report::ReportModel& model = record.figures(editor);
   const std::vector<std::size_t>& order = record.ordered(editor);
@@ -164,7 +164,7 @@ void draw_volumes(Editor& editor, RunRecord& record) {
 }
 
 // One line of the programme: what is wanted as the mark, what there is as the bar.
-void draw_use(Editor& editor, const report::UseAccount& use, ImU32 colour, double largest, double tolerance) {
+void draw_use(Workbench& editor, const report::UseAccount& use, ImU32 colour, double largest, double tolerance) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -192,7 +192,7 @@ void draw_use(Editor& editor, const report::UseAccount& use, ImU32 colour, doubl
            (use.is_in_programme ? "" : "\nnot in any programme: what its volumes ask for counts"));
 }
 
-void draw_programme(Editor& editor, const report::ReportModel& model) {
+void draw_programme(Workbench& editor, const report::ReportModel& model) {
   column_title(editor, "Floor area by use");
   ImGui::BeginChild("uses", {0, 0});
   const report::Accounts& accounts = model.accounts;
@@ -211,7 +211,7 @@ void draw_programme(Editor& editor, const report::ReportModel& model) {
   ImGui::EndChild();
 }
 
-void fact(Editor& editor, const std::string& name, const std::string& value) {
+void fact(Workbench& editor, const std::string& name, const std::string& value) {
   const Theme& theme = editor.theme;
   ImFont* small = theme.fonts().small;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -234,7 +234,7 @@ std::string bytes_text(double bytes) {
   return report::grouped(bytes / 1024 / 1024, 1) + "\xC2\xA0MB";
 }
 
-void draw_engine(Editor& editor, const RunRecord& record) {
+void draw_engine(Workbench& editor, const RunRecord& record) {
   const State& state = editor.state();
   const Moment& moment = *editor.moment;
   column_title(editor, "Boundary and engine");
@@ -262,7 +262,7 @@ void draw_engine(Editor& editor, const RunRecord& record) {
 
 }  // namespace
 
-void draw_statistics(Editor& editor) {
+void draw_statistics(Workbench& editor) {
   if (!editor.document) return;
   RunRecord& record = *memory_of(editor).record;
   // Narrower than this the columns cannot be read: then the whole scrolls sideways.

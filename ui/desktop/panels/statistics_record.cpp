@@ -28,7 +28,7 @@ void RunRecord::drop_oldest() {
   for (auto* column : {&tick, &worst, &mean, &volume, &move, &tick_ms, &bytes}) column->erase(column->begin());
 }
 
-void RunRecord::sample(const Editor& editor) {
+void RunRecord::sample(const Workbench& editor) {
   if (last_frame_ > 0 && editor.now > last_frame_) frame_rate = smooth(frame_rate, 1 / (editor.now - last_frame_));
   last_frame_ = editor.now;
   const std::shared_ptr<const State>& state = editor.moment->state;
@@ -64,7 +64,7 @@ std::vector<ErrorSample> RunRecord::errors() const {
   return out;
 }
 
-const report::ReportModel& RunRecord::figures(const Editor& editor) {
+const report::ReportModel& RunRecord::figures(const Workbench& editor) {
   if (figured_ == editor.moment->state && figures_) return *figures_;
   figured_ = editor.moment->state;
   figures_ = std::make_unique<report::ReportModel>();
@@ -72,7 +72,7 @@ const report::ReportModel& RunRecord::figures(const Editor& editor) {
   return *figures_;
 }
 
-const std::vector<std::size_t>& RunRecord::ordered(const Editor& editor) {
+const std::vector<std::size_t>& RunRecord::ordered(const Workbench& editor) {
   const auto& volumes = figures(editor).volumes;
   const bool is_due = sorted_ != editor.moment->state && editor.now - sorted_at_ > kSortPause;
   if (!is_order_stale && ordered_.size() == volumes.size() && !is_due) return ordered_;

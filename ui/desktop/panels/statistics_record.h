@@ -8,7 +8,7 @@
 
 #include "core/reading/report_model.h"
 #include "core/report/report.h"
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
@@ -17,13 +17,13 @@ enum class VolumeOrder { error, name, use, size };
 class RunRecord {
  public:
   /// Takes a sample where a tick has passed since the last call; after a rewind the ticks that were undone are forgotten.
-  void sample(const Editor& editor);
+  void sample(const Workbench& editor);
   /// The ticks that are remembered, as the report wants them.
   std::vector<ErrorSample> errors() const;
   /// Volumes, uses and totals of the current state; made when they are asked for.
-  const report::ReportModel& figures(const Editor& editor);
+  const report::ReportModel& figures(const Workbench& editor);
   /// Indices of the volumes in the order that is wanted; it settles down between changes.
-  const std::vector<std::size_t>& ordered(const Editor& editor);
+  const std::vector<std::size_t>& ordered(const Workbench& editor);
 
   // Columns of samples, the oldest first; all of one length.
   std::vector<double> tick, worst, mean, volume, move, tick_ms, bytes;

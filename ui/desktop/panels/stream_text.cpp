@@ -35,7 +35,7 @@ StreamText sensor_text(const SensorFigures& sensor) {
   return stream;
 }
 
-StreamText actuator_text(const Editor& editor, const State& state, std::uint32_t node, const ActuatorFigures& actuator,
+StreamText actuator_text(const Workbench& editor, const State& state, std::uint32_t node, const ActuatorFigures& actuator,
                          const std::optional<Error>& error) {
   StreamText stream;
   stream.value = value_text(actuator.value, actuator.unit);
@@ -82,7 +82,7 @@ bool is_stream(const TypificationDefinition& type) {
   return reading::is_a<SensorFigures>(type) || reading::is_a<ActuatorFigures>(type);
 }
 
-std::optional<StreamText> stream_of(const Editor& editor, const State& state, std::uint32_t node, std::size_t type) {
+std::optional<StreamText> stream_of(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
   if (node >= state.nodes.size() || type >= state.nodes[node].types.size()) return std::nullopt;
   const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
   if (reading::is_a<SensorFigures>(definition)) return sensor_text(*reading::row_of<SensorFigures>(state, node));
@@ -90,7 +90,7 @@ std::optional<StreamText> stream_of(const Editor& editor, const State& state, st
   return actuator_text(editor, state, node, *reading::row_of<ActuatorFigures>(state, node), state.nodes[node].types[type].error);
 }
 
-std::optional<StreamText> stream_of(const Editor& editor, const State& state, std::uint32_t node) {
+std::optional<StreamText> stream_of(const Workbench& editor, const State& state, std::uint32_t node) {
   if (node >= state.nodes.size()) return std::nullopt;
   for (std::size_t type = 0; type < state.nodes[node].types.size(); ++type)
     if (auto found = stream_of(editor, state, node, type)) return found;

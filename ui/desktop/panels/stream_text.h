@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
@@ -30,9 +30,9 @@ struct StreamText {
 /// Has the typification a value with an age and a quality, or is it one whose values leave the scene?
 bool is_stream(const TypificationDefinition& type);
 /// Of one typification of a node, both as numbers in the state.
-std::optional<StreamText> stream_of(const Editor& editor, const State& state, std::uint32_t node, std::size_t type);
+std::optional<StreamText> stream_of(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type);
 /// Of the node's first stream; nothing where it has none.
-std::optional<StreamText> stream_of(const Editor& editor, const State& state, std::uint32_t node);
+std::optional<StreamText> stream_of(const Workbench& editor, const State& state, std::uint32_t node);
 
 ImU32 colour_of(const Theme& theme, StreamStanding standing);
 /// A disc, a triangle, a cross or a ring: told apart without colour.

@@ -1,7 +1,7 @@
 // The commands of the 3D view and of the panes.
 #include <GLFW/glfw3.h>
 
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/hidden.h"
 #include "ui/desktop/panels/scene_view.h"
 
@@ -9,21 +9,21 @@ namespace bl::desktop {
 
 namespace {
 
-bool is_editing(const Editor& e) { return has_document(e) && !e.is_beamer; }
-bool is_in_beamer(const Editor& e) { return e.is_beamer; }
+bool is_editing(const Workbench& e) { return has_document(e) && !e.is_beamer; }
+bool is_in_beamer(const Workbench& e) { return e.is_beamer; }
 
 template <SceneView::Side side>
-void look(Editor& e) {
+void look(Workbench& e) {
   e.view->look_from(side);
 }
 
 void add_camera_actions(std::vector<Action>& list) {
   using Side = SceneView::Side;
   list.push_back(
-      {"View", "Frame selection, or all", {GLFW_KEY_F}, {GLFW_KEY_KP_DECIMAL}, Area::view, has_document, [](Editor& e) {
+      {"View", "Frame selection, or all", {GLFW_KEY_F}, {GLFW_KEY_KP_DECIMAL}, Area::view, has_document, [](Workbench& e) {
          e.view->fit(false);
        }});
-  list.push_back({"View", "Frame all", {GLFW_KEY_HOME}, {}, Area::view, has_document, [](Editor& e) { e.view->fit(true); }});
+  list.push_back({"View", "Frame all", {GLFW_KEY_HOME}, {}, Area::view, has_document, [](Workbench& e) { e.view->fit(true); }});
   list.push_back({"View", "Plan, from above", {GLFW_KEY_1}, {}, Area::view, is_editing, look<Side::plan>});
   list.push_back({"View", "From the south", {GLFW_KEY_2}, {}, Area::view, is_editing, look<Side::south>});
   list.push_back({"View", "From the east", {GLFW_KEY_3}, {}, Area::view, is_editing, look<Side::east>});
@@ -34,66 +34,68 @@ void add_camera_actions(std::vector<Action>& list) {
                   {},
                   Area::view,
                   is_editing,
-                  [](Editor& e) { e.view->toggle_parallel(); },
+                  [](Workbench& e) { e.view->toggle_parallel(); },
                   false,
-                  [](const Editor& e) { return e.view != nullptr && !e.view->camera().is_parallel; }});
+                  [](const Workbench& e) { return e.view != nullptr && !e.view->camera().is_parallel; }});
   list.push_back({"View",
                   "Walk (W A S D)",
                   {GLFW_KEY_6},
                   {},
                   Area::view,
                   is_editing,
-                  [](Editor& e) { e.view->toggle_walk(); },
+                  [](Workbench& e) { e.view->toggle_walk(); },
                   false,
-                  [](const Editor& e) { return e.view != nullptr && e.view->is_walking(); }});
+                  [](const Workbench& e) { return e.view != nullptr && e.view->is_walking(); }});
   list.push_back({"View",
                   "Section plane",
                   {GLFW_KEY_B, false, false, true},
                   {},
                   Area::view,
                   has_document,
-                  [](Editor& e) { e.view->toggle_section(); },
+                  [](Workbench& e) { e.view->toggle_section(); },
                   false,
-                  [](const Editor& e) { return e.view != nullptr && e.view->section().is_on; }});
-  list.push_back({"View", "Turn the section plane", {GLFW_KEY_B, false, true, true}, {}, Area::view, has_document, [](Editor& e) {
-                    e.view->next_section();
-                  }});
+                  [](const Workbench& e) { return e.view != nullptr && e.view->section().is_on; }});
+  list.push_back(
+      {"View", "Turn the section plane", {GLFW_KEY_B, false, true, true}, {}, Area::view, has_document, [](Workbench& e) {
+         e.view->next_section();
+       }});
   list.push_back({"View",
                   "Move the selection",
                   {GLFW_KEY_G},
                   {},
                   Area::view,
-                  [](const Editor& e) { return is_editing(e) && !e.picks.nodes.empty(); },
-                  [](Editor& e) { e.view->begin_move_by_key(); }});
+                  [](const Workbench& e) { return is_editing(e) && !e.picks.nodes.empty(); },
+                  [](Workbench& e) { e.view->begin_move_by_key(); }});
 }
 
-bool has_sun(const Editor& e) { return has_document(e) && e.view != nullptr && e.view->has_sun(); }
-bool is_previewing(const Editor& e) { return has_sun(e) && e.view->preview().has_value(); }
+bool has_sun(const Workbench& e) { return has_document(e) && e.view != nullptr && e.view->has_sun(); }
+bool is_previewing(const Workbench& e) { return has_sun(e) && e.view->preview().has_value(); }
 
 // Half hours and days of the sun in the view; the scene has its own moment until somebody sets it.
 void add_sun_actions(std::vector<Action>& list) {
-  const auto add = [&](const char* label, Chord chord, bool (*can)(const Editor&), void (*run)(Editor&), bool repeats = false) {
+  const auto add = [&](const char* label, Chord chord, bool (*can)(const Workbench&), void (*run)(Workbench&),
+                       bool repeats = false) {
     list.push_back({"View", label, chord, {}, Area::view, can, run, repeats});
     list.back().submenu = "Sun";
   };
   constexpr double kHalfHour = 1800;
   add(
-      "Sun: half an hour later", {GLFW_KEY_RIGHT, false, false, true}, has_sun, [](Editor& e) { e.view->step_sun(kHalfHour, 0); },
-      true);
+      "Sun: half an hour later", {GLFW_KEY_RIGHT, false, false, true}, has_sun,
+      [](Workbench& e) { e.view->step_sun(kHalfHour, 0); }, true);
   add(
       "Sun: half an hour earlier", {GLFW_KEY_LEFT, false, false, true}, has_sun,
-      [](Editor& e) { e.view->step_sun(-kHalfHour, 0); }, true);
+      [](Workbench& e) { e.view->step_sun(-kHalfHour, 0); }, true);
   add(
-      "Sun: a day later", {GLFW_KEY_UP, false, false, true}, has_sun, [](Editor& e) { e.view->step_sun(0, 1); }, true);
+      "Sun: a day later", {GLFW_KEY_UP, false, false, true}, has_sun, [](Workbench& e) { e.view->step_sun(0, 1); }, true);
   add(
-      "Sun: a day earlier", {GLFW_KEY_DOWN, false, false, true}, has_sun, [](Editor& e) { e.view->step_sun(0, -1); }, true);
-  add("Sun: run through the day", {}, has_sun, [](Editor& e) { e.view->toggle_sun_run(); });
-  list.back().is_on = [](const Editor& e) { return e.view != nullptr && e.view->is_sun_running(); };
-  add("Sun: set the previewed moment in the scene", {}, is_previewing, [](Editor& e) { e.view->set_sun_in_scene(); });
+      "Sun: a day earlier", {GLFW_KEY_DOWN, false, false, true}, has_sun, [](Workbench& e) { e.view->step_sun(0, -1); }, true);
+  add("Sun: run through the day", {}, has_sun, [](Workbench& e) { e.view->toggle_sun_run(); });
+  list.back().is_on = [](const Workbench& e) { return e.view != nullptr && e.view->is_sun_running(); };
+  add("Sun: set the previewed moment in the scene", {}, is_previewing, [](Workbench& e) { e.view->set_sun_in_scene(); });
   add(
       "Sun: back to the scene's moment", {GLFW_KEY_ESCAPE},
-      [](const Editor& e) { return is_previewing(e) && is_editing(e) && !e.view->is_moving() && !e.view->is_walking(); },
-      [](Editor& e) { e.view->end_preview(); });
+      [](const Workbench& e) { return is_previewing(e) && is_editing(e) && !e.view->is_moving() && !e.view->is_walking(); },
+      [](Workbench& e) { e.view->end_preview(); });
 }
 
 void add_hiding(std::vector<Action>& list) {
@@ -102,7 +104,7 @@ void add_hiding(std::vector<Action>& list) {
                   {GLFW_KEY_H, false, true},
                   {},
                   Area::none,
-                  [](const Editor& e) { return is_editing(e) && !e.picks.nodes.empty(); },
+                  [](const Workbench& e) { return is_editing(e) && !e.picks.nodes.empty(); },
                   hide_chosen,
                   false,
                   are_chosen_hidden});
@@ -121,11 +123,11 @@ constexpr const char* kGoLabels[] = {"Go to kept view 1", "Go to kept view 2", "
 
 template <int number>
 void add_kept_view(std::vector<Action>& list) {
-  list.push_back({"View", kKeepLabels[number - 1], {GLFW_KEY_0 + number, true}, {}, Area::view, has_document, [](Editor& e) {
+  list.push_back({"View", kKeepLabels[number - 1], {GLFW_KEY_0 + number, true}, {}, Area::view, has_document, [](Workbench& e) {
                     e.view->store_camera(number);
                   }});
   list.back().submenu = "Kept views";
-  list.push_back({"View", kGoLabels[number - 1], {GLFW_KEY_0 + number}, {}, Area::view, is_in_beamer, [](Editor& e) {
+  list.push_back({"View", kGoLabels[number - 1], {GLFW_KEY_0 + number}, {}, Area::view, is_in_beamer, [](Workbench& e) {
                     e.view->recall_camera(number);
                   }});
   list.back().submenu = "Kept views";
@@ -142,9 +144,9 @@ void add_layer_actions(std::vector<Action>& list) {
                   {},
                   Area::none,
                   has_document,
-                  [](Editor& e) { set_layer(e.person, layers()[index].id, !is_on(e.person, layers()[index].id)); },
+                  [](Workbench& e) { set_layer(e.person, layers()[index].id, !is_on(e.person, layers()[index].id)); },
                   false,
-                  [](const Editor& e) { return is_on(e.person, layers()[index].id); }});
+                  [](const Workbench& e) { return is_on(e.person, layers()[index].id); }});
   list.back().submenu = "Layers";
   if constexpr (index + 1 < kLayerCount) add_layer_actions<index + 1>(list);
 }
@@ -157,9 +159,9 @@ void add_scale(std::vector<Action>& list, const char* label) {
                   {},
                   Area::none,
                   nullptr,
-                  [](Editor& e) { e.person.scale = percent / 100.0f; },
+                  [](Workbench& e) { e.person.scale = percent / 100.0f; },
                   false,
-                  [](const Editor& e) { return e.person.scale == percent / 100.0f; }});
+                  [](const Workbench& e) { return e.person.scale == percent / 100.0f; }});
   list.back().submenu = "Scale";
 }
 
@@ -173,9 +175,9 @@ void add_habit(std::vector<Action>& list, const char* label) {
                   {},
                   Area::none,
                   nullptr,
-                  [](Editor& e) { e.person.navigation = habit; },
+                  [](Workbench& e) { e.person.navigation = habit; },
                   false,
-                  [](const Editor& e) { return e.person.navigation == habit; }});
+                  [](const Workbench& e) { return e.person.navigation == habit; }});
   list.back().submenu = "Mouse";
 }
 
@@ -187,7 +189,7 @@ void add_navigation(std::vector<Action>& list) {
 }
 
 // Canvas, 3D view, fields, and round again: for those who work without a mouse.
-void next_pane(Editor& e) {
+void next_pane(Workbench& e) {
   const bool has_fields = e.person.shows_side || e.person.shows_bottom;
   const char* name = "canvas";
   switch (e.area) {
@@ -206,11 +208,11 @@ void add_window_actions(std::vector<Action>& list) {
                   {},
                   Area::none,
                   has_document,
-                  [](Editor& e) { e.is_beamer = !e.is_beamer; },
+                  [](Workbench& e) { e.is_beamer = !e.is_beamer; },
                   false,
                   is_in_beamer});
   list.push_back(
-      {"View", "Leave beamer mode", {GLFW_KEY_ESCAPE}, {}, Area::none, is_in_beamer, [](Editor& e) { e.is_beamer = false; }});
+      {"View", "Leave beamer mode", {GLFW_KEY_ESCAPE}, {}, Area::none, is_in_beamer, [](Workbench& e) { e.is_beamer = false; }});
   list.push_back({"View", "Keys to the next pane", {GLFW_KEY_F6}, {}, Area::none, is_editing, next_pane});
   list.push_back({"View",
                   "Show inspector",
@@ -218,27 +220,27 @@ void add_window_actions(std::vector<Action>& list) {
                   {},
                   Area::view,
                   has_document,
-                  [](Editor& e) { e.person.shows_side = !e.person.shows_side; },
+                  [](Workbench& e) { e.person.shows_side = !e.person.shows_side; },
                   false,
-                  [](const Editor& e) { return e.person.shows_side; }});
+                  [](const Workbench& e) { return e.person.shows_side; }});
   list.push_back({"View",
                   "Show lists",
                   {GLFW_KEY_T},
                   {},
                   Area::view,
                   has_document,
-                  [](Editor& e) { e.person.shows_bottom = !e.person.shows_bottom; },
+                  [](Workbench& e) { e.person.shows_bottom = !e.person.shows_bottom; },
                   false,
-                  [](const Editor& e) { return e.person.shows_bottom; }});
+                  [](const Workbench& e) { return e.person.shows_bottom; }});
   list.push_back({"View",
                   "Dark colours",
                   {},
                   {},
                   Area::none,
                   nullptr,
-                  [](Editor& e) { e.person.is_dark = !e.person.is_dark; },
+                  [](Workbench& e) { e.person.is_dark = !e.person.is_dark; },
                   false,
-                  [](const Editor& e) { return e.person.is_dark; }});
+                  [](const Workbench& e) { return e.person.is_dark; }});
   add_scale<100>(list, "Scale 100 %");
   add_scale<125>(list, "Scale 125 %");
   add_scale<150>(list, "Scale 150 %");

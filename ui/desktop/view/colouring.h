@@ -7,7 +7,7 @@
 
 #include "core/define/registry.h"
 #include "core/graph/scene.h"
-#include "ui/desktop/app/theme.h"
+#include "ui/desktop/look/theme.h"
 #include "ui/desktop/view/labels.h"
 #include "ui/desktop/view/scene_facts.h"
 

@@ -13,7 +13,7 @@
 #include "core/reading/views/surroundings.h"
 #include "core/reading/views/traffic.h"
 #include "core/traffic/street_line.h"
-#include "ui/desktop/view/media_place.h"
+#include "ui/desktop/document/media_place.h"
 
 namespace bl::desktop {
 

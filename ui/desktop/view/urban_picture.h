@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/editor/editor.h"
 #include "ui/desktop/view/colouring.h"
 #include "ui/desktop/view/view_builder.h"
 

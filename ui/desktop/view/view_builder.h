@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/editor/editor.h"
 #include "ui/desktop/view/colouring.h"
 #include "ui/desktop/view/isochrones.h"
 #include "ui/desktop/view/scene_facts.h"

@@ -22,13 +22,13 @@ constexpr std::size_t kMostBundled = 40;
 // More than any recency.
 constexpr int kAfterVolumes = 5000;
 
-int recency_of(const Editor& editor, const std::string& id) {
+int recency_of(const Workbench& editor, const std::string& id) {
   const auto& recent = editor.person.recent_additions;
   const auto found = std::find(recent.begin(), recent.end(), id);
   return found == recent.end() ? 1000 : static_cast<int>(found - recent.begin());
 }
 
-void remember(Editor& editor, const std::string& id) { editor.person.remember(editor.person.recent_additions, id); }
+void remember(Workbench& editor, const std::string& id) { editor.person.remember(editor.person.recent_additions, id); }
 
 std::string first_sentence(const std::string& doc) {
   const std::size_t end = doc.find(". ");
@@ -73,7 +73,7 @@ Command new_link(const Board& board, const LinkDefinition& kind, const std::stri
 }  // namespace
 
 void add_node(Board& board, const std::string& type, ImVec2 at) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   const TypificationDefinition& role = *editor.types().typification(type);
   FreshIds ids(editor);
   const std::string id = ids.of(role.label);
@@ -94,7 +94,7 @@ bool lacks_role(const Scene& scene, const std::string& node, const std::string& 
 }
 
 void add_role(Board& board, const std::string& type) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   std::vector<Command> commands;
   std::vector<std::string> nodes;
   for (const std::string& id : editor.picks.nodes)
@@ -114,7 +114,7 @@ std::string short_name(const Board& board, const Selection& selection) {
 }
 
 void lay_link(Board& board, const std::string& kind, const Selection& from, const Selection& to) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   const LinkDefinition& definition = *editor.types().link(kind);
   FreshIds ids(editor);
   const std::string id = ids.of(short_name(board, from).substr(0, 24) + "_" + short_name(board, to).substr(0, 24));
@@ -127,7 +127,7 @@ void lay_link(Board& board, const std::string& kind, const Selection& from, cons
 }
 
 void add_linked_node(Board& board, const std::string& kind, const std::string& type, const Selection& from, ImVec2 at) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   const LinkDefinition& definition = *editor.types().link(kind);
   const TypificationDefinition& role = *editor.types().typification(type);
   FreshIds ids(editor);
@@ -181,7 +181,7 @@ bool does_fit(const Board& board, const LinkDefinition& kind, const Bundle& bund
 }
 
 void lay_bundle(Board& board, const std::string& kind, const Bundle& bundle) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   const LinkDefinition& definition = *editor.types().link(kind);
   FreshIds ids(editor);
   std::vector<Command> commands;
@@ -202,7 +202,7 @@ void lay_bundle(Board& board, const std::string& kind, const Bundle& bundle) {
 void offer_links(const Board& board, Picker& picker) {
   const std::size_t count = board.choice_order.size();
   if (count < 2 || count > kMostBundled) return;
-  const Editor& editor = board.editor;
+  const Workbench& editor = board.editor;
   const Bundle forth = bundle_of(board, false), back = bundle_of(board, true);
   for (const auto& [id, kind] : editor.types().links()) {
     const bool fits_forth = does_fit(board, kind, forth);
@@ -217,7 +217,7 @@ void offer_links(const Board& board, Picker& picker) {
 }  // namespace
 
 void open_addition(Board& board, ImVec2 screen) {
-  const Editor& editor = board.editor;
+  const Workbench& editor = board.editor;
   Picker picker;
   picker.at = screen;
   picker.title = "Add";
@@ -254,7 +254,7 @@ void open_addition(Board& board, ImVec2 screen) {
 }
 
 void open_link_menu(Board& board, std::size_t from, std::size_t to, ImVec2 screen) {
-  const Editor& editor = board.editor;
+  const Workbench& editor = board.editor;
   const Selection a = board.model.selection_of(from), b = board.model.selection_of(to);
   Picker picker;
   picker.at = screen;
@@ -272,7 +272,7 @@ void open_link_menu(Board& board, std::size_t from, std::size_t to, ImVec2 scree
 }
 
 void open_drop_menu(Board& board, std::size_t from, ImVec2 screen) {
-  const Editor& editor = board.editor;
+  const Workbench& editor = board.editor;
   const Selection a = board.model.selection_of(from);
   const ImVec2 at = board.camera.to_plane(screen);
   Picker picker;

@@ -253,7 +253,7 @@ namespace {
 void end_edit(Board& board) {
   const InlineEdit edit = board.edit;
   board.edit = {};
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   const ViewData& view = board.model.view;
   Json patch = Json::object();
   if (edit.thing == Thing::node && edit.text != editor.name_of(edit.id)) {

@@ -14,7 +14,7 @@ std::string BarFigures::text() const {
   return report::readable(account.volume) + " / " + report::quantity(account.asked, Unit::cubic_metre);
 }
 
-BarFigures bar_figures(Editor& editor, const NodeBox& box) {
+BarFigures bar_figures(Workbench& editor, const NodeBox& box) {
   const report::Accounts& accounts = memory_of(editor).record->figures(editor).accounts;
   BarFigures bar;
   const auto found = std::lower_bound(accounts.volumes.begin(), accounts.volumes.end(), box.in_state,

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "ui/desktop/app/editor.h"
 #include "ui/desktop/panels/canvas/camera.h"
 #include "ui/desktop/panels/canvas/live.h"
 #include "ui/desktop/panels/canvas/model.h"
 #include "ui/desktop/panels/canvas/picker.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop::canvas {
 
@@ -107,9 +107,9 @@ struct Crumb {
 };
 
 struct Board {
-  explicit Board(Editor& the_editor) : editor(the_editor) {}
+  explicit Board(Workbench& the_editor) : editor(the_editor) {}
 
-  Editor& editor;
+  Workbench& editor;
   Camera camera;
   Model model;
   Live live;
@@ -136,7 +136,7 @@ struct Board {
   bool has_space_panned = false;
   std::string find_text;
   std::function<void(Board&)> after_frame;  ///< what has to wait until nothing is being walked over
-  std::uint64_t document = 0;  ///< whose board it is
+  std::uint64_t document = 0;               ///< whose board it is
 
   const Theme& theme() const { return editor.theme; }
   bool is_hidden(const Line& line) const { return hidden_families.contains(line.family.label); }

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ui/desktop/app/buttons.h"
+#include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/canvas/context_menu.h"
@@ -17,7 +17,7 @@ namespace bl::desktop {
 using canvas::Board;
 using canvas::Box;
 
-Canvas::Canvas(Editor& editor) : board_(std::make_unique<Board>(editor)) {}
+Canvas::Canvas(Workbench& editor) : board_(std::make_unique<Board>(editor)) {}
 Canvas::~Canvas() = default;
 
 namespace {
@@ -86,7 +86,7 @@ void draw_layers(Board& board) {
 
 void Canvas::draw(ImVec2 size) {
   Board& board = *board_;
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   if (!editor.document || !editor.moment || size.x < 8 || size.y < 8) return;
   if (ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) editor.point_at(Area::canvas);
   follow_document(board);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "ui/desktop/app/editor.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop {
 
@@ -15,7 +15,7 @@ struct Board;
 
 class Canvas {
  public:
-  explicit Canvas(Editor& editor);
+  explicit Canvas(Workbench& editor);
   ~Canvas();
   /// Fills the current pane, of `size` pixels.
   void draw(ImVec2 size);

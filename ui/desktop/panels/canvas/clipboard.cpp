@@ -204,7 +204,7 @@ std::optional<Box> box_of_clip(const Json& clip) {
 }  // namespace
 
 std::string clip_of_choice(const Board& board) {
-  const Editor& editor = board.editor;
+  const Workbench& editor = board.editor;
   const auto& nodes = editor.picks.nodes;
   if (nodes.empty() && board.picked_comments.empty()) return "";
   Json clip = Json::object();
@@ -240,7 +240,7 @@ std::string clip_of_choice(const Board& board) {
 }
 
 bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shift) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   const auto clip = parse_json(text);
   if (!clip || !clip->is_object() || text_in(*clip, kMark) != "clip") {
     editor.tell(NoticeKind::told, "The clipboard holds nothing that was copied from a canvas.");

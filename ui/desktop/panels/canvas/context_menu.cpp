@@ -3,7 +3,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include "ui/desktop/app/actions.h"
+#include "ui/desktop/panels/actions.h"
 
 namespace bl::desktop::canvas {
 

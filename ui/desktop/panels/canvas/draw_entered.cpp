@@ -9,7 +9,7 @@ namespace {
 constexpr float kCrumbText = 13, kCrumbHeight = 24, kMostCrumb = 220, kDoorText = 11.5f, kLeastDoorText = 8.5f;
 constexpr const char* kSeparator = "\xe2\x80\xba";
 
-std::string name_of_scene(const Editor& editor) {
+std::string name_of_scene(const Workbench& editor) {
   const std::string& title = editor.state().plan->settings.title;
   return title.empty() ? editor.document->name() : title;
 }

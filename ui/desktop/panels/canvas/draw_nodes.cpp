@@ -106,7 +106,7 @@ void draw_bar_line(const Ink& ink, const NodeBox& box, float y) {
 // The last reading or message: its value at the left, its age and quality at the right, in the colour of its standing.
 void draw_stream_line(const Ink& ink, const NodeBox& box, const Section& section, float y) {
   if (ink.zoom < kTextZoom || box.in_state == kNoIndex || section.in_state == kNoIndex) return;
-  const Editor& editor = ink.board.editor;
+  const Workbench& editor = ink.board.editor;
   const auto stream = stream_of(editor, editor.state(), box.in_state, section.in_state);
   if (!stream) return;
   const ImVec2 low = ink.at(box.box.at.x + 6, y + 2), high = ink.at(box.box.high().x - 6, y + kStreamHeight - 1);
@@ -211,7 +211,7 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
   Section& section = box.sections.front();
   const float foot = screen.high().y - bar - 5 - pixels, room = screen.size.x - pad - 4;
   if (section.is_stream && box.in_state != kNoIndex && section.in_state != kNoIndex) {
-    const Editor& editor = ink.board.editor;
+    const Workbench& editor = ink.board.editor;
     if (const auto stream = stream_of(editor, editor.state(), box.in_state, section.in_state))
       draw_text(ink.board, {screen.low().x + pad, foot}, 0.85f * pixels,
                 mixed(colour_of(editor.theme, stream->standing), ink.c.text, 0.3f), stream->value, room);
@@ -255,7 +255,7 @@ void draw_head(const Ink& ink, const NodeBox& box, double tension, bool has_erro
 }
 
 void draw_outline(const Ink& ink, const NodeBox& box, const Box& screen, bool has_error) {
-  const Editor& editor = ink.board.editor;
+  const Workbench& editor = ink.board.editor;
   const bool is_picked = editor.picks.nodes.contains(box.id), is_hovered = editor.picks.lit_node == box.id;
   const float round = ink.zoom < kNameZoom ? (screen.size.x > 40 ? 3.0f : 0.0f) : kRounding * ink.k;
   const float scale = ink.board.theme().scale();
@@ -281,7 +281,7 @@ void draw_handles(const Ink& ink, const Box& screen, bool is_at_edge) {
 
 void draw_node(const Ink& ink, NodeBox& box) {
   const Box screen = ink.board.camera.to_screen(box.box);
-  const Editor& editor = ink.board.editor;
+  const Workbench& editor = ink.board.editor;
   std::string error;
   double tension = 0;
   if (box.in_state != kNoIndex) {

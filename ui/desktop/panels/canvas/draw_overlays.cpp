@@ -168,7 +168,7 @@ void add_troubles(const Board& board, const NodeBox& box, std::vector<CardRow>& 
 }
 
 std::vector<CardRow> rows_of(const Board& board, const NodeBox& box) {
-  const Editor& editor = board.editor;
+  const Workbench& editor = board.editor;
   const Colours& c = board.theme().colours();
   std::vector<CardRow> rows;
   if (box.in_state == kNoIndex) rows.push_back({"Computed from the next tick on.", "", c.text_faint});
@@ -211,7 +211,7 @@ void draw_pinned_card(Board& board, const NodeBox& box) {
 }
 
 void draw_link_card(Board& board, const Line& line) {
-  const Editor& editor = board.editor;
+  const Workbench& editor = board.editor;
   const Colours& c = board.theme().colours();
   const auto found = editor.scene().links.find(line.id);
   if (found == editor.scene().links.end()) return;  // another panel has just removed it

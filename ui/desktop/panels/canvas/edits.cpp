@@ -144,7 +144,7 @@ namespace {
 // All that reaches what is chosen: also links of the whole scene that end at a set with a chosen node in it.
 std::set<std::string> links_heard(const Board& board) {
   std::set<std::string> links = links_of_choice(board);
-  const Editor& editor = board.editor;
+  const Workbench& editor = board.editor;
   const auto& nodes = editor.picks.nodes;
   const auto reaches = [&](const Selection& end) {
     const std::vector<std::string> members = resolve(editor.scene(), editor.types(), end);
@@ -187,7 +187,7 @@ void dissolve(const Board& board, const std::string& id, const std::set<std::str
 }  // namespace
 
 void remove_chosen(Board& board, bool reconnects) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   const std::set<std::string> nodes = editor.picks.nodes;
   std::set<std::string> links = editor.picks.links;
   std::vector<Command> commands;
@@ -239,7 +239,7 @@ void mute_chosen(Board& board) {
 }
 
 void solo_chosen(Board& board) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   std::vector<Command> commands;
   const auto& all = editor.scene().links;
   if (!board.soloed.empty()) {
@@ -263,7 +263,7 @@ void solo_chosen(Board& board) {
 }
 
 void move_links(Board& board, std::size_t from, std::size_t to) {
-  Editor& editor = board.editor;
+  Workbench& editor = board.editor;
   const Selection target = board.model.selection_of(to);
   std::vector<Command> commands;
   std::string refused;

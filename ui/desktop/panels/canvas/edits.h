@@ -30,11 +30,11 @@ std::set<std::string> links_of_choice(const Board& board);
 /// Ids that are neither in the scene nor given out before by the same one.
 class FreshIds {
  public:
-  explicit FreshIds(const Editor& editor) : editor_(&editor) {}
+  explicit FreshIds(const Workbench& editor) : editor_(&editor) {}
   std::string of(const std::string& wish);
 
  private:
-  const Editor* editor_;
+  const Workbench* editor_;
   std::set<std::string> given_;
 };
 

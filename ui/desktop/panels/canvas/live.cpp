@@ -15,7 +15,7 @@ constexpr double kStillMove = 0.002, kStillShare = 1e-3;
 
 }  // namespace
 
-void Live::update(const Editor& editor, const Model& model) {
+void Live::update(const Workbench& editor, const Model& model) {
   if (document_ != editor.document->id()) {
     *this = {};
     document_ = editor.document->id();
@@ -29,7 +29,7 @@ void Live::update(const Editor& editor, const Model& model) {
   sample(editor, model);
 }
 
-void Live::sample(const Editor& editor, const Model& model) {
+void Live::sample(const Workbench& editor, const Model& model) {
   for (const NodeBox& box : model.boxes) {
     if (box.in_state == kNoIndex) continue;
     for (std::size_t k = 0; k < box.sections.size(); ++k) {
@@ -44,7 +44,7 @@ void Live::sample(const Editor& editor, const Model& model) {
   }
 }
 
-void Live::listen(const Editor& editor, const Model& model) {
+void Live::listen(const Workbench& editor, const Model& model) {
   const State& state = editor.state();
   for (const Line& line : model.lines) {
     if (line.in_state == kNoIndex || line.in_state >= state.links.size()) continue;

@@ -26,13 +26,13 @@ struct LinkPulse {
 class Live {
  public:
   /// Takes note of a new state; nothing to do where there is none.
-  void update(const Editor& editor, const Model& model);
+  void update(const Workbench& editor, const Model& model);
   const Spark* spark(const std::string& node, std::size_t section) const;
   const LinkPulse* pulse(const std::string& link) const;
 
  private:
-  void sample(const Editor& editor, const Model& model);
-  void listen(const Editor& editor, const Model& model);
+  void sample(const Workbench& editor, const Model& model);
+  void listen(const Workbench& editor, const Model& model);
 
   std::map<std::pair<std::string, std::size_t>, Spark> sparks_;
   std::map<std::string, LinkPulse> pulses_;

@@ -33,7 +33,7 @@ Selection ends_of_ghost(const Json& json, const char* key) {
 }
 
 // Nothing where it is no volume.
-std::optional<std::string> use_of(const Editor& editor, const std::string& node) {
+std::optional<std::string> use_of(const Workbench& editor, const std::string& node) {
   return reading::setting<&reading::VolumeFigures::use>(editor.scene(), editor.types(), editor.scene().nodes.at(node));
 }
 
@@ -73,7 +73,7 @@ std::string key_of(const Selection& selection) {
   return key;
 }
 
-std::string text_of(const Editor& editor, const Selection& selection) {
+std::string text_of(const Workbench& editor, const Selection& selection) {
   if (selection.is_query()) {
     const TypificationDefinition* type = editor.types().typification(selection.typification);
     const std::string label = type != nullptr ? type->label : selection.typification;
@@ -84,7 +84,7 @@ std::string text_of(const Editor& editor, const Selection& selection) {
   return std::to_string(selection.ids.size()) + " nodes";
 }
 
-void Model::update(const Editor& editor) {
+void Model::update(const Workbench& editor) {
   const std::uint64_t document = editor.document->id();
   const std::size_t log_size = editor.document->session().log().size();
   const Scene& scene = editor.scene();
@@ -116,7 +116,7 @@ void Model::update(const Editor& editor) {
   }
 }
 
-void Model::make_boxes(const Editor& editor) {
+void Model::make_boxes(const Workbench& editor) {
   boxes.clear();
   for (const auto& [id, node] : editor.scene().nodes) {
     NodeBox& box = boxes.emplace_back();
@@ -130,7 +130,7 @@ void Model::make_boxes(const Editor& editor) {
   number_uses(editor);
 }
 
-void Model::number_uses(const Editor& editor) {
+void Model::number_uses(const Workbench& editor) {
   const UseNumbers numbers(editor.scene());
   for (NodeBox& box : boxes)
     if (const auto use = use_of(editor, box.id)) box.use = numbers.of(*use);
@@ -149,7 +149,7 @@ std::size_t Model::find_line(const std::string& id) const {
 }
 
 // The box of a single node, or the pill of a set; makes the pill where there is none yet. kNoIndex for nothing at all.
-std::size_t Model::anchor_of(const Editor& editor, const Selection& selection) {
+std::size_t Model::anchor_of(const Workbench& editor, const Selection& selection) {
   if (!selection.is_query() && selection.ids.size() <= 1) {
     const std::size_t box = selection.ids.empty() ? boxes.size() : find_box(selection.ids.front());
     return box < boxes.size() ? box : kNoIndex;
@@ -170,7 +170,7 @@ std::size_t Model::anchor_of(const Editor& editor, const Selection& selection) {
   return boxes.size() + pills.size() - 1;
 }
 
-void Model::make_lines(const Editor& editor) {
+void Model::make_lines(const Workbench& editor) {
   pills.clear();
   lines.clear();
   undrawn = 0;
@@ -206,7 +206,7 @@ void Model::make_lines(const Editor& editor) {
 }
 
 // Boxes and pills together: sources in a column or two, then pills, then the rest in the field.
-std::vector<ImVec2> Model::automatic_places(const Editor& editor) const {
+std::vector<ImVec2> Model::automatic_places(const Workbench& editor) const {
   std::vector<LayoutItem> items;
   std::size_t sources = 0;
   for (const NodeBox& box : boxes) {
@@ -229,7 +229,7 @@ std::vector<ImVec2> Model::automatic_places(const Editor& editor) const {
   return places;
 }
 
-void Model::place(const Editor& editor) {
+void Model::place(const Workbench& editor) {
   const auto is_unknown = [&](const std::string& key, bool is_stored) { return !is_stored && !kept_.contains(key); };
   std::set<std::string> fresh;  // seen for the first time, and nobody says where it lies
   for (NodeBox& box : boxes) {
@@ -299,7 +299,7 @@ void Model::trace_lines() {
   }
 }
 
-void Model::find_indices(const Editor& editor) {
+void Model::find_indices(const Workbench& editor) {
   const Plan& plan = *editor.state().plan;
   plan_ = editor.state().plan;
   for (NodeBox& box : boxes) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/graph/state.h"
-#include "ui/desktop/app/editor.h"
 #include "ui/desktop/panels/canvas/view_data.h"
+#include "ui/desktop/panels/workbench.h"
 
 namespace bl::desktop::canvas {
 
@@ -87,7 +87,7 @@ struct Line {
 class Model {
  public:
   /// Makes everything anew where the scene has changed, and finds indices again where the state has another plan.
-  void update(const Editor& editor);
+  void update(const Workbench& editor);
 
   ViewData view;               ///< of the whole scene
   bool is_view_moved = false;  ///< a drag has moved comments in it; whatever changes the scene reads it again
@@ -124,21 +124,21 @@ class Model {
   bool frame_box(const std::string& id, Box& out, int depth = 0) const;
   /// Where the automatic layout puts everything, whatever the view says: boxes first, pills after them. Of the whole scene: not
   /// while a frame is entered.
-  std::vector<ImVec2> automatic_places(const Editor& editor) const;
+  std::vector<ImVec2> automatic_places(const Workbench& editor) const;
   /// Draws the curves anew, after boxes have moved.
   void trace_lines();
 
  private:
-  void make_boxes(const Editor& editor);
-  void number_uses(const Editor& editor);
-  void make_lines(const Editor& editor);
-  void place(const Editor& editor);
+  void make_boxes(const Workbench& editor);
+  void number_uses(const Workbench& editor);
+  void make_lines(const Workbench& editor);
+  void place(const Workbench& editor);
   void make_room(const std::set<std::string>& fresh);
   void note_unstored();
   void narrow();
   void place_doors(const std::vector<ImVec2>& origins);
-  void find_indices(const Editor& editor);
-  std::size_t anchor_of(const Editor& editor, const Selection& selection);
+  void find_indices(const Workbench& editor);
+  std::size_t anchor_of(const Workbench& editor, const Selection& selection);
 
   std::uint64_t document_ = 0;  ///< whose places these are; 0: of none
   std::size_t log_size_ = 0, node_count_ = 0;
@@ -153,6 +153,6 @@ class Model {
 /// The key of a set in the view: its typification and tag, or its ids.
 std::string key_of(const Selection& selection);
 /// "all SmartVolumes", "#living", "3 nodes".
-std::string text_of(const Editor& editor, const Selection& selection);
+std::string text_of(const Workbench& editor, const Selection& selection);
 
 }  // namespace bl::desktop::canvas

@@ -9,8 +9,8 @@
 #include <GLFW/glfw3.h>
 #include <imgui_stdlib.h>
 
-#include "ui/desktop/app/buttons.h"
-#include "ui/desktop/app/fuzzy.h"
+#include "ui/desktop/look/buttons.h"
+#include "ui/desktop/look/fuzzy.h"
 #include "ui/desktop/panels/canvas/board.h"
 #include "ui/desktop/panels/inspector_cell.h"
 

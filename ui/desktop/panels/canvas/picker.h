@@ -7,7 +7,7 @@
 
 #include <imgui.h>
 
-#include "ui/desktop/app/theme.h"
+#include "ui/desktop/look/theme.h"
 
 namespace bl::desktop::canvas {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/geometry/plan_ring.h"
 #include "core/reading/views/solver.h"
 #include "core/reading/views/volume.h"
 
@@ -43,23 +44,10 @@ std::optional<Site> site_of(const Registry& registry, const Scene& scene) {
   return std::nullopt;
 }
 
-bool is_inside(const std::vector<Point3>& plan, double x, double y) {
-  bool inside = false;
-  for (std::size_t k = 0, last = plan.size() - 1; k < plan.size(); last = k++)
-    if ((plan[k].y > y) != (plan[last].y > y) &&
-        x < (plan[last].x - plan[k].x) * (y - plan[k].y) / (plan[last].y - plan[k].y) + plan[k].x)
-      inside = !inside;
-  return inside;
-}
-
-double distance_to_outline(const std::vector<Point3>& plan, double x, double y) {
-  double least = 1e30;
-  for (std::size_t k = 0, last = plan.size() - 1; k < plan.size(); last = k++) {
-    const double dx = plan[k].x - plan[last].x, dy = plan[k].y - plan[last].y, square = dx * dx + dy * dy;
-    const double t = square > 0 ? std::clamp(((x - plan[last].x) * dx + (y - plan[last].y) * dy) / square, 0.0, 1.0) : 0;
-    least = std::min(least, std::hypot(x - plan[last].x - t * dx, y - plan[last].y - t * dy));
-  }
-  return least;
+// Along the ground [m].
+double distance_to_outline(const std::vector<Point3>& plan, const Point3& point) {
+  const Point3 nearest = nearest_on_ring(plan, point);
+  return std::hypot(nearest.x - point.x, nearest.y - point.y);
 }
 
 }  // namespace
@@ -83,8 +71,9 @@ Point3 place_volume(const Registry& registry, const Scene& scene) {
     for (int j = 0; j < kTries; ++j) {
       const double x = box.plan[0].x + (box.plan[2].x - box.plan[0].x) * (i + 0.5) / kTries;
       const double y = box.plan[0].y + (box.plan[2].y - box.plan[0].y) * (j + 0.5) / kTries;
-      if (!is_inside(site->plan, x, y)) continue;
-      double free = 2 * distance_to_outline(site->plan, x, y);
+      const Point3 spot{x, y, 0};
+      if (!ring_contains(site->plan, spot)) continue;
+      double free = 2 * distance_to_outline(site->plan, spot);
       for (const Point3& other : others) free = std::min(free, std::hypot(x - other.x, y - other.y));
       if (free > best) best = free, place = {std::round(10 * x) / 10, std::round(10 * y) / 10, middle};
     }

@@ -110,7 +110,7 @@ float height_of(const std::vector<Section>& sections) {
   return std::ceil(height / kGrid) * kGrid;
 }
 
-const Value* value_of(const Editor& editor, const NodeBox& box, const Section& section, std::size_t port) {
+const Value* value_of(const Workbench& editor, const NodeBox& box, const Section& section, std::size_t port) {
   if (section.type == nullptr || port >= section.type->ports.size()) return nullptr;
   if (box.in_state != kNoIndex && section.in_state != kNoIndex) {
     const auto& values = editor.state().nodes[box.in_state].types[section.in_state].values;
@@ -121,7 +121,7 @@ const Value* value_of(const Editor& editor, const NodeBox& box, const Section& s
   return &set_value(editor.scene(), node->second, *section.type, section.type->ports[port]);
 }
 
-std::string text_of(const Editor& editor, const NodeBox& box, const Section& section, std::size_t port) {
+std::string text_of(const Workbench& editor, const NodeBox& box, const Section& section, std::size_t port) {
   const Value* value = value_of(editor, box, section, port);
   if (value == nullptr) return "–";
   const PortDefinition& definition = section.type->ports[port];
@@ -147,7 +147,7 @@ std::string text_of(const Editor& editor, const NodeBox& box, const Section& sec
   return report::quantity(as_number(*value), unit);
 }
 
-void refresh_texts(const Editor& editor, const NodeBox& box, Section& section, std::size_t revision) {
+void refresh_texts(const Workbench& editor, const NodeBox& box, Section& section, std::size_t revision) {
   if (section.texts_of == revision && section.texts.size() == section.rows.size()) return;
   section.texts.clear();
   for (const Row& row : section.rows) section.texts.push_back(text_of(editor, box, section, row.port));

@@ -12,10 +12,10 @@ float height_of(const std::vector<Section>& sections);
 std::string label_of(const PortDefinition& port);
 
 /// The value as the last tick has left it, or as set where no tick has seen the node yet.
-const Value* value_of(const Editor& editor, const NodeBox& box, const Section& section, std::size_t port);
+const Value* value_of(const Workbench& editor, const NodeBox& box, const Section& section, std::size_t port);
 /// With its unit: "84.2 m²", "12 rows", "on".
-std::string text_of(const Editor& editor, const NodeBox& box, const Section& section, std::size_t port);
+std::string text_of(const Workbench& editor, const NodeBox& box, const Section& section, std::size_t port);
 /// Brings the texts of the rows up to the state, `revision` of which the model counts.
-void refresh_texts(const Editor& editor, const NodeBox& box, Section& section, std::size_t revision);
+void refresh_texts(const Workbench& editor, const NodeBox& box, Section& section, std::size_t revision);
 
 }  // namespace bl::desktop::canvas

@@ -1,0 +1,122 @@
+// One open scene: its file, its running session, its journal, and what has been saved of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/file/scene_file.h"
+#include "core/import/import_report.h"
+#include "ui/desktop/app/journal.h"
+#include "ui/desktop/app/live_session.h"
+#include "ui/desktop/document/named_files.h"
+
+namespace bl::desktop {
+
+/// One step of the history: all commands of one gesture.
+struct HistoryStep {
+  std::int64_t gesture = 0, tick = 0;
+  std::string label;        ///< what was done, such as "Set port · Library"
+  bool is_undone = false;   ///< taken back, and not brought back since
+  std::size_t entries = 0;  ///< commands in it
+};
+
+/// Does the file lie among the scenes that come with the program? Those are never written over.
+bool is_shipped(const std::string& path);
+
+/// Ticks on one thread: the other cores are the window's.
+inline constexpr int kTickThreads = 1;
+
+class Document {
+ public:
+  /// Reads a scene; warnings and errors both come back in `problems`. Nothing where there are errors.
+  static std::unique_ptr<Document> open(const Registry& registry, const std::string& path, int threads,
+                                        std::vector<Problem>& problems);
+  /// A scene that has no file yet (path empty), or one that was recovered. One that comes with the program is a copy that has
+  /// no file yet, either.
+  static std::unique_ptr<Document> from_text(const Registry& registry, const std::string& text, const std::string& path,
+                                             int threads, std::vector<Problem>& problems);
+  /// From the journal of a window that did not end well; the commands in it are applied again.
+  static std::unique_ptr<Document> recover(const Registry& registry, const Journal::Remains& remains, int threads,
+                                           std::vector<Problem>& problems);
+
+  /// No other document that this window has opened has it: an address can come again.
+  std::uint64_t id() const { return id_; }
+  LiveSession& session() { return *session_; }
+  const Scene& scene() const { return session_->scene(); }
+  /// Where Save writes; empty where it has to ask.
+  const std::string& path() const { return path_; }
+  /// The file that the scene was read from, or written to last: that of a copy is its original. Empty where there is none.
+  const std::string& source() const { return path_.empty() ? origin_ : path_; }
+  /// Where the scene's pictures and tables are looked for. Empty: where the program was started.
+  std::string folder() const;
+  /// The file's name, or what a scene without one is called.
+  std::string name() const;
+
+  /// Writes the scene (with the running state, so that it opens as it was left) and takes on the path. Files that it names
+  /// relative to another folder are named anew, so that they are found from there as well. Into the folder of shipped scenes
+  /// nothing is written.
+  Result<void> save(const std::string& path);
+  /// What people should know of the last save beside that it went well; empty where nothing.
+  const std::string& save_note() const { return save_note_; }
+
+  /// What became of every element of imported files. Kept beside the scene's file, and read from there.
+  const ImportReports& imports() const { return imports_; }
+  /// Grows with each change of them.
+  std::uint64_t imports_revision() const { return imports_revision_; }
+  void add_imports(const ImportReports& reports);
+  /// Where the reports of a scene file are kept: quarter.import.csv beside quarter.json.
+  static std::string imports_path(const std::string& scene_path);
+  /// Why a crash would lose what has not been saved; empty where it would not.
+  std::string journal_problem() const { return journal_.problem(); }
+  /// Is there anything that the file does not have? Looked at again only after changes.
+  bool is_unsaved();
+  /// Writes the log from the start, or from the last rewind on, for `replay`.
+  Result<void> save_log(const std::string& path) const;
+  /// Steps, oldest first; made anew after changes only.
+  const std::vector<HistoryStep>& history();
+  /// The gesture of the step that people have made last, which can still be added to; 0 where there is none, or where they have
+  /// undone or redone something since.
+  std::int64_t last_step() const;
+  /// What the step of a gesture is called, where its commands alone do not say what was meant: "Solo · Hotel".
+  void name_step(std::int64_t gesture, std::string label);
+
+  /// Takes back the gesture that people are in the middle of, as if they had never begun it: it is no step of the history, and
+  /// cannot be redone. Nothing where it has changed nothing yet.
+  void abandon(std::int64_t gesture);
+  /// Is there a step that was undone and can come back?
+  bool has_redo();
+
+  /// Commands as one step. Several become one batch.
+  Result<void> submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
+
+ private:
+  Document(const Registry& registry, std::string path);
+  void begin_journal();
+  void begin_log(const std::string& scene_text);
+  std::int64_t base_of_log() const;
+  std::int64_t name_files_from(const NamedFiles& named);
+  void read_imports(std::vector<Problem>& problems);
+  void write_imports(const std::string& scene_path);
+
+  std::uint64_t id_;
+  const Registry* registry_;
+  std::string path_, origin_, log_start_, save_note_;
+  ImportReports imports_;
+  std::uint64_t imports_revision_ = 0;
+  std::optional<Scene> saved_;  ///< what the file holds; none where there is none, or something else
+  std::size_t log_begin_ = 0;   ///< first entry of the log that belongs to `log_start_`
+  std::unique_ptr<LiveSession> session_;
+  Journal journal_;
+  std::vector<HistoryStep> history_;
+  std::map<std::int64_t, std::string> named_;  ///< by gesture
+  std::set<std::int64_t> abandoned_;           ///< gestures
+  std::size_t history_size_ = 0, compared_size_ = 0;
+  bool is_unsaved_ = false;
+};
+
+}  // namespace bl::desktop

@@ -1,0 +1,145 @@
+// The shared verbs of the panels: submit, undo, open, tell.
+#include "ui/desktop/editor/editor.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <new>
+
+#include <imgui.h>
+
+#include "core/base/scarcity.h"
+#include "core/base/text.h"
+
+namespace bl::desktop {
+
+namespace {
+
+constexpr double kNoticeSeconds = 5;
+constexpr std::size_t kMostNotices = 4;
+
+// That there is nothing is no error; that it does not fit any more is one, and says so itself.
+void tell_why(Editor& editor, const Error& error, const char* nothing) {
+  const bool is_nothing = error.code == ErrorCode::not_found && error.place.empty();
+  editor.tell(is_nothing ? NoticeKind::told : NoticeKind::error, is_nothing ? nothing : error.text());
+}
+
+// What was left because others have written there since is told in one sentence, the first place of all.
+void tell_left(Editor& editor, const Result<TakenBack>& done, const char* nothing) {
+  if (!done) return tell_why(editor, done.error(), nothing);
+  if (done->misfit) tell_why(editor, *done->misfit, nothing);
+  if (done->left.empty()) return;
+  const std::size_t more = done->left.size() - 1;
+  editor.tell(NoticeKind::told,
+              "Left as it is: " + text_of(done->left.front()) + (more == 0 ? "." : ", and " + std::to_string(more) + " more."));
+}
+
+}  // namespace
+
+std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken) {
+  std::string key = wish;
+  for (int k = 2; is_taken(key); ++k) key = wish + "-" + std::to_string(k);
+  return key;
+}
+
+std::string Editor::name_of(const std::string& node) const {
+  const auto found = scene().nodes.find(node);
+  return found == scene().nodes.end() || found->second.name.empty() ? node : found->second.name;
+}
+
+bool Editor::submit(const std::vector<Command>& commands, std::int64_t gesture) {
+  if (!document) return false;
+  auto done = document->submit(commands, gesture);
+  if (!done) tell(NoticeKind::error, done.error().text());
+  return done.ok();
+}
+
+bool Editor::arrange(const std::string& json_patch, std::int64_t gesture) {
+  return submit(command<SetView>({{json_patch}, false}), gesture);
+}
+
+void Editor::undo() {
+  if (!document) return;
+  tell_left(*this, document->session().undo(), "Nothing to undo.");
+}
+
+void Editor::redo() {
+  if (!document) return;
+  // What was abandoned lies below all that was undone since: where the history has nothing undone, there is only that.
+  if (!document->has_redo()) return tell(NoticeKind::told, "Nothing to redo.");
+  tell_left(*this, document->session().redo(), "Nothing to redo.");
+}
+
+std::string Editor::fresh_id(const std::string& wish) const {
+  return fresh_key(to_identifier(wish),
+                   [&](const std::string& id) { return scene().nodes.contains(id) || scene().links.contains(id); });
+}
+
+void Editor::point_at(Area where) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool is_used = io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 ||
+                       std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked), [](bool clicked) { return clicked; });
+  if (is_used) area = where;
+}
+
+void Editor::tell(NoticeKind kind, std::string text) {
+  text = bounded({ErrorCode::internal, "", std::move(text)}).message;
+  std::erase_if(notices, [&](const Notice& n) { return n.text == text; });
+  notices.push_back({kind, std::move(text), now + (kind == NoticeKind::error ? 2 : 1) * kNoticeSeconds});
+  if (notices.size() > kMostNotices) notices.erase(notices.begin());
+}
+
+void Editor::list_problems(std::string file, std::vector<Problem> found) {
+  problem_file = std::move(file);
+  problems = std::move(found);
+  for (Problem& problem : problems) problem.error.message = bounded({problem.error.code, "", problem.error.message}).message;
+  ++problems_revision;
+}
+
+bool Editor::open(const std::string& wanted, bool plays) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(wanted, error);
+  const std::string path = error ? wanted : absolute.lexically_normal().string();
+  std::vector<Problem> found;
+  std::unique_ptr<Document> fresh;
+  try {
+    fresh = Document::open(program, path, kTickThreads, found);
+  } catch (const std::bad_alloc&) {
+    found = {{true, {ErrorCode::out_of_range, "", "The file is too large for this machine: " + memory_sentence()}}};
+  }
+  list_problems(path, std::move(found));
+  if (!fresh) {
+    tell(NoticeKind::error, document ? "This scene could not be opened; the problems list says why."
+                                     : "This scene could not be opened; the start page says why.");
+    return false;
+  }
+  person.remember(person.recent, path);
+  take(std::move(fresh));
+  document->session().play(plays);
+  if (!problems.empty()) tell(NoticeKind::warning, "The scene was opened; the problems list says what is idle in it.");
+  return true;
+}
+
+void Editor::take(std::unique_ptr<Document> fresh) {
+  document = std::move(fresh);
+  moment = document->session().moment();
+  picks = {};
+  panels = nullptr;
+  script_watch.clear();
+}
+
+const Registry& Editor::types() const {
+  if (!document) return program;
+  const Scripts& scripts = scene().scripts;
+  if (!scripts.texts().empty() && (held_.empty() || &held_.back().types(program) != &scripts.types(program)))
+    held_.push_back(scripts);
+  return scripts.types(program);
+}
+
+void Editor::begin_frame() {
+  held_before_ = std::move(held_);
+  held_.clear();
+  (void)types();
+}
+
+}  // namespace bl::desktop

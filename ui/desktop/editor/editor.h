@@ -1,0 +1,112 @@
+// What all panels of a window share: the document, what is chosen, the theme, and the one verb to change a scene.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ui/desktop/document/document.h"
+#include "ui/desktop/document/person_settings.h"
+#include "ui/desktop/editor/script_watch.h"
+#include "ui/desktop/look/theme.h"
+
+namespace bl::desktop {
+
+struct PanelMemory;
+
+/// What is selected and pointed at, in all panels alike. Each person's own: no part of the scene, and not undone.
+struct Picks {
+  std::set<std::string> nodes, links;
+  std::string hovered_node, hovered_link;  ///< pointed at in this frame, in whatever panel
+  std::string lit_node, lit_link;          ///< the same of the frame before, so that panels drawn earlier know it too
+
+  void clear() { nodes.clear(), links.clear(); }
+  void only_node(const std::string& id) { links.clear(), nodes = {id}; }
+  void only_link(const std::string& id) { nodes.clear(), links = {id}; }
+};
+
+/// What keys go to: canvas or 3D view once the mouse has moved over them, lists and inspector after a click into them; F6 takes
+/// turns.
+enum class Area { none, canvas, view, panels };
+
+enum class NoticeKind { told, warning, error };
+struct Notice {
+  NoticeKind kind = NoticeKind::told;
+  std::string text;
+  double until = 0;  ///< on the window's clock [s]
+};
+
+/// The wish, or the first of wish-2, wish-3 and so on that is not taken.
+std::string fresh_key(const std::string& wish, const std::function<bool(const std::string&)>& is_taken);
+
+/// How an actuator's messages fare, as the connection knows it; no part of the state.
+struct Delivery {
+  std::int64_t messages = 0;
+  double sent_at = -1;  ///< on the window's clock [s]; -1: nothing was sent yet
+  std::string problem;  ///< of the connection
+};
+
+class Editor {
+ public:
+  Editor(const Registry& all_types, PersonSettings& somebody) : program(all_types), person(somebody) {}
+
+  const Registry& program;  ///< the types that need no scene
+  PersonSettings& person;
+  Theme theme;
+  Picks picks;
+  std::unique_ptr<Document> document;    ///< none: the start page
+  std::vector<Problem> problems;         ///< of the last file that was opened, or tried: set by `list_problems`
+  std::string problem_file;              ///< that file
+  std::uint64_t problems_revision = 0;   ///< another one for each list
+  std::shared_ptr<const Moment> moment;  ///< taken once for each frame; none without a document
+  double now = 0;                        ///< the window's clock [s]
+  Area area = Area::canvas;
+  std::vector<Notice> notices;
+  bool is_beamer = false, wants_quit = false, wants_picture = false;
+  ScriptWatch script_watch;                    ///< files that link kinds of this scene are read from
+  std::shared_ptr<PanelMemory> panels;         ///< what inspector, lists and charts remember of this document
+  std::uint64_t bytes_sent = 0;                ///< to the graphics processor, since the window opened
+  std::map<std::string, Delivery> deliveries;  ///< by actuator, where there is a connection
+
+  // --- Reading: the scene as people have left it, and the state as the last tick has left it.
+  const Scene& scene() const { return document->scene(); }
+  const State& state() const { return *moment->state; }
+  /// The types of the program and the kinds of the scene's scripts. Pointers into it stay good until the frame after the next.
+  const Registry& types() const;
+  /// Index of the node in the state; state().nodes.size() where no tick has seen it yet.
+  std::uint32_t index_of(const std::string& node) const { return state().plan->node_index(node); }
+  /// Name, or id where there is none.
+  std::string name_of(const std::string& node) const;
+
+  // --- Changing. Errors become notices; whether it went well.
+  bool submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
+  bool submit(const Command& command, std::int64_t gesture = 0) { return submit(std::vector<Command>{command}, gesture); }
+  /// A patch of the scene's view (canvas layout, cameras), as one step.
+  bool arrange(const std::string& json_patch, std::int64_t gesture = 0);
+  std::int64_t new_gesture() { return document->session().new_gesture(); }
+  void undo();
+  void redo();
+  /// An id of a new node or link, from a wish such as "tower", not taken by either.
+  std::string fresh_id(const std::string& wish) const;
+
+  /// The mouse is over this area. One that rests there does not take the keys away from another.
+  void point_at(Area where);
+  void tell(NoticeKind kind, std::string text);
+  /// What is wrong with a file, in place of what was wrong with the last one.
+  void list_problems(std::string file, std::vector<Problem> found);
+  /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.
+  bool open(const std::string& path, bool plays = false);
+  void take(std::unique_ptr<Document> fresh);
+  /// At the beginning of a frame: lets go of scripts that nobody can hold pointers into any more.
+  void begin_frame();
+
+ private:
+  // Panels keep pointers into types() until they hear of a change; scripts that were replaced live on until then.
+  mutable std::vector<Scripts> held_, held_before_;
+};
+
+}  // namespace bl::desktop
