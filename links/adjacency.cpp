@@ -30,6 +30,7 @@ struct Adjacency {
   };
 
   static void declare(LinkBuilder<Adjacency>& l) {
+    l.family(LinkFamily::nearness);
     l.id("adjacency")
         .label("Adjacency")
         .doc(

@@ -25,6 +25,7 @@ struct Align {
   };
 
   static void declare(LinkBuilder<Align>& l) {
+    l.family(LinkFamily::order);
     l.id("align").label("Align").doc(
         "Moves a node in line with another one, which stays where it is: either one coordinate is shared, or the node goes to "
         "the "

@@ -21,6 +21,7 @@ struct Attract {
   };
 
   static void declare(LinkBuilder<Attract>& l) {
+    l.family(LinkFamily::nearness);
     l.id("attract").label("Attract").doc(
         "Pulls two nodes together, like a spring that only pulls: nodes nearer than the rest distance are left alone. Between "
         "sets, "

@@ -28,6 +28,7 @@ struct Demand {
   };
 
   static void declare(LinkBuilder<Demand>& l) {
+    l.family(LinkFamily::brief);
     l.id("demand").label("Demand").doc(
         "Deals a programme out to volumes: the floor area of a row, times its count and its storey height, becomes the demand of "
         "the "

@@ -27,6 +27,7 @@ struct InsideBoundary {
   };
 
   static void declare(LinkBuilder<InsideBoundary>& l) {
+    l.family(LinkFamily::brief);
     l.id("inside_boundary")
         .label("Inside boundary")
         .doc(

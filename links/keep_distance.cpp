@@ -24,6 +24,7 @@ struct KeepDistance {
   };
 
   static void declare(LinkBuilder<KeepDistance>& l) {
+    l.family(LinkFamily::distance);
     l.id("keep_distance")
         .label("Keep distance")
         .doc(

@@ -24,6 +24,7 @@ struct MapValue {
   };
 
   static void declare(LinkBuilder<MapValue>& l) {
+    l.family(LinkFamily::numbers);
     l.id("map_value")
         .label("Map value")
         .doc(

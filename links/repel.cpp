@@ -24,6 +24,7 @@ struct Repel {
   };
 
   static void declare(LinkBuilder<Repel>& l) {
+    l.family(LinkFamily::separation);
     l.id("repel").label("Repel").doc(
         "Pushes two nodes apart while they are nearer than the reach. The push is strongest where the nodes coincide and falls "
         "off "

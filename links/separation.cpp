@@ -27,6 +27,7 @@ struct Separation {
   };
 
   static void declare(LinkBuilder<Separation>& l) {
+    l.family(LinkFamily::separation);
     l.id("separation")
         .label("Separation")
         .doc(

@@ -30,6 +30,7 @@ struct SetCap {
   };
 
   static void declare(LinkBuilder<SetCap>& l) {
+    l.family(LinkFamily::numbers);
     l.id("set_cap").label("Set cap").doc(
         "Holds the sum of a statistic under a cap. When the sum is too large, the demands of all volumes of the set are limited "
         "in one proportion, tick by tick, until it fits; when there is room again, the limit is loosened in the same way, up to "

@@ -24,6 +24,7 @@ struct Stack {
   };
 
   static void declare(LinkBuilder<Stack>& l) {
+    l.family(LinkFamily::order);
     l.id("stack").label("Stack").doc(
         "Sets a volume on top of another one, or on the same level as it. Only the second volume moves. While one of the two has "
         "no "

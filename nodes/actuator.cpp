@@ -30,12 +30,13 @@ struct Actuator {
         "Sends a number to a device by MQTT or OSC, where the scene runs live. What is sent follows from the scene; whether it "
         "arrives does not come back into it.");
     t.in(&In::value, "value")
+        .traced()
         .unit_from("unit")
         .combine(CombineRule::blend)
         .keeps_default()
         .doc("The number, set by people or proposed by links. As long as neither has happened, nothing is sent.");
     t.in(&In::unit, "unit").doc("Unit that the number is sent in, as a symbol such as `m` or `cm`; empty for a plain number.");
-    t.in(&In::address, "address").doc("Where it goes: `mqtt://host:1883/topic` or `osc://host:9000/path`.");
+    t.in(&In::address, "address").shown_first().doc("Where it goes: `mqtt://host:1883/topic` or `osc://host:9000/path`.");
     t.in(&In::format, "format")
         .doc(
             "The message, with `{value}` where the number goes. By OSC, `{value}` alone is sent as a number, all else as a "

@@ -34,6 +34,7 @@ struct Boundary {
 
   static void declare(TypificationBuilder<Boundary>& t) {
     t.id("boundary").label("Boundary");
+    t.column(CanvasColumn::second);
     t.doc("The space that SmartVolumes may take: all of their cells together fill it, and none reaches out of it.");
     t.in(&In::form, "form",
          {{Form::hull, "hull", "The convex hull of `points`: the smallest convex body that holds them all."},
@@ -91,8 +92,9 @@ struct Boundary {
         .column({.id = "piece", .doc = "Number of the convex piece that the plane bounds."})
         .column({.id = "side", .doc = "Number k of the side `#k` that the face lies in; -1 between two pieces."})
         .doc("The boundary as convex pieces, in a fixed order. Of a convex one row k is the side `#k`.");
-    t.out(&Out::volume, "volume").unit(Unit::cubic_metre).doc("Volume inside the boundary.");
+    t.out(&Out::volume, "volume").shown_first().unit(Unit::cubic_metre).doc("Volume inside the boundary.");
     t.out(&Out::ground_area, "ground_area")
+        .shown_first()
         .unit(Unit::square_metre)
         .doc("Area that the boundary covers in plan, seen from above.");
     t.out(&Out::shape, "shape").doc("The boundary as a triangle mesh, for the eye and for export.");

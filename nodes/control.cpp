@@ -24,6 +24,7 @@ struct Control {
 
   static void declare(TypificationBuilder<Control>& t) {
     t.id("control").label("Control");
+    t.column(CanvasColumn::first).icon(Icon::plus);
     t.doc("A number that people set by a slider or a switch, and that links carry to other nodes.");
     t.in(&In::value, "value").unit_from("unit").doc("What people have set. No link changes it.");
     t.in(&In::unit, "unit")
@@ -36,7 +37,7 @@ struct Control {
         .doc("Distance of the notches, counted from the lower end; 0 for a slider without notches.");
     t.in(&In::is_switch, "is_switch")
         .doc("Makes it a switch: the output is 1 where the value is 0.5 or more, and 0 elsewhere; range and step do not count.");
-    t.out(&Out::output, "output").unit_from("unit").doc("The value inside the range, at the nearest notch.");
+    t.out(&Out::output, "output").shown_first().unit_from("unit").doc("The value inside the range, at the nearest notch.");
   }
 
   static Result<void> check_unit(const std::string& symbol) {

@@ -65,6 +65,7 @@ struct Expression {
 
   static void declare(TypificationBuilder<Expression>& t) {
     t.id("expression").label("Expression");
+    t.column(CanvasColumn::first).icon(Icon::step);
     t.doc(
         "Computes one number from up to four. Units are checked: lengths add to lengths only, and a plain number in the formula "
         "becomes a quantity by its unit, as in `a + 3*m`. Sines and the like take radians: write `sin(a/deg*_pi/180)`.");

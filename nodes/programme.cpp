@@ -23,6 +23,7 @@ struct Programme {
 
   static void declare(TypificationBuilder<Programme>& t) {
     t.id("programme").label("Programme");
+    t.column(CanvasColumn::first).icon(Icon::file);
     t.doc(
         "A brief as a table: one row for each use, with the floor area of one item and the number of items. "
         "It holds the demands; links deal them out to SmartVolumes of the same use.");
@@ -69,7 +70,12 @@ struct Programme {
                         "two)."})
         .column({.id = "note", .is_text = true, .default_value = std::string(), .doc = "A remark for people."})
         .doc("The uses that are wanted; each use stands in one row.");
+    declare_totals(t);
+  }
+
+  static void declare_totals(TypificationBuilder<Programme>& t) {
     t.out(&Out::total_floor_area, "total_floor_area")
+        .shown_first()
         .unit(Unit::square_metre)
         .doc("Floor area that is aimed at, of all rows and items.");
     t.out(&Out::total_floor_area_min, "total_floor_area_min")
@@ -78,8 +84,8 @@ struct Programme {
     t.out(&Out::total_volume, "total_volume")
         .unit(Unit::cubic_metre)
         .doc("Volume that the floor area aimed at takes: area times storey height, of all rows and items.");
-    t.out(&Out::items, "items").unit(Unit::count).doc("Number of items of all rows.");
-    t.out(&Out::uses, "uses").unit(Unit::count).doc("Number of uses, which is the number of rows.");
+    t.out(&Out::items, "items").shown_first().unit(Unit::count).doc("Number of items of all rows.");
+    t.out(&Out::uses, "uses").shown_first().unit(Unit::count).doc("Number of uses, which is the number of rows.");
   }
 
   // An empty sentence where the row is sound; otherwise `column` is where the fault stands.

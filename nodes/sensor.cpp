@@ -48,6 +48,7 @@ struct Sensor {
         "The last reading of a device: by MQTT, OSC or HTTP where the scene runs live, or out of a recorded CSV table. Readings "
         "come as entries of the log, so that a replay gives the same without the device.");
     t.in(&In::address, "address")
+        .shown_first()
         .doc(
             "Where readings come from: `mqtt://host:1883/topic`, `osc://9000/path`, `http://host/page`, or "
             "`replay:table.csv#column`, where `replay:table.csv?site=7&time=date+hour#count` takes the rows of site 7 only.");
@@ -84,7 +85,7 @@ struct Sensor {
     t.in(&In::reading_tick, "reading_tick")
         .min(-1e15)
         .doc("The tick of the last reading; -1 before the first one, and below it where it was measured before the clock began.");
-    t.out(&Out::value, "value").unit_from("unit").doc("The last good reading, scaled and filtered, or the fallback.");
+    t.out(&Out::value, "value").traced().unit_from("unit").doc("The last good reading, scaled and filtered, or the fallback.");
     t.out(&Out::age, "age").unit(Unit::second).doc("Time since the last reading; 0 before the first one.");
     t.out(&Out::quality, "quality",
           {{Quality::never, "never", "Nothing has come yet."},

@@ -34,6 +34,7 @@ struct SmartVolume {
 
   static void declare(TypificationBuilder<SmartVolume>& t) {
     t.id("smart_volume").label("SmartVolume");
+    t.column(CanvasColumn::field).icon(Icon::cube);
     t.doc(
         "A volume that wants a certain amount of space around its position. A SmartVolumes solver gives it a cell of the "
         "bounded power diagram, shrink-wrapped onto a ball, and adapts its weight until the cell has the wanted volume.");
@@ -86,11 +87,15 @@ struct SmartVolume {
         .unit(Unit::square_metre)
         .doc("The weight in the power diagram: the square of the radius. The solver adapts it.");
     t.out(&Out::radius, "radius").unit(Unit::metre).doc("Radius of the ball that the cell is shrink-wrapped onto.");
-    t.out(&Out::volume, "volume").unit(Unit::cubic_metre).doc("Volume of the shape: the part of the cell inside the ball.");
+    t.out(&Out::volume, "volume")
+        .traced()
+        .unit(Unit::cubic_metre)
+        .doc("Volume of the shape: the part of the cell inside the ball.");
     t.out(&Out::cell_volume, "cell_volume")
         .unit(Unit::cubic_metre)
         .doc("Volume of the cell before the shrink-wrap; the cells of all volumes fill the boundary.");
     t.out(&Out::floor_area, "floor_area")
+        .shown_first()
         .unit(Unit::square_metre)
         .doc("Sum of the horizontal sections of the shape at the middle of each storey.");
     t.out(&Out::surface_area, "surface_area").unit(Unit::square_metre).doc("Area of the whole surface of the shape.");
@@ -98,7 +103,10 @@ struct SmartVolume {
     t.out(&Out::spherical_area, "spherical_area")
         .unit(Unit::square_metre)
         .doc("The part of the surface that lies on the ball and so borders neither a neighbour nor the boundary.");
-    t.out(&Out::height, "height").unit(Unit::metre).doc("Height of the shape from its lowest to its highest point.");
+    t.out(&Out::height, "height")
+        .shown_first()
+        .unit(Unit::metre)
+        .doc("Height of the shape from its lowest to its highest point.");
     t.out(&Out::bottom, "bottom").unit(Unit::metre).doc("Height of the lowest point of the shape above the origin.");
     t.out(&Out::centroid, "centroid")
         .unit(Unit::metre)

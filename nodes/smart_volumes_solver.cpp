@@ -65,6 +65,7 @@ struct SmartVolumesSolver {
 
   static void declare(TypificationBuilder<SmartVolumesSolver>& t) {
     t.id("smart_volumes_solver").label("SmartVolumes solver");
+    t.column(CanvasColumn::second).icon(Icon::cycle);
     t.doc(
         "Divides a boundary among SmartVolumes: a bounded power diagram, shrink-wrapped onto balls, whose weights are adapted "
         "in every tick until each volume has what it wants. A scene may hold several solvers, each with its own members and "
@@ -118,9 +119,13 @@ struct SmartVolumesSolver {
     t.out(&Out::total_demand, "total_demand").unit(Unit::cubic_metre).doc("Sum of what the members want.");
     t.out(&Out::total_volume, "total_volume").unit(Unit::cubic_metre).doc("Sum of the volumes of the members.");
     t.out(&Out::boundary_volume, "boundary_volume").unit(Unit::cubic_metre).doc("Volume inside the boundary.");
-    t.out(&Out::fill, "fill").unit(Unit::ratio).soft(0, 1).doc("Share of the boundary that the members take.");
-    t.out(&Out::largest_error, "largest_error").unit(Unit::ratio).doc("Largest error of a member, as a share of what it wants.");
-    t.out(&Out::worst, "worst").doc("Id of the member with the largest error; empty where all volumes are exact.");
+    t.out(&Out::fill, "fill").shown_first().unit(Unit::ratio).soft(0, 1).doc("Share of the boundary that the members take.");
+    t.out(&Out::largest_error, "largest_error")
+        .traced()
+        .shown_first()
+        .unit(Unit::ratio)
+        .doc("Largest error of a member, as a share of what it wants.");
+    t.out(&Out::worst, "worst").shown_first().doc("Id of the member with the largest error; empty where all volumes are exact.");
     t.out(&Out::total_floor_area, "total_floor_area").unit(Unit::square_metre).doc("Sum of the floor areas of the members.");
     t.out(&Out::message, "message")
         .doc("What cannot be had, by how much, and who goes without; empty where every demand can be met.");

@@ -27,19 +27,20 @@ struct Statistics {
 
   static void declare(TypificationBuilder<Statistics>& t) {
     t.id("statistics").label("Statistics");
+    t.column(CanvasColumn::second).icon(Icon::balance);
     t.doc(
         "Adds up one port over a set of nodes, so that links can react to the whole. The numbers are those of the tick before.");
     t.in(&In::nodes, "nodes")
         .doc("The nodes that count. Of all nodes with a typification or tag, those without the port are left out.");
     t.in(&In::port, "port").doc("The port that is looked at, written `typification.port`; it has to hold a number.");
-    t.out(&Out::sum, "sum").unit_from("port").doc("Sum of the values.");
-    t.out(&Out::mean, "mean").unit_from("port").doc("Mean of the values; 0 where there are none.");
+    t.out(&Out::sum, "sum").traced().shown_first().unit_from("port").doc("Sum of the values.");
+    t.out(&Out::mean, "mean").shown_first().unit_from("port").doc("Mean of the values; 0 where there are none.");
     t.out(&Out::minimum, "minimum").unit_from("port").doc("Least of the values; 0 where there are none.");
     t.out(&Out::maximum, "maximum").unit_from("port").doc("Greatest of the values; 0 where there are none.");
     t.out(&Out::spread, "spread")
         .unit_from("port")
         .doc("Standard deviation: the root of the mean squared distance from the mean.");
-    t.out(&Out::count, "count").unit(Unit::count).doc("Number of nodes that were counted.");
+    t.out(&Out::count, "count").shown_first().unit(Unit::count).doc("Number of nodes that were counted.");
     t.set("nodes", &Sets::nodes).reads_chosen(&Member::value, "port");
   }
 

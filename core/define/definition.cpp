@@ -25,6 +25,12 @@ std::optional<PortPath> parse_port_path(std::string_view text) {
   return PortPath{std::string(text.substr(0, dot)), std::string(text.substr(dot + 1)), ""};
 }
 
+bool can_read(ValueKind wanted, ValueKind held) {
+  const bool is_numeric = held == ValueKind::integer || held == ValueKind::boolean;
+  return held == wanted || (wanted == ValueKind::number && is_numeric) ||
+         (wanted == ValueKind::text && held == ValueKind::choice);
+}
+
 std::size_t TypeDefinition::port_index(std::string_view port) const {
   return static_cast<std::size_t>(
       std::find_if(ports.begin(), ports.end(), [&](const PortDefinition& p) { return p.id == port; }) - ports.begin());

@@ -75,16 +75,25 @@ struct ChoiceDefinition {
 /// once for all nodes?
 enum class OfScene { no, unless_set, always };
 
+/// Where a canvas lays nodes that nobody has placed. Of a node's typifications the one whose column stands first here decides.
+enum class CanvasColumn { field, first, second, any };
+/// The sign of a typification where there is no room for its label.
+enum class Icon { link, file, balance, cycle, cube, plus, step };
+/// What kinds of links do to what they join; links of one family look alike. `brief`: they join no places.
+enum class LinkFamily { nearness, separation, distance, order, numbers, other, brief };
+
 /// One declared datum of a typification, link kind or command.
 struct PortDefinition {
   std::string id, doc;
   ValueKind kind = ValueKind::number;
   Unit unit = Unit::none;
-  std::string unit_from;       ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
-  bool is_computed = false;    ///< written by evaluations only; never set by people or links
-  bool keeps_default = false;  ///< to say the default is more than to say nothing: a place on the equator is one
-  bool is_required = false;    ///< has no usable default (ids in commands)
-  bool is_residual = false;    ///< a scene is settled when every residual is within its tolerance
+  std::string unit_from;        ///< the port beside it that names the unit: a unit symbol, or a port whose unit it is
+  bool is_computed = false;     ///< written by evaluations only; never set by people or links
+  bool keeps_default = false;   ///< to say the default is more than to say nothing: a place on the equator is one
+  bool is_required = false;     ///< has no usable default (ids in commands)
+  bool is_residual = false;     ///< a scene is settled when every residual is within its tolerance
+  bool is_shown_first = false;  ///< where there is room for few results only; without any such port these are the first ones
+  bool is_traced = false;       ///< its course is drawn where there is room for one curve only
   OfScene of_scene = OfScene::no;
   double setting_tolerance = 0;  ///< of a port that stands for a setting unless set: a larger difference is told as a problem
   CombineRule rule = CombineRule::none;
@@ -119,6 +128,9 @@ struct ReadDefinition {
   bool is_whole = false;     ///< gets the values of all nodes of its end at once
   std::function<void(void*, std::span<const Value* const>)> assign;
 };
+
+/// Whole numbers and truth values can be read as numbers, and what people chose as a text.
+bool can_read(ValueKind wanted, ValueKind held);
 
 /// A datum written to other nodes: a proposal of a link, or a reply of a set evaluation.
 struct WriteDefinition {
@@ -169,6 +181,8 @@ void make_objects(const TypeDefinition& type, std::span<Value> values, std::span
 
 /// A role of a node. `evaluate` is empty for roles whose computed ports are written by a solver.
 struct TypificationDefinition : TypeDefinition {
+  CanvasColumn column = CanvasColumn::any;
+  Icon icon = Icon::link;
   std::vector<SetDefinition> sets;
   /// Id of the port that holds how many ticks after its beginning a result counts; empty for what is worked out within a tick.
   std::string latency;
@@ -197,6 +211,7 @@ struct LinkWrites {
 
 /// Code on an edge. Evaluated for each pair (from, to) of its ends; an end that is read or written `whole` counts once.
 struct LinkDefinition : TypeDefinition {
+  LinkFamily family = LinkFamily::other;
   std::vector<LinkRead> reads;
   std::vector<LinkWrite> proposes;
   std::vector<std::pair<std::string, std::string>> same_units;  ///< pairs of port parameters whose units must agree

@@ -19,6 +19,12 @@ class LinkBuilder : public TypeBuilder<LinkDefinition> {
   using Ends = typename T::Ends;
   using Out = typename T::Out;
 
+  /// A hint for drawings, which nothing else follows.
+  LinkBuilder& family(LinkFamily family) {
+    definition_->family = family;
+    return *this;
+  }
+
   template <class M>
   PortBuilder<M> param(M In::*member, std::string id) {
     return add_port(definition_->ports, member, std::move(id));

@@ -86,6 +86,16 @@ class PortBuilder {
     port_->is_residual = true;
     return *this;
   }
+  /// Shown where there is room for few ports only, in the order of the declaration.
+  PortBuilder& shown_first() {
+    port_->is_shown_first = true;
+    return *this;
+  }
+  /// The one port of its type whose course people see at a glance.
+  PortBuilder& traced() requires NumericMember<M> {
+    port_->is_traced = true;
+    return *this;
+  }
   PortBuilder& column(ColumnDefinition column) requires std::same_as<M, Table> || std::same_as<M, Shared<Table>> {
     port_->columns.push_back(std::move(column));
     return *this;

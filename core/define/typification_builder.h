@@ -55,6 +55,16 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   using In = typename T::In;
   using Out = typename T::Out;
 
+  /// Hints for views, which nothing else follows.
+  TypificationBuilder& column(CanvasColumn column) {
+    definition_->column = column;
+    return *this;
+  }
+  TypificationBuilder& icon(Icon icon) {
+    definition_->icon = icon;
+    return *this;
+  }
+
   template <class M>
   PortBuilder<M> in(M In::*member, std::string id) {
     return add_port(definition_->ports, member, std::move(id));

@@ -66,14 +66,14 @@ std::vector<const VolumeRow*> back_to_front(const ReportModel& model, const View
   std::map<std::size_t, std::pair<double, double>> groups;
   for (const VolumeRow& volume : model.volumes) {
     auto& [sum, count] = groups[volume.group];
-    sum += dot(volume.position, view.toward);
+    sum += dot(volume.figures.position, view.toward);
     count += 1;
   }
   std::vector<std::pair<std::array<double, 3>, const VolumeRow*>> order;
   for (const VolumeRow& volume : model.volumes)
     if (volume.mesh) {
       const auto& [sum, count] = groups[volume.group];
-      order.push_back({{sum / count, static_cast<double>(volume.group), dot(volume.position, view.toward)}, &volume});
+      order.push_back({{sum / count, static_cast<double>(volume.group), dot(volume.figures.position, view.toward)}, &volume});
     }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<const VolumeRow*> out;
@@ -155,8 +155,8 @@ void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const
   svg.element("title", std::to_string(volume.number) + ". " + volume.name + (volume.use.empty() ? "" : ", " + volume.use) + ": " +
                            quantity(volume.floor_area, Unit::square_metre) + " floor area, " +
                            quantity(volume.volume, Unit::cubic_metre));
-  const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.storey_height : 0, volume.bottom,
-                         volume.bottom + volume.height};
+  const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.figures.storey_height : 0,
+                         volume.figures.bottom, volume.figures.bottom + volume.figures.height};
   if (volume.exact.radius > 0)
     draw_ball(svg, sheet, volume.exact, style, id + "-shade-" + palette.letter(volume.use),
               id + "-ball-" + std::to_string(volume.number));

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "core/reading/views/volume.h"
+
 namespace bl::report {
 
 namespace {
@@ -13,32 +15,25 @@ namespace {
 // A link over more pairs than this would be a thicket; it is named in the caption instead.
 constexpr std::size_t kMostPairs = 16;
 
-constexpr std::array kFamilies = {LinkFamily{"adjacency, attraction", "#117733", ""},
-                                  LinkFamily{"separation, repulsion", "#aa3311", "5 3"},
-                                  LinkFamily{"distance", "#225599", "1.5 2.5"},
-                                  LinkFamily{"alignment, stacking", "#882288", "9 3"},
-                                  LinkFamily{"numbers: ratios, caps, mapped values", "#666a73", "8 3 1.5 3"},
-                                  LinkFamily{"other kinds", "#8a5a00", "3 2 1 2"}};
+// In the order of the families.
+constexpr std::array kInks = {FamilyInk{"adjacency, attraction", "#117733", ""},
+                              FamilyInk{"separation, repulsion", "#aa3311", "5 3"},
+                              FamilyInk{"distance", "#225599", "1.5 2.5"},
+                              FamilyInk{"alignment, stacking", "#882288", "9 3"},
+                              FamilyInk{"numbers: ratios, caps, mapped values", "#666a73", "8 3 1.5 3"},
+                              FamilyInk{"other kinds", "#8a5a00", "3 2 1 2"}};
+static_assert(kInks.size() == static_cast<std::size_t>(LinkFamily::brief), "each family that joins places has an ink");
 
 }  // namespace
 
-const LinkFamily* family_of(std::string_view kind) {
-  if (kind == "demand" || kind == "inside_boundary") return nullptr;
-  if (kind == "adjacency" || kind == "attract") return &kFamilies[0];
-  if (kind == "separation" || kind == "repel") return &kFamilies[1];
-  if (kind == "keep_distance") return &kFamilies[2];
-  if (kind == "align" || kind == "stack") return &kFamilies[3];
-  if (kind == "ratio" || kind == "set_cap" || kind == "map_value") return &kFamilies[4];
-  return &kFamilies[5];
+const FamilyInk* ink_of(LinkFamily family) {
+  return family == LinkFamily::brief ? nullptr : &kInks[static_cast<std::size_t>(family)];
 }
 
 namespace {
 
-bool joins_volumes_only(const Plan& plan, const LinkPlan& link) {
-  const auto is_volume = [&](std::uint32_t node) {
-    const auto& types = plan.nodes[node].types;
-    return std::any_of(types.begin(), types.end(), [](const TypePlan& type) { return type.definition->id == "smart_volume"; });
-  };
+bool joins_volumes_only(const State& state, const LinkPlan& link) {
+  const auto is_volume = [&](std::uint32_t node) { return reading::is_a<reading::VolumeFigures>(state, node); };
   return std::all_of(link.nodes[0].begin(), link.nodes[0].end(), is_volume) &&
          std::all_of(link.nodes[1].begin(), link.nodes[1].end(), is_volume);
 }
@@ -48,13 +43,13 @@ bool joins_volumes_only(const Plan& plan, const LinkPlan& link) {
 DrawnLinks links_to_draw(const State& state) {
   DrawnLinks drawn;
   std::map<std::string, std::size_t> beside;
-  std::set<const LinkFamily*> seen;
+  std::set<const FamilyInk*> seen;
   for (const LinkPlan& link : state.plan->links) {
     if (link.definition == nullptr || !link.is_enabled) continue;
-    const LinkFamily* family = family_of(link.definition->id);
-    if (family == nullptr) continue;
+    const FamilyInk* ink = ink_of(link.definition->family);
+    if (ink == nullptr) continue;
     // Links to streets, studies, styles and data say nothing of where volumes stand to each other, and would cover the plan.
-    if (!joins_volumes_only(*state.plan, link)) {
+    if (!joins_volumes_only(state, link)) {
       ++beside[link.definition->label];
       continue;
     }
@@ -64,17 +59,17 @@ DrawnLinks links_to_draw(const State& state) {
       for (const std::uint32_t to : link.nodes[1]) {
         if (from == to || (link.is_symmetric && to < from)) continue;
         if (++pairs > kMostPairs) break;
-        lines.push_back({family, from, to, link.definition->label + " (" + link.id + (link.is_muted ? ", muted)" : ")")});
+        lines.push_back({ink, from, to, link.definition->label + " (" + link.id + (link.is_muted ? ", muted)" : ")")});
       }
     if (pairs > kMostPairs) {
       drawn.left_out.push_back(link.definition->label + " (" + link.id + ")");
       continue;
     }
-    if (!lines.empty()) seen.insert(family);
+    if (!lines.empty()) seen.insert(ink);
     drawn.lines.insert(drawn.lines.end(), lines.begin(), lines.end());
   }
-  for (const LinkFamily& family : kFamilies)
-    if (seen.contains(&family)) drawn.families.push_back(&family);
+  for (const FamilyInk& ink : kInks)
+    if (seen.contains(&ink)) drawn.families.push_back(&ink);
   for (const auto& [label, count] : beside)
     drawn.beside.push_back(label + (count == 1 ? "" : " (" + std::to_string(count) + ")"));
   return drawn;

@@ -12,6 +12,7 @@
 #include "core/geometry/cell_mesh.h"
 #include "core/geometry/tessellate.h"
 #include "core/reading/figures.h"
+#include "core/reading/views/node.h"
 
 namespace bl::report {
 
@@ -27,7 +28,7 @@ std::vector<Point3> content_of(const ReportModel& model) {
     if (site.shape) content.insert(content.end(), site.shape->vertices.begin(), site.shape->vertices.end());
   for (const VolumeRow& volume : model.volumes) {
     if (volume.mesh) content.insert(content.end(), volume.mesh->vertices.begin(), volume.mesh->vertices.end());
-    else content.push_back(volume.position);
+    else content.push_back(volume.figures.position);
   }
   return content;
 }
@@ -43,7 +44,7 @@ double ground_of(const ReportModel& model) {
     if (site.shape) lower(site.bottom);
   if (is_first)
     for (const VolumeRow& volume : model.volumes)
-      if (volume.mesh) lower(volume.bottom);
+      if (volume.mesh) lower(volume.figures.bottom);
   return ground;
 }
 
@@ -145,7 +146,7 @@ PathText shadow_of(const Sheet& sheet, const DrawnVolume& volume) {
     pieces.push_back(convex_outline(std::move(places)));
     area += area_of(pieces.back());
   }
-  const double footprint = volume.row->footprint * sheet.scale() * sheet.scale();
+  const double footprint = volume.row->figures.footprint * sheet.scale() * sheet.scale();
   if (area <= (1 + kMostOverlap) * footprint) {
     for (const auto& line : common_outline(pieces)) path.polyline(simplified(line, true), true);
   } else {
@@ -159,7 +160,7 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   for (const VolumeRow& volume : model.volumes)
     if (volume.mesh)
       order.push_back({&volume, volume.exact.radius > 0 ? nullptr : mesh_of_depth(volume.mesh, kDeepestTessellation)});
-  const auto top_of = [](const DrawnVolume& volume) { return volume.row->bottom + volume.row->height; };
+  const auto top_of = [](const DrawnVolume& volume) { return volume.row->figures.bottom + volume.row->figures.height; };
   std::stable_sort(order.begin(), order.end(), [&](const DrawnVolume& a, const DrawnVolume& b) { return top_of(a) < top_of(b); });
   std::vector<PathText> cuts;
   for (const DrawnVolume& volume : order) {
@@ -169,7 +170,7 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   for (const DrawnVolume& volume : order) {
     const Colour colour = palette.colour(volume.row->use);
     svg.open("g").element("title", std::to_string(volume.row->number) + ". " + volume.row->name + ": " +
-                                       quantity(volume.row->bottom, Unit::metre) + " to " +
+                                       quantity(volume.row->figures.bottom, Unit::metre) + " to " +
                                        quantity(top_of(volume), Unit::metre) + " above the origin");
     svg.path(shadow_of(sheet, volume),
              {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
@@ -181,18 +182,18 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
 
 void draw_links(Markup& svg, const State& state, const Sheet& sheet, const DrawnLinks& links) {
   for (const DrawnLink& link : links.lines) {
-    const Pixel a = sheet.at(point_at(state, link.from, "node", "position")),
-                b = sheet.at(point_at(state, link.to, "node", "position"));
+    const Pixel a = sheet.at(reading::read<&reading::NodePlace::position>(state, link.from)),
+                b = sheet.at(reading::read<&reading::NodePlace::position>(state, link.to));
     // Bent to one side, so that links of two families between the same nodes stay apart.
-    const double bend = 0.07 + 0.05 * static_cast<double>(link.family->label.size() % 3);
+    const double bend = 0.07 + 0.05 * static_cast<double>(link.ink->label.size() % 3);
     const Pixel middle{(a.x + b.x) / 2 - (b.y - a.y) * bend, (a.y + b.y) / 2 + (b.x - a.x) * bend};
     const std::string d = "M" + pixels(a.x) + " " + pixels(a.y) + "Q" + pixels(middle.x) + " " + pixels(middle.y) + " " +
                           pixels(b.x) + " " + pixels(b.y);
     svg.open("path", {{"d", d},
                       {"fill", "none"},
-                      {"stroke", std::string(link.family->colour)},
+                      {"stroke", std::string(link.ink->colour)},
                       {"stroke-width", "1.5"},
-                      {"stroke-dasharray", std::string(link.family->dashes)},
+                      {"stroke-dasharray", std::string(link.ink->dashes)},
                       {"stroke-linecap", "butt"}});
     svg.element("title", link.title).close();
   }
@@ -203,7 +204,7 @@ void draw_positions(Markup& svg, const State& state, const Sheet& sheet, const R
   for (const DrawnLink& link : links.lines) nodes.insert({link.from, link.to});
   for (const VolumeRow& volume : model.volumes) nodes.insert(volume.node);
   for (const std::uint32_t node : nodes) {
-    const Pixel at = sheet.at(point_at(state, node, "node", "position"));
+    const Pixel at = sheet.at(reading::read<&reading::NodePlace::position>(state, node));
     const auto row = std::find_if(model.volumes.begin(), model.volumes.end(), [&](const VolumeRow& v) { return v.node == node; });
     const bool has_shape = row != model.volumes.end() && row->mesh != nullptr;
     // Hollow: nothing stands there.
@@ -219,7 +220,7 @@ void draw_positions(Markup& svg, const State& state, const Sheet& sheet, const R
 void draw_legend(Markup& svg, const Sheet& sheet, const DrawnLinks& links, Pixel at) {
   double x = at.x;
   double y = at.y;
-  for (const LinkFamily* family : links.families) {
+  for (const FamilyInk* family : links.families) {
     const std::string label(family->label);
     const double width = 40 + text_width(label, 10) + 18;
     if (x + width > sheet.width() - 20 && x > at.x) {
@@ -242,8 +243,9 @@ std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model
   if (model.volumes.size() > kMostNumbers) return " Too many volumes for labels: pointing at one shows its number and name.";
   std::vector<Label> labels;
   for (const VolumeRow* volume : by_size(model)) {
-    Label label{sheet.at(volume->position), volume->name, palette.letter(volume->use), std::to_string(volume->number)};
-    label.second += volume->mesh ? " \xC2\xB7 " + quantity(volume->height, Unit::metre) + " high" : " \xC2\xB7 " + volume->state;
+    Label label{sheet.at(volume->figures.position), volume->name, palette.letter(volume->use), std::to_string(volume->number)};
+    label.second += volume->mesh ? " \xC2\xB7 " + quantity(volume->figures.height, Unit::metre) + " high"
+                                 : " \xC2\xB7 " + volume->figures.state;
     // Below the dot of the position, not on it.
     label.anchor.y += model.volumes.size() > kMostNames ? 8 : 17;
     labels.push_back(std::move(label));

@@ -240,10 +240,7 @@ class Compiler {
   Result<void> check_kind(PortRef ref, ValueKind expected, const MadeType& made, const char* verb) const {
     const PortDefinition& port = plan_->port(ref);
     const ValueKind found = port.kind;
-    const bool is_numeric = found == ValueKind::integer || found == ValueKind::boolean, is_word = found == ValueKind::choice;
-    if ((found == expected && port.made == made) || (expected == ValueKind::number && is_numeric) ||
-        (expected == ValueKind::text && is_word))
-      return {};
+    if (can_read(expected, found) && port.made == made) return {};
     return Error{ErrorCode::wrong_kind, "",
                  "the " + std::string(verb) + " " + std::string(kind_text(expected, made)) + ", but `" + plan_->path_text(ref) +
                      "` holds " + std::string(kind_text(found, port.made))};

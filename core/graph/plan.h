@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/graph/plan_memo.h"
 #include "core/graph/scene.h"
 
 namespace bl {
@@ -67,6 +68,8 @@ struct Plan {
   std::vector<LinkPlan> links;         ///< ascending id
   std::vector<SetPlan> sets;           ///< ascending node id, then typification, then set
   std::vector<AnalysisPlan> analyses;  ///< ascending node id, then typification
+  /// Shared with the plans that are amended from this one: no index of theirs is another.
+  std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
 
   /// Index of a node, or nodes.size().
   std::uint32_t node_index(std::string_view id) const;

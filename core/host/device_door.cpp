@@ -2,6 +2,9 @@
 #include "core/host/device_door.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "core/reading/views/stream.h"
 
 namespace bl {
 
@@ -12,24 +15,17 @@ constexpr double kUsualTick = 0.05;  // [s] where there is no sensor
 }  // namespace
 
 double tick_length(const Scene& scene, const Registry& registry) {
-  const TypificationDefinition* sensor = registry.typification("sensor");
-  const PortDefinition* length = sensor != nullptr ? sensor->find_port("tick_length") : nullptr;
   std::optional<double> shortest;
-  for (const auto& [id, node] : scene.nodes) {
-    if (length == nullptr || !node.types.contains(sensor->id)) continue;
-    const double seconds = as_number(set_value(scene, node, *sensor, *length));
-    shortest = std::min(shortest.value_or(seconds), seconds);
-  }
+  for (const auto& [id, node] : scene.nodes)
+    if (const auto seconds = reading::setting<&reading::SensorFigures::tick_length>(scene, registry, node))
+      shortest = std::min(shortest.value_or(*seconds), *seconds);
   return shortest && *shortest > 0 ? *shortest : kUsualTick;
 }
 
-bool has_recordings(const Scene& scene) {
-  return std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const auto& entry) {
-    const auto sensor = entry.second.types.find("sensor");
-    if (sensor == entry.second.types.end()) return false;
-    const auto address = sensor->second.find("address");
-    const auto* text = address != sensor->second.end() ? std::get_if<std::string>(&address->second) : nullptr;
-    return text != nullptr && text->starts_with("replay:");
+bool has_recordings(const Scene& scene, const Registry& registry) {
+  return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const auto& entry) {
+    const auto address = reading::setting<&reading::SensorFigures::address>(scene, registry, entry.second);
+    return address && address->starts_with("replay:");
   });
 }
 

@@ -13,7 +13,7 @@ namespace bl {
 /// The shortest tick that a sensor of the scene stands for [s]; a twentieth of a second where there is none.
 double tick_length(const Scene& scene, const Registry& registry);
 /// Does a sensor of the scene play a recorded table?
-bool has_recordings(const Scene& scene);
+bool has_recordings(const Scene& scene, const Registry& registry);
 
 class DeviceDoor {
  public:

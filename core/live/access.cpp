@@ -6,7 +6,7 @@
 
 #include "core/address/password_source.h"
 #include "core/file/file_io.h"
-#include "core/live/port_values.h"
+#include "core/reading/views/stream.h"
 
 namespace bl {
 
@@ -50,13 +50,10 @@ Result<std::string> Access::certificates() const {
 std::map<std::string, Access> accesses_of(const Scene& scene, const std::string& folder) {
   std::map<std::string, Access> accesses;
   for (const auto& [id, node] : scene.nodes) {
-    const PortValues* values = values_of(node, "mqtt_broker");
-    if (values == nullptr) continue;
-    const std::string place =
-        value_of<std::string>(*values, "host", "localhost") + ":" + std::to_string(value_of<std::int64_t>(*values, "port", 1883));
-    accesses.emplace(place,
-                     Access{id, value_of<std::string>(*values, "user", ""), value_of<std::string>(*values, "password_from", ""),
-                            value_of<std::string>(*values, "ca_file", ""), value_of(*values, "is_encrypted", false), folder});
+    const auto broker = reading::settings_of<reading::BrokerSettings>(scene, full_registry(), node);
+    if (!broker) continue;
+    accesses.emplace(broker->host + ":" + std::to_string(broker->port),
+                     Access{id, broker->user, broker->password_from, broker->ca_file, broker->is_encrypted, folder});
   }
   return accesses;
 }

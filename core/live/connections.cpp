@@ -13,8 +13,8 @@
 #include "core/address/live_address.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
-#include "core/live/port_values.h"
 #include "core/live/recording.h"
+#include "core/reading/views/stream.h"
 
 namespace bl {
 
@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uintmax_t kLongestRecording = 64u << 20;  // [bytes]
 constexpr double kOldest = 1e12;                         // [ticks] that a message can have waited
 constexpr std::int64_t kNeverMeasured = -1;              // of a sensor that has no reading
-constexpr const char *kSensor = "sensor", *kActuator = "actuator";
+constexpr std::string_view kPlainMessage = "{value}";    // the number alone
 
 // Links of the file system are followed first, so that none of them leads out of the folder.
 bool is_below(const std::filesystem::path& folder, const std::filesystem::path& file) {
@@ -58,8 +58,8 @@ std::string key_of(const LiveAddress& address, const std::string& node, bool is_
 }  // namespace
 
 struct Connections::Sensor {
-  std::string address;  // another one is another connection
-  double period = 0, tick_length = 0;
+  std::string address;                 // another one is another connection
+  double period = 0, tick_length = 0;  // [s]
 
   LiveAddress parsed;
   std::shared_ptr<Station> station;
@@ -79,8 +79,8 @@ struct Connections::Actuator {
   std::string address;
   LiveAddress parsed;
   std::shared_ptr<Station> station;
-  double interval = 1, change = 0;
-  bool is_on = true, is_plain = true;
+  double interval = 0, change = 0;
+  bool is_on = false, is_plain = false;
   std::optional<std::string> sent;  // the last message
   double sent_value = 0;
   Clock::time_point due{};
@@ -98,9 +98,8 @@ void Connections::begin_recording(Sensor& sensor) {
   sensor.station->line(recording ? "" : "the recording cannot be played: " + recording.error().text());
 }
 
-bool Connections::follow_sensor(const std::string& id, const PortValues& values) {
-  const std::string address = value_of<std::string>(values, "address", ""),
-                    known_line = value_of<std::string>(values, "connection", "");
+bool Connections::follow_sensor(const std::string& id, const reading::SensorFigures& wanted) {
+  const std::string &address = wanted.address, &known_line = wanted.connection;
   // What is wrong with an address, the sensor itself says.
   const auto parsed = parse_live_address(address);
   const bool is_wanted = parsed && (options_.opens_network || parsed->scheme == LiveAddress::Scheme::replay);
@@ -119,18 +118,18 @@ bool Connections::follow_sensor(const std::string& id, const PortValues& values)
     if (parsed->scheme == LiveAddress::Scheme::replay) begin_recording(*slot);
   }
   // What changes below leaves the connection alone.
-  slot->station->set_field(value_of<std::string>(values, "field", ""));
-  const double period = value_of(values, "period", 10.0), tick_length = value_of(values, "tick_length", 0.05);
-  const bool is_changed = is_new || slot->period != period;
-  if (slot->tick_length != tick_length) slot->last_tick = std::numeric_limits<std::int64_t>::max();  // its rows lie elsewhere now
-  slot->period = period;
-  slot->tick_length = tick_length;
+  slot->station->set_field(wanted.field);
+  const bool is_changed = is_new || slot->period != wanted.period;
+  if (slot->tick_length != wanted.tick_length)
+    slot->last_tick = std::numeric_limits<std::int64_t>::max();  // its rows lie elsewhere now
+  slot->period = wanted.period;
+  slot->tick_length = wanted.tick_length;
   slot->known_line = known_line;
   return is_changed;
 }
 
-bool Connections::follow_actuator(const std::string& id, const PortValues& values) {
-  const std::string address = value_of<std::string>(values, "address", "");
+bool Connections::follow_actuator(const std::string& id, const reading::ActuatorFigures& wanted) {
+  const std::string& address = wanted.address;
   const auto parsed = parse_live_address(address);
   const bool is_wanted = options_.opens_network && parsed &&
                          (parsed->scheme == LiveAddress::Scheme::mqtt || parsed->scheme == LiveAddress::Scheme::osc);
@@ -143,10 +142,10 @@ bool Connections::follow_actuator(const std::string& id, const PortValues& value
     slot->parsed = *parsed;
     slot->station = std::make_shared<Station>("");
   }
-  slot->interval = value_of(values, "interval", 1.0);
-  slot->change = value_of(values, "change", 0.0);
-  slot->is_on = value_of(values, "is_on", true);
-  slot->is_plain = value_of<std::string>(values, "format", "{value}") == "{value}";
+  slot->interval = wanted.interval;
+  slot->change = wanted.change;
+  slot->is_on = wanted.is_on;
+  slot->is_plain = wanted.format == kPlainMessage;
   return is_new;
 }
 
@@ -157,13 +156,13 @@ void Connections::follow(const Scene& scene) {
   forgotten_.clear();
   std::set<std::string> sensors, actuators;
   for (const auto& [id, node] : scene.nodes) {
-    if (const PortValues* values = values_of(node, kSensor)) {
+    if (const auto sensor = reading::settings_of<reading::SensorFigures>(scene, full_registry(), node)) {
       sensors.insert(id);
-      is_changed |= follow_sensor(id, *values);
+      is_changed |= follow_sensor(id, *sensor);
     }
-    if (const PortValues* values = values_of(node, kActuator)) {
+    if (const auto actuator = reading::settings_of<reading::ActuatorFigures>(scene, full_registry(), node)) {
       actuators.insert(id);
-      is_changed |= follow_actuator(id, *values);
+      is_changed |= follow_actuator(id, *actuator);
     }
   }
   is_changed |= std::erase_if(sensors_, [&](const auto& entry) { return !sensors.contains(entry.first); }) > 0;
@@ -288,8 +287,9 @@ void Connections::send(const State& state) {
   for (auto& [id, actuator] : actuators_) {
     const std::uint32_t node = state.plan->node_index(id);
     if (!actuator->is_on || now < actuator->due || node == state.nodes.size()) continue;
-    const auto message = state.plan->find(node, {kActuator, "message", ""}),
-               value = state.plan->find(node, {kActuator, "value", ""});
+    using reading::ActuatorFigures;
+    const auto message = reading::port_of<&ActuatorFigures::message>(*state.plan, node),
+               value = reading::port_of<&ActuatorFigures::value>(*state.plan, node);
     if (!message || !value) continue;
     // A default that nobody has chosen is no order to a machine.
     const bool is_set = state.plan->nodes[node].types[value->type].is_set[value->port];

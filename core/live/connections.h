@@ -13,6 +13,11 @@
 #include "core/session/author.h"
 #include "core/session/commands.h"
 
+namespace bl::reading {
+struct ActuatorFigures;
+struct SensorFigures;
+}  // namespace bl::reading
+
 namespace bl {
 
 struct LiveOptions {
@@ -68,8 +73,8 @@ class Connections {
   struct Sensor;
   struct Actuator;
   // Whether something has changed that a connection follows from.
-  bool follow_sensor(const std::string& id, const PortValues& values);
-  bool follow_actuator(const std::string& id, const PortValues& values);
+  bool follow_sensor(const std::string& id, const reading::SensorFigures& wanted);
+  bool follow_actuator(const std::string& id, const reading::ActuatorFigures& wanted);
   void follow_endpoints();
   void begin_recording(Sensor& sensor);
   static std::optional<RecordedArrival> play(Sensor& sensor, std::int64_t tick);

@@ -4,15 +4,14 @@
 #include <string>
 
 #include "core/address/live_address.h"
-#include "core/live/port_values.h"
+#include "core/reading/views/stream.h"
 
 namespace bl {
 
 std::vector<Error> unusable_sensors(const Scene& scene) {
   std::vector<Error> errors;
   for (const auto& [id, node] : scene.nodes) {
-    const PortValues* values = values_of(node, "sensor");
-    const std::string address = values == nullptr ? "" : value_of<std::string>(*values, "address", "");
+    const std::string address = reading::setting<&reading::SensorFigures::address>(scene, full_registry(), node).value_or("");
     if (address.empty()) continue;
     if (const auto parsed = parse_live_address(address); !parsed)
       errors.push_back({parsed.error().code, "nodes/" + id + "/sensor/address",

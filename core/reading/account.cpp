@@ -7,13 +7,12 @@
 
 #include "core/demand/brief_sums.h"
 #include "core/reading/figures.h"
-#include "core/reading/report_model.h"
+#include "core/reading/views/plot.h"
+#include "core/reading/views/programme.h"
 
 namespace bl::report {
 
 namespace {
-
-constexpr const char* kVolumeType = "smart_volume";
 
 // A litre, a square centimetre: less than this is nothing that anybody asks for or misses.
 constexpr double kNothing = 1e-3;
@@ -30,39 +29,33 @@ Briefed read_briefed(const State& state) {
   Briefed briefed;
   const Plan& plan = *state.plan;
   for (const LinkPlan& link : plan.links) {
-    if (link.definition == nullptr || link.definition->id != "demand" || !link.is_enabled || link.error) continue;
-    const auto record = plan.scene.links.find(link.id);
-    std::string use;
-    if (record != plan.scene.links.end())
-      if (const auto found = record->second.parameters.find("use"); found != record->second.parameters.end())
-        if (const auto* text = std::get_if<std::string>(&found->second)) use = *text;
+    const auto demand = reading::parameters_of<reading::DemandParameters>(link);
+    if (!demand || !link.is_enabled || link.error) continue;
     for (const std::uint32_t node : link.nodes[1]) {
-      if (!use.empty()) briefed.credited.emplace(node, use);
+      if (!demand->use.empty()) briefed.credited.emplace(node, demand->use);
       if (!link.is_muted) briefed.nodes.insert(node);
     }
   }
   return briefed;
 }
 
-VolumeAccount read_account(const State& state, std::uint32_t node, const Briefed& briefed) {
-  const auto number = [&](const char* port, double fallback = 0) { return number_at(state, node, kVolumeType, port, fallback); };
+VolumeAccount account_of(reading::Row<reading::VolumeFigures>&& row, const Briefed& briefed) {
   VolumeAccount account;
-  account.node = node;
-  const auto other = briefed.credited.find(node);
-  account.use = other != briefed.credited.end() ? other->second : text_at(state, node, kVolumeType, "use");
-  const std::string standing = text_at(state, node, kVolumeType, "state");
-  account.is_alive = standing == "alive";
-  account.storey_height = number("storey_height");
-  const double least = number("demand_min");
-  account.asked = std::max(number("demand"), least);
+  account.node = row.node;
+  account.figures = std::move(row.figures);
+  const reading::VolumeFigures& figures = account.figures;
+  const auto other = briefed.credited.find(account.node);
+  account.use = other != briefed.credited.end() ? other->second : figures.use;
+  account.is_alive = figures.state == "alive";
+  account.asked = std::max(figures.demand, figures.demand_min);
   // Before a solver has seen the volume nobody aims at anything yet: then its limits themselves are the next best word.
   account.limited =
-      standing == "idle" ? std::max(std::min(number("demand"), number("demand_limit", 1e9)), least) : number("wanted");
-  account.volume = number("volume");
-  account.floor_area = number("floor_area");
-  if (account.storey_height > 0) {
-    account.asked_area = account.asked / account.storey_height;
-    account.limited_area = account.limited / account.storey_height;
+      figures.state == "idle" ? std::max(std::min(figures.demand, figures.demand_limit), figures.demand_min) : figures.wanted;
+  account.volume = figures.volume;
+  account.floor_area = figures.floor_area;
+  if (figures.storey_height > 0) {
+    account.asked_area = account.asked / figures.storey_height;
+    account.limited_area = account.limited / figures.storey_height;
   }
   return account;
 }
@@ -93,21 +86,17 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 // Which of the rules that a link holds are used up, or nearly: a plot has several, and one of them limits the volume.
-std::string rules_used_up(const State& state, const LinkPlan& link, std::uint32_t volume) {
+std::string rules_used_up(const State& state, const LinkPlan& link, const reading::VolumeFigures& volume) {
   constexpr double kNearly = 0.98;
-  if (link.definition == nullptr || link.definition->id != "plot_rules" || link.nodes[0].size() != 1) return "";
-  const std::uint32_t plot = link.nodes[0].front();
-  const auto allowed = [&](const char* port) { return number_at(state, plot, "plot", port, 0); };
-  const auto is_held = [&](const char* parameter) {
-    const auto& parameters = state.plan->scene.links.at(link.id).parameters;
-    const auto found = parameters.find(parameter);
-    return found == parameters.end() || as_number(found->second) != 0;
-  };
+  const auto held = reading::parameters_of<reading::PlotRuleParameters>(link);
+  if (!held || link.nodes[0].size() != 1) return "";
+  const reading::PlotFigures plot =
+      reading::row_of<reading::PlotFigures>(state, link.nodes[0].front()).value_or(reading::PlotFigures{});
   std::vector<std::string> rules;
-  if (is_held("hold_fsi") && allowed("fsi") >= kNearly * allowed("fsi_max")) rules.emplace_back("FSI");
-  if (is_held("hold_gsi") && allowed("gsi") >= kNearly * allowed("gsi_max")) rules.emplace_back("GSI");
-  const double top = number_at(state, volume, kVolumeType, "bottom", 0) + number_at(state, volume, kVolumeType, "height", 0);
-  if (is_held("hold_height") && top - allowed("ground") >= kNearly * allowed("height_max")) rules.emplace_back("height");
+  if (held->hold_fsi && plot.fsi >= kNearly * plot.fsi_max) rules.emplace_back("FSI");
+  if (held->hold_gsi && plot.gsi >= kNearly * plot.gsi_max) rules.emplace_back("GSI");
+  const double top = volume.bottom + volume.height;
+  if (held->hold_height && top - plot.ground >= kNearly * plot.height_max) rules.emplace_back("height");
   return rules.empty() ? "" : " (" + listed(rules) + ")";
 }
 
@@ -156,14 +145,14 @@ void Account::add(const Account& other) {
 std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
   std::vector<std::pair<std::string, BriefRow>> brief;
   std::map<std::string, std::size_t> index;
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
-    const Table* table = table_at(state, n, "programme", "rows");
-    for (std::size_t r = 0; table != nullptr && r < table->rows.size(); ++r) {
-      if (table->text(r, "use").empty()) continue;  // nobody is asked by it, which the programme itself says
-      const auto [found, is_new] = index.emplace(table->text(r, "use"), brief.size());
+  for (const auto& [node, programme] : reading::rows<reading::ProgrammeFigures>(state)) {
+    const Table& table = *programme.rows;
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      if (table.text(r, "use").empty()) continue;  // nobody is asked by it, which the programme itself says
+      const auto [found, is_new] = index.emplace(table.text(r, "use"), brief.size());
       if (is_new) brief.emplace_back(found->first, BriefRow{});
       BriefRow& row = brief[found->second].second;
-      const BriefSums sums = brief_sums(*table, r);
+      const BriefSums sums = brief_sums(table, r);
       row.area += sums.area;
       row.volume += sums.volume;
     }
@@ -188,8 +177,8 @@ Accounts accounts_of(const State& state) {
     account.brief_area = row.area;
   }
   std::map<std::string, std::vector<const VolumeAccount*>> members;
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
-    if (has_type(state, n, kVolumeType)) accounts.volumes.push_back(read_account(state, n, briefed));
+  for (reading::Row<reading::VolumeFigures>& row : reading::rows<reading::VolumeFigures>(state))
+    accounts.volumes.push_back(account_of(std::move(row), briefed));
   for (VolumeAccount& volume : accounts.volumes) {
     const auto row = index.find(volume.use);
     volume.is_by_area = briefed.nodes.contains(volume.node) && row != index.end() && accounts.uses[row->second].is_in_programme;
@@ -201,7 +190,7 @@ Accounts accounts_of(const State& state) {
       account.add(*volume);
       ++account.volumes;
       account.short_volumes += volume->is_short(accounts.tolerance) ? 1 : 0;
-      note_worst(accounts, volume->short_share(), "volume " + name_at(state, volume->node));
+      note_worst(accounts, volume->short_share(), "volume " + state.plan->nodes[volume->node].name);
     }
   }
   for (UseAccount& use : accounts.uses) {
@@ -221,7 +210,7 @@ Accounts accounts_of(const State& state) {
 
 std::vector<std::string> who_limits(const State& state, const VolumeAccount& volume) {
   std::vector<std::string> who;
-  const auto ref = state.plan->find(volume.node, PortPath{kVolumeType, "demand_limit", ""});
+  const auto ref = reading::port_of<&reading::VolumeFigures::demand_limit>(*state.plan, volume.node);
   if (!ref || !(volume.withheld() > 0)) return who;
   const double limit = as_number(state.value(*ref));
   const auto holds = [&](const Value& value) { return as_number(value) <= limit * (1 + 1e-6); };
@@ -231,7 +220,7 @@ std::vector<std::string> who_limits(const State& state, const VolumeAccount& vol
     const auto voice =
         std::lower_bound(voices.begin(), voices.end(), *ref, [](const Voice& v, PortRef r) { return v.target < r; });
     if (voice != voices.end() && voice->target == *ref && voice->strength > 0 && holds(voice->value))
-      who.push_back("link `" + state.plan->links[l].id + "`" + rules_used_up(state, state.plan->links[l], volume.node));
+      who.push_back("link `" + state.plan->links[l].id + "`" + rules_used_up(state, state.plan->links[l], volume.figures));
   }
   const TypePlan& type = state.plan->nodes[volume.node].types[ref->type];
   if (type.is_set[ref->port] && holds(type.set_values[ref->port])) who.emplace_back("a limit set by hand");
@@ -253,7 +242,7 @@ std::string why_some_are_short(const State& state, const Accounts& accounts, con
         (worst == nullptr || volume.short_share() > worst->short_share()))
       worst = &volume;
   if (worst == nullptr) return "";
-  const std::string name = name_at(state, worst->node);
+  const std::string name = state.plan->nodes[worst->node].name;
   return (use.short_volumes > 1 ? std::to_string(use.short_volumes) + " of its volumes are short, `" + name + "` most: "
                                 : "`" + name + "` alone is short: ") +
          why_short(state, accounts, *worst);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/graph/state.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::report {
 
@@ -43,9 +44,9 @@ struct Account {
 
 struct VolumeAccount : Account {
   std::uint32_t node = 0;
-  std::string use;           ///< that it counts for: its own, or the one that a demand link credits it to
-  double storey_height = 0;  ///< [m]
-  bool is_alive = false;     ///< it has a shape
+  std::string use;        ///< that it counts for: its own, or the one that a demand link credits it to
+  bool is_alive = false;  ///< it has a shape
+  reading::VolumeFigures figures;
 };
 
 struct UseAccount : Account {

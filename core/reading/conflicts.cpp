@@ -11,6 +11,7 @@
 #include "core/reading/figures.h"
 #include "core/reading/place_problems.h"
 #include "core/reading/report_model.h"
+#include "core/reading/views/solver.h"
 
 namespace bl::report {
 
@@ -33,7 +34,8 @@ std::string direction_of(const Vector3& pull, double true_north) {
 double size_of(const State& state, PortRef ref) {
   const Value& value = state.value(ref);
   // Places have no size of their own: a pull counts against the radius of what it moves.
-  if (std::holds_alternative<Vector3>(value)) return std::max(1.0, number_at(state, ref.node, "smart_volume", "radius"));
+  if (std::holds_alternative<Vector3>(value))
+    return std::max(1.0, reading::read<&reading::VolumeFigures::radius>(state, ref.node));
   return std::max(std::abs(as_number(value)), 1e-9);
 }
 
@@ -88,7 +90,7 @@ ConflictRow conflict_row(const State& state, const TensePort& tense) {
   const PortRef ref = tense.ref;
   const PortDefinition& port = state.plan->port(ref);
   ConflictRow row;
-  row.node = name_at(state, ref.node);
+  row.node = state.plan->nodes[ref.node].name;
   row.node_id = state.plan->nodes[ref.node].id;
   row.port = state.plan->path_text(ref);
   row.tension = quantity(tense.tension, port.unit);
@@ -160,9 +162,9 @@ void read_problems(const State& state, ReportModel& model) {
     const std::string& id = plan.nodes[n].id;
     for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t)
       if (const auto& error = state.nodes[n].types[t].error)
-        add({"node " + name_at(state, n) + ", " + plan.nodes[n].types[t].definition->label, error->text(), id, "", false});
-    if (const std::string message = text_at(state, n, "smart_volumes_solver", "message"); !message.empty())
-      add({"node " + name_at(state, n), message, id, "", true});
+        add({"node " + plan.nodes[n].name + ", " + plan.nodes[n].types[t].definition->label, error->text(), id, "", false});
+    if (const std::string message = reading::read<&reading::SolverFigures::message>(state, n); !message.empty())
+      add({"node " + plan.nodes[n].name, message, id, "", true});
   }
   for (std::size_t l = 0; l < state.links.size(); ++l) {
     const auto& error = state.links[l].error ? state.links[l].error : plan.links[l].error;
@@ -171,9 +173,9 @@ void read_problems(const State& state, ReportModel& model) {
   // What has kept a node from running is its own error already.
   for (const SetPlan& set : plan.sets)
     if (set.error && !state.nodes[set.node].types[set.type].error)
-      add({"node " + name_at(state, set.node), set.error->text(), plan.nodes[set.node].id, "", false});
+      add({"node " + plan.nodes[set.node].name, set.error->text(), plan.nodes[set.node].id, "", false});
   for (const PlaceProblem& problem : place_problems(state))
-    add({"node " + name_at(state, plan.node_index(problem.nodes.front())), problem.sentence(), problem.nodes.front(), "", false,
+    add({"node " + plan.nodes[plan.node_index(problem.nodes.front())].name, problem.sentence(), problem.nodes.front(), "", false,
          true});
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/base/mathematics.h"
 #include "core/geometry/solid_part.h"
-#include "core/reading/report_model.h"
+#include "core/reading/views/solver.h"
 
 namespace bl::report {
 
@@ -55,8 +55,8 @@ std::vector<Cut> boundary_of(const State& state, std::uint32_t node) {
     for (const SetPlan& set : plan.sets) {
       if (set.node != solver.node || set.type != solver.type || set.set == solver.set) continue;
       for (const std::uint32_t member : set.members) {
-        const Table* planes = table_at(state, member, "boundary", "planes");
-        for (std::size_t r = 0; planes != nullptr && r < planes->rows.size(); ++r)
+        const Shared<Table> planes = reading::read<&reading::BoundaryFigures::planes>(state, member);
+        for (std::size_t r = 0; r < planes->rows.size(); ++r)
           cuts.push_back({{planes->number(r, "x"), planes->number(r, "y"), planes->number(r, "z")}, planes->number(r, "offset")});
       }
     }
@@ -81,19 +81,17 @@ double plan_area(Corners points) {
   return area;
 }
 
-bool agrees(const State& state, std::uint32_t node, const ExactShape& shape) {
-  const double footprint = number_at(state, node, "smart_volume", "footprint"),
-               height = number_at(state, node, "smart_volume", "height");
+bool agrees(const reading::VolumeFigures& volume, const ExactShape& shape) {
   const Corners seen_from_above = outline_of(shape, {0, 0, 1});
   Corners aside = outline_of(shape, {1, 0, 0});
-  if (seen_from_above.empty() || aside.empty() || !(footprint > 0)) return false;
+  if (seen_from_above.empty() || aside.empty() || !(volume.footprint > 0)) return false;
   // The highest and lowest points of the ball may be no corner of the sample.
   const auto [low, high] =
       std::minmax_element(aside.begin(), aside.end(), [](const Point3& a, const Point3& b) { return a.z < b.z; });
   Corners flat = seen_from_above;
   for (Point3& p : flat) p = {p.x - shape.centre.x, p.y - shape.centre.y, 0};
-  return std::abs(plan_area(flat) - footprint) < kAgreement * footprint &&
-         std::abs(high->z - low->z - height) < kAgreement * height;
+  return std::abs(plan_area(flat) - volume.footprint) < kAgreement * volume.footprint &&
+         std::abs(high->z - low->z - volume.height) < kAgreement * volume.height;
 }
 
 }  // namespace
@@ -123,26 +121,25 @@ Corners outline_of(const ExactShape& shape, const Vector3& toward) {
   return points;
 }
 
-ExactShape exact_shape(const State& state, std::uint32_t node) {
-  const double weight = number_at(state, node, "smart_volume", "weight");
-  const Table* neighbours = table_at(state, node, "smart_volume", "neighbours");
-  ExactShape shape{point_at(state, node, "node", "position"), std::sqrt(std::max(0.0, weight)), {}};
-  if (!(weight > 0) || neighbours == nullptr) return {};
+ExactShape exact_shape(const State& state, std::uint32_t node, const reading::VolumeFigures& volume) {
+  using reading::VolumeFigures;
+  if (!(volume.weight > 0)) return {};
+  ExactShape shape{volume.position, std::sqrt(volume.weight), {}};
   std::vector<Cut> cuts = boundary_of(state, node);
-  for (std::size_t r = 0; r < neighbours->rows.size(); ++r) {
-    const std::uint32_t other = state.plan->node_index(neighbours->text(r, "node"));
+  for (std::size_t r = 0; r < volume.neighbours->rows.size(); ++r) {
+    const std::uint32_t other = state.plan->node_index(volume.neighbours->text(r, "node"));
     if (other >= state.plan->nodes.size()) return {};
-    const Vector3 between = point_at(state, other, "node", "position") - shape.centre;
+    const Vector3 between = reading::read<&VolumeFigures::position>(state, other) - shape.centre;
     const double length = norm(between);
     if (!(length > 0)) return {};
     // |x - p|² - w is smaller here than there: a plane across the line between the two.
-    const double along = 0.5 * (length * length + weight - number_at(state, other, "smart_volume", "weight")) / length;
+    const double along = 0.5 * (length * length + volume.weight - reading::read<&VolumeFigures::weight>(state, other)) / length;
     const Vector3 normal = between / length;
     cuts.push_back({normal, dot(normal, shape.centre) + along});
   }
   for (const Cut& cut : cuts)
     if (cut.offset - dot(cut.normal, shape.centre) < shape.radius) shape.cuts.push_back(cut);
-  return agrees(state, node, shape) ? shape : ExactShape{};
+  return agrees(volume, shape) ? shape : ExactShape{};
 }
 
 }  // namespace bl::report

@@ -5,6 +5,7 @@
 
 #include "core/geometry/convex_domain.h"
 #include "core/graph/state.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::report {
 
@@ -33,6 +34,6 @@ Corners outline_of(const ExactShape& shape, const Vector3& toward);
 /// The shape of a SmartVolume node from its place, weight, neighbours and the planes of the solver's boundary. Empty (radius 0)
 /// where these do not give the footprint and height that the solver reports: then another geometry is at work, and its mesh
 /// counts.
-ExactShape exact_shape(const State& state, std::uint32_t node);
+ExactShape exact_shape(const State& state, std::uint32_t node, const reading::VolumeFigures& volume);
 
 }  // namespace bl::report

@@ -1,4 +1,4 @@
-// Reads stances and positions by the names of their ports; groups are found by joining pairs that are too near.
+// Reads how volumes stand, and where; groups are found by joining pairs that are too near.
 #include "core/reading/place_problems.h"
 
 #include <algorithm>
@@ -7,16 +7,21 @@
 
 #include "core/base/text.h"
 #include "core/geometry/touching_balls.h"
-#include "core/reading/report_model.h"
+#include "core/reading/views/node.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::report {
 
 namespace {
 
-constexpr const char* kPlacedType = "smart_volume";
 constexpr std::size_t kNamedVolumes = 4, kNamedLinks = 6;
 // [m] a tick: less lifts nobody that anybody sees.
 constexpr double kLeastLift = 0.005;
+
+using reading::NodePlace;
+using reading::VolumeFigures;
+
+bool is_place(const State& state, PortRef port) { return reading::port_of<&NodePlace::position>(*state.plan, port.node) == port; }
 
 struct PlacedVolume {
   std::uint32_t node = 0;
@@ -26,9 +31,8 @@ struct PlacedVolume {
 
 std::vector<PlacedVolume> placed_volumes(const State& state) {
   std::vector<PlacedVolume> volumes;
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
-    if (has_type(state, n, kPlacedType))
-      volumes.push_back({n, point_at(state, n, "node", "position"), ball_radius(number_at(state, n, kPlacedType, "wanted"))});
+  for (const auto& [node, volume] : reading::rows<VolumeFigures>(state))
+    volumes.push_back({node, volume.position, ball_radius(volume.wanted)});
   return volumes;
 }
 
@@ -62,14 +66,15 @@ bool is_parting(const State& state, std::size_t link, const std::vector<std::uin
   for (const Voice& voice : state.links[link].voices)
     if (const auto* move = std::get_if<Vector3>(&voice.value);
         move != nullptr && std::binary_search(nodes.begin(), nodes.end(), voice.target.node))
-      outward += dot(*move, point_at(state, voice.target.node, "node", "position") - middle);
+      outward += dot(*move, reading::read<&NodePlace::position>(state, voice.target.node) - middle);
   return outward > 0;
 }
 
 // Links that run between the volumes of a group and move them.
 std::vector<std::string> links_between(const State& state, const std::vector<std::uint32_t>& nodes) {
   Point3 middle;
-  for (const std::uint32_t node : nodes) middle += point_at(state, node, "node", "position") / static_cast<double>(nodes.size());
+  for (const std::uint32_t node : nodes)
+    middle += reading::read<&NodePlace::position>(state, node) / static_cast<double>(nodes.size());
   const auto has_member = [&](const std::vector<std::uint32_t>& end) {
     return std::any_of(end.begin(), end.end(),
                        [&](std::uint32_t n) { return std::binary_search(nodes.begin(), nodes.end(), n); });
@@ -78,8 +83,8 @@ std::vector<std::string> links_between(const State& state, const std::vector<std
   for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
     const LinkPlan& link = state.plan->links[l];
     if (!link.is_enabled || link.is_muted || !has_member(link.nodes[0]) || !has_member(link.nodes[1])) continue;
-    const bool moves = std::any_of(link.targets.begin(), link.targets.end(),
-                                   [&](PortRef target) { return state.plan->path_text(target) == "node.position"; });
+    const bool moves =
+        std::any_of(link.targets.begin(), link.targets.end(), [&](PortRef target) { return is_place(state, target); });
     if (moves && !is_parting(state, l, nodes, middle)) ids.push_back(link.id);
   }
   return ids;
@@ -116,14 +121,13 @@ Holding who_holds(const State& state, std::uint32_t node) {
   for (std::size_t l = 0; l < state.plan->links.size(); ++l) {
     const LinkPlan& link = state.plan->links[l];
     if (link.definition == nullptr || !link.is_enabled || link.is_muted || link.error) continue;
-    if (link.definition->id == "stand") {
+    if (reading::is_a<reading::StandParameters>(*link.definition)) {
       if (std::find(link.nodes[1].begin(), link.nodes[1].end(), node) != link.nodes[1].end()) holding.stand = link.id;
       continue;
     }
     const bool lifts = std::any_of(state.links[l].voices.begin(), state.links[l].voices.end(), [&](const Voice& voice) {
       const auto* move = std::get_if<Vector3>(&voice.value);
-      return voice.target.node == node && move != nullptr && move->z > kLeastLift &&
-             state.plan->path_text(voice.target) == "node.position";
+      return voice.target.node == node && move != nullptr && move->z > kLeastLift && is_place(state, voice.target);
     });
     if (lifts) holding.lifting.push_back(link.id);
   }
@@ -141,11 +145,12 @@ std::string help_for(const State& state, std::uint32_t node) {
          (holding.lifting.size() == 1 ? " holds" : " hold") + " it up: weaken that, or let its `standing` allow it";
 }
 
-PlaceProblem hanging(const State& state, std::uint32_t node, double height) {
-  const std::string rule = text_at(state, node, kPlacedType, "standing"), on = text_at(state, node, kVolumeType, "stands_on");
+PlaceProblem hanging(const State& state, std::uint32_t node, const VolumeFigures& volume) {
+  const std::string &rule = volume.standing, &on = volume.stands_on;
   PlaceProblem problem;
   problem.nodes = {state.plan->nodes[node].id};
-  problem.subject = name_at(state, node) + (on.empty() ? " hangs " : " stands ") + fixed(height, 1) + " m above the ground";
+  problem.subject =
+      state.plan->nodes[node].name + (on.empty() ? " hangs " : " stands ") + fixed(volume.hang, 1) + " m above the ground";
   if (rule == "ground")
     problem.text = (on.empty() ? "it" : "it stands on `" + on + "`, and") + std::string(" has to stand on the ground");
   else if (rule == "bridge") problem.text = "nothing that stands carries it, and fewer than two volumes that stand hold it";
@@ -158,10 +163,8 @@ PlaceProblem hanging(const State& state, std::uint32_t node, double height) {
 
 std::vector<PlaceProblem> hanging_volumes(const State& state) {
   std::vector<PlaceProblem> problems;
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
-    if (has_type(state, n, kPlacedType))
-      if (const double height = number_at(state, n, kPlacedType, "hang"); height > kLeastHang)
-        problems.push_back(hanging(state, n, height));
+  for (const auto& [node, volume] : reading::rows<VolumeFigures>(state))
+    if (volume.hang > kLeastHang) problems.push_back(hanging(state, node, volume));
   return problems;
 }
 

@@ -1,4 +1,4 @@
-// Reads volumes, uses, sites and totals from a state; types are known here by the names of their ports only.
+// Reads volumes, uses, sites and totals from a state by their views.
 #include "core/reading/report_model.h"
 
 #include <algorithm>
@@ -6,18 +6,11 @@
 #include <set>
 
 #include "core/base/hash.h"
+#include "core/reading/views/solver.h"
 
 namespace bl::report {
 
 namespace {
-
-template <class T>
-const T* value_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const auto ref = state.plan->find(node, PortPath{type, port, ""});
-  return ref ? std::get_if<T>(&state.value(*ref)) : nullptr;
-}
-
-constexpr const char* kVolume = "smart_volume";
 
 // Which solver takes care of a node: the first set that it is a member of and that writes its mesh.
 std::size_t group_of(const Plan& plan, std::uint32_t node) {
@@ -31,33 +24,22 @@ std::size_t group_of(const Plan& plan, std::uint32_t node) {
 VolumeRow read_volume(const State& state, const VolumeAccount& account, bool with_shape) {
   VolumeRow row;
   static_cast<VolumeAccount&>(row) = account;
-  const std::uint32_t node = account.node;
-  const auto number = [&](const char* port) { return number_at(state, node, kVolume, port); };
-  row.id = state.plan->nodes[node].id;
-  row.name = name_at(state, node);
-  row.state = text_at(state, node, kVolume, "state");
-  row.reason = text_at(state, node, kVolume, "reason");
+  row.id = state.plan->nodes[account.node].id;
+  row.name = state.plan->nodes[account.node].name;
   if (!with_shape) return row;
-  row.position = point_at(state, node, "node", "position");
-  row.cell_volume = number("cell_volume");
-  row.weight = number("weight");
-  row.surface_area = number("surface_area");
-  row.footprint = number("footprint");
-  row.height = number("height");
-  row.bottom = number("bottom");
-  row.mesh = mesh_at(state, node, kVolume, "mesh");
+  row.mesh = account.figures.mesh;
   if (row.mesh && row.mesh->triangles.empty()) row.mesh = nullptr;
-  if (row.mesh) row.exact = exact_shape(state, node);
-  row.group = group_of(*state.plan, node);
+  if (row.mesh) row.exact = exact_shape(state, account.node, account.figures);
+  row.group = group_of(*state.plan, account.node);
   return row;
 }
 
-SiteRow read_site(const State& state, std::uint32_t node) {
+SiteRow site_of(const State& state, const reading::Row<reading::BoundaryFigures>& row) {
   SiteRow site;
-  site.name = name_at(state, node);
-  site.volume = number_at(state, node, "boundary", "volume");
-  site.ground_area = number_at(state, node, "boundary", "ground_area");
-  site.shape = mesh_at(state, node, "boundary", "shape");
+  site.name = state.plan->nodes[row.node].name;
+  site.volume = row.figures.volume;
+  site.ground_area = row.figures.ground_area;
+  site.shape = row.figures.shape;
   if (!site.shape || site.shape->triangles.empty()) {
     site.shape = nullptr;
     return site;
@@ -95,12 +77,10 @@ void add_totals(ReportModel& model) {
 std::string mesh_note_of(const State& state, const ReportModel& model) {
   if (std::none_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& row) { return row.mesh != nullptr; }))
     return "";
-  std::set<int> depths;
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
-    if (has_type(state, n, "smart_volumes_solver"))
-      depths.insert(static_cast<int>(number_at(state, n, "smart_volumes_solver", "tessellation_depth")));
+  std::set<std::int64_t> depths;
+  for (const auto& [node, solver] : reading::rows<reading::SolverFigures>(state)) depths.insert(solver.tessellation_depth);
   std::string said;
-  for (const int depth : depths) said += (said.empty() ? "" : " and ") + std::to_string(depth);
+  for (const std::int64_t depth : depths) said += (said.empty() ? "" : " and ") + std::to_string(depth);
   return "Meshes are of tessellation depth " + said +
          ". A mesh lies within its shape and encloses less than it, most where a volume is round. The figures in volumes.csv are "
          "those of the shapes. Raise tessellation_depth of the solver (4 is the finest) to bring the meshes nearer to them.";
@@ -112,44 +92,6 @@ std::size_t link_index(const Plan& plan, std::string_view id) {
   const auto found = std::lower_bound(plan.links.begin(), plan.links.end(), id,
                                       [](const LinkPlan& link, std::string_view key) { return link.id < key; });
   return static_cast<std::size_t>((found != plan.links.end() && found->id == id ? found : plan.links.end()) - plan.links.begin());
-}
-
-double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback) {
-  const auto ref = state.plan->find(node, PortPath{type, port, ""});
-  if (!ref) return fallback;
-  const Value& value = state.value(*ref);
-  const double number = as_number(value);
-  return std::isfinite(number) ? number : fallback;
-}
-
-std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const auto* text = value_at<std::string>(state, node, type, port);
-  return text ? *text : "";
-}
-
-Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const auto* point = value_at<Vector3>(state, node, type, port);
-  return point && is_finite(*point) ? *point : Point3{};
-}
-
-const Table* table_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const auto* table = value_at<Shared<Table>>(state, node, type, port);
-  return table ? &**table : nullptr;
-}
-
-MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const auto* mesh = value_at<MeshPointer>(state, node, type, port);
-  return mesh ? *mesh : nullptr;
-}
-
-bool has_type(const State& state, std::uint32_t node, std::string_view type) {
-  const auto& types = state.plan->nodes[node].types;
-  return std::any_of(types.begin(), types.end(), [&](const TypePlan& t) { return t.definition->id == type; });
-}
-
-std::string name_at(const State& state, std::uint32_t node) {
-  const NodePlan& plan = state.plan->nodes[node];
-  return plan.name.empty() ? plan.id : plan.name;
 }
 
 std::vector<std::string> ReportModel::use_names() const {
@@ -175,8 +117,7 @@ void read_model(const State& state, ReportModel& model) {
   model.hash = hex_digits(state.hash);
   model.is_settled = state.is_settled();
   read_volumes(state, model, true);
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
-    if (has_type(state, n, "boundary")) model.sites.push_back(read_site(state, n));
+  for (const auto& boundary : reading::rows<reading::BoundaryFigures>(state)) model.sites.push_back(site_of(state, boundary));
   model.surroundings = read_surroundings(state);
   add_totals(model);
   model.mesh_note = mesh_note_of(state, model);

@@ -1,4 +1,4 @@
-// What a report says, read from a state by the names of its ports; whatever a scene lacks is left empty.
+// What a report says, read from a state by its views; whatever a scene lacks is left empty.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,10 @@ namespace bl::report {
 /// A SmartVolume, also one that has no shape, with what was asked for and what there is.
 struct VolumeRow : VolumeAccount {
   std::size_t number = 0;  ///< from 1, as in the table and the pictures
-  std::string id, name, state, reason;
-  Point3 position;
-  double cell_volume = 0, weight = 0;      ///< [m³], [m²]
-  double surface_area = 0, footprint = 0;  ///< [m²]
-  double height = 0, bottom = 0;           ///< [m]
-  MeshPointer mesh;                        ///< none where there is no shape
-  ExactShape exact;                        ///< radius 0 where only the mesh is known
-  std::size_t group = 0;                   ///< volumes of one solver stand together
+  std::string id, name;
+  MeshPointer mesh;       ///< none where there is no shape
+  ExactShape exact;       ///< radius 0 where only the mesh is known
+  std::size_t group = 0;  ///< volumes of one solver stand together
 
   /// How far the volume is from what the solver aims at, as a share of it: what settling looks at.
   double error() const { return limited > 0 ? (volume - limited) / limited : 0; }
@@ -97,8 +93,8 @@ struct ReportModel {
 void read_model(const State& state, ReportModel& model);
 void read_conflicts(const State& state, ReportModel& model);
 void read_problems(const State& state, ReportModel& model);
-/// Names, accounts and states of volumes and uses, and their totals, for a window that reads them in every tick:
-/// without shapes and measures of them, sites, conflicts and problems.
+/// Names, figures and accounts of volumes and uses, and their totals, for whoever reads them in every tick: without shapes,
+/// sites, conflicts and problems.
 void read_figures(const State& state, ReportModel& model);
 
 /// Less than this share of what is pulled at is no conflict that anybody would want to read about.
@@ -116,15 +112,5 @@ std::string voice_text(const State& state, const Voice& voice);
 
 /// Index of a link in the plan, or plan.links.size().
 std::size_t link_index(const Plan& plan, std::string_view id);
-/// Values by name; a fallback where the node has no such port or it holds another kind.
-double number_at(const State& state, std::uint32_t node, const char* type, const char* port, double fallback = 0);
-std::string text_at(const State& state, std::uint32_t node, const char* type, const char* port);
-Point3 point_at(const State& state, std::uint32_t node, const char* type, const char* port);
-const Table* table_at(const State& state, std::uint32_t node, const char* type,
-                      const char* port);  ///< nothing where there is none
-MeshPointer mesh_at(const State& state, std::uint32_t node, const char* type, const char* port);
-bool has_type(const State& state, std::uint32_t node, std::string_view type);
-/// The name that people gave, or the id.
-std::string name_at(const State& state, std::uint32_t node);
 
 }  // namespace bl::report

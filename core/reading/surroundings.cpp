@@ -1,11 +1,16 @@
-// Reads what stands around the volumes from a state by the names of ports; what a scene lacks stays empty.
+// Reads what stands around the volumes from the views of it; what a scene lacks stays empty.
 #include "core/reading/surroundings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
-#include "core/reading/report_model.h"
+#include "core/reading/views/node.h"
+#include "core/reading/views/plot.h"
+#include "core/reading/views/sun.h"
+#include "core/reading/views/surroundings.h"
+#include "core/reading/views/traffic.h"
 #include "core/traffic/street_line.h"
 
 namespace bl::report {
@@ -15,63 +20,41 @@ namespace {
 // Points of a data layer beyond this are thinned for the eye; the tables have them all.
 constexpr std::size_t kMostDataPoints = 1500;
 
-const Value* surrounding_value(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const auto ref = state.plan->find(node, PortPath{type, port, ""});
-  return ref ? &state.value(*ref) : nullptr;
-}
-
-bool is_on(const State& state, std::uint32_t node, const char* type, const char* port, bool fallback) {
-  const Value* value = surrounding_value(state, node, type, port);
-  const bool* flag = value == nullptr ? nullptr : std::get_if<bool>(value);
-  return flag == nullptr ? fallback : *flag;
-}
-
-std::vector<Point3> ring_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const Value* value = surrounding_value(state, node, type, port);
-  const auto* points = value == nullptr ? nullptr : std::get_if<Shared<std::vector<Point3>>>(value);
-  return points == nullptr ? std::vector<Point3>{} : **points;
-}
-
 // The place of the one node that a selection names.
-bool end_of_street(const State& state, std::uint32_t node, const char* port, Point3& place) {
-  const Value* value = surrounding_value(state, node, "street", port);
-  const auto* selection = value == nullptr ? nullptr : std::get_if<Shared<Selection>>(value);
-  if (selection == nullptr || (*selection)->ids.size() != 1) return false;
-  const std::uint32_t end = state.plan->node_index((*selection)->ids.front());
-  if (end >= state.plan->nodes.size()) return false;
-  place = point_at(state, end, "node", "position");
-  return true;
+std::optional<Point3> end_of_street(const State& state, const Selection& chosen) {
+  if (chosen.ids.size() != 1) return std::nullopt;
+  const std::uint32_t end = state.plan->node_index(chosen.ids.front());
+  if (end >= state.plan->nodes.size()) return std::nullopt;
+  return reading::read<&reading::NodePlace::position>(state, end);
 }
 
-void read_street_line(const State& state, std::uint32_t node, Surroundings& all) {
-  Point3 start, end;
-  if (!end_of_street(state, node, "start", start) || !end_of_street(state, node, "end", end)) return;
-  const auto number = [&](const char* port) { return number_at(state, node, "street", port); };
+void add_street(const State& state, std::uint32_t node, const reading::StreetFigures& read, Surroundings& all) {
+  const auto start = end_of_street(state, read.start), end = end_of_street(state, read.end);
+  if (!start || !end) return;
   StreetLine street;
-  street.name = name_at(state, node);
-  street.line = street_line(start, ring_at(state, node, "street", "course"), end);
-  street.lanes = number("lanes") * (is_on(state, node, "street", "one_way", false) ? 1 : 2);
-  street.flow = number("flow_forth") + number("flow_back");
-  street.load = number("volume_over_capacity");
-  street.is_open = number("open") > 0;
-  street.is_for_cars = is_on(state, node, "street", "for_cars", true);
+  street.name = state.plan->nodes[node].name;
+  street.line = street_line(*start, read.course, *end);
+  street.lanes = read.lanes * (read.one_way ? 1 : 2);
+  street.flow = read.flow_forth + read.flow_back;
+  street.load = read.volume_over_capacity;
+  street.is_open = read.open > 0;
+  street.is_for_cars = read.for_cars;
   street.has_traffic = street.flow > 0;
   all.streets.push_back(std::move(street));
 }
 
-void read_building(const State& state, std::uint32_t node, Surroundings& all) {
+void add_building(const std::string& name, reading::BuildingFigures read, Surroundings& all) {
   BuildingShape building;
-  building.name = name_at(state, node);
-  building.use = text_at(state, node, "existing_building", "use");
-  building.mesh = mesh_at(state, node, "existing_building", "mesh");
-  building.rings.push_back(ring_at(state, node, "existing_building", "outline"));
+  building.name = name;
+  building.use = read.use;
+  building.mesh = read.mesh;
+  building.rings.push_back(std::move(read.outline));
   std::map<std::string, std::vector<Point3>> courts;
-  if (const Table* holes = table_at(state, node, "existing_building", "holes"))
-    for (std::size_t row = 0; row < holes->rows.size(); ++row)
-      courts[holes->text(row, "name")].push_back({holes->number(row, "x"), holes->number(row, "y"), 0});
-  for (auto& [name, ring] : courts) building.rings.push_back(std::move(ring));
-  building.height = number_at(state, node, "existing_building", "top") - number_at(state, node, "existing_building", "base");
-  building.is_assumed = is_on(state, node, "existing_building", "is_assumed", false);
+  for (std::size_t row = 0; row < read.holes->rows.size(); ++row)
+    courts[read.holes->text(row, "name")].push_back({read.holes->number(row, "x"), read.holes->number(row, "y"), 0});
+  for (auto& [court, ring] : courts) building.rings.push_back(std::move(ring));
+  building.height = read.top - read.base;
+  building.is_assumed = read.is_assumed;
   if (building.rings.front().size() >= 3) all.buildings.push_back(std::move(building));
 }
 
@@ -82,40 +65,37 @@ Vector3 half_of_square(const Table& map, std::size_t step, bool is_there, const 
   return 0.5 * (at(step) - at(0));
 }
 
-void read_sun_field(const State& state, std::uint32_t node, Surroundings& all) {
-  const Table* map = table_at(state, node, "shadow_receiver", "map");
-  if (map == nullptr || map->rows.empty()) return;
-  const auto number = [&](const char* port) { return number_at(state, node, "shadow_receiver", port); };
+void add_sun_field(const std::string& name, const reading::ReceiverFigures& read, Surroundings& all) {
+  const Table& map = *read.map;
+  if (map.rows.empty()) return;
   SunField field;
-  field.name = name_at(state, node);
-  field.is_upright = is_on(state, node, "shadow_receiver", "upright", false);
-  field.mean = number("sun_mean");
-  field.possible = number("sun_possible");
-  field.share_met = number("share_met");
-  const auto columns = static_cast<std::size_t>(std::max(1.0, number("columns")));
-  field.half_across = half_of_square(*map, 1, columns > 1, point_at(state, node, "shadow_receiver", "half_across"));
-  field.half_up = half_of_square(*map, columns, map->rows.size() > columns, point_at(state, node, "shadow_receiver", "half_up"));
+  field.name = name;
+  field.is_upright = read.upright;
+  field.mean = read.sun_mean;
+  field.possible = read.sun_possible;
+  field.share_met = read.share_met;
+  const auto columns = static_cast<std::size_t>(std::max<std::int64_t>(1, read.columns));
+  field.half_across = half_of_square(map, 1, columns > 1, read.half_across);
+  field.half_up = half_of_square(map, columns, map.rows.size() > columns, read.half_up);
   all.most_sun = std::max(all.most_sun, field.possible);
-  for (std::size_t row = 0; row < map->rows.size(); ++row) {
-    field.points.emplace_back(Point3{map->number(row, "x"), map->number(row, "y"), map->number(row, "z")},
-                              map->number(row, "sun"));
+  for (std::size_t row = 0; row < map.rows.size(); ++row) {
+    field.points.emplace_back(Point3{map.number(row, "x"), map.number(row, "y"), map.number(row, "z")}, map.number(row, "sun"));
     all.most_sun = std::max(all.most_sun, field.points.back().second);
   }
   all.sun.push_back(std::move(field));
 }
 
-void read_data_field(const State& state, std::uint32_t node, Surroundings& all) {
-  const Table* values = table_at(state, node, "data_layer", "values");
-  if (values == nullptr || values->rows.empty()) return;
+void add_data_field(const std::string& name, const reading::DataLayerFigures& read, Surroundings& all) {
+  const Table& values = *read.values;
+  if (values.rows.empty()) return;
   DataField field;
-  field.name = text_at(state, node, "data_layer", "quantity");
-  if (field.name.empty()) field.name = name_at(state, node);
-  field.unit = text_at(state, node, "data_layer", "unit");
-  field.low = number_at(state, node, "data_layer", "minimum");
-  field.high = number_at(state, node, "data_layer", "maximum");
-  const std::size_t stride = values->rows.size() / kMostDataPoints + 1;
-  for (std::size_t row = 0; row < values->rows.size(); row += stride)
-    field.points.emplace_back(Point3{values->number(row, "x"), values->number(row, "y"), 0}, values->number(row, "value"));
+  field.name = read.quantity.empty() ? name : read.quantity;
+  field.unit = read.unit;
+  field.low = read.minimum;
+  field.high = read.maximum;
+  const std::size_t stride = values.rows.size() / kMostDataPoints + 1;
+  for (std::size_t row = 0; row < values.rows.size(); row += stride)
+    field.points.emplace_back(Point3{values.number(row, "x"), values.number(row, "y"), 0}, values.number(row, "value"));
   all.data.push_back(std::move(field));
 }
 
@@ -136,19 +116,16 @@ struct SurroundingsExtent {
 
 Surroundings read_surroundings(const State& state) {
   Surroundings all;
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
-    const auto is = [&](const char* type) { return has_type(state, n, type); };
-    if (is("street")) read_street_line(state, n, all);
-    if (is("existing_building")) read_building(state, n, all);
-    if (is("shadow_receiver")) read_sun_field(state, n, all);
-    if (is("data_layer")) read_data_field(state, n, all);
-    if (is("plot"))
-      if (auto ring = ring_at(state, n, "plot", "polygon"); ring.size() >= 3)
-        all.plots.emplace_back(name_at(state, n), std::move(ring));
-    if (is("terrain"))
-      if (const MeshPointer mesh = mesh_at(state, n, "terrain", "mesh"); mesh && !mesh->triangles.empty())
-        all.grounds.push_back(mesh);
-  }
+  const auto name = [&](std::uint32_t node) -> const std::string& { return state.plan->nodes[node].name; };
+  for (const auto& [node, street] : reading::rows<reading::StreetFigures>(state)) add_street(state, node, street, all);
+  for (auto& [node, building] : reading::rows<reading::BuildingFigures>(state))
+    add_building(name(node), std::move(building), all);
+  for (const auto& [node, receiver] : reading::rows<reading::ReceiverFigures>(state)) add_sun_field(name(node), receiver, all);
+  for (const auto& [node, layer] : reading::rows<reading::DataLayerFigures>(state)) add_data_field(name(node), layer, all);
+  for (auto& [node, plot] : reading::rows<reading::PlotFigures>(state))
+    if (plot.polygon.size() >= 3) all.plots.emplace_back(name(node), std::move(plot.polygon));
+  for (const auto& [node, terrain] : reading::rows<reading::TerrainFigures>(state))
+    if (terrain.mesh && !terrain.mesh->triangles.empty()) all.grounds.push_back(terrain.mesh);
   return all;
 }
 

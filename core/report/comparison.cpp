@@ -11,6 +11,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "core/reading/changes.h"
 #include "core/reading/figures.h"
 #include "core/reading/report_model.h"
 
@@ -197,16 +198,19 @@ class Walk {
     }
   }
 
+  static const std::string& name_in(const State& state, const std::string& id) {
+    return state.plan->nodes[state.plan->node_index(id)].name;
+  }
+
   void read_inputs() {
     const Scene &a = before_.plan->scene, &b = after_.plan->scene;
     differing_ports("settings/", settings_type(), a.settings, b.settings);
-    for (const auto& [id, node] : a.nodes)
-      if (!b.nodes.contains(id)) result_.only_before.push_back(node.name.empty() ? id : node.name);
-    for (const auto& [id, node] : b.nodes) {
-      const auto other = a.nodes.find(id);
-      if (other == a.nodes.end()) result_.only_after.push_back(node.name.empty() ? id : node.name);
-      else if (!(other->second == node)) differing_node(id, other->second, node);
-    }
+    const reading::Changes changes = reading::changes_between(before_, after_);
+    for (const std::string& id : changes.removed_nodes) result_.only_before.push_back(name_in(before_, id));
+    for (const std::string& id : changes.added_nodes) result_.only_after.push_back(name_in(after_, id));
+    for (const auto& [id, node] : b.nodes)
+      if (const auto other = a.nodes.find(id); other != a.nodes.end() && !(other->second == node))
+        differing_node(id, other->second, node);
     for (const auto& [id, link] : a.links)
       if (!b.links.contains(id)) result_.inputs.push_back("links/" + id + ": only in the first (" + link.kind + ")");
     for (const auto& [id, link] : b.links) {

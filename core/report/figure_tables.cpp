@@ -47,7 +47,7 @@ std::string csv_heading(std::string_view id, Unit unit) {
 CsvFile nodes_file(const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
   std::vector<std::string> header{"id", "name"};
   std::vector<std::vector<CsvCell>> rows;
-  for (const std::uint32_t node : nodes) rows.push_back({state.plan->nodes[node].id, name_at(state, node)});
+  for (const std::uint32_t node : nodes) rows.push_back({state.plan->nodes[node].id, state.plan->nodes[node].name});
   for (const FigureColumn& column : table.columns) {
     if (column.shown == Shown::json) continue;
     Unit unit = Unit::none;
@@ -130,7 +130,7 @@ void write_one(Markup& page, const State& state, const FigureTable& table, const
   }
   page.close().close().open("tbody");
   for (std::size_t r = 0; r < std::min(kMostRows, nodes.size()); ++r) {
-    page.open("tr").element("th", name_at(state, nodes[r]), {{"scope", "row"}});
+    page.open("tr").element("th", state.plan->nodes[nodes[r]].name, {{"scope", "row"}});
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const Value* value = nullptr;
       const PortDefinition* port = port_of(state, nodes[r], table.type, columns[c]->port, value);
@@ -146,8 +146,11 @@ void write_one(Markup& page, const State& state, const FigureTable& table, const
 
 std::vector<std::uint32_t> rows_of(const State& state, const FigureTable& table) {
   std::vector<std::uint32_t> nodes;
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
-    if (has_type(state, n, table.type)) nodes.push_back(n);
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
+    const std::vector<TypePlan>& types = state.plan->nodes[n].types;
+    if (std::any_of(types.begin(), types.end(), [&](const TypePlan& type) { return type.definition->id == table.type; }))
+      nodes.push_back(n);
+  }
   return nodes;
 }
 
@@ -181,7 +184,7 @@ Json figure_json(const State& state) {
   Json all = Json::object();
   for (const FigureTable& table : figure_tables()) {
     for (const std::uint32_t node : rows_of(state, table)) {
-      Json row = {{"id", state.plan->nodes[node].id}, {"name", name_at(state, node)}};
+      Json row = {{"id", state.plan->nodes[node].id}, {"name", state.plan->nodes[node].name}};
       const auto add = [&](std::string_view id) {
         const Value* value = nullptr;
         if (const PortDefinition* port = port_of(state, node, table.type, id, value))

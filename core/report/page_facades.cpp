@@ -3,6 +3,8 @@
 #include <map>
 
 #include "core/reading/figures.h"
+#include "core/reading/views/facade.h"
+#include "core/reading/views/surroundings.h"
 #include "core/report/page.h"
 
 namespace bl::report {
@@ -52,8 +54,8 @@ void write_facades(Markup& page, const ReportModel& model, const State& state) {
   Glazing all;
   bool is_open = false;
   for (const VolumeRow& volume : model.volumes) {
-    const std::string style = text_at(state, volume.node, "facade", "style_in_force");
-    if (style.empty()) continue;
+    const auto facade = reading::row_of<reading::FacadeFigures>(state, volume.node);
+    if (!facade || facade->style_in_force.empty()) continue;
     if (!is_open)
       open_table(page, "facades",
                  "Steep surface above the ground that no neighbour covers, dressed by a style; cost by the prices of the style.",
@@ -62,18 +64,17 @@ void write_facades(Markup& page, const ReportModel& model, const State& state) {
                   "ade m\xC2\xB2",
                   "Glazed m\xC2\xB2", "Opaque m\xC2\xB2", "Glazed", "Cost \xE2\x82\xAC"});
     is_open = true;
-    const auto number = [&](const char* port) { return number_at(state, volume.node, "facade", port); };
-    const Glazing own{number("facade_area"), number("glazed_area"), number("cost")};
-    row_of(page, volume.name, style, own);
+    const Glazing own{facade->facade_area, facade->glazed_area, facade->cost};
+    row_of(page, volume.name, facade->style_in_force, own);
     all.area += own.area;
     all.glazed += own.glazed;
     all.cost += own.cost;
-    const Table* table = table_at(state, volume.node, "facade", "by_orientation");
-    for (std::size_t row = 0; table != nullptr && row < table->rows.size(); ++row) {
-      if (names.size() <= row) names.push_back(table->text(row, "orientation"));
-      sides[row].area += table->number(row, "area");
-      sides[row].glazed += table->number(row, "glazed");
-      sides[row].cost += table->number(row, "cost");
+    const Table& table = *facade->by_orientation;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      if (names.size() <= row) names.push_back(table.text(row, "orientation"));
+      sides[row].area += table.number(row, "area");
+      sides[row].glazed += table.number(row, "glazed");
+      sides[row].cost += table.number(row, "cost");
     }
   }
   if (!is_open) return;
@@ -87,16 +88,15 @@ void write_facades(Markup& page, const ReportModel& model, const State& state) {
 void write_pictures(Markup& page, const State& state) {
   std::size_t veiled = 0;
   bool is_open = false;
-  for (std::uint32_t node = 0; node < state.nodes.size(); ++node) {
-    if (!has_type(state, node, "media")) continue;
-    if (!(number_at(state, node, "media", "is_free") > 0)) {
+  for (const auto& [node, media] : reading::rows<reading::MediaFigures>(state)) {
+    if (!media.is_free) {
       ++veiled;
       continue;
     }
     if (!is_open) open_table(page, "pictures", "Pictures that may be shown.", {"Name", "File", "Author", "Licence", "Taken"});
     is_open = true;
-    page.open("tr").element("th", name_at(state, node), {{"scope", "row"}});
-    for (const char* port : {"file", "author", "licence", "taken"}) page.element("td", text_at(state, node, "media", port));
+    page.open("tr").element("th", state.plan->nodes[node].name, {{"scope", "row"}});
+    for (const std::string* text : {&media.file, &media.author, &media.licence, &media.taken}) page.element("td", *text);
     page.close();
   }
   if (is_open) page.close().close().close();

@@ -68,12 +68,14 @@ void volume_row(Markup& page, const State& state, const ReportModel& model, cons
   number_cell(page, readable(volume.floor_area));
   number_cell(page, volume.is_by_area ? difference_of(volume.floor_area, volume.asked_area) : "\xE2\x80\x93",
               is_good ? "" : "bad");
-  number_cell(page, readable(volume.surface_area));
-  number_cell(page, readable(volume.footprint));
-  number_cell(page, readable(volume.height));
+  number_cell(page, readable(volume.figures.surface_area));
+  number_cell(page, readable(volume.figures.footprint));
+  number_cell(page, readable(volume.figures.height));
   page.element("td", standing, {{"class", is_good ? "good" : "bad"}});
-  const std::string why = volume.state == "alive" ? why_short(state, model.accounts, volume) : "";
-  page.element("td", volume.reason + (volume.reason.empty() || why.empty() ? "" : "; ") + why, {{"class", "reason"}}).close();
+  const std::string why = volume.figures.state == "alive" ? why_short(state, model.accounts, volume) : "";
+  page.element("td", volume.figures.reason + (volume.figures.reason.empty() || why.empty() ? "" : "; ") + why,
+               {{"class", "reason"}})
+      .close();
 }
 
 void use_row(Markup& page, const State& state, const ReportModel& model, const UseAccount& use, const Palette& palette) {
@@ -95,7 +97,7 @@ void use_row(Markup& page, const State& state, const ReportModel& model, const U
 }  // namespace
 
 std::string standing_of(const VolumeRow& volume, double tolerance) {
-  if (volume.state != "alive") return volume.state.empty() ? "unknown" : volume.state;
+  if (volume.figures.state != "alive") return volume.figures.state.empty() ? "unknown" : volume.figures.state;
   return volume.is_short(tolerance) ? "short" : volume.difference() > tolerance ? "over" : "met";
 }
 
@@ -169,7 +171,7 @@ void write_volumes(Markup& page, const ReportModel& model, const State& state, c
   double surface = 0;
   for (const VolumeRow& volume : model.volumes) {
     volume_row(page, state, model, volume, palette);
-    surface += volume.surface_area;
+    surface += volume.figures.surface_area;
   }
   // Of the volumes alone: a use that no volume has asks in the programme's table.
   Account sum;

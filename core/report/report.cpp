@@ -8,6 +8,7 @@
 #include "core/export/wavefront_obj.h"
 #include "core/file/file_io.h"
 #include "core/graph/sums_of_now.h"
+#include "core/reading/views/facade.h"
 #include "core/report/figure_tables.h"
 #include "core/report/page.h"
 
@@ -60,10 +61,10 @@ std::string csv_of(const ReportModel& model, const State& state) {
                     v.id,
                     v.name,
                     v.use,
-                    v.position.x,
-                    v.position.y,
-                    v.position.z,
-                    v.storey_height,
+                    v.figures.position.x,
+                    v.figures.position.y,
+                    v.figures.position.z,
+                    v.figures.storey_height,
                     v.asked,
                     v.limited,
                     v.volume,
@@ -73,20 +74,21 @@ std::string csv_of(const ReportModel& model, const State& state) {
                     v.floor_area,
                     v.missing_area(),
                     v.missing_area_share() * 100,
-                    v.cell_volume,
-                    report::number_at(state, v.node, "smart_volume", "error"),
-                    v.surface_area,
-                    v.footprint,
-                    v.bottom,
-                    v.height,
-                    v.weight,
-                    v.state,
-                    v.reason,
+                    v.figures.cell_volume,
+                    v.figures.error,
+                    v.figures.surface_area,
+                    v.figures.footprint,
+                    v.figures.bottom,
+                    v.figures.height,
+                    v.figures.weight,
+                    v.figures.state,
+                    v.figures.reason,
                     report::why_short(state, model.accounts, v)});
-    if (!report::has_type(state, v.node, "facade")) continue;
-    rows.back().emplace_back(report::text_at(state, v.node, "facade", "style_in_force"));
-    for (const char* port : {"facade_area", "glazed_area", "opaque_area", "cost"})
-      rows.back().emplace_back(report::number_at(state, v.node, "facade", port));
+    const auto facade = reading::row_of<reading::FacadeFigures>(state, v.node);
+    if (!facade) continue;
+    rows.back().emplace_back(facade->style_in_force);
+    for (const double figure : {facade->facade_area, facade->glazed_area, facade->opaque_area, facade->cost})
+      rows.back().emplace_back(figure);
   }
   return write_csv(kVolumeHeader, rows);
 }
@@ -139,11 +141,12 @@ std::string conflicts_csv_of(const ReportModel& model, const State& state) {
 report::CsvFile facades_csv_of(const ReportModel& model, const State& state) {
   std::vector<std::vector<CsvCell>> rows;
   for (const VolumeRow& v : model.volumes) {
-    const Table* sides = report::table_at(state, v.node, "facade", "by_orientation");
-    for (std::size_t row = 0; sides != nullptr && row < sides->rows.size(); ++row)
-      rows.push_back({v.id, v.name, v.use, report::text_at(state, v.node, "facade", "style_in_force"),
-                      sides->text(row, "orientation"), sides->number(row, "area"), sides->number(row, "glazed"),
-                      sides->number(row, "opaque"), sides->number(row, "cost")});
+    const auto facade = reading::row_of<reading::FacadeFigures>(state, v.node);
+    if (!facade) continue;
+    const Table& sides = *facade->by_orientation;
+    for (std::size_t row = 0; row < sides.rows.size(); ++row)
+      rows.push_back({v.id, v.name, v.use, facade->style_in_force, sides.text(row, "orientation"), sides.number(row, "area"),
+                      sides.number(row, "glazed"), sides.number(row, "opaque"), sides.number(row, "cost")});
   }
   const std::vector<std::string> header = {"id",        "name",        "use",         "style",     "orientation",
                                            "area [m2]", "glazed [m2]", "opaque [m2]", "cost [EUR]"};

@@ -11,6 +11,7 @@
 #include "core/file/file_io.h"
 #include "core/geometry/power_neighbours.h"
 #include "core/geometry/yardstick.h"
+#include "core/reading/views/volume.h"
 #include "core/session/session.h"
 #include "tests/bench/bench_command.h"
 #include "tests/bench/bench_tools.h"
@@ -20,7 +21,6 @@
 #include "ui/cli/commands.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/scene_loading.h"
-#include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli::bench {
@@ -105,7 +105,7 @@ Result<Row> measured(const BenchCase& bench, int threads, const BenchOptions& op
   row.seconds = median(totals);
   row.phases = {median(phases[0]), median(phases[1]), median(phases[2]), median(phases[3]), median(phases[4])};
   row.hash = hex_digits(last->hash);
-  row.sites = volumes_of(*last).size();
+  row.sites = reading::rows<reading::VolumeFigures>(*last).size();
   take_apart(*last, options.repeat, row);
   return row;
 }

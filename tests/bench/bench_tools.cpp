@@ -16,8 +16,9 @@
 
 #include "core/base/text.h"
 #include "core/geometry/domain_table.h"
+#include "core/reading/views/solver.h"
+#include "core/reading/views/volume.h"
 #include "ui/cli/scene_loading.h"
-#include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli::bench {
@@ -139,19 +140,16 @@ std::string machine_line() {
 
 std::vector<PowerSite> sites_of(const State& state) {
   std::vector<PowerSite> sites;
-  for (const VolumeRow& volume : volumes_of(state)) sites.push_back({volume.position, volume.weight});
+  for (const auto& [node, volume] : reading::rows<reading::VolumeFigures>(state))
+    sites.push_back({volume.position, volume.weight});
   return sites;
 }
 
 std::optional<Domain> domain_of(const State& state) {
   std::optional<Domain> found;
-  const auto path = parse_port_path("boundary.planes");
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
-    const auto ref = state.plan->find(n, *path);
-    const auto* table = ref ? std::get_if<Shared<Table>>(&state.value(*ref)) : nullptr;
-    if (table == nullptr) continue;
+  for (const auto& [node, boundary] : reading::rows<reading::BoundaryFigures>(state)) {
     if (found) return std::nullopt;  // several plots: there is no one domain to measure
-    auto domain = read_domain(**table);
+    auto domain = read_domain(*boundary.planes);
     if (!domain) return std::nullopt;
     found = std::move(*domain);
   }

@@ -5,6 +5,7 @@
 
 #include "core/base/hash.h"
 #include "core/graph/simulation.h"
+#include "core/reading/views/traffic.h"
 
 namespace bl::cli::bench {
 
@@ -49,9 +50,8 @@ void move_trips(Scene& scene, double trips, int tick) {
       type->second["trips_out"] = trips * (1 + 0.2 * std::sin(0.3 * tick + ++zone));
 }
 
-double figure_of(const State& state, const char* port) {
-  const auto ref = state.plan->find(state.plan->node_index("network"), PortPath{"traffic_network", port, ""});
-  return ref ? as_number(state.value(*ref)) : 0;
+double gap_of(const State& state) {
+  return reading::read<&reading::NetworkFigures::relative_gap>(state, state.plan->node_index("network"));
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ Result<BenchTable> bench_districts(const SolverBench& bench) {
       const auto state = simulation.state();
       const auto each = [&](double seconds) { return figure(1000 * seconds / ticks, 2); };
       table.add({figure(static_cast<std::size_t>(zones)), figure(trips, 0), figure(static_cast<std::size_t>(ticks)),
-                 each(resting), each(moving), each(simulation.times().solve - before), tiny(figure_of(*state, "relative_gap")),
+                 each(resting), each(moving), each(simulation.times().solve - before), tiny(gap_of(*state)),
                  word(hex_digits(state->hash))});
     }
   return table;

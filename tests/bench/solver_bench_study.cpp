@@ -7,10 +7,10 @@
 #include "core/file/file_io.h"
 #include "core/geometry/demand_fit.h"
 #include "core/geometry/yardstick.h"
+#include "core/reading/account.h"
 #include "core/session/session.h"
 #include "tests/bench/solver_bench_rows.h"
 #include "ui/cli/scene_loading.h"
-#include "ui/cli/survey.h"
 
 namespace bl::cli::bench {
 
@@ -50,9 +50,9 @@ Result<Study> read_study(const std::string& file) {
   Study study;
   study.domain = std::move(*domain);
   study.sites = without_weights(sites_of(state));
-  for (const VolumeRow& volume : volumes_of(state)) {
-    study.demands.push_back(volume.demand);
-    study.fill += volume.demand / study.domain.volume;
+  for (const report::VolumeAccount& volume : report::accounts_of(state).volumes) {
+    study.demands.push_back(volume.limited);
+    study.fill += volume.limited / study.domain.volume;
   }
   const auto start = initial_weights(study.domain, study.sites, study.demands);
   for (std::size_t i = 0; i < start.size(); ++i) study.sites[i].weight = start[i];

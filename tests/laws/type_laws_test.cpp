@@ -92,6 +92,23 @@ TEST(TypeLaws, DefaultsAndSoftRangesLieInsideHardRanges) {
   });
 }
 
+// Who draws one curve for each type draws that of the traced port; rows have no room for meshes.
+TEST(TypeLaws, WhatIsShownFirstFitsIntoARowAndOnePortIsTraced) {
+  std::size_t shown = 0;
+  for (const auto& [id, type] : full_registry().typifications()) {
+    std::size_t traced = 0;
+    for (const PortDefinition& port : type.ports) {
+      shown += port.is_shown_first ? 1 : 0;
+      traced += port.is_traced ? 1 : 0;
+      if (port.is_shown_first) {
+        EXPECT_TRUE(port.kind != ValueKind::mesh && port.kind != ValueKind::json) << id << "." << port.id;
+      }
+    }
+    EXPECT_LE(traced, 1u) << id;
+  }
+  EXPECT_GT(shown, 0u);
+}
+
 TEST(TypeLaws, LinksReadAndProposePortsThatExistWithTheUnitTheyExpect) {
   for (const auto& [id, kind] : full_registry().links()) {
     auto check = [&, name = id](const PortPath& path, ValueKind expected, const MadeType& made, const std::optional<Unit>& unit,

@@ -6,13 +6,13 @@
 #include "core/file/file_io.h"
 #include "core/live/unusable_sensors.h"
 #include "core/making/script_file.h"
-#include "core/reading/report_model.h"
+#include "core/reading/survey.h"
+#include "core/reading/views/stream.h"
 #include "core/script/link_script.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
 #include "ui/cli/scene_loading.h"
 #include "ui/cli/script_trial.h"
-#include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -55,8 +55,7 @@ bool waits_for_sensor(const State& state, const Scene& scene, const Error& error
   if (link == scene.links.end()) return false;
   const auto is_silent = [&state](const std::string& node) {
     const std::uint32_t index = state.plan->node_index(node);
-    if (index >= state.nodes.size() || !report::has_type(state, index, "sensor")) return false;
-    const std::string quality = report::text_at(state, index, "sensor", "quality");
+    const std::string quality = reading::read<&reading::SensorFigures::quality>(state, index);
     return quality == "never" || quality == "stale";
   };
   const std::vector<std::string> from = resolve(scene, full_registry(), link->second.from);
@@ -76,7 +75,7 @@ void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
   if (!session) return problems.push_back({true, session.error()});
   for (int i = 0; i < kTrialTicks; ++i) (*session)->tick();
   const State& state = *(*session)->state();
-  for (Error& error : problems_of(state)) {
+  for (Error& error : report::problems_of(state)) {
     const bool is_known = std::any_of(problems.begin(), problems.end(), [&](const Problem& p) { return p.error == error; });
     if (is_known) continue;
     const bool is_error = !waits_for_sensor(state, reading.scene, error) && !is_wish(state, error);
@@ -84,11 +83,12 @@ void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
   }
   for (Error& error : unusable_sensors(reading.scene)) problems.push_back({true, std::move(error)});
   try_scripts(reading.scene, problems);
-  for (const VolumeRow& row : volumes_of(state))
-    if (row.state == "coincident" || row.state == "outside" || row.state == "idle")
-      problems.push_back(
-          {false, {ErrorCode::geometry, "nodes/" + row.id, "is " + row.state + (row.reason.empty() ? "" : ": " + row.reason)}});
-  if (const std::string message = solver_message(state); !message.empty())
+  for (const auto& [node, volume] : reading::rows<reading::VolumeFigures>(state))
+    if (volume.state == "coincident" || volume.state == "outside" || volume.state == "idle")
+      problems.push_back({false,
+                          {ErrorCode::geometry, "nodes/" + state.plan->nodes[node].id,
+                           "is " + volume.state + (volume.reason.empty() ? "" : ": " + volume.reason)}});
+  if (const std::string message = report::solver_message(state); !message.empty())
     problems.push_back({false, {ErrorCode::infeasible, "", message}});
 }
 

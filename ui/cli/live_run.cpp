@@ -5,10 +5,9 @@
 
 #include "core/base/text.h"
 #include "core/live/unusable_sensors.h"
-#include "core/reading/report_model.h"
+#include "core/reading/views/stream.h"
 #include "ui/cli/interrupt.h"
 #include "ui/cli/scene_loading.h"
-#include "ui/cli/survey.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {
@@ -23,10 +22,9 @@ std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "s
 std::string reading_of(const State& state, const std::string& node) {
   const std::uint32_t index = state.plan->node_index(node);
   if (index >= state.nodes.size()) return "it is no longer in the scene";
-  const std::string unit = report::text_at(state, index, "sensor", "unit"),
-                    message = report::text_at(state, index, "sensor", "message");
-  return shortest(report::number_at(state, index, "sensor", "value")) + (unit.empty() ? "" : " " + unit) + ", " +
-         report::text_at(state, index, "sensor", "quality") + (message.empty() ? "" : " (" + message + ")");
+  const auto sensor = reading::row_of<reading::SensorFigures>(state, index).value_or(reading::SensorFigures{});
+  return shortest(sensor.value) + (sensor.unit.empty() ? "" : " " + sensor.unit) + ", " + sensor.quality +
+         (sensor.message.empty() ? "" : " (" + sensor.message + ")");
 }
 
 // Rows that were not played are told of, since a scene may settle before a recording ends.

@@ -11,6 +11,7 @@
 #include "core/file/log_writer.h"
 #include "core/graph/sums_of_now.h"
 #include "core/making/script_file.h"
+#include "core/reading/survey.h"
 #include "core/report/report.h"
 #include "core/session/session.h"
 #include "ui/cli/commands.h"
@@ -89,8 +90,8 @@ class Run {
   void record(const State& state) {
     if (options_.report.empty()) return;
     ErrorSample sample{state.tick, 0, 0, state.largest_move};
-    const std::vector<VolumeRow> volumes = volumes_of(state);
-    for (const VolumeRow& volume : volumes) {
+    const auto volumes = reading::rows<reading::VolumeFigures>(state);
+    for (const auto& [node, volume] : volumes) {
       sample.worst_error = std::max(sample.worst_error, volume.error);
       sample.mean_error += volume.error / static_cast<double>(volumes.size());
     }
@@ -124,7 +125,7 @@ class Run {
     }
   }
 
-  std::string outcome(const Survey& survey) const {
+  std::string outcome(const report::Survey& survey) const {
     const State& state = *session_->state();
     const auto idle = static_cast<std::size_t>(
         std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.has_failed(); }));
@@ -146,7 +147,7 @@ class Run {
     const std::shared_ptr<const State> state = session_->state();
     // What people and programs read: the sums of this tick beside the figures of this tick.
     const State seen = with_sums_of_now(*state);
-    const Survey survey = survey_of(seen);
+    const report::Survey survey = report::survey_of(seen);
     const std::string last_line = outcome(survey);
     bool is_saved = true;
     if (log_.is_open()) {

@@ -24,7 +24,7 @@ std::string short_text(const report::Account& account, double tolerance) {
   return account.is_short(tolerance) ? hundredths(account.short_share(), 1) : "";
 }
 
-void print_volumes(const Survey& survey, double tolerance) {
+void print_volumes(const report::Survey& survey, double tolerance) {
   if (survey.volumes.empty()) return print_line("There are no SmartVolumes in this scene.");
   TextTable table({{"volume"},
                    {"use"},
@@ -36,21 +36,21 @@ void print_volumes(const Survey& survey, double tolerance) {
                    {"floor m²", true},
                    {"surface m²", true},
                    {"state"}});
-  for (const VolumeRow& row : survey.volumes) {
+  for (const report::VolumeRow& row : survey.volumes) {
     const std::string name = row.name.empty() || row.name == row.id ? row.id : row.id + " (" + row.name + ")";
-    const std::string state = row.reason.empty() ? row.state : row.state + ": " + row.reason;
-    const Colour colour = row.state != "alive"                                      ? Colour::red
-                          : row.error > tolerance || row.is_short(survey.tolerance) ? Colour::yellow
-                                                                                    : Colour::plain;
+    const std::string state = row.figures.reason.empty() ? row.figures.state : row.figures.state + ": " + row.figures.reason;
+    const Colour colour = !row.is_alive                                                     ? Colour::red
+                          : row.figures.error > tolerance || row.is_short(survey.tolerance) ? Colour::yellow
+                                                                                            : Colour::plain;
     table.add({name, row.use, fixed(row.asked, 1), fixed(row.limited, 1), fixed(row.volume, 1),
-               row.limited > 1e-3 ? hundredths(row.error) : "", short_text(row, survey.tolerance), fixed(row.floor_area, 1),
-               fixed(row.surface_area, 1), state},
+               row.limited > 1e-3 ? hundredths(row.figures.error) : "", short_text(row, survey.tolerance),
+               fixed(row.floor_area, 1), fixed(row.figures.surface_area, 1), state},
               colour);
   }
   table.print();
 }
 
-void print_totals(const Survey& survey) {
+void print_totals(const report::Survey& survey) {
   if (survey.volumes.empty() && survey.uses.empty()) return;
   print_line();
   TextTable table({{"use"},
@@ -62,25 +62,25 @@ void print_totals(const Survey& survey) {
                    {"volume m³", true},
                    {"short %", true},
                    {"why"}});
-  const auto add = [&](const UseRow& row) {
+  const auto add = [&](const report::UseRow& row) {
     const report::UseAccount& use = row.account;
     table.add({use.use.empty() ? "(none)" : use.use, std::to_string(use.volumes),
                use.is_in_programme ? fixed(use.asked_area, 1) : "no row", fixed(use.floor_area, 1), fixed(use.asked, 1),
                fixed(use.limited, 1), fixed(use.volume, 1), short_text(use, survey.tolerance), row.why_short},
               use.is_short(survey.tolerance) ? Colour::yellow : Colour::plain);
   };
-  for (const UseRow& use : survey.uses) add(use);
+  for (const report::UseRow& use : survey.uses) add(use);
   if (survey.uses.size() > 1) {
     table.rule();
     add(survey.all);
   }
   table.print();
-  for (const SolverRow& solver : survey.solvers)
-    if (solver.boundary_volume > 0)
-      print_line(solver.id + ": " + fixed(solver.total_volume, 1) + " of " + fixed(solver.total_demand, 1) +
-                 " m³ in a boundary of " + fixed(solver.boundary_volume, 1) + " m³ (" +
-                 hundredths(solver.total_volume / solver.boundary_volume, 1) + " % full)");
-  for (const SolverRow& solver : survey.solvers)
+  for (const report::SolverRow& solver : survey.solvers)
+    if (solver.figures.boundary_volume > 0)
+      print_line(solver.id + ": " + fixed(solver.figures.total_volume, 1) + " of " + fixed(solver.figures.total_demand, 1) +
+                 " m³ in a boundary of " + fixed(solver.figures.boundary_volume, 1) + " m³ (" +
+                 hundredths(solver.figures.total_volume / solver.figures.boundary_volume, 1) + " % full)");
+  for (const report::SolverRow& solver : survey.solvers)
     if (!solver.message.empty()) print_line(solver.id + ": " + solver.message, Colour::red);
 }
 
@@ -91,12 +91,12 @@ std::string amount(const Value& value, const std::string& unit) {
   return fixed(as_number(value), 3) + suffix;
 }
 
-void print_tensions(const Survey& survey) {
+void print_tensions(const report::Survey& survey) {
   if (survey.tensions.empty()) return;
   print_line();
   TextTable table({{"conflict at"}, {"port"}, {"tension", true}, {"links that pull"}});
   for (std::size_t i = 0; i < std::min(kShownTensions, survey.tensions.size()); ++i) {
-    const TensionRow& row = survey.tensions[i];
+    const report::TensionRow& row = survey.tensions[i];
     std::string pulls;
     for (std::size_t p = 0; p < std::min(kShownPulls, row.pulls.size()); ++p)
       pulls += (p > 0 ? ", " : "") +
@@ -114,7 +114,7 @@ void print_tensions(const Survey& survey) {
 
 }  // namespace
 
-void print_survey(const Survey& survey, const State& state) {
+void print_survey(const report::Survey& survey, const State& state) {
   // What volumes have before a solver has seen them is nobody's result, and no reason for anything.
   if (state.tick == 0) return;
   print_volumes(survey, state.plan->settings.tolerance);
@@ -129,34 +129,34 @@ namespace {
 
 Json point_json(const Vector3& v) { return Json::array({v.x, v.y, v.z}); }
 
-Json volume_json(const VolumeRow& row) {
+Json volume_json(const report::VolumeRow& row, const std::string& why_short) {
   return {{"id", row.id},
           {"name", row.name},
           {"use", row.use},
-          {"position", point_json(row.position)},
-          {"weight", row.weight},
+          {"position", point_json(row.figures.position)},
+          {"weight", row.figures.weight},
           {"asked", row.asked},
           {"demand", row.limited},
           {"volume", row.volume},
           {"short", row.missing()},
           {"short_share", row.short_share()},
-          {"why_short", row.why_short},
-          {"error", row.error},
-          {"cell_volume", row.cell_volume},
+          {"why_short", why_short},
+          {"error", row.figures.error},
+          {"cell_volume", row.figures.cell_volume},
           {"asked_floor_area", row.asked_area},
           {"floor_area", row.floor_area},
           {"short_floor_area", row.missing_area()},
-          {"surface_area", row.surface_area},
-          {"spherical_area", row.spherical_area},
-          {"footprint", row.footprint},
-          {"storey_height", row.storey_height},
-          {"height", row.height},
-          {"bottom", row.bottom},
-          {"state", row.state},
-          {"reason", row.reason}};
+          {"surface_area", row.figures.surface_area},
+          {"spherical_area", row.figures.spherical_area},
+          {"footprint", row.figures.footprint},
+          {"storey_height", row.figures.storey_height},
+          {"height", row.figures.height},
+          {"bottom", row.figures.bottom},
+          {"state", row.figures.state},
+          {"reason", row.figures.reason}};
 }
 
-Json use_json(const UseRow& row) {
+Json use_json(const report::UseRow& row) {
   const report::UseAccount& use = row.account;
   return {{"use", use.use},
           {"in_programme", use.is_in_programme},
@@ -176,11 +176,11 @@ Json use_json(const UseRow& row) {
           {"why_short", row.why_short}};
 }
 
-Json tension_json(const TensionRow& row, const State& state) {
+Json tension_json(const report::TensionRow& row, const State& state) {
   Json pulls = Json::array();
   const auto path = parse_port_path(row.port);
   const auto ref = state.plan->find(state.plan->node_index(row.node), *path);
-  for (const Pull& pull : row.pulls) {
+  for (const report::Pull& pull : row.pulls) {
     Json voice = Json::object();
     if (pull.link.empty()) voice["by_hand"] = pull.is_locked ? "locked" : "set";
     else voice["link"] = pull.link;
@@ -193,7 +193,7 @@ Json tension_json(const TensionRow& row, const State& state) {
 
 }  // namespace
 
-Json survey_json(const Survey& survey, const State& state, const std::string& outcome) {
+Json survey_json(const report::Survey& survey, const State& state, const std::string& outcome) {
   Json json = Json::object();
   json["ticks"] = state.tick;
   json["settled"] = state.is_settled();
@@ -210,20 +210,21 @@ Json survey_json(const Survey& survey, const State& state, const std::string& ou
   json["worst_short"] = survey.worst_short_of;
   json["largest_move"] = state.largest_move;
   json["volumes"] = Json::array();
-  for (const VolumeRow& row : survey.volumes) json["volumes"].push_back(volume_json(row));
+  for (std::size_t k = 0; k < survey.volumes.size(); ++k)
+    json["volumes"].push_back(volume_json(survey.volumes[k], survey.why_volumes_short[k]));
   Json& totals = json["totals"] = use_json(survey.all);
   totals.erase("use");
   totals["uses"] = Json::array();
-  for (const UseRow& use : survey.uses) totals["uses"].push_back(use_json(use));
+  for (const report::UseRow& use : survey.uses) totals["uses"].push_back(use_json(use));
   totals["solvers"] = Json::array();
-  for (const SolverRow& solver : survey.solvers)
+  for (const report::SolverRow& solver : survey.solvers)
     totals["solvers"].push_back({{"id", solver.id},
                                  {"message", solver.message},
-                                 {"boundary_volume", solver.boundary_volume},
-                                 {"total_demand", solver.total_demand},
-                                 {"total_volume", solver.total_volume}});
+                                 {"boundary_volume", solver.figures.boundary_volume},
+                                 {"total_demand", solver.figures.total_demand},
+                                 {"total_volume", solver.figures.total_volume}});
   json["tensions"] = Json::array();
-  for (const TensionRow& row : survey.tensions) json["tensions"].push_back(tension_json(row, state));
+  for (const report::TensionRow& row : survey.tensions) json["tensions"].push_back(tension_json(row, state));
   json["conflicts_by"] = Json::array();
   for (const report::PullerRow& row : survey.pullers)
     json["conflicts_by"].push_back({{"link", row.link}, {"kind", row.kind}, {"conflicts", row.conflicts}, {"share", row.share}});

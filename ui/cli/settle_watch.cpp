@@ -5,7 +5,8 @@
 
 #include "core/base/text.h"
 #include "core/reading/place_problems.h"
-#include "ui/cli/survey.h"
+#include "core/reading/survey.h"
+#include "core/reading/views/node.h"
 
 namespace bl::cli {
 
@@ -21,34 +22,33 @@ struct Mover {
 Mover fastest(const State& state, const State* before) {
   Mover mover;
   if (before == nullptr || before->plan != state.plan) return mover;
-  const auto path = parse_port_path("node.position");
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
-    if (const auto ref = state.plan->find(n, *path)) {
-      const double moved = distance(std::get<Vector3>(before->value(*ref)), std::get<Vector3>(state.value(*ref)));
-      if (moved > mover.distance) mover = {state.plan->nodes[n].id, moved};
-    }
+  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
+    using reading::NodePlace;
+    const double moved = distance(reading::read<&NodePlace::position>(*before, n), reading::read<&NodePlace::position>(state, n));
+    if (moved > mover.distance) mover = {state.plan->nodes[n].id, moved};
+  }
   return mover;
 }
 
-std::string of_worst(const VolumeRow& worst) {
-  std::string text = "`" + worst.id + "` has " + fixed(worst.volume, 1) + " of " + fixed(worst.demand, 1) + " m³";
+std::string of_worst(const State& state, const report::VolumeAccount& worst) {
+  const reading::VolumeFigures& figures = worst.figures;
+  std::string text =
+      "`" + state.plan->nodes[worst.node].id + "` has " + fixed(worst.volume, 1) + " of " + fixed(worst.limited, 1) + " m³";
   // A percentage of nothing says nothing.
-  if (worst.demand > 1e-3) text += " (" + fixed(100 * worst.error, 2) + " %)";
-  if (worst.state != "alive") text += ", it is " + worst.state;
-  if (!worst.reason.empty()) text += ": " + worst.reason;
+  if (worst.limited > 1e-3) text += " (" + fixed(100 * figures.error, 2) + " %)";
+  if (!worst.is_alive) text += ", it is " + figures.state;
+  if (!figures.reason.empty()) text += ": " + figures.reason;
   return text;
 }
 
 // A demand that no boundary could hold, even where a cap hides it from the solver.
 std::string of_greedy(const State& state) {
   double room = 0;
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
-    if (const auto ref = state.plan->find(n, PortPath{"boundary", "volume", ""})) room += as_number(state.value(*ref));
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
-    if (const auto ref = state.plan->find(n, PortPath{"smart_volume", "demand", ""}))
-      if (const double demand = as_number(state.value(*ref)); demand > room)
-        return "; `" + state.plan->nodes[n].id + "` alone asks for " + fixed(demand, 1) + " m³, more than the " + fixed(room, 1) +
-               " m³ inside the boundary";
+  for (const auto& [node, boundary] : reading::rows<reading::BoundaryFigures>(state)) room += boundary.volume;
+  for (const auto& [node, volume] : reading::rows<reading::VolumeFigures>(state))
+    if (volume.demand > room)
+      return "; `" + state.plan->nodes[node].id + "` alone asks for " + fixed(volume.demand, 1) + " m³, more than the " +
+             fixed(room, 1) + " m³ inside the boundary";
   return "";
 }
 
@@ -69,21 +69,20 @@ bool SettleWatch::is_hopeless(const State& state) {
   if (!is_calm || is_better || state.calm > 0) idle_ = 0;
   else ++idle_;
   if (idle_ >= kLongPatience) return true;
-  return idle_ >= kPatience && (!solver_message(state).empty() || has_failure(state));
+  return idle_ >= kPatience && (!report::solver_message(state).empty() || has_failure(state));
 }
 
 std::string why_not_settled(const State& state, const State* before) {
   // A collapse comes before what follows from it.
   if (const auto collapsed = report::collapsed_volumes(state); !collapsed.empty()) return collapsed.front().sentence();
-  if (const std::string message = solver_message(state); !message.empty()) return "the demands cannot be met: " + message;
-  const std::vector<VolumeRow> volumes = volumes_of(state);
-  const auto worst =
-      std::max_element(volumes.begin(), volumes.end(), [](const VolumeRow& a, const VolumeRow& b) { return a.error < b.error; });
+  if (const std::string message = report::solver_message(state); !message.empty()) return "the demands cannot be met: " + message;
+  const std::vector<report::VolumeAccount> volumes = report::accounts_of(state).volumes;
+  const auto worst = std::max_element(volumes.begin(), volumes.end(),
+                                      [](const auto& a, const auto& b) { return a.figures.error < b.figures.error; });
   const Settings& settings = state.plan->settings;
-  if (const auto problem = first_failure(state)) {
-    return problem->text() + (worst != volumes.end() && worst->error > settings.tolerance ? "; " + of_worst(*worst) : "");
-  }
-  if (worst != volumes.end() && worst->error > settings.tolerance) return of_worst(*worst) + of_greedy(state);
+  const bool has_worst = worst != volumes.end() && worst->figures.error > settings.tolerance;
+  if (const auto problem = first_failure(state)) return problem->text() + (has_worst ? "; " + of_worst(state, *worst) : "");
+  if (has_worst) return of_worst(state, *worst) + of_greedy(state);
   if (const auto work = first_work(state)) return work->text() + "; this is still being worked on";
   if (state.largest_residual > settings.tolerance) return "an error of " + fixed(100 * state.largest_residual, 2) + " % is left";
   if (state.largest_move > settings.move_limit) {

@@ -19,7 +19,7 @@ TEST(DeviceDoor, ReadingsGoIntoTheLogAsTheDevicesOwn) {
   const test::Folder folder;
   folder.write("t.csv", "time,v\n0,100\n10,101\n");
   const Scene scene = scene_of(test::sensor("s", "replay:t.csv#v", R"(, "tick_length": 10)"));
-  EXPECT_TRUE(has_recordings(scene));
+  EXPECT_TRUE(has_recordings(scene, full_registry()));
   Ledger ledger(full_registry(), scene);
   DeviceDoor door({folder.path(), false, {}});
   EXPECT_TRUE(door.follow(ledger.scene(), ledger.last_seq()));
@@ -40,7 +40,7 @@ TEST(DeviceDoor, TheShortestTickOfTheSensorsCounts) {
   const Scene two =
       scene_of(test::sensor("s", "", R"(, "tick_length": 10)") + "," + test::sensor("t", "", R"(, "tick_length": 2)"));
   EXPECT_EQ(tick_length(two, full_registry()), 2);
-  EXPECT_FALSE(has_recordings(two));
+  EXPECT_FALSE(has_recordings(two, full_registry()));
   EXPECT_EQ(tick_length(scene_of(test::sensor("s", "")), full_registry()), 0.05) << "the default of the sensor";
 }
 

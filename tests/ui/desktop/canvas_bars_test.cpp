@@ -14,7 +14,7 @@ canvas::BarFigures bar_of(Workbench& editor, const std::string& id) {
   const canvas::Model& model = editor.canvas->board().model;
   const canvas::NodeBox& box = model.boxes.at(model.find_box(id));
   for (const canvas::Section& section : box.sections)
-    if (section.has_bar) return canvas::bar_figures(editor, box, section);
+    if (section.has_bar) return canvas::bar_figures(editor, box);
   ADD_FAILURE() << id << " has no bar";
   return {};
 }

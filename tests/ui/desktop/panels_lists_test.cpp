@@ -115,7 +115,7 @@ TEST(ProblemsLaw, ListColoursStatisticsAndReportAgreeOnWhoIsShort) {
         EXPECT_EQ(facts->volumes[k].standing(), page.volumes[k].standing()) << rows[k].id;
         if (!is_short) continue;
         EXPECT_NE(fill.colours[k], Theme::ramp(1)) << rows[k].id << " is short, and its colour says that it is full";
-        const bool is_told = rows[k].state != "alive" || std::any_of(items.begin(), items.end(), [&](const ProblemItem& item) {
+        const bool is_told = !rows[k].is_alive || std::any_of(items.begin(), items.end(), [&](const ProblemItem& item) {
                                return item.key == "volume/" + rows[k].id ||
                                       std::find(item.nodes.begin(), item.nodes.end(), rows[k].id) != item.nodes.end();
                              });

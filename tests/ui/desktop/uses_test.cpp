@@ -58,9 +58,9 @@ TEST_F(UsesTest, EveryPanelShowsTheSameColour) {
   std::set<std::size_t> seen;
   for (std::size_t k = 0; k < facts->volumes.size(); ++k) {
     const VolumeFacts& volume = facts->volumes[k];
-    EXPECT_EQ(colouring.colours[k], colour_of_use(theme, numbers.of(volume.use))) << volume.id;
-    EXPECT_EQ(board.model.boxes[board.model.find_box(volume.id)].use, numbers.of(volume.use)) << volume.id;
-    seen.insert(numbers.of(volume.use));
+    EXPECT_EQ(colouring.colours[k], colour_of_use(theme, numbers.of(volume.figures.use))) << volume.id;
+    EXPECT_EQ(board.model.boxes[board.model.find_box(volume.id)].use, numbers.of(volume.figures.use)) << volume.id;
+    seen.insert(numbers.of(volume.figures.use));
   }
   EXPECT_TRUE(seen.contains(kNoUse));
   EXPECT_EQ(colouring.legend.rows.back().label, "No use");

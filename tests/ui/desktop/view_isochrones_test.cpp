@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/reading/report_model.h"
+#include "core/reading/views/traffic.h"
+#include "tests/support/world.h"
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/view/urban_picture.h"
@@ -25,13 +26,13 @@ class ViewIsochrones : public ::testing::Test {
   const State& state() { return editor().state(); }
   std::uint32_t index(const std::string& id) { return editor().index_of(id); }
   std::vector<StreetFacts> streets() { return read_facts(editor().moment->state, nullptr)->urban.streets; }
-  double street(std::uint32_t node, const char* port) { return report::number_at(state(), node, "street", port); }
+  reading::StreetFigures street(std::uint32_t node) { return *reading::row_of<reading::StreetFigures>(state(), node); }
 
   // Each point of each street has to be in the band of its time, by the times that the zone lists.
   std::size_t compare(bool by_car) {
     const auto shown = isochrones_of(state(), index("library"), by_car);
     if (!shown) return 0;
-    const Table* reach = report::table_at(state(), index("library"), "traffic_zone", "reach");
+    const auto& reach = std::get<Shared<Table>>(value_in(state(), "library", "traffic_zone.reach"));
     std::map<std::uint32_t, double> at;
     for (std::size_t row = 0; row < reach->rows.size(); ++row)
       if (const double time = reach->number(row, by_car ? "driving" : "walking"); time >= 0)
@@ -39,9 +40,8 @@ class ViewIsochrones : public ::testing::Test {
     std::size_t reached = 0;
     for (const StreetFacts& facts : streets())
       for (int k = 0; k < 50; ++k) {
-        const double share = (k + 0.5) / 50, walk = street(facts.node, "used_length") / shown->walking_speed;
-        const double forth = by_car ? street(facts.node, "time_forth") : walk,
-                     back = by_car ? street(facts.node, "time_back") : walk;
+        const double share = (k + 0.5) / 50, walk = street(facts.node).used_length / shown->walking_speed;
+        const double forth = by_car ? street(facts.node).time_forth : walk, back = by_car ? street(facts.node).time_back : walk;
         const double time = std::min(at.at(facts.start) + share * forth, at.at(facts.end) + (1 - share) * back);
         std::size_t band = shown->times.size();
         for (const Isochrones::Part& part : shown->parts)
@@ -149,7 +149,7 @@ TEST_F(ViewIsochrones, AreLinesUnderTheStreetsInColoursOfTheLegend) {
       if (line.colour == row.colour) length += distance(line.from, line.to);
   double wanted = 0;
   for (const Isochrones::Part& part : choices.isochrones->parts)
-    wanted += (part.end - part.begin) * street(part.street, "used_length");
+    wanted += (part.end - part.begin) * street(part.street).used_length;
   EXPECT_GT(wanted, 300);
   EXPECT_NEAR(length, wanted, 0.01 * wanted);
 }

@@ -309,7 +309,7 @@ TEST_F(ViewPanel, VolumesWithoutAShapeAreChosenByTheirMarks) {
   fresh.frames(30);
   Workbench& e = fresh.editor();
   ASSERT_EQ(e.view->facts()->volume_of(e.index_of("theatre"))->cell, nullptr);
-  const Seen at = e.view->place_in_window(e.view->facts()->volume_of(e.index_of("theatre"))->position);
+  const Seen at = e.view->place_in_window(e.view->facts()->volume_of(e.index_of("theatre"))->figures.position);
   const ImVec2 spot{static_cast<float>(at.x), static_cast<float>(at.y)};
   for (const bool are_marks_on : {true, false}) {
     set_layer(e.person, "marks", are_marks_on);
@@ -338,7 +338,7 @@ TEST_F(ViewPanel, BoxesTakeWhatIsSeenAlone) {
   const ViewSection below_ground{true, {0, 0, 1}, facts->ground - 5};
   EXPECT_EQ(found(below_ground, false), 0u) << "all of it is cut away";
   for (const VolumeFacts& volume : facts->volumes) {
-    const auto rest = nodes({true, {0, 0, 1}, volume.bottom + 0.5 * volume.height});
+    const auto rest = nodes({true, {0, 0, 1}, volume.figures.bottom + 0.5 * volume.figures.height});
     EXPECT_TRUE(std::binary_search(rest.begin(), rest.end(), volume.node)) << volume.id << " is cut through, and still there";
   }
 }

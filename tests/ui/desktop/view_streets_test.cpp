@@ -4,7 +4,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include "core/reading/report_model.h"
+#include "core/reading/views/traffic.h"
 #include "core/traffic/street_line.h"
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/scene_view.h"
@@ -60,7 +60,7 @@ TEST_F(ViewStreets, AreDrawnAlongTheirCourse) {
       EXPECT_EQ(line.to + line.goes, bent().line[3] + (line.to - bent().line[2]));
     }
   EXPECT_LT(distance(facts().places[editor().index_of(street)], point_on_line(bent().line, 0.5)), 1e-9);
-  EXPECT_NEAR(report::number_at(editor().state(), editor().index_of(street), "street", "used_length"),
+  EXPECT_NEAR(reading::read<&reading::StreetFigures::used_length>(editor().state(), editor().index_of(street)),
               street_length(bent().line.front(), bent().course, bent().line.back()), 1e-9);
 }
 

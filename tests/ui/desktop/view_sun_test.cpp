@@ -3,9 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/reading/report_model.h"
+#include "core/reading/views/sun.h"
 #include "core/sun/shadow_shape.h"
 #include "core/sun/solar_position.h"
+#include "tests/support/world.h"
 #include "tests/ui/desktop/panels_support.h"
 #include "ui/desktop/panels/scene_view.h"
 #include "ui/desktop/view/urban_picture.h"
@@ -20,6 +21,7 @@ class ViewSun : public ::testing::Test {
   void SetUp() override { desktop.ticks(30); }
   Workbench& editor() { return desktop.editor(); }
   SceneView& view() { return *editor().view; }
+  const std::string& day() { return std::get<std::string>(value_in(editor().state(), sun().id, "sun_and_sky.day")); }
   const SunFacts& sun() { return view().facts()->urban.suns.front(); }
   ImVec2 track_at(double seconds) {
     const ImVec4 track = view().sun_track();
@@ -43,8 +45,9 @@ TEST_F(ViewSun, ReadsTheNodeAsTheNodeReadsItself) {
       EXPECT_FALSE((desktop.frames(1), sun().is_ahead)) << "while the clock stands, the node is asked at once";
       desktop.ticks(1);
       EXPECT_FALSE(sun().is_ahead);
-      EXPECT_EQ(sun().toward, report::point_at(editor().state(), sun().node, "sun_and_sky", "direction")) << rule << " " << date;
-      EXPECT_EQ(date_text(sun().clock.day), report::text_at(editor().state(), sun().node, "sun_and_sky", "day"));
+      EXPECT_EQ(sun().toward, reading::read<&reading::SunFigures::direction>(editor().state(), sun().node))
+          << rule << " " << date;
+      EXPECT_EQ(date_text(sun().clock.day), day());
     }
   }
 }
@@ -102,7 +105,7 @@ TEST_F(ViewSun, OneButtonMakesItTheScenesMomentAsOneStep) {
   EXPECT_EQ(date_text(sun().clock.day), "2026-06-21");
   EXPECT_EQ(view().choices().sun.toward, shown) << "nothing jumps, though the clock stands";
   desktop.ticks(1);
-  EXPECT_EQ(report::text_at(editor().state(), sun().node, "sun_and_sky", "day"), "2026-06-21");
+  EXPECT_EQ(day(), "2026-06-21");
   desktop.key(GLFW_KEY_Z, true);
   EXPECT_EQ(desktop.scene_text(), before);
 }
@@ -114,7 +117,7 @@ TEST_F(ViewSun, DaysThatTheNodeAddsAreMinded) {
   view().step_sun(0, 1);
   view().set_sun_in_scene();
   desktop.ticks(1);
-  EXPECT_EQ(report::text_at(editor().state(), sun().node, "sun_and_sky", "day"), date_text(wanted));
+  EXPECT_EQ(day(), date_text(wanted));
 }
 
 TEST_F(ViewSun, StepsGoOverMidnightAndStayInTheYears) {

@@ -154,7 +154,7 @@ TEST(AccountLaw, FiguresFitTogetherInEveryScene) {
       EXPECT_LE(volume.short_share(), 1);
       EXPECT_EQ(volume.is_short(accounts.tolerance), volume.standing() < -accounts.tolerance);
       EXPECT_EQ(volume.is_short(accounts.tolerance), !report::why_short(world.state(), accounts, volume).empty());
-      if (volume.state == "alive") {
+      if (volume.is_alive) {
         EXPECT_EQ(volume.is_short(accounts.tolerance), report::standing_of(volume, accounts.tolerance) == "short");
       }
     }

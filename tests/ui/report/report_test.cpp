@@ -410,7 +410,10 @@ TEST(ReportParts, ExactShapesHoldTheirMeshes) {
   World world = World::from_text(kBlock);
   world.tick(60);
   for (const char* id : {"home_a", "home_b", "office"}) {
-    const report::ExactShape shape = report::exact_shape(world.state(), world.state().plan->node_index(id));
+    const std::uint32_t node = world.state().plan->node_index(id);
+    const auto volume = reading::row_of<reading::VolumeFigures>(world.state(), node);
+    ASSERT_TRUE(volume.has_value()) << id;
+    const report::ExactShape shape = report::exact_shape(world.state(), node, *volume);
     ASSERT_GT(shape.radius, 0) << id;
     for (const Point3& vertex : world.mesh(id, "smart_volume.mesh")->vertices) {
       EXPECT_LE(distance(vertex, shape.centre), shape.radius * (1 + 1e-9)) << id;

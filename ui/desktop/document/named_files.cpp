@@ -9,6 +9,8 @@
 #include "core/address/live_address.h"
 #include "core/define/codec.h"
 #include "core/file/file_io.h"
+#include "core/reading/views/stream.h"
+#include "core/reading/views/surroundings.h"
 #include "core/session/commands.h"
 #include "ui/desktop/document/media_place.h"
 
@@ -52,13 +54,6 @@ files::path place_for(const files::path& table, const files::path& folder) {
   }
 }
 
-const std::string* text_of(const NodeRecord& node, const std::string& type, const std::string& port) {
-  const auto values = node.types.find(type);
-  if (values == node.types.end()) return nullptr;
-  const auto value = values->second.find(port);
-  return value == values->second.end() ? nullptr : std::get_if<std::string>(&value->second);
-}
-
 Command set_text(const std::string& node, const std::string& port, const std::string& text) {
   return command<SetPort>({node, {port}, JsonValue::of(Json(text))});
 }
@@ -66,22 +61,26 @@ Command set_text(const std::string& node, const std::string& port, const std::st
 }  // namespace
 
 NamedFiles files_named_from(const Scene& scene, const std::string& folder, const std::string& target) {
+  using namespace reading;
+  const Registry& types = full_registry();
   NamedFiles named;
   const files::path from = absolute(folder), to = absolute(target);
   if (from == to) return named;
   for (const auto& [id, node] : scene.nodes) {
-    if (const std::string* file = text_of(node, "media", "file"))
-      if (const auto path = found(*file, frame_file(*file, 0, 1, 1), from))
-        named.commands.push_back(set_text(id, "media.file", below(*path, to).value_or(path->generic_string())));
-    for (const auto& [port, prefix] : {std::pair{"ca_file", ""}, std::pair{"password_from", "file:"}})
-      if (const std::string* secret = text_of(node, "mqtt_broker", port); secret != nullptr && secret->starts_with(prefix)) {
-        const std::string name = secret->substr(std::string_view(prefix).size());
-        if (found(name, name, from)) named.secrets.push_back(name);
-      }
-    const std::string* address = text_of(node, "sensor", "address");
-    if (address == nullptr || !address->starts_with(kReplay)) continue;
-    const auto parsed = parse_live_address(*address);
-    if (!parsed || address->compare(kReplay.size(), parsed->path.size(), parsed->path) != 0) continue;
+    if (const auto media = settings_of<MediaFigures>(scene, types, node))
+      if (const auto path = found(media->file, frame_file(media->file, 0, 1, 1), from))
+        named.commands.push_back(set_text(id, path_of<&MediaFigures::file>(), below(*path, to).value_or(path->generic_string())));
+    if (const auto broker = settings_of<BrokerSettings>(scene, types, node))
+      for (const auto& [secret, prefix] : {std::pair{broker->ca_file, ""}, std::pair{broker->password_from, "file:"}})
+        if (secret.starts_with(prefix)) {
+          const std::string name = secret.substr(std::string_view(prefix).size());
+          if (found(name, name, from)) named.secrets.push_back(name);
+        }
+    const auto sensor = settings_of<SensorFigures>(scene, types, node);
+    if (!sensor || !sensor->address.starts_with(kReplay)) continue;
+    const std::string& address = sensor->address;
+    const auto parsed = parse_live_address(address);
+    if (!parsed || address.compare(kReplay.size(), parsed->path.size(), parsed->path) != 0) continue;
     const auto path = found(parsed->path, parsed->path, from);
     if (!path) continue;
     auto name = below(*path, to);
@@ -90,8 +89,8 @@ NamedFiles files_named_from(const Scene& scene, const std::string& folder, const
       named.copies.emplace_back(path->string(), place.string());
       name = place.filename().string();
     }
-    named.commands.push_back(
-        set_text(id, "sensor.address", std::string(kReplay) + *name + address->substr(kReplay.size() + parsed->path.size())));
+    named.commands.push_back(set_text(id, path_of<&SensorFigures::address>(),
+                                      std::string(kReplay) + *name + address.substr(kReplay.size() + parsed->path.size())));
   }
   return named;
 }

@@ -225,12 +225,25 @@ void Theme::apply(bool is_dark, float scale) {
   set_colours(style, colours_);
 }
 
-Family Theme::family_of(std::string_view link_kind) const {
-  const report::LinkFamily* family = report::family_of(link_kind);
-  if (family == nullptr) return {"the brief and the boundary", is_dark_ ? rgb(0xc9a227) : rgb(0x8a6a00)};
-  const unsigned hex = static_cast<unsigned>(std::stoul(std::string(family->colour.substr(1)), nullptr, 16));
+Family Theme::family_of(const LinkDefinition* kind) const {
+  const report::FamilyInk* ink = report::ink_of(kind == nullptr ? LinkFamily::other : kind->family);
+  if (ink == nullptr) return {"the brief and the boundary", is_dark_ ? rgb(0xc9a227) : rgb(0x8a6a00)};
+  const unsigned hex = static_cast<unsigned>(std::stoul(std::string(ink->colour.substr(1)), nullptr, 16));
   // The report's inks are made for paper; on a dark ground they are lightened.
-  return {family->label, is_dark_ ? mixed(rgb(hex), rgb(0xffffff), 0.38f) : rgb(hex)};
+  return {ink->label, is_dark_ ? mixed(rgb(hex), rgb(0xffffff), 0.38f) : rgb(hex)};
+}
+
+const char* sign_of(Icon icon) {
+  switch (icon) {
+    case Icon::link: return icon::kLink;
+    case Icon::file: return icon::kFile;
+    case Icon::balance: return icon::kBalance;
+    case Icon::cycle: return icon::kReset;
+    case Icon::cube: return icon::kCube;
+    case Icon::plus: return icon::kPlus;
+    case Icon::step: return icon::kStep;
+  }
+  return icon::kLink;
 }
 
 ImU32 Theme::category(std::size_t k) const {

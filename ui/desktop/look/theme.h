@@ -7,6 +7,8 @@
 
 #include <imgui.h>
 
+#include "core/define/definition.h"
+
 namespace bl::desktop {
 
 /// Colours by meaning, never by hue; packed as ImGui wants them.
@@ -19,7 +21,7 @@ struct Colours {
   ImU32 sky, ground;                                 ///< the 3D view
 };
 
-/// Link kinds in families: each has a colour and a name. The families are the report's.
+/// Families of links: each has a colour and a name. Both are the report's.
 struct Family {
   std::string_view label;
   ImU32 colour;
@@ -47,7 +49,8 @@ class Theme {
   /// The font of the canvas scale that is nearest above `pixels`, to be drawn at that size.
   ImFont* canvas_font(float pixels) const;
 
-  Family family_of(std::string_view link_kind) const;
+  /// `kind` is nullptr for links of unknown kinds.
+  Family family_of(const LinkDefinition* kind) const;
   /// A colour for the k-th of several categories (uses), told apart under any colour vision.
   ImU32 category(std::size_t k) const;
   /// Perceptually even ramp (dark blue to yellow), t in 0 to 1.
@@ -77,5 +80,8 @@ inline constexpr const char *kPlay = "\xef\x81\x8b", *kPause = "\xef\x81\x8c", *
                             *kClock = "\xef\x80\x97", *kBalance = "\xef\x89\x8e", *kPlus = "\xef\x81\xa7",
                             *kReset = "\xef\x80\xa1", *kUp = "\xef\x81\xa2", *kHome = "\xef\x80\x95";
 }  // namespace icon
+
+/// The sign that stands for a declared icon.
+const char* sign_of(Icon icon);
 
 }  // namespace bl::desktop

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/reading/figures.h"
+#include "core/reading/views/volume.h"
 #include "ui/desktop/panels/canvas/view_data.h"
 
 namespace bl::desktop {
@@ -33,7 +34,7 @@ std::string HiddenNodes::text(const Workbench& editor) {
   std::size_t count = 0, volumes = 0;
   for (const std::string& id : of(editor))
     if (const auto node = editor.scene().nodes.find(id); node != editor.scene().nodes.end())
-      ++count, volumes += node->second.types.contains("smart_volume") ? 1 : 0;
+      ++count, volumes += reading::is_a<reading::VolumeFigures>(node->second) ? 1 : 0;
   return count == 0 ? "" : report::counted(count, volumes == count ? "volume" : "node") + " hidden";
 }
 

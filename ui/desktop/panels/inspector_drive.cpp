@@ -3,6 +3,7 @@
 
 #include "core/base/text.h"
 #include "core/define/codec.h"
+#include "core/reading/views/formula.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/inspector.h"
 #include "ui/desktop/panels/inspector_quantity.h"
@@ -11,15 +12,18 @@ namespace bl::desktop {
 
 namespace {
 
-// The two types that it takes, by the names of their files.
-constexpr const char *kNode = "expression", *kLink = "map_value";
+using reading::CarriedPort;
+using reading::FormulaSettings;
+using reading::path_of;
+using reading::port_name_of;
 
 }  // namespace
 
 bool can_be_driven(const Workbench& editor, const PortDefinition& port) {
   const bool is_choosing = port.rule == CombineRule::blend || port.rule == CombineRule::min || port.rule == CombineRule::max;
-  return port.kind == ValueKind::number && is_choosing && editor.types().typification(kNode) != nullptr &&
-         editor.types().link(kLink) != nullptr;
+  return port.kind == ValueKind::number && is_choosing &&
+         editor.types().typification(reading::type_of<FormulaSettings>()) != nullptr &&
+         editor.types().link(reading::type_of<CarriedPort>()) != nullptr;
 }
 
 // The formula begins as `a`, with the number that stands there now: nothing jumps, and the formula is then changed in its own
@@ -35,13 +39,19 @@ void drive_by_expression(Workbench& editor, const std::string& node, const std::
   if (const auto base = record->second.types.find(std::string(kBaseNode)); base != record->second.types.end())
     for (const auto& [id, value] : base->second)
       if (const auto* at = std::get_if<Vector3>(&value)) position = {at->x, at->y, at->z + 10};
+  const Json formula = {{port_name_of<&FormulaSettings::formula>(), port_name_of<&FormulaSettings::a>()},
+                        {port_name_of<&FormulaSettings::a>(), now},
+                        {port_name_of<&FormulaSettings::a_unit>(), symbol},
+                        {port_name_of<&FormulaSettings::unit>(), symbol}};
   const Json made = {{"name", label_of(port) + " of " + subject},
                      {"position", position},
-                     {"types", {{kNode, {{"formula", "a"}, {"a", now}, {"a_unit", symbol}, {"unit", symbol}}}}}};
-  const Json laid = {{"kind", kLink},
+                     {"types", {{reading::type_of<FormulaSettings>(), formula}}}};
+  const Json laid = {{"kind", reading::type_of<CarriedPort>()},
                      {"from", expression},
                      {"to", node},
-                     {"parameters", {{"source", std::string(kNode) + ".result"}, {"target", path}}}};
+                     {"parameters",
+                      {{port_name_of<&CarriedPort::source>(), path_of<&FormulaSettings::result>()},
+                       {port_name_of<&CarriedPort::target>(), path}}}};
   std::vector<Command> commands{command<AddNode>({expression, JsonValue::of(made)}),
                                 command<AddLink>({link, JsonValue::of(laid)})};
   // A value that is set would be blended with the formula's: the formula shall have its way.

@@ -188,7 +188,7 @@ void draw_voices(Workbench& editor, const std::string& id) {
     const Voice& voice = voices[k];
     const std::uint32_t to = voice.target.node;
     // A node is named once, however much is said to it.
-    const std::string name = k > 0 && voices[k - 1].target.node == to ? std::string() : report::name_at(state, to);
+    const std::string name = k > 0 && voices[k - 1].target.node == to ? std::string() : state.plan->nodes[to].name;
     const std::string key = "voice/" + std::to_string(k), port = label_of(state.plan->port(voice.target).id);
     begin_row(editor, key, name, "", "", {}, width);
     width += 2 * editor.theme.px(20);
@@ -203,7 +203,7 @@ void draw_voices(Workbench& editor, const std::string& id) {
     const CellEvent event = cell(editor, key, port + ": " + says, "", width, look);
     if (event.is_hovered) {
       editor.picks.hovered_node = state.plan->nodes[to].id;
-      card(editor, report::name_at(state, to) + " \xC2\xB7 " + port, report::voice_text(state, voice), "press to go there");
+      card(editor, state.plan->nodes[to].name + " \xC2\xB7 " + port, report::voice_text(state, voice), "press to go there");
       if (ImGui::IsMouseClicked(0)) editor.picks.only_node(state.plan->nodes[to].id);
     }
     end_row();
@@ -238,7 +238,7 @@ void list_links(Workbench& editor, InspectorView& view) {
       list.AddRectFilled(at, to, faded(c.accent, 0.12f), theme.px(3));
     }
     const float y = at.y + ImGui::GetStyle().FramePadding.y, middle = (at.y + to.y) / 2;
-    const ImU32 colour = link.definition != nullptr ? theme.family_of(link.definition->id).colour : c.text_faint;
+    const ImU32 colour = link.definition != nullptr ? theme.family_of(link.definition).colour : c.text_faint;
     list.AddLine({at.x + theme.px(2), middle}, {at.x + theme.px(12), middle}, is_quiet ? faded(colour, 0.4f) : colour,
                  theme.px(2.5f));
     const std::string text = kind + (has_failed ? ", failing" : !link.is_enabled ? ", off" : link.is_muted ? ", muted" : "");
@@ -261,7 +261,7 @@ void inspect_links(Workbench& editor, InspectorView& view) {
   }
   const LinkDefinition* kind = view.kind();
   const std::string title = kind != nullptr ? kind->label : "Links of several kinds";
-  const Family family = editor.theme.family_of(kind != nullptr ? kind->id : std::string());
+  const Family family = editor.theme.family_of(kind);
   heading(editor, is_single ? title : report::counted(view.links().size(), "link"), is_single ? view.links().front() : title,
           kind != nullptr ? family.colour : 0);
   if (kind != nullptr && is_single) {

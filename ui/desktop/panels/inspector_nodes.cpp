@@ -3,6 +3,7 @@
 
 #include "core/define/codec.h"
 #include "core/reading/figures.h"
+#include "core/reading/views/volume.h"
 #include "core/session/table_rows.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/inspector.h"
@@ -166,7 +167,7 @@ void draw_add_role(Workbench& editor, const InspectorView& view) {
     std::vector<Command> commands;
     for (const std::string& node : lacking)
       commands.push_back(command<Typify>({node, id, {first_values(editor, id, commands.size())}}));
-    if (editor.submit(commands) && id == "smart_volume") tell_uses(editor, lacking);
+    if (editor.submit(commands) && id == reading::type_of<reading::VolumeFigures>()) tell_uses(editor, lacking);
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndPopup();

@@ -6,6 +6,7 @@
 
 #include "core/define/codec.h"
 #include "core/reading/figures.h"
+#include "core/reading/views/volume.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 
@@ -290,7 +291,8 @@ std::optional<Change> value_field(Workbench& editor, const Subject& subject, flo
     case ValueKind::integer:
     case ValueKind::number: return number_field(editor, subject, width);
     case ValueKind::text:
-      return subject.port->id == "use" ? use_field(editor, subject, width) : text_field(editor, subject, width);
+      return subject.port->id == reading::port_name_of<&reading::VolumeFigures::use>() ? use_field(editor, subject, width)
+                                                                                       : text_field(editor, subject, width);
     case ValueKind::choice: return choice_field(editor, subject, width);
     case ValueKind::port: return port_field(editor, subject, width);
     case ValueKind::point: return point_field(editor, subject, width);

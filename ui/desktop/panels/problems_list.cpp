@@ -155,8 +155,8 @@ void ProblemList::add_shortages(const State& state, const report::ReportModel& f
   }
   for (const report::VolumeRow& volume : figures.volumes) {
     // Who has no shape stands among those without room, with the reason.
-    const bool is_told =
-        (listed_uses.contains(volume.use) && !is_too_small) || (volume.state != "alive" && !volume.reason.empty());
+    const bool is_told = (listed_uses.contains(volume.use) && !is_too_small) ||
+                         (volume.figures.state != "alive" && !volume.figures.reason.empty());
     if (is_told) continue;
     if (ProblemItem* item = add("volume/" + volume.id, volume, volume.name + " falls short")) item->nodes = {volume.id};
   }
@@ -187,12 +187,12 @@ void ProblemList::add_failures(const State& state, const report::ReportModel& pr
 void ProblemList::add_volumes(const State& state, const report::ReportModel& figures) {
   if (state.tick == 0) return;
   for (const report::VolumeRow& volume : figures.volumes) {
-    if (volume.state == "alive" || volume.reason.empty()) continue;
+    if (volume.figures.state == "alive" || volume.figures.reason.empty()) continue;
     ProblemItem item;
     item.kind = ProblemKind::no_room;
     item.key = volume.id;
-    item.subject = volume.name + " is " + volume.state;
-    item.text = volume.reason;
+    item.subject = volume.name + " is " + volume.figures.state;
+    item.text = volume.figures.reason;
     item.nodes = {volume.id};
     items_.push_back(std::move(item));
   }

@@ -11,6 +11,7 @@
 
 #include "core/file/file_io.h"
 #include "core/reading/report_model.h"
+#include "core/reading/views/node.h"
 #include "core/session/session.h"
 #include "core/traffic/street_line.h"
 #include "ui/desktop/view/colouring.h"
@@ -81,9 +82,9 @@ std::vector<Piece> pieces_of(const State& state, const report::ReportModel& mode
   const UseNumbers numbers(state.plan->scene);
   std::vector<Piece> pieces;
   for (const report::VolumeRow& row : model.volumes) {
-    const double radius = report::number_at(state, row.node, "smart_volume", "radius");
+    const double radius = row.figures.radius;
     if (row.mesh) add_pieces(*row.mesh, numbers.of(row.use), pieces);
-    else if (row.volume > 0 && radius > 0) add_pieces(ball(row.position, radius), numbers.of(row.use), pieces);
+    else if (row.volume > 0 && radius > 0) add_pieces(ball(row.figures.position, radius), numbers.of(row.use), pieces);
   }
   std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.depth > b.depth; });
   return pieces;
@@ -108,7 +109,7 @@ Lines ground_lines(const report::ReportModel& model) {
 Lines street_lines(const State& state) {
   Lines lines;
   for (const StreetFacts& street : read_urban(state, nullptr).streets) {
-    const auto place = [&](std::uint32_t node) { return report::point_at(state, node, "node", "position"); };
+    const auto place = [&](std::uint32_t node) { return reading::read<&reading::NodePlace::position>(state, node); };
     lines.emplace_back();
     for (const Point3& point : street_line(place(street.start), street.course, place(street.end)))
       lines.back().push_back(project(point));

@@ -183,7 +183,7 @@ void SceneView::fit(bool all) {
   for (std::uint32_t n = 0; n < facts_->places.size() && !all; ++n) {
     if (!editor_->picks.nodes.contains(id_of(n))) continue;
     const VolumeFacts* volume = facts_->volume_of(n);
-    const double around = volume != nullptr && volume->radius > 0 ? volume->radius : 0.05 * facts_->radius;
+    const double around = volume != nullptr && volume->figures.radius > 0 ? volume->figures.radius : 0.05 * facts_->radius;
     const Point3 p = facts_->places[n];
     low = {std::min(low.x, p.x - around), std::min(low.y, p.y - around), std::min(low.z, p.z - around)};
     high = {std::max(high.x, p.x + around), std::max(high.y, p.y + around), std::max(high.z, p.z + around)};

@@ -68,7 +68,7 @@ const VolumeFacts* SceneView::nearest_volume() const {
   const VolumeFacts* nearest = hit_ ? facts_->volume_of(hit_->node) : nullptr;
   float least = editor_->theme.px(kReach);
   for (const VolumeFacts& volume : facts_->volumes) {
-    const Seen at = seen(volume.position);
+    const Seen at = seen(volume.figures.position);
     const ImVec2 p = on_screen(at);
     const float far = std::hypot(p.x - mouse.x, p.y - mouse.y);
     if (hit_ || !at.is_in_front || far >= least) continue;
@@ -95,7 +95,7 @@ void SceneView::draw_card() {
   const auto write = [&](CardWriter& card) {
     card.text(theme.fonts().strong, c.text, volume.name, 1);
     card.text(theme.fonts().small, c.text_soft,
-              label_of_use(volume.use) + (volume.state == "alive" ? "" : "  ·  " + volume.state), 6);
+              label_of_use(volume.figures.use) + (volume.figures.state == "alive" ? "" : "  ·  " + volume.figures.state), 6);
     if (card.list != nullptr) {
       const ImVec2 low{card.at.x, card.at.y + card.y}, high{low.x + card.width, low.y + theme.px(kBarHeight)};
       const auto place = [&](double share) {
@@ -116,7 +116,8 @@ void SceneView::draw_card() {
              volume.asked > 0 ? report::signed_percent(standing_share) : "asks for nothing");
     card.row(c.text_soft, c.text, "Floor area", report::quantity(volume.floor_area, Unit::square_metre));
     if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, "Nothing has run yet: P lets it.", 1);
-    else if (!volume.reason.empty() && volume.state != "alive") card.text(theme.fonts().small, c.bad, volume.reason, 3);
+    else if (!volume.figures.reason.empty() && volume.figures.state != "alive")
+      card.text(theme.fonts().small, c.bad, volume.figures.reason, 3);
     if (volume.is_ball) card.text(theme.fonts().small, c.text_soft, "Shown as its ball: under this metric there is no mesh.", 3);
     if (pulls.empty()) return;
     card.y += theme.px(3);

@@ -7,6 +7,8 @@
 
 #include "core/base/text.h"
 #include "core/base/unit.h"
+#include "core/reading/views/node.h"
+#include "core/reading/views/solver.h"
 #include "ui/desktop/panels/scene_view.h"
 
 namespace bl::desktop {
@@ -60,7 +62,7 @@ std::vector<std::string> SceneView::placed(bool tells) {
       continue;
     }
     // A boundary stands where its corners are, whatever its node's place.
-    if (!found->second.types.contains("boundary")) ids.push_back(id);
+    if (!reading::is_a<reading::BoundaryFigures>(found->second)) ids.push_back(id);
   }
   return ids;
 }
@@ -69,7 +71,7 @@ std::vector<std::string> SceneView::placed(bool tells) {
 std::vector<std::string> SceneView::movable(bool tells) {
   std::vector<std::string> ids = placed(tells);
   std::erase_if(ids, [&](const std::string& id) {
-    const bool is_locked = editor_->scene().nodes.at(id).locked.contains("node.position");
+    const bool is_locked = editor_->scene().nodes.at(id).locked.contains(reading::path_of<&reading::NodePlace::position>());
     if (is_locked && tells)
       editor_->tell(NoticeKind::warning, std::string(icon::kLock) + "  " + editor_->name_of(id) +
                                              " is locked in its place. Unlock its position in the inspector to move it.");
@@ -208,7 +210,8 @@ void SceneView::take_typed() {
 void SceneView::apply_move() {
   std::vector<Command> commands;
   for (const auto& [id, start] : move_->starts)
-    commands.push_back(command<SetPort>({id, {"node.position"}, {json_of(start + move_->shift)}}));
+    commands.push_back(
+        command<SetPort>({id, {reading::path_of<&reading::NodePlace::position>()}, {json_of(start + move_->shift)}}));
   editor_->show(commands, move_->gesture);
 }
 

@@ -57,16 +57,6 @@ void write_label(ImDrawList& list, const Theme& theme, const Wish& wish, const R
                wish.stream->text().c_str());
 }
 
-const char* sign_of(const std::string& type) {
-  if (type == "programme") return icon::kFile;
-  if (type == "statistics") return icon::kBalance;
-  if (type == "smart_volumes_solver") return icon::kReset;
-  if (type == "smart_volume") return icon::kCube;
-  if (type == "control") return icon::kPlus;
-  if (type == "expression") return icon::kStep;
-  return icon::kLink;
-}
-
 }  // namespace
 
 // Nodes without a shape: small round marks with a sign of their role. A volume that has none yet is one of them.
@@ -75,7 +65,7 @@ void SceneView::draw_marks() {
   const Colours& c = theme.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   std::size_t drawn = 0;
-  const auto draw = [&](std::uint32_t node, const std::string& id, const std::string& type, ImU32 tone) {
+  const auto draw = [&](std::uint32_t node, const std::string& id, Icon icon, ImU32 tone) {
     const Seen at = seen(place_of(node));
     const bool is_inside = at.x > -20 && at.y > -20 && at.x < width() + 20 && at.y < height() + 20;
     if (!at.is_in_front || !is_inside) return;
@@ -91,18 +81,18 @@ void SceneView::draw_marks() {
     const float r = theme.px(is_hovered ? 11 : 9.5f);
     list.AddCircleFilled(p, r, is_chosen ? c.accent : faded(c.raised, 0.92f), 24);
     list.AddCircle(p, r, is_chosen || is_hovered ? c.accent : tone, 24, theme.px(is_hovered ? 2.0f : 1.2f));
-    const char* sign = sign_of(type);
+    const char* sign = sign_of(icon);
     ImFont* font = theme.fonts().small;
     const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, sign);
     list.AddText(font, font->FontSize, {std::round(p.x - extent.x / 2), std::round(p.y - extent.y / 2)},
                  is_chosen ? c.on_accent : c.text_soft, sign);
   };
   if (shows("marks"))
-    for (const MarkFacts& mark : facts_->marks) draw(mark.node, mark.id, mark.type, c.line);
+    for (const MarkFacts& mark : facts_->marks) draw(mark.node, mark.id, mark.icon, c.line);
   for (std::size_t k = 0; k < facts_->volumes.size(); ++k) {
     const VolumeFacts& volume = facts_->volumes[k];
     const bool is_held = choices_.held.contains(volume.node);
-    if (!volume.cell || is_held) draw(volume.node, volume.id, "smart_volume", colouring_.colours[k]);
+    if (!volume.cell || is_held) draw(volume.node, volume.id, Icon::cube, colouring_.colours[k]);
   }
 }
 
@@ -110,8 +100,8 @@ void SceneView::draw_marks() {
 Seen SceneView::visible_anchor(std::uint32_t node, const Seen& middle) const {
   const VolumeFacts* volume = facts_->volume_of(node);
   if (volume == nullptr || !volume->cell) return middle;
-  const Point3 p = volume->position;
-  const double top = volume->height > 0 ? volume->bottom + 0.93 * volume->height : p.z;
+  const Point3 p = volume->figures.position;
+  const double top = volume->figures.height > 0 ? volume->figures.bottom + 0.93 * volume->figures.height : p.z;
   for (const Seen& at : {middle, seen({p.x, p.y, top})}) {
     const auto front = pick(choices_.camera.ray(at.x, at.y, width(), height()), *facts_, choices_.section, shows("buildings"));
     if (front && front->node == node) return at;
@@ -136,7 +126,8 @@ void SceneView::draw_labels() {
         {&text, at, size + (is_hovered ? 2e6 : 0) + (is_chosen ? 1e6 : 0), is_chosen || is_hovered, is_mark, node, {}});
   };
   for (const VolumeFacts& volume : facts_->volumes)
-    wish(volume.id, volume.name, volume.node, volume.radius / choices_.camera.metres_per_pixel(volume.position, height()), false);
+    wish(volume.id, volume.name, volume.node,
+         volume.figures.radius / choices_.camera.metres_per_pixel(volume.figures.position, height()), false);
   if (shows("marks"))
     for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
   std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.importance > b.importance; });

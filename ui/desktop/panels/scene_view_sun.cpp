@@ -7,6 +7,8 @@
 #include "core/base/text.h"
 #include "core/define/json_text.h"
 #include "core/reading/report_model.h"
+#include "core/reading/views/sun.h"
+#include "core/reading/views/traffic.h"
 #include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/scene_view.h"
 
@@ -86,16 +88,19 @@ void SceneView::set_sun_in_scene() {
   if (shown == nullptr || !preview_) return;
   std::vector<Command> commands;
   if (preview_->day != shown->clock.day)
-    commands.push_back(command<SetPort>(
-        {shown->id, {"sun_and_sky.date"}, {'"' + date_text(preview_->day - static_cast<DayNumber>(shown->added_days)) + '"'}}));
+    commands.push_back(command<SetPort>({shown->id,
+                                         {reading::path_of<&reading::SunFigures::date>()},
+                                         {'"' + date_text(preview_->day - static_cast<DayNumber>(shown->added_days)) + '"'}}));
   if (preview_->seconds != shown->clock.seconds)
-    commands.push_back(command<SetPort>({shown->id, {"sun_and_sky.time"}, {shortest(preview_->seconds)}}));
+    commands.push_back(
+        command<SetPort>({shown->id, {reading::path_of<&reading::SunFigures::time>()}, {shortest(preview_->seconds)}}));
   const std::string node = shown->id;
   const Plan& plan = *facts_->state->plan;
   if (!commands.empty() && !editor_->submit(commands)) return;
   for (const LinkPlan& link : plan.links)
     for (const PortRef& target : link.targets)
-      if (!link.is_muted && link.is_enabled && plan.nodes[target.node].id == node && plan.path_text(target) == "sun_and_sky.time")
+      if (!link.is_muted && link.is_enabled && plan.nodes[target.node].id == node &&
+          reading::port_of<&reading::SunFigures::time>(plan, target.node) == target)
         editor_->tell(NoticeKind::warning,
                       "The link `" + link.id + "` has a say in the time of `" + node + "`: it may not stay.");
   end_preview();
@@ -148,8 +153,8 @@ void SceneView::follow_choice() {
   choices_.isochrones = shows("isochrones") ? choices_.isochrones : nullptr;
   const auto none = static_cast<std::uint32_t>(facts_->state->plan->nodes.size());
   const auto is_place = [&](std::uint32_t node) {
-    return node < none &&
-           (report::has_type(*facts_->state, node, "traffic_zone") || report::has_type(*facts_->state, node, "junction"));
+    return node < none && (reading::is_a<reading::ZoneFigures>(*facts_->state, node) ||
+                           reading::is_a<reading::JunctionPlace>(*facts_->state, node));
   };
   std::uint32_t chosen = none;
   if (shows("isochrones") && shows("streets") && !facts_->urban.streets.empty()) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/reading/figures.h"
+#include "core/reading/views/solver.h"
 #include "ui/desktop/look/buttons.h"
 #include "ui/desktop/panels/canvas/canvas.h"
 #include "ui/desktop/panels/charts.h"
@@ -128,7 +129,8 @@ void draw_volume(Workbench& editor, const report::VolumeRow& row, int index, flo
     if (row.withheld() > tolerance * row.asked) text += "\nlimited to " + report::quantity(row.limited, Unit::cubic_metre);
     text += "\nfloor area " + report::quantity(row.floor_area, Unit::square_metre);
     card(editor, row.name, text,
-         row.use + (row.use.empty() ? "" : ", ") + row.state + (row.reason.empty() ? "" : ": " + row.reason));
+         row.use + (row.use.empty() ? "" : ", ") + row.figures.state +
+             (row.figures.reason.empty() ? "" : ": " + row.figures.reason));
   }
   if (!is_pressed) return;
   if (ImGui::GetIO().KeyShift) editor.picks.nodes.insert(row.id);
@@ -237,10 +239,9 @@ void draw_engine(Workbench& editor, const RunRecord& record) {
   const Moment& moment = *editor.moment;
   column_title(editor, "Boundary and engine");
   ImGui::BeginChild("engine", {0, 0});
-  for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
-    if (!report::has_type(state, n, "smart_volumes_solver")) continue;
-    const double fill = report::number_at(state, n, "smart_volumes_solver", "fill");
-    fact(editor, "fill, " + report::name_at(state, n), report::percent(fill));
+  for (const auto& [n, solver] : reading::rows<reading::SolverFigures>(state)) {
+    const double fill = solver.fill;
+    fact(editor, "fill, " + state.plan->nodes[n].name, report::percent(fill));
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, thick = editor.theme.px(5);
     ImGui::Dummy({width, thick + editor.theme.px(2)});

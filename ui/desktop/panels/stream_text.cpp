@@ -1,55 +1,33 @@
-// Reads ports by their names; ages of readings come from the state, those of sent messages from the window's clock.
+// Ages of readings come from the state, those of sent messages from the window's clock.
 #include "ui/desktop/panels/stream_text.h"
 
 #include <cmath>
 
 #include "core/reading/figures.h"
+#include "core/reading/views/stream.h"
 
 namespace bl::desktop {
 
 namespace {
 
-const Value* find_value(const State& state, std::uint32_t node, std::size_t type, const char* port) {
-  const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
-  const std::size_t index = definition.port_index(port);
-  const auto& values = state.nodes[node].types[type].values;
-  return index < values.size() && index < definition.ports.size() ? &values[index] : nullptr;
-}
-
-std::string text_at(const State& state, std::uint32_t node, std::size_t type, const char* port) {
-  const Value* value = find_value(state, node, type, port);
-  const auto* text = value == nullptr ? nullptr : std::get_if<std::string>(value);
-  return text == nullptr ? std::string() : *text;
-}
-
-double number_at(const State& state, std::uint32_t node, std::size_t type, const char* port) {
-  const Value* value = find_value(state, node, type, port);
-  return value == nullptr ? 0 : as_number(*value);
-}
+using reading::ActuatorFigures;
+using reading::SensorFigures;
 
 // A unit that the program does not know stands behind the number as people have written it.
-std::string value_text(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
-  const double value = number_at(state, node, type, "value");
-  const std::string written = text_at(state, node, type, "unit");
-  const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
-  const auto record = editor.scene().nodes.find(state.plan->nodes[node].id);
-  const PortDefinition* port = definition.find_port("value");
-  if (record == editor.scene().nodes.end() || !record->second.types.contains(definition.id) || port == nullptr)
-    return report::readable(value);
-  const UnitInfo* known = find_unit(written);
-  if (known == nullptr) return report::readable(value) + (written.empty() ? "" : " " + written);
-  return report::quantity(value, unit_of(editor.types(), record->second, definition, *port));
+std::string value_text(double value, const std::string& unit) {
+  const UnitInfo* known = find_unit(unit);
+  if (known != nullptr) return report::quantity(value, known->unit);
+  return report::readable(value) + (unit.empty() ? "" : " " + unit);
 }
 
-StreamText sensor_text(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
+StreamText sensor_text(const SensorFigures& sensor) {
   StreamText stream;
-  const std::string quality = text_at(state, node, type, "quality");
-  const double age = number_at(state, node, type, "age");
-  stream.value = value_text(editor, state, node, type);
-  stream.message = text_at(state, node, type, "message");
-  stream.age = quality == "never" ? "no reading yet" : age < 0.5 ? "just now" : age_text(age) + " old";
+  const std::string& quality = sensor.quality;
+  stream.value = value_text(sensor.value, sensor.unit);
+  stream.message = sensor.message;
+  stream.age = quality == "never" ? "no reading yet" : sensor.age < 0.5 ? "just now" : age_text(sensor.age) + " old";
   if (quality == "stale" || quality == "invalid") stream.quality = quality;
-  if (!text_at(state, node, type, "connection").empty()) stream.quality += stream.quality.empty() ? "line lost" : ", line lost";
+  if (!sensor.connection.empty()) stream.quality += stream.quality.empty() ? "line lost" : ", line lost";
   stream.standing = stream.quality.ends_with("lost") || quality == "invalid" ? StreamStanding::lost
                     : quality == "stale"                                     ? StreamStanding::stale
                     : quality == "never"                                     ? StreamStanding::silent
@@ -57,16 +35,16 @@ StreamText sensor_text(const Workbench& editor, const State& state, std::uint32_
   return stream;
 }
 
-StreamText actuator_text(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
+StreamText actuator_text(const Workbench& editor, const State& state, std::uint32_t node, const ActuatorFigures& actuator,
+                         const std::optional<Error>& error) {
   StreamText stream;
-  stream.value = value_text(editor, state, node, type);
-  const Value* is_on = find_value(state, node, type, "is_on");
+  stream.value = value_text(actuator.value, actuator.unit);
   const auto delivery = editor.deliveries.find(state.plan->nodes[node].id);
-  if (const auto& error = state.nodes[node].types[type].error) {
+  if (error) {
     stream.standing = StreamStanding::lost;
     stream.quality = "not sent";
     stream.message = error->text();
-  } else if (is_on != nullptr && std::holds_alternative<bool>(*is_on) && !std::get<bool>(*is_on)) {
+  } else if (!actuator.is_on) {
     stream.age = "off";
   } else if (delivery == editor.deliveries.end()) {
     stream.age = "not connected";
@@ -101,18 +79,15 @@ std::string age_text(double seconds) {
 }
 
 bool is_stream(const TypificationDefinition& type) {
-  const auto computes = [&type](const char* port) {
-    const PortDefinition* found = type.find_port(port);
-    return found != nullptr && found->is_computed;
-  };
-  return type.id == "actuator" || (computes("value") && computes("age") && computes("quality"));
+  return reading::is_a<SensorFigures>(type) || reading::is_a<ActuatorFigures>(type);
 }
 
 std::optional<StreamText> stream_of(const Workbench& editor, const State& state, std::uint32_t node, std::size_t type) {
   if (node >= state.nodes.size() || type >= state.nodes[node].types.size()) return std::nullopt;
   const TypificationDefinition& definition = *state.plan->nodes[node].types[type].definition;
-  if (!is_stream(definition)) return std::nullopt;
-  return definition.id == "actuator" ? actuator_text(editor, state, node, type) : sensor_text(editor, state, node, type);
+  if (reading::is_a<SensorFigures>(definition)) return sensor_text(*reading::row_of<SensorFigures>(state, node));
+  if (!reading::is_a<ActuatorFigures>(definition)) return std::nullopt;
+  return actuator_text(editor, state, node, *reading::row_of<ActuatorFigures>(state, node), state.nodes[node].types[type].error);
 }
 
 std::optional<StreamText> stream_of(const Workbench& editor, const State& state, std::uint32_t node) {

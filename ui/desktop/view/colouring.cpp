@@ -9,6 +9,8 @@
 
 #include "core/reading/figures.h"
 #include "core/reading/report_model.h"
+#include "core/reading/views/programme.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::desktop {
 
@@ -27,7 +29,7 @@ std::vector<double> values_of(const SceneFacts& facts, const std::string& choice
   for (const VolumeFacts& volume : facts.volumes) {
     double value = std::numeric_limits<double>::quiet_NaN();
     if (choice == "tension") {
-      value = volume.tension;
+      value = volume.figures.tension;
       unit = Unit::metre;
     } else if (choice == "fill") {
       // Of what was asked for, before any limit: who is short in the list is not full here.
@@ -50,19 +52,13 @@ Colouring by_use(const SceneFacts& facts, const Theme& theme) {
   Colouring out;
   out.legend.title = "Use";
   const UseNumbers numbers(facts.state->plan->scene);
-  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(colour_of_use(theme, numbers.of(volume.use)));
+  for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(colour_of_use(theme, numbers.of(volume.figures.use)));
   // As they are numbered; what has no use comes last.
   std::vector<std::string> uses = facts.uses;
   std::stable_sort(uses.begin(), uses.end(),
                    [&](const std::string& a, const std::string& b) { return numbers.of(a) < numbers.of(b); });
   for (const std::string& use : uses) out.legend.rows.push_back({label_of_use(use), colour_of_use(theme, numbers.of(use))});
   return out;
-}
-
-std::string text_in(const PortValues& values, const char* port) {
-  const auto found = values.find(port);
-  const auto* text = found == values.end() ? nullptr : std::get_if<std::string>(&found->second);
-  return text == nullptr ? std::string() : *text;
 }
 
 // Against what was asked for: short to one side, more than that to the other.
@@ -82,22 +78,19 @@ Colouring by_error(const SceneFacts& facts, const Theme& theme) {
 }  // namespace
 
 UseNumbers::UseNumbers(const Scene& scene) {
+  const Registry& registry = full_registry();
   const auto add = [&](const std::string& use) {
     if (!use.empty()) numbers_.emplace(use, numbers_.size());
   };
   std::set<std::string> others;
   for (const auto& [id, node] : scene.nodes) {
-    if (const auto volume = node.types.find("smart_volume"); volume != node.types.end())
-      others.insert(text_in(volume->second, "use"));
-    const auto programme = node.types.find("programme");
-    if (programme == node.types.end()) continue;
-    const auto rows = programme->second.find("rows");
-    const auto* table = rows == programme->second.end() ? nullptr : std::get_if<Shared<Table>>(&rows->second);
-    for (std::size_t row = 0; table != nullptr && row < (*table)->rows.size(); ++row) add((*table)->text(row, "use"));
+    if (const auto use = reading::setting<&reading::VolumeFigures::use>(scene, registry, node)) others.insert(*use);
+    if (const auto brief = reading::setting<&reading::ProgrammeFigures::rows>(scene, registry, node))
+      for (std::size_t row = 0; row < (*brief)->rows.size(); ++row) add((*brief)->text(row, "use"));
   }
   // What links credit their volumes to.
   for (const auto& [id, link] : scene.links)
-    if (link.kind == "demand") others.insert(text_in(link.parameters, "use"));
+    if (const auto demand = reading::parameters_of<reading::DemandParameters>(link, registry)) others.insert(demand->use);
   for (const std::string& use : others) add(use);
 }
 

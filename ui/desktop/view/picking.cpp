@@ -102,7 +102,7 @@ std::vector<std::uint32_t> pick_box(const Box& box, bool touches, const SceneFac
   };
   for (const VolumeFacts& volume : facts.volumes) {
     if (!volume.cell) {
-      take(volume.node, volume.position, 0);
+      take(volume.node, volume.figures.position, 0);
       continue;
     }
     if (is_cut_away(*volume.cell, sight.section)) continue;

@@ -1,4 +1,4 @@
-// Reads volumes, marks, boundaries and links from a state; a node without the ports is simply no volume.
+// Reads volumes, marks, boundaries and links from a state, by the views of them.
 #include "ui/desktop/view/scene_facts.h"
 
 #include <algorithm>
@@ -7,7 +7,11 @@
 #include <set>
 
 #include "core/geometry/mesh_lines.h"
-#include "core/reading/report_model.h"
+#include "core/reading/views/facade.h"
+#include "core/reading/views/node.h"
+#include "core/reading/views/solver.h"
+#include "core/reading/views/surroundings.h"
+#include "core/reading/views/traffic.h"
 #include "core/traffic/street_line.h"
 #include "ui/desktop/document/media_place.h"
 
@@ -15,7 +19,6 @@ namespace bl::desktop {
 
 namespace {
 
-constexpr const char* kVolume = "smart_volume";
 // Links over sets with more pairs than this would hide what they join.
 constexpr std::size_t kMostPairs = 80;
 // Faces that meet at a smaller angle than this look like one (cosine).
@@ -23,49 +26,40 @@ constexpr double kSharp = 0.97;
 
 // What its style makes of the façade, where one dresses it.
 void read_facade(const State& state, std::uint32_t node, VolumeFacts& facts) {
-  const Table* table = report::table_at(state, node, "facade", "by_orientation");
-  if (table == nullptr || table->rows.size() != facts.facade.sides.size()) return;
+  const auto facade = reading::row_of<reading::FacadeFigures>(state, node);
+  if (!facade || facade->by_orientation->rows.size() != facts.facade.sides.size()) return;
   facts.is_dressed = true;
-  facts.facade.north = static_cast<float>(report::number_at(state, node, "facade", "true_north"));
+  facts.facade.north = static_cast<float>(facade->true_north);
   for (std::size_t k = 0; k < facts.facade.sides.size(); ++k) {
-    const auto number = [&](const char* column) { return static_cast<float>(table->number(k, column)); };
+    const auto number = [&](const char* column) { return static_cast<float>(facade->by_orientation->number(k, column)); };
     facts.facade.sides[k] = {number("width"), number("module"), number("sill"), number("head")};
   }
 }
 
-VolumeFacts read_volume(const State& state, const report::VolumeAccount& account) {
+VolumeFacts read_volume(const State& state, report::VolumeAccount&& account) {
   const std::uint32_t node = account.node;
-  const auto number = [&](const char* port) { return report::number_at(state, node, kVolume, port); };
   VolumeFacts facts;
   static_cast<report::Account&>(facts) = account;
   facts.node = node;
   facts.id = state.plan->nodes[node].id;
-  facts.name = report::name_at(state, node);
-  facts.use = report::text_at(state, node, kVolume, "use");
-  facts.state = report::text_at(state, node, kVolume, "state");
-  facts.reason = report::text_at(state, node, kVolume, "reason");
-  facts.position = report::point_at(state, node, "node", "position");
-  facts.radius = std::max(0.0, number("radius"));
-  facts.storey = number("storey_height");
-  facts.bottom = number("bottom");
-  facts.height = number("height");
+  facts.name = state.plan->nodes[node].name;
+  facts.figures = std::move(account.figures);
   read_facade(state, node, facts);
-  if (const auto ref = state.plan->find(node, PortPath{"node", "position", ""}))
-    facts.tension = state.nodes[node].types[ref->type].tension[ref->port];
-  if (const MeshPointer mesh = report::mesh_at(state, node, kVolume, "mesh")) facts.cell = mesh->coarse;
+  if (facts.figures.mesh) facts.cell = facts.figures.mesh->coarse;
   const bool is_usable =
       facts.cell && facts.cell->wrap && !facts.cell->triangles.empty() && facts.cell->vertices.size() < 60000 && facts.volume > 0;
   if (is_usable) return facts;
   facts.cell = nullptr;
-  if (!(facts.volume > 0) || !(facts.radius > 0)) return facts;
+  if (!(facts.volume > 0) || !(facts.figures.radius > 0)) return facts;
   facts.is_ball = true;
-  facts.cell = ball_cell(facts.position, facts.radius);
+  facts.cell = ball_cell(facts.figures.position, facts.figures.radius);
   return facts;
 }
 
 // What is drawn as itself needs no mark.
 bool has_own_picture(const State& state, std::uint32_t node) {
-  return report::has_type(state, node, "street") || report::has_type(state, node, "existing_building");
+  return reading::is_a<reading::StreetFigures>(state, node) || reading::is_a<reading::BuildingFigures>(state, node) ||
+         reading::is_a<reading::BoundaryFigures>(state, node);
 }
 
 // Streets and buildings have their places where they are drawn, whatever their nodes' positions say.
@@ -86,11 +80,11 @@ void read_surroundings(const State& state, const SceneFacts* last, SceneFacts& f
   }
 }
 
-// The role that a mark shows: the first that is more than being a node.
-std::string role_of(const NodePlan& node) {
+// That of the first role that is more than being a node.
+Icon icon_of(const NodePlan& node) {
   for (const TypePlan& type : node.types)
-    if (type.definition->id != kBaseNode) return type.definition->id;
-  return std::string(kBaseNode);
+    if (type.definition->id != kBaseNode) return type.definition->icon;
+  return Icon::link;
 }
 
 void read_links(const Plan& plan, SceneFacts& facts) {
@@ -99,10 +93,9 @@ void read_links(const Plan& plan, SceneFacts& facts) {
     const auto& from = link.nodes[0];
     const auto& to = link.nodes[1];
     if (from.size() * to.size() > (link.is_symmetric ? 2 : 1) * kMostPairs) continue;
-    const std::string kind = link.definition != nullptr ? link.definition->id : "";
     for (const std::uint32_t a : from)
       for (const std::uint32_t b : to)
-        if (a != b && (!link.is_symmetric || a < b)) facts.links.push_back({l, link.id, kind, a, b});
+        if (a != b && (!link.is_symmetric || a < b)) facts.links.push_back({l, link.id, a, b});
   }
 }
 
@@ -111,8 +104,7 @@ void read_pulls(const State& state, SceneFacts& facts) {
     for (const Voice& voice : state.links[l].voices) {
       const auto* change = std::get_if<Vector3>(&voice.value);
       if (change == nullptr || !is_finite(*change) || voice.target.type == PortRef::kNodeId) continue;
-      const PortDefinition& port = state.plan->port(voice.target);
-      if (port.rule == CombineRule::sum && port.id == "position")
+      if (reading::port_of<&reading::NodePlace::position>(*state.plan, voice.target.node) == voice.target)
         facts.pulls.push_back({l, voice.target.node, voice.strength * *change});
     }
 }
@@ -120,17 +112,17 @@ void read_pulls(const State& state, SceneFacts& facts) {
 void read_neighbours(const State& state, SceneFacts& facts) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (const VolumeFacts& volume : facts.volumes) {
-    const Table* table = report::table_at(state, volume.node, kVolume, "neighbours");
-    for (std::size_t row = 0; table != nullptr && row < table->rows.size(); ++row) {
-      const std::uint32_t other = state.plan->node_index(table->text(row, "node"));
+    const Table& table = *volume.figures.neighbours;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      const std::uint32_t other = state.plan->node_index(table.text(row, "node"));
       if (other < state.plan->nodes.size()) pairs.insert(std::minmax(volume.node, other));
     }
   }
   facts.neighbours.assign(pairs.begin(), pairs.end());
 }
 
-void read_boundary(const State& state, std::uint32_t node, const SceneFacts* last, SceneFacts& facts) {
-  BoundaryFacts boundary{node, state.plan->nodes[node].id, report::mesh_at(state, node, "boundary", "shape"), {}};
+void read_boundary(const State& state, std::uint32_t node, MeshPointer shape, const SceneFacts* last, SceneFacts& facts) {
+  BoundaryFacts boundary{node, state.plan->nodes[node].id, std::move(shape), {}};
   if (!boundary.shape || boundary.shape->triangles.empty()) return;
   if (last != nullptr)
     for (const BoundaryFacts& earlier : last->boundaries)
@@ -146,21 +138,18 @@ void read_boundary(const State& state, std::uint32_t node, const SceneFacts* las
   facts.boundaries.push_back(std::move(boundary));
 }
 
-void read_media(const State& state, std::uint32_t node, SceneFacts& facts) {
-  const auto number = [&](const char* port) { return report::number_at(state, node, "media", port); };
-  const auto text = [&](const char* port) { return report::text_at(state, node, "media", port); };
-  MediaFacts media{node, state.plan->nodes[node].id, report::name_at(state, node), text("message"), text("file"), {}};
+void read_media(const State& state, std::uint32_t node, const reading::MediaFigures& read, SceneFacts& facts) {
+  MediaFacts media{node, state.plan->nodes[node].id, state.plan->nodes[node].name, read.message, read.file, {}};
   if (media.file.empty()) return;
-  if (text("kind") == "sequence")
-    media.file = frame_file(media.file, state.tick, number("rate"), static_cast<std::int64_t>(number("frames")));
-  const MediaPlace place = place_of({text("placement"), report::point_at(state, node, "node", "position"), number("azimuth"),
-                                     number("tilt"), number("width"), number("height"), number("distance")});
+  if (read.kind == "sequence") media.file = frame_file(media.file, state.tick, read.rate, read.frames);
+  const MediaPlace place =
+      place_of({read.placement, read.position, read.azimuth, read.tilt, read.width, read.height, read.distance});
   media.picture.corner = place.corner;
   media.picture.across = place.across;
   media.picture.up = place.up;
-  media.picture.opacity = static_cast<float>(number("opacity"));
-  media.picture.orientation = static_cast<int>(number("orientation"));
-  media.picture.is_veiled = !(number("is_free") > 0);
+  media.picture.opacity = static_cast<float>(read.opacity);
+  media.picture.orientation = static_cast<int>(read.orientation);
+  media.picture.is_veiled = !read.is_free;
   facts.media.push_back(std::move(media));
 }
 
@@ -177,7 +166,7 @@ void read_extent(const SceneFacts* last, SceneFacts& facts) {
   const bool has_boundary = low.x <= high.x;
   if (has_boundary) facts.ground = low.z;
   if (!has_boundary)
-    for (const VolumeFacts& volume : facts.volumes) take(volume.position, volume.radius);
+    for (const VolumeFacts& volume : facts.volumes) take(volume.figures.position, volume.figures.radius);
   if (!(low.x <= high.x))
     for (const Point3& place : facts.places) take(place, 5);
   if (!(low.x <= high.x)) return;
@@ -202,26 +191,26 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   auto facts = std::make_shared<SceneFacts>();
   const State& state = *given;
   std::set<std::string> uses;
-  const report::Accounts accounts = report::accounts_of(state);
+  report::Accounts accounts = report::accounts_of(state);
   facts->tolerance = accounts.tolerance;
-  auto account = accounts.volumes.begin();  // ascending node, as the walk is
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
-    facts->places.push_back(report::point_at(state, n, "node", "position"));
-    if (report::has_type(state, n, "boundary")) read_boundary(state, n, last, *facts);
-    if (report::has_type(state, n, "media")) read_media(state, n, *facts);
-    if (report::has_type(state, n, kVolume)) {
-      VolumeFacts volume = read_volume(state, *account++);
-      // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
-      const VolumeFacts* before = last != nullptr && volume.is_ball ? last->volume_of(n) : nullptr;
-      if (before != nullptr && before->is_ball && before->position == volume.position && before->radius == volume.radius)
-        volume.cell = before->cell;
-      uses.insert(volume.use);
-      facts->volumes.push_back(std::move(volume));
-    } else if (!report::has_type(state, n, "boundary") && !has_own_picture(state, n)) {
-      facts->marks.push_back(
-          {n, state.plan->nodes[n].id, report::name_at(state, n), role_of(state.plan->nodes[n]), facts->places.back()});
-    }
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    facts->places.push_back(reading::read<&reading::NodePlace::position>(state, n));
+  for (auto& [node, boundary] : reading::rows<reading::BoundaryFigures>(state))
+    read_boundary(state, node, std::move(boundary.shape), last, *facts);
+  for (const auto& [node, media] : reading::rows<reading::MediaFigures>(state)) read_media(state, node, media, *facts);
+  for (report::VolumeAccount& account : accounts.volumes) {
+    VolumeFacts volume = read_volume(state, std::move(account));
+    // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
+    const VolumeFacts* before = last != nullptr && volume.is_ball ? last->volume_of(volume.node) : nullptr;
+    if (before != nullptr && before->is_ball && before->figures.position == volume.figures.position &&
+        before->figures.radius == volume.figures.radius)
+      volume.cell = before->cell;
+    uses.insert(volume.figures.use);
+    facts->volumes.push_back(std::move(volume));
   }
+  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
+    if (const NodePlan& node = state.plan->nodes[n]; facts->volume_of(n) == nullptr && !has_own_picture(state, n))
+      facts->marks.push_back({n, node.id, node.name, icon_of(node), facts->places[n]});
   facts->uses.assign(uses.begin(), uses.end());
   read_links(*state.plan, *facts);
   read_pulls(state, *facts);

@@ -1,4 +1,4 @@
-// What the 3D view shows of a state, read once for each tick by the names of its ports.
+// What the 3D view shows of a state, read once for each tick.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,8 @@ namespace bl::desktop {
 /// With what was asked for and what there is, by the account that list, statistics and report read too.
 struct VolumeFacts : report::Account {
   std::uint32_t node = 0;
-  std::string id, name, use, state, reason;
-  Point3 position;
-  double radius = 0, storey = 0, bottom = 0, height = 0;  ///< [m]
-  double tension = 0;                                     ///< of its place [m]
+  std::string id, name;
+  reading::VolumeFigures figures;
   MeshPointer cell;      ///< coarse, with its wrap; a ball where the solver gives a volume but no shape; none without a volume
   bool is_ball = false;  ///< the shape is not known, only its radius
   bool is_dressed = false;
@@ -32,7 +30,8 @@ struct VolumeFacts : report::Account {
 /// A node without a volume, as a small mark.
 struct MarkFacts {
   std::uint32_t node = 0;
-  std::string id, name, type;
+  std::string id, name;
+  Icon icon = Icon::link;  ///< of its role
   Point3 position;
 };
 
@@ -54,7 +53,7 @@ struct MediaFacts {
 /// One pair of nodes that a link joins.
 struct LinkFacts {
   std::size_t link = 0;  ///< index in the plan
-  std::string id, kind;
+  std::string id;
   std::uint32_t from = 0, to = 0;
 };
 

@@ -1,10 +1,14 @@
-// Reads the city's parts from a state by the names of their ports; what a scene lacks stays empty.
+// Reads the city's parts from a state by the views of them; what a scene lacks stays empty.
 #include "ui/desktop/view/urban_facts.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/reading/report_model.h"
+#include "core/reading/views/plot.h"
+#include "core/reading/views/sun.h"
+#include "core/reading/views/surroundings.h"
+#include "core/reading/views/traffic.h"
+#include "core/reading/views/volume.h"
 #include "core/sun/solar_position.h"
 #include "core/traffic/trip_flows.h"
 #include "ui/desktop/view/scene_facts.h"
@@ -18,51 +22,30 @@ constexpr double kLift = 0.06;
 // A data layer of more points than this is thinned for the eye.
 constexpr std::size_t kMostPoints = 4000;
 
-const Value* value_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const auto ref = state.plan->find(node, PortPath{type, port, ""});
-  return ref ? &state.value(*ref) : nullptr;
-}
-
-bool flag_at(const State& state, std::uint32_t node, const char* type, const char* port, bool fallback) {
-  const Value* value = value_at(state, node, type, port);
-  const bool* flag = value == nullptr ? nullptr : std::get_if<bool>(value);
-  return flag == nullptr ? fallback : *flag;
-}
-
-std::vector<Point3> points_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const Value* value = value_at(state, node, type, port);
-  const auto* points = value == nullptr ? nullptr : std::get_if<Shared<std::vector<Point3>>>(value);
-  return points == nullptr ? std::vector<Point3>{} : **points;
-}
-
 // The one node that a selection names, or the number of nodes.
-std::uint32_t chosen_at(const State& state, std::uint32_t node, const char* type, const char* port) {
-  const Value* value = value_at(state, node, type, port);
-  const auto* selection = value == nullptr ? nullptr : std::get_if<Shared<Selection>>(value);
-  if (selection == nullptr || (*selection)->ids.size() != 1) return static_cast<std::uint32_t>(state.plan->nodes.size());
-  return state.plan->node_index((*selection)->ids.front());
+std::uint32_t chosen_node(const State& state, const Selection& selection) {
+  if (selection.ids.size() != 1) return static_cast<std::uint32_t>(state.plan->nodes.size());
+  return state.plan->node_index(selection.ids.front());
 }
 
-void read_street(const State& state, std::uint32_t node, UrbanFacts& urban) {
+void add_street(const State& state, std::uint32_t node, reading::StreetFigures&& read, UrbanFacts& urban) {
   StreetFacts street;
   street.node = node;
   street.id = state.plan->nodes[node].id;
-  street.start = chosen_at(state, node, "street", "start");
-  street.end = chosen_at(state, node, "street", "end");
+  street.start = chosen_node(state, read.start);
+  street.end = chosen_node(state, read.end);
   if (street.start >= state.plan->nodes.size() || street.end >= state.plan->nodes.size()) return;
-  street.flow = report::number_at(state, node, "street", "flow_forth") + report::number_at(state, node, "street", "flow_back");
-  street.load = report::number_at(state, node, "street", "volume_over_capacity");
-  street.is_open = report::number_at(state, node, "street", "open", 1) > 0 || flag_at(state, node, "street", "open", false);
-  street.is_for_cars = flag_at(state, node, "street", "for_cars", true);
-  street.course = points_at(state, node, "street", "course");
+  street.flow = read.flow_forth + read.flow_back;
+  street.load = read.volume_over_capacity;
+  street.is_open = read.open > 0;
+  street.is_for_cars = read.for_cars;
+  street.course = std::move(read.course);
   urban.most_flow = std::max(urban.most_flow, street.flow);
   urban.streets.push_back(std::move(street));
 }
 
-void read_routes(const State& state, std::uint32_t node, UrbanFacts& urban) {
-  const Value* value = value_at(state, node, "traffic_network", "trip_flows");
-  const Made* made = value == nullptr ? nullptr : std::get_if<Made>(value);
-  const auto trips = made == nullptr ? nullptr : made->get<TripFlows>();
+// The flows of a network are kept by the zone where their trips begin.
+void add_routes(const State& state, const std::shared_ptr<const TripFlows>& trips, UrbanFacts& urban) {
   if (!trips) return;
   std::vector<std::uint32_t> street_of;  // by link; the number of nodes where it is no street
   for (const std::string& place : trips->places) street_of.push_back(state.plan->node_index(place));
@@ -92,8 +75,9 @@ MeshPointer as_cell(const Mesh& mesh) {
   return std::make_shared<const Mesh>(std::move(cell));
 }
 
-void read_body(const State& state, std::uint32_t node, const UrbanFacts* last, UrbanFacts& urban) {
-  const MeshPointer mesh = report::mesh_at(state, node, "existing_building", "mesh");
+void add_body(const State& state, std::uint32_t node, const reading::BuildingFigures& read, const UrbanFacts* last,
+              UrbanFacts& urban) {
+  const MeshPointer& mesh = read.mesh;
   if (!mesh || mesh->triangles.empty() || mesh->vertices.size() >= 60000) return;
   BodyFacts body;
   if (last != nullptr)
@@ -101,8 +85,8 @@ void read_body(const State& state, std::uint32_t node, const UrbanFacts* last, U
       if (earlier.mesh == mesh) body = earlier;
   body.node = node;
   body.id = state.plan->nodes[node].id;
-  body.name = report::name_at(state, node);
-  body.is_assumed = flag_at(state, node, "existing_building", "is_assumed", false);
+  body.name = state.plan->nodes[node].name;
+  body.is_assumed = read.is_assumed;
   if (!body.mesh) {
     body.mesh = mesh;
     body.cell = as_cell(*mesh);
@@ -118,23 +102,23 @@ Vector3 half_step(const Table& map, std::size_t step, std::size_t count, const V
   return 0.5 * (at(step) - at(0));
 }
 
-void read_sun_map(const State& state, std::uint32_t node, const UrbanFacts* last, UrbanFacts& urban) {
-  const Table* map = report::table_at(state, node, "shadow_receiver", "map");
-  if (map == nullptr || map->rows.empty()) return;
+void add_sun_map(const State& state, std::uint32_t node, const reading::ReceiverFigures& read, const UrbanFacts* last,
+                 UrbanFacts& urban) {
+  const Shared<Table>& map = read.map;
+  if (map->rows.empty()) return;
   SunMapFacts facts;
   facts.node = node;
   facts.id = state.plan->nodes[node].id;
-  facts.source = map;
-  facts.highest = report::number_at(state, node, "shadow_receiver", "sun_possible");
+  facts.source = &*map;
+  facts.highest = read.sun_possible;
   for (std::size_t row = 0; row < map->rows.size(); ++row) facts.highest = std::max(facts.highest, map->number(row, "sun"));
   if (last != nullptr)
     for (const SunMapFacts& earlier : last->sun_maps)
-      if (earlier.node == node && earlier.source == map && earlier.highest == facts.highest) facts.steps = earlier.steps;
+      if (earlier.node == node && earlier.source == facts.source && earlier.highest == facts.highest) facts.steps = earlier.steps;
   if (facts.steps.empty()) {
-    const auto columns = static_cast<std::size_t>(std::max(1.0, report::number_at(state, node, "shadow_receiver", "columns")));
-    const Vector3 across = half_step(*map, 1, columns, 2.0 * report::point_at(state, node, "shadow_receiver", "half_across"));
-    const Vector3 up =
-        half_step(*map, columns, map->rows.size() / columns, 2.0 * report::point_at(state, node, "shadow_receiver", "half_up"));
+    const auto columns = static_cast<std::size_t>(std::max<std::int64_t>(1, read.columns));
+    const Vector3 across = half_step(*map, 1, columns, 2.0 * read.half_across);
+    const Vector3 up = half_step(*map, columns, map->rows.size() / columns, 2.0 * read.half_up);
     const Vector3 normal = cross(across, up);
     const Vector3 lift = norm(normal) > 0 ? (kLift / norm(normal)) * normal : Vector3{0, 0, kLift};
     std::map<int, Mesh> meshes;
@@ -153,25 +137,23 @@ void read_sun_map(const State& state, std::uint32_t node, const UrbanFacts* last
   urban.sun_maps.push_back(std::move(facts));
 }
 
-void read_layer(const State& state, std::uint32_t node, UrbanFacts& urban) {
-  const Table* values = report::table_at(state, node, "data_layer", "values");
-  if (values == nullptr || values->rows.empty()) return;
+void add_layer(const State& state, std::uint32_t node, const reading::DataLayerFigures& read, UrbanFacts& urban) {
+  const Table& values = *read.values;
+  if (values.rows.empty()) return;
   DataFacts layer;
   layer.node = node;
   layer.id = state.plan->nodes[node].id;
-  layer.quantity = report::text_at(state, node, "data_layer", "quantity");
-  if (layer.quantity.empty()) layer.quantity = report::name_at(state, node);
-  layer.unit = report::text_at(state, node, "data_layer", "unit");
-  layer.low = report::number_at(state, node, "data_layer", "minimum");
-  layer.high = report::number_at(state, node, "data_layer", "maximum");
-  const std::size_t stride = values->rows.size() / kMostPoints + 1;
-  for (std::size_t row = 0; row < values->rows.size(); row += stride)
-    layer.values.emplace_back(Point3{values->number(row, "x"), values->number(row, "y"), 0}, values->number(row, "value"));
+  layer.quantity = read.quantity.empty() ? state.plan->nodes[node].name : read.quantity;
+  layer.unit = read.unit;
+  layer.low = read.minimum;
+  layer.high = read.maximum;
+  const std::size_t stride = values.rows.size() / kMostPoints + 1;
+  for (std::size_t row = 0; row < values.rows.size(); row += stride)
+    layer.values.emplace_back(Point3{values.number(row, "x"), values.number(row, "y"), 0}, values.number(row, "value"));
   urban.layers.push_back(std::move(layer));
 }
 
-void read_ring(const State& state, std::uint32_t node, std::vector<Point3> ring, bool is_overshot,
-               std::vector<RingFacts>& rings) {
+void add_ring(const State& state, std::uint32_t node, std::vector<Point3> ring, bool is_overshot, std::vector<RingFacts>& rings) {
   if (ring.size() >= 3) rings.push_back({node, state.plan->nodes[node].id, std::move(ring), is_overshot});
 }
 
@@ -181,39 +163,34 @@ DaylightSaving rule_of(const std::string& id) {
   return id == "australia" ? DaylightSaving::australia : DaylightSaving::none;
 }
 
-void read_sun(const State& state, std::uint32_t node, UrbanFacts& urban) {
-  const auto number = [&](const char* port) { return report::number_at(state, node, "sun_and_sky", port); };
-  const auto date = parse_date(report::text_at(state, node, "sun_and_sky", "date"));
+void add_sun(const State& state, std::uint32_t node, const reading::SunFigures& read, UrbanFacts& urban) {
+  const auto date = parse_date(read.date);
   if (!date) return;  // the node's own error says so
   SunFacts sun;
   sun.node = node;
   sun.id = state.plan->nodes[node].id;
-  sun.place = {number("latitude"),   number("longitude"),
-               number("elevation"),  number("true_north"),
-               number("utc_offset"), rule_of(report::text_at(state, node, "sun_and_sky", "daylight_saving")),
-               number("delta_t"),    flag_at(state, node, "sun_and_sky", "refraction", true),
-               number("pressure"),   number("temperature")};
-  sun.added_days = std::floor(number("days"));
-  sun.clock = {*date + static_cast<DayNumber>(sun.added_days), number("time")};
+  sun.place = {read.latitude, read.longitude,  read.elevation, read.true_north, read.utc_offset, rule_of(read.daylight_saving),
+               read.delta_t,  read.refraction, read.pressure,  read.temperature};
+  sun.added_days = std::floor(read.days);
+  sun.clock = {*date + static_cast<DayNumber>(sun.added_days), read.time};
   sun.toward = direction_to_sun(sun.place, sun.clock);
-  sun.is_ahead = sun.toward != report::point_at(state, node, "sun_and_sky", "direction");
+  sun.is_ahead = sun.toward != read.direction;
   urban.suns.push_back(std::move(sun));
 }
 
-void read_caster(const State& state, std::uint32_t node, UrbanFacts& urban) {
-  if (!flag_at(state, node, "shadow_caster", "casts", true)) return;
-  const std::uint32_t study = keeper_of(*state.plan, node, "sun_study");
-  const double ground = study < state.plan->nodes.size() ? report::number_at(state, study, "sun_study", "ground") : 0;
-  for (const char* type : {"smart_volume", "existing_building"})
-    if (const MeshPointer mesh = report::mesh_at(state, node, type, "mesh"); mesh && !mesh->triangles.empty())
-      urban.casters.push_back({node, state.plan->nodes[node].id, mesh, ground});
+void add_caster(const State& state, std::uint32_t node, UrbanFacts& urban) {
+  const std::uint32_t study = keeper_of(*state.plan, node, reading::type_of<reading::SunStudyFigures>());
+  const double ground = reading::read<&reading::SunStudyFigures::ground>(state, study);
+  for (const MeshPointer& mesh :
+       {reading::read<&reading::VolumeFigures::mesh>(state, node), reading::read<&reading::BuildingFigures::mesh>(state, node)})
+    if (mesh && !mesh->triangles.empty()) urban.casters.push_back({node, state.plan->nodes[node].id, mesh, ground});
 }
 
 std::int64_t age_of_sun(const State& state) {
   std::int64_t age = 0;
   for (std::size_t a = 0; a < state.analyses.size(); ++a) {
     const AnalysisPlan& plan = state.plan->analyses[a];
-    if (state.plan->nodes[plan.node].types[plan.type].definition->id != "sun_study") continue;
+    if (!reading::is_a<reading::SunStudyFigures>(*state.plan->nodes[plan.node].types[plan.type].definition)) continue;
     if (state.analyses[a].as_of < 0) return -1;
     age = std::max(age, state.tick - state.analyses[a].as_of);
   }
@@ -236,26 +213,24 @@ std::uint32_t keeper_of(const Plan& plan, std::uint32_t node, std::string_view t
 }
 
 UrbanFacts read_urban(const State& state, const UrbanFacts* last) {
+  using namespace reading;
   UrbanFacts urban;
-  for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n) {
-    const auto is = [&](const char* type) { return report::has_type(state, n, type); };
-    if (is("street")) read_street(state, n, urban);
-    if (is("traffic_network")) read_routes(state, n, urban);
-    if (is("existing_building")) read_body(state, n, last, urban);
-    if (is("shadow_receiver")) read_sun_map(state, n, last, urban);
-    if (is("data_layer")) read_layer(state, n, urban);
-    if (is("shadow_caster")) read_ring(state, n, points_at(state, n, "shadow_caster", "outline"), false, urban.shadows);
-    if (is("plot")) {
-      std::vector<Point3> ring = points_at(state, n, "plot", "polygon");
-      for (Point3& corner : ring) corner.z = report::number_at(state, n, "plot", "ground");
-      read_ring(state, n, std::move(ring), report::number_at(state, n, "plot", "overshoot") > 0, urban.plots);
-    }
-    if (is("terrain"))
-      if (const MeshPointer mesh = report::mesh_at(state, n, "terrain", "mesh"); mesh && !mesh->triangles.empty())
-        urban.grounds.emplace_back(n, mesh);
-    if (is("shadow_caster")) read_caster(state, n, urban);
-    if (is("sun_and_sky")) read_sun(state, n, urban);
+  for (auto& [node, street] : rows<StreetFigures>(state)) add_street(state, node, std::move(street), urban);
+  for (const auto& [node, network] : rows<NetworkFigures>(state)) add_routes(state, network.trip_flows, urban);
+  for (const auto& [node, building] : rows<BuildingFigures>(state)) add_body(state, node, building, last, urban);
+  for (const auto& [node, receiver] : rows<ReceiverFigures>(state)) add_sun_map(state, node, receiver, last, urban);
+  for (const auto& [node, layer] : rows<DataLayerFigures>(state)) add_layer(state, node, layer, urban);
+  for (auto& [node, caster] : rows<CasterFigures>(state)) {
+    add_ring(state, node, std::move(caster.outline), false, urban.shadows);
+    if (caster.casts) add_caster(state, node, urban);
   }
+  for (auto& [node, plot] : rows<PlotFigures>(state)) {
+    for (Point3& corner : plot.polygon) corner.z = plot.ground;
+    add_ring(state, node, std::move(plot.polygon), plot.overshoot > 0, urban.plots);
+  }
+  for (const auto& [node, terrain] : rows<TerrainFigures>(state))
+    if (terrain.mesh && !terrain.mesh->triangles.empty()) urban.grounds.emplace_back(node, terrain.mesh);
+  for (const auto& [node, sun] : rows<SunFigures>(state)) add_sun(state, node, sun, urban);
   if (!urban.suns.empty() && urban.suns.front().toward.z > 0) urban.sun = urban.suns.front().toward;
   urban.sun_age = age_of_sun(state);
   return urban;

@@ -209,7 +209,7 @@ std::string told_age(std::int64_t age, bool is_ahead) {
 Legend legend_of(const SceneFacts& facts, const Isochrones& shown, const Theme& theme) {
   Legend legend;
   const std::string speed = shortest(shown.walking_speed) + " m/s";
-  legend.title = report::name_at(*facts.state, shown.node) + ", reached " +
+  legend.title = facts.state->plan->nodes[shown.node].name + ", reached " +
                  (shown.is_by_car ? "by car at these flows" : "on foot at " + speed);
   if (!shown.tentative.empty()) legend.title += " (" + shown.tentative + ")";
   if (!shown.reason.empty()) legend.rows.push_back({shown.reason, 0});

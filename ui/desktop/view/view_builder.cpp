@@ -112,8 +112,8 @@ void Builder::add_volumes() {
     shown.cell = volume.cell;
     // A little plaster in every colour: the model stays calm beside the things that speak.
     shown.colour = k < colouring.colours.size() ? mixed(colouring.colours[k], kPlaster, 0.16f) : kPlaster;
-    shown.bottom = static_cast<float>(volume.bottom);
-    shown.storey = volume.is_ball ? 0 : static_cast<float>(volume.storey);
+    shown.bottom = static_cast<float>(volume.figures.bottom);
+    shown.storey = volume.is_ball ? 0 : static_cast<float>(volume.figures.storey_height);
     const bool is_hovered = volume.id == picks.hovered_node || joined.contains(volume.node);
     if (is_hovered) shown.flags |= ViewVolume::hovered;
     if (picks.nodes.contains(volume.id)) shown.flags |= ViewVolume::chosen;
@@ -157,7 +157,7 @@ void Builder::add_links() {
     if (!shows_all && !is_chosen && !is_hovered) continue;
     const LinkPlan& plan = facts.state->plan->links[link.link];
     const bool is_quiet = plan.is_muted || !plan.is_enabled;
-    const Colour colour = is_chosen ? theme.colours().accent : theme.family_of(link.kind).colour;
+    const Colour colour = is_chosen ? theme.colours().accent : theme.family_of(plan.definition).colour;
     const float width = is_chosen || is_hovered ? 3.0f : static_cast<float>(1.0 + 1.4 * std::clamp(plan.strength, 0.0, 1.0));
     line(place_of(link.from), place_of(link.to), faded(colour, is_quiet ? 0.3f : 0.9f), width, 0.5f);
   }
@@ -168,18 +168,18 @@ void Builder::add_weights() {
   if (!shows("weights")) return;
   for (std::size_t k = 0; k < facts.volumes.size(); ++k) {
     const VolumeFacts& volume = facts.volumes[k];
-    if (!(volume.radius > 0)) continue;
+    if (!(volume.figures.radius > 0)) continue;
     const Colour colour =
         theme.is_dark() ? mixed(colouring.colours[k], 0xffffffffu, 0.25f) : mixed(colouring.colours[k], 0xff000000u, 0.35f);
     const Point3 centre = place_of(volume.node);
-    Point3 before = centre + Vector3{volume.radius, 0, 0};
+    Point3 before = centre + Vector3{volume.figures.radius, 0, 0};
     for (int i = 1; i <= kCircleParts; ++i) {
       const double angle = 2 * std::numbers::pi * i / kCircleParts;
-      const Point3 next = centre + Vector3{volume.radius * std::cos(angle), volume.radius * std::sin(angle), 0};
+      const Point3 next = centre + Vector3{volume.figures.radius * std::cos(angle), volume.figures.radius * std::sin(angle), 0};
       line(before, next, colour, 1.6f, 0.6f);
       before = next;
     }
-    const double arm = 0.05 * volume.radius;
+    const double arm = 0.05 * volume.figures.radius;
     line(centre - Vector3{arm, 0, 0}, centre + Vector3{arm, 0, 0}, colour, 1.6f, 0.9f);
     line(centre - Vector3{0, arm, 0}, centre + Vector3{0, arm, 0}, colour, 1.6f, 0.9f);
   }
@@ -221,7 +221,7 @@ void Builder::add_pulls() {
     const double size = norm(pull.change), shown = std::min(most, kPullScale * size);
     if (!(size > 0) || shown < least) continue;
     const Point3 from = place_of(pull.node);
-    const std::string kind = facts.state->plan->links[pull.link].definition->id;
+    const LinkDefinition* kind = facts.state->plan->links[pull.link].definition;
     add_arrow(from, from + (shown / size) * pull.change, theme.family_of(kind).colour, 2.2f);
   }
 }

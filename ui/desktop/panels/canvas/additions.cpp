@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file/scene_file.h"
+#include "core/reading/views/volume.h"
 #include "ui/desktop/panels/brief_uses.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/draw.h"
@@ -20,7 +21,6 @@ namespace {
 constexpr std::size_t kMostBundled = 40;
 // More than any recency.
 constexpr int kAfterVolumes = 5000;
-constexpr const char* kVolumeRole = "smart_volume";
 
 int recency_of(const Workbench& editor, const std::string& id) {
   const auto& recent = editor.person.recent_additions;
@@ -42,12 +42,14 @@ ImU32 colour_of_type(const Board& board, const std::string& id) {
 
 bool is_role(const TypificationDefinition& type) { return type.id != kBaseNode; }
 
+bool is_volume(const std::string& type) { return type == reading::type_of<reading::VolumeFigures>(); }
+
 // A new node with one role; its box's head lies at `at`.
 Command new_node(Board& board, const TypificationDefinition& role, const std::string& id, ImVec2 at, Json& patch) {
   Json node = Json::object();
   const std::size_t number = id.rfind('-');
   node["name"] = role.label + (number == std::string::npos ? "" : " " + id.substr(number + 1));
-  if (role.id == kVolumeRole) {
+  if (is_volume(role.id)) {
     const Point3 place = place_volume(board.editor.types(), board.editor.scene());
     node["position"] = Json::array({place.x, place.y, place.z});
   }
@@ -81,7 +83,7 @@ void add_node(Board& board, const std::string& type, ImVec2 at) {
   if (!editor.submit(commands, editor.new_gesture())) return;
   remember(editor, type);
   editor.picks.only_node(id);
-  if (type == kVolumeRole) tell_uses(editor, {id});
+  if (is_volume(type)) tell_uses(editor, {id});
 }
 
 namespace {
@@ -102,7 +104,7 @@ void add_role(Board& board, const std::string& type) {
     }
   if (!editor.submit(commands, editor.new_gesture())) return;
   remember(editor, type);
-  if (type == kVolumeRole) tell_uses(editor, nodes);
+  if (is_volume(type)) tell_uses(editor, nodes);
 }
 
 std::string short_name(const Board& board, const Selection& selection) {
@@ -145,7 +147,7 @@ void add_linked_node(Board& board, const std::string& kind, const std::string& t
   remember(editor, kind);
   remember(editor, type);
   editor.picks.only_node(node);
-  if (type == kVolumeRole) tell_uses(editor, {node});
+  if (is_volume(type)) tell_uses(editor, {node});
 }
 
 // Links between the chosen nodes: from the first that was chosen to each of the others, or the other way round where only that
@@ -207,8 +209,8 @@ void offer_links(const Board& board, Picker& picker) {
     if (!fits_forth && !does_fit(board, kind, back)) continue;
     // Whoever has chosen several nodes is likelier to link them than to add another one.
     picker.choices.push_back({id, kind.label + ": " + (fits_forth ? forth : back).text, first_sentence(kind.doc), "",
-                              editor.theme.family_of(id).colour, 2 * recency_of(editor, id) - 1,
-                              "link " + std::string(editor.theme.family_of(id).label), fits_forth ? "link" : "link back"});
+                              editor.theme.family_of(&kind).colour, 2 * recency_of(editor, id) - 1,
+                              "link " + std::string(editor.theme.family_of(&kind).label), fits_forth ? "link" : "link back"});
   }
 }
 
@@ -262,8 +264,8 @@ void open_link_menu(Board& board, std::size_t from, std::size_t to, ImVec2 scree
   for (const auto& [id, kind] : editor.types().links()) {
     const auto why = misfit(editor.types(), editor.scene(), kind, a, b);
     picker.choices.push_back({id, kind.label, first_sentence(kind.doc), why ? "Does not fit: " + *why + "." : "",
-                              editor.theme.family_of(id).colour, recency_of(editor, id),
-                              std::string(editor.theme.family_of(id).label), ""});
+                              editor.theme.family_of(&kind).colour, recency_of(editor, id),
+                              std::string(editor.theme.family_of(&kind).label), ""});
   }
   picker.taken = [a, b](Board& board_now, const Choice& choice) { lay_link(board_now, choice.id, a, b); };
   open_picker(board, std::move(picker));
@@ -282,12 +284,12 @@ void open_drop_menu(Board& board, std::size_t from, ImVec2 screen) {
     for (const auto& [role, type] : editor.types().typifications()) {
       if (!is_role(type) || misfit_with_new(editor.types(), editor.scene(), kind, a, type)) continue;
       // Every node has a place, but only a volume's is seen: moving a table of numbers about helps nobody.
-      const bool is_volume = role == kVolumeRole;
-      if (!is_volume && knows_places_only(kind, End::to)) continue;
+      const bool is_seen = is_volume(role);
+      if (!is_seen && knows_places_only(kind, End::to)) continue;
       // What was used last decides among volumes and among the rest, never between them.
-      const int taste = is_volume ? 0 : kAfterVolumes;
+      const int taste = is_seen ? 0 : kAfterVolumes;
       picker.choices.push_back({id, kind.label + "  \xe2\x86\x92  " + type.label, first_sentence(kind.doc), "",
-                                editor.theme.family_of(id).colour, recency_of(editor, id) + taste, "", role});
+                                editor.theme.family_of(&kind).colour, recency_of(editor, id) + taste, "", role});
     }
   picker.taken = [a, at](Board& b, const Choice& choice) { add_linked_node(b, choice.id, choice.extra, a, at); };
   open_picker(board, std::move(picker));

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/reading/figures.h"
-#include "ui/desktop/panels/canvas/sections.h"
+#include "core/reading/views/volume.h"
 #include "ui/desktop/panels/panel_memory.h"
 #include "ui/desktop/panels/statistics_record.h"
 
@@ -14,16 +14,16 @@ std::string BarFigures::text() const {
   return report::readable(account.volume) + " / " + report::quantity(account.asked, Unit::cubic_metre);
 }
 
-BarFigures bar_figures(Workbench& editor, const NodeBox& box, const Section& section) {
+BarFigures bar_figures(Workbench& editor, const NodeBox& box) {
   const report::Accounts& accounts = memory_of(editor).record->figures(editor).accounts;
   BarFigures bar;
   const auto found = std::lower_bound(accounts.volumes.begin(), accounts.volumes.end(), box.in_state,
                                       [](const report::VolumeAccount& v, std::uint32_t node) { return v.node < node; });
   if (found != accounts.volumes.end() && found->node == box.in_state) {
     bar.account = *found;
-  } else {
-    bar.account.asked = std::max(number_of(editor, box, section, "demand", 0), number_of(editor, box, section, "demand_min", 0));
-    bar.account.limited = bar.account.asked;
+  } else if (const auto node = editor.scene().nodes.find(box.id); node != editor.scene().nodes.end()) {
+    const auto volume = reading::settings_of<reading::VolumeFigures>(editor.scene(), editor.types(), node->second);
+    if (volume) bar.account.asked = bar.account.limited = std::max(volume->demand, volume->demand_min);
   }
   bar.tone = tone_of_account(bar.account, accounts.tolerance);
   bar.is_limited = bar.account.withheld() > accounts.tolerance * bar.account.asked;

@@ -19,6 +19,6 @@ struct BarFigures {
 };
 
 /// Of a box with a SmartVolume. One that no tick has seen yet has nothing of what its scene asks for.
-BarFigures bar_figures(Workbench& editor, const NodeBox& box, const Section& section);
+BarFigures bar_figures(Workbench& editor, const NodeBox& box);
 
 }  // namespace bl::desktop::canvas

@@ -7,6 +7,8 @@
 #include "core/define/codec.h"
 #include "core/file/scene_file.h"
 #include "core/reading/figures.h"
+#include "core/reading/views/node.h"
+#include "core/reading/views/volume.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/edits.h"
 #include "ui/desktop/panels/canvas/entered.h"
@@ -55,8 +57,9 @@ void rename(Pasting& pasting, Selection& selection) {
 // Where a volume has been put; nothing for what takes no room.
 Vector3* volume_place(NodeRecord& node) {
   const auto base = node.types.find(std::string(kBaseNode));
-  if (base == node.types.end() || !node.types.contains("smart_volume")) return nullptr;
-  return std::get_if<Vector3>(&base->second.try_emplace("position", Vector3{}).first->second);
+  if (base == node.types.end() || !reading::is_a<reading::VolumeFigures>(node)) return nullptr;
+  return std::get_if<Vector3>(
+      &base->second.try_emplace(reading::port_name_of<&reading::NodePlace::position>(), Vector3{}).first->second);
 }
 
 // All copies by the same way, so that they lie to each other as their originals do: the least at which none meets a volume.
@@ -64,13 +67,11 @@ void move_aside(const Board& board, std::map<std::string, NodeRecord>& copies) {
   std::vector<Vector3*> places;
   for (auto& [id, node] : copies)
     if (Vector3* place = volume_place(node)) places.push_back(place);
-  const TypificationDefinition& base = *board.editor.types().typification(kBaseNode);
-  const PortDefinition& position = base.ports[base.port_index("position")];
   std::vector<Vector3> taken;
   for (const auto& [id, node] : board.editor.scene().nodes)
-    if (node.types.contains("smart_volume"))
-      if (const auto* place = std::get_if<Vector3>(&set_value(board.editor.scene(), node, base, position)))
-        taken.push_back(*place);
+    if (const auto position =
+            reading::setting<&reading::VolumeFigures::position>(board.editor.scene(), board.editor.types(), node))
+      taken.push_back(*position);
   double aside = 0;
   const auto is_taken = [&](const Vector3* place) {
     const Vector3 at{place->x + aside, place->y, place->z};

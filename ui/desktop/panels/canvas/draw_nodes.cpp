@@ -89,9 +89,9 @@ void draw_section_head(const Ink& ink, const NodeBox& box, const Section& sectio
               (kBoxWidth - 2 * kPad) * ink.k);
 }
 
-void draw_bar_line(const Ink& ink, const NodeBox& box, const Section& section, float y) {
+void draw_bar_line(const Ink& ink, const NodeBox& box, float y) {
   const float left = box.box.at.x + kPad, right = box.box.high().x - kPad;
-  const BarFigures bar = bar_figures(ink.board.editor, box, section);
+  const BarFigures bar = bar_figures(ink.board.editor, box);
   float text_right = right;
   if (ink.zoom >= kTextZoom) {
     const std::string text = bar.text();
@@ -154,7 +154,7 @@ float draw_section(const Ink& ink, const NodeBox& box, Section& section, std::si
                 (kBoxWidth - 2 * kPad) * ink.k);
     return y + kRowHeight;
   }
-  if (section.has_bar) draw_bar_line(ink, box, section, y), y += kBarHeight;
+  if (section.has_bar) draw_bar_line(ink, box, y), y += kBarHeight;
   if (section.is_stream) draw_stream_line(ink, box, section, y), y += kStreamHeight;
   refresh_texts(ink.board.editor, box, section, ink.board.model.state_revision);
   y = draw_rows(ink, box, section, y);
@@ -187,7 +187,7 @@ void draw_as_name(const Ink& ink, NodeBox& box, const Box& screen) {
   ink.list.AddRectFilled(screen.low(), {screen.low().x + stripe, screen.high().y}, tone, round, ImDrawFlags_RoundCornersLeft);
   for (const Section& section : box.sections)
     if (section.has_bar && !box.is_collapsed)
-      draw_bar_of(ink, bar_figures(ink.board.editor, box, section), {screen.low().x + stripe + 2, screen.high().y - bar - 2},
+      draw_bar_of(ink, bar_figures(ink.board.editor, box), {screen.low().x + stripe + 2, screen.high().y - bar - 2},
                   screen.high() - ImVec2(3, 2));
   if (screen.size.x < 34) return;
   const float badge = std::max(12 * ink.k, 9 * ink.board.theme().scale());

@@ -2,10 +2,12 @@
 #include "ui/desktop/panels/canvas/model.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "core/reading/report_model.h"
+#include "core/reading/views/volume.h"
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/link_paths.h"
 #include "ui/desktop/panels/canvas/sections.h"
@@ -29,6 +31,19 @@ Selection ends_of_ghost(const Json& json, const char* key) {
     for (const Json& id : *found)
       if (id.is_string()) selection.ids.push_back(id.get<std::string>());
   return selection;
+}
+
+// Nothing where it is no volume.
+std::optional<std::string> use_of(const Workbench& editor, const std::string& node) {
+  return reading::setting<&reading::VolumeFigures::use>(editor.scene(), editor.types(), editor.scene().nodes.at(node));
+}
+
+// Of several roles the one whose column stands first decides.
+CanvasColumn column_of(const Registry& registry, const NodeRecord& node) {
+  CanvasColumn column = CanvasColumn::any;
+  for (const auto& [id, values] : node.types)
+    if (const TypificationDefinition* type = registry.typification(id)) column = std::min(column, type->column);
+  return column;
 }
 
 }  // namespace
@@ -118,14 +133,8 @@ void Model::make_boxes(const Workbench& editor) {
 
 void Model::number_uses(const Workbench& editor) {
   const UseNumbers numbers(editor.scene());
-  for (NodeBox& box : boxes) {
-    const auto& types = editor.scene().nodes.at(box.id).types;
-    const auto volume = types.find("smart_volume");
-    if (volume == types.end()) continue;
-    const auto use = volume->second.find("use");
-    const auto* text = use == volume->second.end() ? nullptr : std::get_if<std::string>(&use->second);
-    box.use = numbers.of(text == nullptr ? std::string() : *text);
-  }
+  for (NodeBox& box : boxes)
+    if (const auto use = use_of(editor, box.id)) box.use = numbers.of(*use);
 }
 
 std::size_t Model::find_box(const std::string& id) const {
@@ -187,7 +196,7 @@ void Model::make_lines(const Workbench& editor) {
     line.is_muted = link.is_muted;
     line.is_enabled = link.is_enabled;
     line.strength = static_cast<float>(link.strength);
-    line.family = editor.theme.family_of(link.kind);
+    line.family = editor.theme.family_of(editor.types().link(link.kind));
     if (line.definition != nullptr) {
       const auto& writes = line.definition->proposes;
       line.changes_from = std::any_of(writes.begin(), writes.end(), [](const LinkWrite& w) { return w.end == End::from; });
@@ -202,19 +211,12 @@ std::vector<ImVec2> Model::automatic_places(const Workbench& editor) const {
   std::vector<LayoutItem> items;
   std::size_t sources = 0;
   for (const NodeBox& box : boxes) {
-    const NodeRecord& node = editor.scene().nodes.at(box.id);
-    const bool is_volume = node.types.contains("smart_volume");
-    const bool is_first = node.types.contains("programme") || node.types.contains("control") || node.types.contains("expression");
-    const bool is_second =
-        node.types.contains("boundary") || node.types.contains("smart_volumes_solver") || node.types.contains("statistics");
+    const CanvasColumn column = column_of(editor.types(), editor.scene().nodes.at(box.id));
     LayoutItem& item = items.emplace_back();
     item.size = {kBoxWidth, height_of(box.sections)};
-    item.column = is_volume ? -1 : is_first ? 0 : is_second ? 1 : -1;
+    item.column = column == CanvasColumn::first ? 0 : column == CanvasColumn::second ? 1 : -1;
     sources += item.column >= 0 ? 1 : 0;
-    const auto values = node.types.find("smart_volume");
-    if (is_volume)
-      if (const auto use = values->second.find("use"); use != values->second.end())
-        if (const auto* text = std::get_if<std::string>(&use->second)) item.kin = *text;
+    item.kin = use_of(editor, box.id).value_or("");
   }
   // A few sources stand in one column, which leaves the field more room.
   for (LayoutItem& item : items)

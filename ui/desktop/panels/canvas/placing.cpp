@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "core/geometry/plan_ring.h"
+#include "core/reading/views/solver.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::desktop::canvas {
 
@@ -33,23 +35,11 @@ Site box_site(const std::vector<Point3>& points) {
 }
 
 std::optional<Site> site_of(const Registry& registry, const Scene& scene) {
-  const TypificationDefinition* type = registry.typification("boundary");
-  if (type == nullptr) return std::nullopt;
   for (const auto& [id, node] : scene.nodes) {
-    if (!node.types.contains("boundary")) continue;
-    const auto value = [&](const char* port) { return set_value(scene, node, *type, type->ports[type->port_index(port)]); };
-    const auto form = value("form");
-    const auto* name = std::get_if<std::string>(&form);
-    const auto points_of = [&](const char* port) {
-      const Value list = value(port);
-      const auto* points = std::get_if<Shared<std::vector<Point3>>>(&list);
-      return points != nullptr ? **points : std::vector<Point3>();
-    };
-    if (name != nullptr && *name == "plan") {
-      const double bottom = as_number(value("bottom"));
-      return Site{points_of("plan"), bottom, bottom + as_number(value("height"))};
-    }
-    return box_site(points_of(name != nullptr && *name == "mesh" ? "vertices" : "points"));
+    const auto boundary = reading::settings_of<reading::BoundarySettings>(scene, registry, node);
+    if (!boundary) continue;
+    if (boundary->form == "plan") return Site{boundary->plan, boundary->bottom, boundary->bottom + boundary->height};
+    return box_site(boundary->form == "mesh" ? boundary->vertices : boundary->points);
   }
   return std::nullopt;
 }
@@ -65,12 +55,9 @@ double distance_to_outline(const std::vector<Point3>& plan, const Point3& point)
 Point3 place_volume(const Registry& registry, const Scene& scene) {
   Point3 place;
   std::vector<Point3> others;
-  const TypificationDefinition* base = registry.typification(kBaseNode);
-  for (const auto& [id, node] : scene.nodes) {
-    if (base == nullptr || !node.types.contains("smart_volume") || !node.types.contains(std::string(kBaseNode))) continue;
-    if (const auto* at = std::get_if<Vector3>(&set_value(scene, node, *base, base->ports[base->port_index("position")])))
-      others.push_back(*at);
-  }
+  for (const auto& [id, node] : scene.nodes)
+    if (const auto position = reading::setting<&reading::VolumeFigures::position>(scene, registry, node))
+      others.push_back(*position);
   const auto site = site_of(registry, scene);
   if (!site || site->plan.size() < 3) {
     // Without a boundary: beside the last one.
@@ -84,8 +71,9 @@ Point3 place_volume(const Registry& registry, const Scene& scene) {
     for (int j = 0; j < kTries; ++j) {
       const double x = box.plan[0].x + (box.plan[2].x - box.plan[0].x) * (i + 0.5) / kTries;
       const double y = box.plan[0].y + (box.plan[2].y - box.plan[0].y) * (j + 0.5) / kTries;
-      if (!ring_contains(site->plan, {x, y, 0})) continue;
-      double free = 2 * distance_to_outline(site->plan, {x, y, 0});
+      const Point3 spot{x, y, 0};
+      if (!ring_contains(site->plan, spot)) continue;
+      double free = 2 * distance_to_outline(site->plan, spot);
       for (const Point3& other : others) free = std::min(free, std::hypot(x - other.x, y - other.y));
       if (free > best) best = free, place = {std::round(10 * x) / 10, std::round(10 * y) / 10, middle};
     }

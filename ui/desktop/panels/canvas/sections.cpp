@@ -1,9 +1,8 @@
 // Chooses the few values that tell most about a node: what people have set, what is still missing, and the main results.
 #include "ui/desktop/panels/canvas/sections.h"
 
-#include <array>
-
 #include "core/reading/figures.h"
+#include "core/reading/views/volume.h"
 #include "ui/desktop/panels/inspector_quantity.h"
 #include "ui/desktop/panels/stream_text.h"
 
@@ -13,27 +12,6 @@ namespace {
 
 constexpr std::size_t kMostRows = 5, kMostSettings = 3;
 constexpr double kLeastShare = 1e-4;  // smaller ones are written as such
-
-// Results that people ask for first; types that are not listed show their first results.
-struct Favourites {
-  const char* type;
-  std::array<const char*, 3> ports;
-  const char* spark;
-};
-constexpr Favourites kFavourites[] = {
-    {"smart_volume", {"floor_area", "height", ""}, "volume"},
-    {"statistics", {"sum", "mean", "count"}, "sum"},
-    {"smart_volumes_solver", {"fill", "largest_error", "worst"}, "largest_error"},
-    {"boundary", {"volume", "ground_area", ""}, ""},
-    {"programme", {"total_floor_area", "items", "uses"}, ""},
-    {"control", {"output", "", ""}, ""},
-};
-
-const Favourites* favourites_of(const std::string& type) {
-  for (const Favourites& known : kFavourites)
-    if (type == known.type) return &known;
-  return nullptr;
-}
 
 bool is_shown_in_a_row(const PortDefinition& port) { return !is_derived(port.kind) && port.kind != ValueKind::json; }
 
@@ -47,13 +25,24 @@ void add_row(Section& section, std::size_t port) {
   section.rows.push_back({port, label_of(ports[port])});
 }
 
+// What the declaration shows first; false where it leaves that open.
+bool add_declared(Section& section) {
+  const std::vector<PortDefinition>& ports = section.type->ports;
+  bool is_declared = false;
+  for (std::size_t p = 0; p < ports.size(); ++p) {
+    if (ports[p].is_shown_first) add_row(section, p);
+    if (ports[p].is_traced) section.spark = p;
+    is_declared |= ports[p].is_shown_first;
+  }
+  return is_declared;
+}
+
 void choose_rows(Section& section, const PortValues& values) {
   const TypificationDefinition& type = *section.type;
   // What a device says last stands in a line of its own; beside it counts where it comes from or goes to.
   section.is_stream = is_stream(type);
   if (section.is_stream) {
-    add_row(section, type.port_index("address"));
-    section.spark = type.port_index("value");
+    add_declared(section);
     return;
   }
   for (std::size_t p = 0; p < type.ports.size() && section.rows.size() < kMostSettings; ++p) {
@@ -63,11 +52,7 @@ void choose_rows(Section& section, const PortValues& values) {
   }
   for (std::size_t p = 0; p < type.ports.size(); ++p)
     if (type.ports[p].is_residual) add_row(section, p);
-  if (const Favourites* known = favourites_of(type.id)) {
-    for (const char* port : known->ports) add_row(section, type.port_index(port));
-    if (const std::size_t p = type.port_index(known->spark); p < type.ports.size()) section.spark = p;
-    return;
-  }
+  if (add_declared(section)) return;
   for (std::size_t p = 0; p < type.ports.size(); ++p) {
     if (!type.ports[p].is_computed || !is_number(type.ports[p])) continue;
     add_row(section, p);
@@ -102,8 +87,7 @@ std::vector<Section> sections_of(const Registry& registry, const NodeRecord& nod
     section.type = &found->second;
     section.label = found->second.label;
     section.category = static_cast<std::size_t>(std::distance(registry.typifications().begin(), found));
-    section.has_bar = section.type->port_index("volume") < section.type->ports.size() &&
-                      section.type->port_index("wanted") < section.type->ports.size();
+    section.has_bar = reading::is_a<reading::VolumeFigures>(*section.type);
     choose_rows(section, values);
   }
   for (const auto& [type_id, text] : node.ghosts) {
@@ -169,12 +153,6 @@ void refresh_texts(const Workbench& editor, const NodeBox& box, Section& section
   section.texts.clear();
   for (const Row& row : section.rows) section.texts.push_back(text_of(editor, box, section, row.port));
   section.texts_of = revision;
-}
-
-double number_of(const Workbench& editor, const NodeBox& box, const Section& section, const char* port, double fallback) {
-  if (section.type == nullptr) return fallback;
-  const Value* value = value_of(editor, box, section, section.type->port_index(port));
-  return value == nullptr ? fallback : as_number(*value);
 }
 
 }  // namespace bl::desktop::canvas

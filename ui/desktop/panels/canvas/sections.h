@@ -18,7 +18,4 @@ std::string text_of(const Workbench& editor, const NodeBox& box, const Section& 
 /// Brings the texts of the rows up to the state, `revision` of which the model counts.
 void refresh_texts(const Workbench& editor, const NodeBox& box, Section& section, std::size_t revision);
 
-/// The value by the port's id; `fallback` where there is none.
-double number_of(const Workbench& editor, const NodeBox& box, const Section& section, const char* port, double fallback);
-
 }  // namespace bl::desktop::canvas

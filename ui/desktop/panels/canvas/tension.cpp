@@ -5,6 +5,7 @@
 
 #include "core/reading/figures.h"
 #include "core/reading/report_model.h"
+#include "core/reading/views/volume.h"
 
 namespace bl::desktop::canvas {
 
@@ -14,7 +15,7 @@ double tension_share(const State& state, PortRef ref) {
   const Value& value = state.value(ref);
   // Places have no size of their own: a pull counts against the radius of what it moves.
   const double size = std::holds_alternative<Vector3>(value)
-                          ? std::max(1.0, report::number_at(state, ref.node, "smart_volume", "radius"))
+                          ? std::max(1.0, reading::read<&reading::VolumeFigures::radius>(state, ref.node))
                           : std::max(std::abs(as_number(value)), 1e-9);
   return tension[ref.port] / size;
 }

@@ -1,6 +1,6 @@
 // Volumes and uses are read by the report, so that table, JSON and page cannot disagree; conflicts and faults are added for
 // programs.
-#include "ui/cli/survey.h"
+#include "core/reading/survey.h"
 
 #include <algorithm>
 #include <map>
@@ -9,43 +9,16 @@
 #include "core/reading/place_problems.h"
 #include "core/reading/report_model.h"
 
-namespace bl::cli {
+namespace bl::report {
 
 namespace {
 
-constexpr const char *kVolume = "smart_volume", *kSolver = "smart_volumes_solver";
-
 std::uint32_t count_of(const State& state) { return static_cast<std::uint32_t>(state.nodes.size()); }
 
-// What the page says of the volume, and what only tables have room for.
-VolumeRow volume_row(const State& state, const report::VolumeRow& read) {
-  const auto number = [&](const char* port) { return report::number_at(state, read.node, kVolume, port); };
-  VolumeRow row;
-  row.id = read.id;
-  row.name = state.plan->nodes[read.node].name;
-  row.use = read.use;
-  row.state = read.state;
-  row.reason = read.reason;
-  row.position = report::point_at(state, read.node, "node", "position");
-  row.weight = number("weight");
-  static_cast<report::Account&>(row) = read;
-  row.demand = read.limited;
-  row.cell_volume = number("cell_volume");
-  row.error = number("error");
-  row.surface_area = number("surface_area");
-  row.footprint = number("footprint");
-  row.spherical_area = number("spherical_area");
-  row.storey_height = read.storey_height;
-  row.height = number("height");
-  row.bottom = number("bottom");
-  return row;
-}
-
-void add_totals(const State& state, const report::ReportModel& model, Survey& survey) {
+void add_totals(const State& state, const ReportModel& model, Survey& survey) {
   std::map<std::string, UseRow> uses;
-  for (const report::UseAccount& read : model.accounts.uses)
-    uses[read.use] = {read, 0, report::why_short(state, model.accounts, read)};
-  for (const VolumeRow& volume : survey.volumes) uses[volume.use].alive += volume.state == "alive" ? 1 : 0;
+  for (const UseAccount& read : model.accounts.uses) uses[read.use] = {read, 0, why_short(state, model.accounts, read)};
+  for (const VolumeRow& volume : survey.volumes) uses[volume.use].alive += volume.is_alive ? 1 : 0;
   survey.all.account = model.accounts.all;
   for (const auto& [name, use] : uses) {
     survey.all.alive += use.alive;
@@ -54,12 +27,6 @@ void add_totals(const State& state, const report::ReportModel& model, Survey& su
   survey.tolerance = model.accounts.tolerance;
   survey.worst_short = model.accounts.worst_short;
   survey.worst_short_of = model.accounts.worst;
-}
-
-std::vector<VolumeRow> volume_rows(const State& state, const report::ReportModel& model) {
-  std::vector<VolumeRow> rows;
-  for (const report::VolumeRow& volume : model.volumes) rows.push_back(volume_row(state, volume));
-  return rows;
 }
 
 std::vector<Pull> pulls_on(const State& state, PortRef target) {
@@ -98,34 +65,26 @@ bool takes_care_of(const Plan& plan, std::uint32_t solver, std::uint32_t volume)
 }
 
 // What a solver says, with the shortages of the table: two accounts of one thing would be one too many.
-std::string told_by(const State& state, const report::ReportModel& model, std::uint32_t solver) {
+std::string told_by(const State& state, const ReportModel& model, const reading::Row<reading::SolverFigures>& solver) {
   std::vector<DemandLoss> losses;
   std::vector<std::string> names;
-  for (const report::VolumeRow& volume : model.volumes) {
-    if (!takes_care_of(*state.plan, solver, volume.node)) continue;
+  for (const VolumeRow& volume : model.volumes) {
+    if (!takes_care_of(*state.plan, solver.node, volume.node)) continue;
     if (volume.limited - volume.volume > model.accounts.tolerance * volume.limited)
       losses.push_back({static_cast<std::uint32_t>(names.size()), volume.limited, volume.volume});
     names.push_back(volume.id);
   }
-  return with_losses(report::text_at(state, solver, kSolver, "message"), losses, names);
+  return with_losses(solver.figures.message, losses, names);
 }
 
 }  // namespace
 
-std::vector<VolumeRow> volumes_of(const State& state) {
-  report::ReportModel model;
-  report::read_figures(state, model);
-  return volume_rows(state, model);
-}
-
 std::string solver_message(const State& state) {
   std::string message;
-  report::ReportModel model;
-  report::read_figures(state, model);
-  for (std::uint32_t n = 0; n < count_of(state); ++n) {
-    if (!report::has_type(state, n, kSolver)) continue;
-    if (const std::string said = told_by(state, model, n); !said.empty()) message += (message.empty() ? "" : "; ") + said;
-  }
+  ReportModel model;
+  read_figures(state, model);
+  for (const auto& solver : reading::rows<reading::SolverFigures>(state))
+    if (const std::string said = told_by(state, model, solver); !said.empty()) message += (message.empty() ? "" : "; ") + said;
   return message;
 }
 
@@ -148,30 +107,25 @@ std::vector<Error> problems_of(const State& state) {
 
 Survey survey_of(const State& state) {
   Survey survey;
-  report::ReportModel model;
-  report::read_figures(state, model);
-  survey.volumes = volume_rows(state, model);
-  for (std::size_t k = 0; k < survey.volumes.size(); ++k)
-    survey.volumes[k].why_short = report::why_short(state, model.accounts, model.volumes[k]);
+  ReportModel model;
+  read_figures(state, model);
+  for (const VolumeRow& volume : model.volumes) survey.why_volumes_short.push_back(why_short(state, model.accounts, volume));
+  survey.volumes = model.volumes;
   add_totals(state, model, survey);
   survey.tensions = tensions_of(state);
-  report::read_conflicts(state, model);
+  read_conflicts(state, model);
   survey.pullers = std::move(model.pullers);
   survey.problems = problems_of(state);
-  for (const report::PlaceProblem& problem : report::place_problems(state))
+  for (const PlaceProblem& problem : place_problems(state))
     survey.problems.push_back({ErrorCode::infeasible, "nodes/" + problem.nodes.front(), problem.sentence()});
-  for (std::uint32_t n = 0; n < count_of(state); ++n)
-    if (report::has_type(state, n, kSolver)) {
-      const auto number = [&](const char* port) { return report::number_at(state, n, kSolver, port); };
-      survey.solvers.push_back({state.plan->nodes[n].id, told_by(state, model, n), number("boundary_volume"),
-                                number("total_demand"), number("total_volume")});
-    }
+  for (auto& solver : reading::rows<reading::SolverFigures>(state))
+    survey.solvers.push_back({state.plan->nodes[solver.node].id, told_by(state, model, solver), std::move(solver.figures)});
   for (const VolumeRow& volume : survey.volumes)
-    if (volume.error > survey.worst_error) {
-      survey.worst_error = volume.error;
+    if (volume.figures.error > survey.worst_error) {
+      survey.worst_error = volume.figures.error;
       survey.worst = volume.id;
     }
   return survey;
 }
 
-}  // namespace bl::cli
+}  // namespace bl::report

@@ -1,0 +1,67 @@
+// What a state says in figures: every volume, the totals per use, the conflicts, and what is out of order.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/graph/state.h"
+#include "core/reading/account.h"
+#include "core/reading/report_model.h"
+#include "core/reading/views/solver.h"
+
+namespace bl::report {
+
+/// One use: what is asked for, and what its volumes have.
+struct UseRow {
+  UseAccount account;
+  std::size_t alive = 0;
+  std::string why_short;
+};
+
+/// A voice in a conflict: of a link, or of people, who have set or locked the value; then there is no link.
+struct Pull {
+  std::string link;
+  Value value;  ///< a change for moves, a wanted value elsewhere
+  double strength = 1;
+  bool is_locked = false;
+};
+
+/// One port on which proposals disagree.
+struct TensionRow {
+  std::string node, port, unit;
+  double tension = 0;
+  std::vector<Pull> pulls;  ///< ascending link id
+};
+
+/// A solver, and what it says with the shortages of its volumes.
+struct SolverRow {
+  std::string id, message;
+  reading::SolverFigures figures;
+};
+
+struct Survey {
+  std::vector<VolumeRow> volumes;              ///< ascending id; without shapes
+  std::vector<std::string> why_volumes_short;  ///< one for each of them; empty where it is not short
+  std::vector<UseRow> uses;                    ///< ascending use
+  UseRow all;
+  std::vector<TensionRow> tensions;  ///< greatest first, ties in ascending node and port
+  std::vector<SolverRow> solvers;
+  std::vector<Error> problems;     ///< errors of nodes and links, with their places
+  double tolerance = 0;            ///< below this share nobody is short
+  double worst_short = 0;          ///< the largest share that a volume or a use is short of
+  std::string worst_short_of;      ///< who that is, in words
+  std::vector<PullerRow> pullers;  ///< who stands in the conflicts, links and people
+  double worst_error = 0;          ///< share of a demand
+  std::string worst;               ///< id of the node that has it; empty where all is exact
+};
+
+Survey survey_of(const State& state);
+
+/// Ids of the solvers with what they say cannot be had; empty where all can.
+std::string solver_message(const State& state);
+/// Errors of nodes and links.
+std::vector<Error> problems_of(const State& state);
+
+}  // namespace bl::report

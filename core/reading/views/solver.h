@@ -1,0 +1,45 @@
+// What a SmartVolumes solver divides, and how far it has come.
+#pragma once
+
+#include "core/reading/view.h"
+
+namespace bl::reading {
+
+/// Sums of its members, and what it says.
+struct SolverFigures {
+  std::int64_t tessellation_depth = 0;
+  double total_demand = 0;     ///< [m³]
+  double total_volume = 0;     ///< [m³]
+  double boundary_volume = 0;  ///< [m³]
+  double fill = 0;             ///< share of the boundary that the members take
+  std::string message;         ///< what cannot be had
+
+  static void declare(ViewBuilder<SolverFigures>& v);
+  static const ViewDefinition& view();
+};
+
+/// What people have said of the space that volumes may take.
+struct BoundarySettings {
+  std::string form;              ///< which of the following counts
+  std::vector<Point3> plan;      ///< of the form `plan` [m]
+  double bottom = 0;             ///< of a plan [m]
+  double height = 0;             ///< of a plan [m]
+  std::vector<Point3> points;    ///< of the form `hull` [m]
+  std::vector<Point3> vertices;  ///< of the form `mesh` [m]
+
+  static void declare(ViewBuilder<BoundarySettings>& v);
+  static const ViewDefinition& view();
+};
+
+/// The space that volumes may take.
+struct BoundaryFigures {
+  double volume = 0;       ///< [m³]
+  double ground_area = 0;  ///< [m²]
+  MeshPointer shape;
+  Shared<Table> planes;
+
+  static void declare(ViewBuilder<BoundaryFigures>& v);
+  static const ViewDefinition& view();
+};
+
+}  // namespace bl::reading

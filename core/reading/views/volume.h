@@ -1,0 +1,49 @@
+// The figures of a SmartVolume: what is asked of it, and what a solver has made of it.
+#pragma once
+
+#include "core/reading/view.h"
+
+namespace bl::reading {
+
+/// Declared once for reports, windows, exporters and whoever else speaks of volumes.
+struct VolumeFigures {
+  Point3 position;     ///< [m]
+  double tension = 0;  ///< how far proposals on its place disagree [m]
+  std::string use;
+  std::string standing;       ///< what it may stand on
+  double demand = 0;          ///< [m³]
+  double demand_limit = 0;    ///< [m³]
+  double demand_min = 0;      ///< [m³]
+  double storey_height = 0;   ///< [m]
+  double wanted = 0;          ///< what its solver aims at [m³]
+  double weight = 0;          ///< [m²]
+  double radius = 0;          ///< of the ball that its cell is wrapped onto [m]
+  double volume = 0;          ///< [m³]
+  double cell_volume = 0;     ///< before it is wrapped [m³]
+  double floor_area = 0;      ///< [m²]
+  double surface_area = 0;    ///< [m²]
+  double footprint = 0;       ///< [m²]
+  double spherical_area = 0;  ///< [m²]
+  double height = 0;          ///< from its lowest to its highest point [m]
+  double bottom = 0;          ///< height of its lowest point above the origin [m]
+  double error = 0;           ///< share of what its solver aims at
+  MeshPointer mesh;
+  std::string state;         ///< `alive`, or what became of it
+  std::string reason;        ///< why it is not alive
+  Shared<Table> neighbours;  ///< with whom it shares a face
+  std::string stands_on;     ///< what carries it; empty where nothing does
+  double hang = 0;           ///< how far above that its lowest point is [m]
+
+  static void declare(ViewBuilder<VolumeFigures>& v);
+  static const ViewDefinition& view();
+};
+
+/// How a link lets volumes down.
+struct StandParameters {
+  double stiffness = 0;  ///< share of the way down that is made in one tick
+
+  static void declare(ViewBuilder<StandParameters>& v);
+  static const ViewDefinition& view();
+};
+
+}  // namespace bl::reading
