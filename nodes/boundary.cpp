@@ -91,14 +91,14 @@ struct Boundary {
         .column({.id = "offset", .unit = Unit::metre, .doc = "Distance of the plane from the origin along the normal."})
         .column({.id = "piece", .doc = "Number of the convex piece that the plane bounds."})
         .column({.id = "side", .doc = "Number k of the side `#k` that the face lies in; -1 between two pieces."})
-        .doc(
-            "The boundary as convex pieces, in a fixed order. Of a convex one row k is the side `#k`. This is what others read.");
+        .doc("The boundary as convex pieces, in a fixed order. Of a convex one row k is the side `#k`.");
     t.out(&Out::volume, "volume").shown_first().unit(Unit::cubic_metre).doc("Volume inside the boundary.");
     t.out(&Out::ground_area, "ground_area")
         .shown_first()
         .unit(Unit::square_metre)
         .doc("Area that the boundary covers in plan, seen from above.");
     t.out(&Out::shape, "shape").doc("The boundary as a triangle mesh, for the eye and for export.");
+    t.made("domain", {"planes"}, &shared_domain<Shared<Table>>).doc("What `planes` bound, for solvers and links.");
   }
 
   static PortBuilder<Table> ring_columns(PortBuilder<Table> port) {

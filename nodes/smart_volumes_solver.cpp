@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 
 #include "core/base/hash.h"
 #include "core/base/text.h"
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
-#include "core/geometry/domain_table.h"
+#include "core/geometry/domain.h"
 #include "core/geometry/fit_text.h"
 #include "core/geometry/standing.h"
 #include "core/geometry/volume_tick.h"
@@ -38,7 +39,7 @@ struct SmartVolumesSolver {
   };
   struct Plot {
     std::string id;
-    Table planes;
+    std::shared_ptr<const Domain> domain;
   };
   struct Sets {
     std::vector<Member> members;
@@ -71,7 +72,7 @@ struct SmartVolumesSolver {
         "boundary.");
     t.in(&In::members, "members")
         .doc("The SmartVolumes that this solver takes care of; a SmartVolume belongs to one solver only.");
-    t.in(&In::boundary, "boundary").doc("The boundary that is divided. Exactly one node with planes has to result.");
+    t.in(&In::boundary, "boundary").doc("The boundary that is divided. Exactly one node has to result.");
     t.in(&In::method, "method",
          {{Method::feedback, "feedback", "Each weight follows the error of its own volume, as in 2007, with acceleration."},
           {Method::newton, "newton", "All weights together follow the exact response of all volumes; a few steps at any fill."}})
@@ -137,7 +138,7 @@ struct SmartVolumesSolver {
   }
 
   static void declare_sets(TypificationBuilder<SmartVolumesSolver>& t) {
-    t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::planes, "boundary.planes");
+    t.set("boundary", &Sets::plots).reads(&Plot::id, "node.id").reads(&Plot::domain, "boundary.domain");
     auto set = t.set("members", &Sets::members, &Out::replies);
     set.reads(&Member::id, "node.id")
         .reads(&Member::position, "node.position", Unit::metre)
@@ -166,7 +167,7 @@ struct SmartVolumesSolver {
     t.memory(&Out::memory, &In::last, member, id).doc(doc);
   }
 
-  static Result<Domain> domain_of(const std::vector<Plot>& plots) {
+  static Result<std::shared_ptr<const Domain>> domain_of(const std::vector<Plot>& plots) {
     if (plots.empty())
       return Error{ErrorCode::missing, "boundary", "a boundary is needed and none was found: add one, or choose one here"};
     std::string found;
@@ -174,11 +175,9 @@ struct SmartVolumesSolver {
     if (plots.size() > 1)
       return Error{ErrorCode::conflict, "boundary",
                    std::to_string(plots.size()) + " boundaries were found (" + found + "): choose one of them here"};
-    const Table& table = plots.front().planes;
-    if (table.rows.empty())
-      return Error{ErrorCode::missing, "boundary", "the boundary " + found + " has no shape: see its own error"};
-    auto domain = read_domain(table);
-    return domain ? domain : Result<Domain>(domain.error().within("boundary"));
+    if (plots.front().domain) return plots.front().domain;
+    return Error{ErrorCode::missing, "boundary",
+                 "the boundary " + found + " has no shape: see its own error, or make it simpler where it has none"};
   }
 
   static Reply reply_of(const CellMeasure& cell, double wanted, double weight, std::span<const std::string> names) {
@@ -249,14 +248,19 @@ struct SmartVolumesSolver {
   }
 
   static Memory memory_of(const FitState& state) {
-    return {state.momentum, state.residual, state.share, state.least_ratio, hex_digits(state.problem)};
+    return {.momentum = state.momentum,
+            .residual = state.residual,
+            .share = state.share,
+            .least_ratio = state.least_ratio,
+            .problem = hex_digits(state.problem)};
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
-    const auto domain = domain_of(sets.plots);
-    if (!domain) return domain.error();
+    const auto found = domain_of(sets.plots);
+    if (!found) return found.error();
+    const Domain& domain = **found;
     Out out;
-    out.boundary_volume = domain->volume;
+    out.boundary_volume = domain.volume;
     if (sets.members.empty() || (tick.is_recall && in.metric != Metric::power)) return out;
     std::vector<PowerSite> sites;
     std::vector<double> wanted, storey_heights;
@@ -269,9 +273,16 @@ struct SmartVolumesSolver {
     }
     VolumeTick::Kept own;
     VolumeTick::Kept& kept = tick.memo != nullptr ? tick.memo->of<VolumeTick::Kept>() : own;
-    const VolumeTick now{in.metric,    in.resolution,         in.method,      in.gain,  tick.is_recall ? 0 : in.steps,
-                         in.tolerance, in.tessellation_depth, storey_heights, tick.pool};
-    const auto done = now.run(*domain, sites, wanted, last_state(in, sets.members), kept);
+    const VolumeTick now{.metric = in.metric,
+                         .samples = in.resolution,
+                         .method = in.method,
+                         .gain = in.gain,
+                         .steps = tick.is_recall ? 0 : in.steps,
+                         .tolerance = in.tolerance,
+                         .tessellation_depth = in.tessellation_depth,
+                         .storey_heights = storey_heights,
+                         .pool = tick.pool};
+    const auto done = now.run(domain, sites, wanted, last_state(in, sets.members), kept);
     if (!done) return Error{done.error().code, "members", with_names(done.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) {
       Reply& reply = out.replies.emplace_back(reply_of(done->cells[i], wanted[i], sites[i].weight, names));
@@ -286,7 +297,7 @@ struct SmartVolumesSolver {
       out.largest_error = reply.error;
       out.worst = sets.members[i].id;
     }
-    write_stances(*domain, sites, done->cells, sets.members, out.replies);
+    write_stances(domain, sites, done->cells, sets.members, out.replies);
     out.fill = out.total_volume / out.boundary_volume;
     out.memory = memory_of(done->state);
     out.message = losses_text(done->losses, out.total_demand, names);

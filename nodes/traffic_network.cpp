@@ -1,11 +1,12 @@
 // The traffic network: puts the trips of its zones on its streets, tick by tick, until nobody gains by another way.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/define/registry.h"
 #include "core/define/typification_builder.h"
 #include "core/traffic/district.h"
-#include "core/traffic/packed_numbers.h"
+#include "core/traffic/trip_flows.h"
 
 namespace bl {
 namespace {
@@ -168,22 +169,21 @@ struct TrafficNetworkNode {
                  .default_value = std::string(),
                  .doc = "Street and direction, zone and access, or turn."})
         .doc("What trips can be on, in ascending id; the rows of `ways` count from 0 in this list.");
-    const std::string digits = " Digits of base 64 from `A` to `/`, the lowest first: ";
     t.memory(&Out::memory, &In::last, &Memory::ways, "ways")
         .column({.id = "zone", .is_text = true, .default_value = std::string(), .doc = "The zone that the trips come from."})
         .column({.id = "links",
-                 .is_text = true,
-                 .default_value = std::string(),
-                 .doc = "The links that its trips are on." + digits + "four for each."})
-        .column({.id = "flows",
-                 .is_text = true,
-                 .default_value = std::string(),
-                 .doc = "Trips per hour on these links." + digits + "eleven for the 64 bits of each."})
+                 .list = ListOf::indices,
+                 .default_value = Indices(),
+                 .doc = "The links that its trips are on: rows of `links`."})
+        .column(
+            {.id = "flows", .list = ListOf::numbers, .default_value = Numbers(), .doc = "Trips per hour on each of these links."})
         .column({.id = "trips",
-                 .is_text = true,
-                 .default_value = std::string(),
-                 .doc = "Trips per hour to each zone, in the order of these rows; digits as those of flows."})
+                 .list = ListOf::numbers,
+                 .default_value = Numbers(),
+                 .doc = "Trips per hour to each zone, in the order of these rows."})
         .doc("Where the trips of each zone are, and how many go to each other zone: what the next tick starts from.");
+    t.made("trip_flows", {"links", "ways"}, &read_flows<Shared<Table>>)
+        .doc("Where the trips of each zone are, for views and exporters.");
   }
 
   static void declare_sets(Builder& t) {
@@ -223,17 +223,19 @@ struct TrafficNetworkNode {
 
   static std::string one_of(const Selection& selection) { return selection.ids.size() == 1 ? selection.ids.front() : ""; }
 
-  // A row that cannot be read is as one that is not there: its zone starts anew.
+  // Larger ones come from a broken file: the list is as none, and its zone starts anew.
+  static std::vector<double> recalled(const Numbers& numbers) {
+    constexpr double kLargest = 1e15;
+    const bool is_sound = std::all_of(numbers->begin(), numbers->end(), [](double x) { return std::abs(x) <= kLargest; });
+    return is_sound ? *numbers : std::vector<double>();
+  }
+
   static DistrictState recalled(const Memory& last) {
     DistrictState state;
     for (std::size_t r = 0; r < last.links->rows.size(); ++r) state.links.push_back(last.links->text(r, "link"));
-    for (std::size_t r = 0; r < last.ways->rows.size(); ++r) {
-      DistrictState::Zone& zone = state.zones.emplace_back();
-      zone.id = last.ways->text(r, "zone");
-      zone.used = unpacked_indices(last.ways->text(r, "links")).value_or(std::vector<std::uint32_t>());
-      zone.flows = unpacked_numbers(last.ways->text(r, "flows")).value_or(std::vector<double>());
-      zone.trips = unpacked_numbers(last.ways->text(r, "trips")).value_or(std::vector<double>());
-    }
+    for (std::size_t r = 0; r < last.ways->rows.size(); ++r)
+      state.zones.push_back({last.ways->text(r, "zone"), *last.ways->indices(r, "links"),
+                             recalled(last.ways->numbers(r, "flows")), recalled(last.ways->numbers(r, "trips"))});
     return state;
   }
 
@@ -247,7 +249,7 @@ struct TrafficNetworkNode {
     }
     Table ways = *Memory().ways;
     for (const DistrictState::Zone& zone : state.zones)
-      ways.rows.push_back({zone.id, packed(zone.used), packed(zone.flows), packed(zone.trips)});
+      ways.rows.push_back({zone.id, Indices(zone.used), Numbers(zone.flows), Numbers(zone.trips)});
     memory.ways = std::move(ways);
     return memory;
   }

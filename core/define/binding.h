@@ -18,12 +18,6 @@ struct PortChoice {
   bool operator==(const PortChoice&) const = default;
 };
 
-/// One JSON value kept as text, as a member type of its own.
-struct JsonText {
-  std::string text = "{}";
-  bool operator==(const JsonText&) const = default;
-};
-
 /// The values of all nodes of an end (or of a table of replies) in ascending node id, where a plain T is one node's.
 template <class T>
 struct All {
@@ -62,6 +56,10 @@ struct Binding<std::string> : DirectBinding<std::string, ValueKind::text> {};
 template <>
 struct Binding<Vector3> : DirectBinding<Vector3, ValueKind::point> {};
 template <>
+struct Binding<JsonValue> : DirectBinding<JsonValue, ValueKind::json> {};
+template <>
+struct Binding<CommandList> : DirectBinding<CommandList, ValueKind::commands> {};
+template <>
 struct Binding<MeshPointer> : DirectBinding<MeshPointer, ValueKind::mesh> {};
 template <>
 struct Binding<std::vector<Point3>> : SharedBinding<std::vector<Point3>, ValueKind::points> {};
@@ -73,6 +71,19 @@ template <>
 struct Binding<Table> : SharedBinding<Table, ValueKind::table> {};
 template <>
 struct Binding<Shared<Table>> : DirectBinding<Shared<Table>, ValueKind::table> {};
+
+template <>
+struct Binding<Numbers> : DirectBinding<Numbers, ValueKind::numbers> {};
+
+/// Objects that others make; nullptr where there is none. Meshes are a kind of their own.
+template <class T>
+struct Binding<std::shared_ptr<const T>> {
+  static constexpr ValueKind kKind = ValueKind::made;
+  static std::shared_ptr<const T> from_value(const Value& value) {
+    const Made* made = std::get_if<Made>(&value);
+    return made ? made->get<T>() : nullptr;
+  }
+};
 
 /// Whole numbers and truth values read as numbers, so that links may read any numeric port into a double.
 template <>
@@ -94,13 +105,6 @@ struct Binding<PortChoice> {
   static constexpr ValueKind kKind = ValueKind::port;
   static Value to_value(const PortChoice& member) { return member.path; }
   static PortChoice from_value(const Value& value) { return {Binding<std::string>::from_value(value)}; }
-};
-
-template <>
-struct Binding<JsonText> {
-  static constexpr ValueKind kKind = ValueKind::json;
-  static Value to_value(const JsonText& member) { return member.text; }
-  static JsonText from_value(const Value& value) { return {Binding<std::string>::from_value(value)}; }
 };
 
 /// Enumerations are kept as the text of the choice; the builder supplies the texts.
@@ -126,6 +130,20 @@ std::optional<Value> offered(const T& member) {
   }
 }
 
+/// Of which type a member's made object has to be; none for members of other kinds.
+template <class M>
+struct made_type_of {
+  static MadeType get() { return {}; }
+};
+template <class T>
+struct made_type_of<std::shared_ptr<const T>> {
+  static MadeType get() { return made_type<T>(); }
+};
+template <>
+struct made_type_of<MeshPointer> {
+  static MadeType get() { return {}; }
+};
+
 template <class T>
 struct offered_type {
   using type = T;
@@ -139,6 +157,7 @@ struct offered_type<std::optional<T>> {
 template <class Owner, class M>
 void bind_read(ReadDefinition& read, M Owner::*member) {
   read.kind = Binding<M>::kKind;
+  read.made = made_type_of<M>::get();
   read.assign = [member](void* owner, std::span<const Value* const> values) {
     static_cast<Owner*>(owner)->*member = Binding<M>::from_value(*values.front());
   };
@@ -146,6 +165,7 @@ void bind_read(ReadDefinition& read, M Owner::*member) {
 template <class Owner, class M>
 void bind_read(ReadDefinition& read, All<M> Owner::*member) {
   read.kind = Binding<M>::kKind;
+  read.made = made_type_of<M>::get();
   read.is_whole = true;
   read.assign = [member](void* owner, std::span<const Value* const> values) {
     auto& all = (static_cast<Owner*>(owner)->*member).values;

@@ -36,7 +36,7 @@ std::string range_of(const PortDefinition& port) {
 std::string default_of(const PortDefinition& port) {
   if (port.is_required) return "required";
   if (port.of_scene == OfScene::always) return "the scene's setting";
-  if (port.is_computed || port.kind == ValueKind::mesh) return "";
+  if (port.is_computed) return "";
   const std::string text = write_json_line(value_to_json(port.default_value, port));
   return text == "\"\"" || text == "[]"
              ? ""
@@ -56,7 +56,7 @@ void port_table(std::string& page, const TypeDefinition& type, bool is_computed,
       page += "## " + title + "\n\n| id | kind | unit | " + (is_computed ? "" : "default | range | links | ") + "meaning |\n" +
               (is_computed ? "|---|---|---|---|\n" : "|---|---|---|---|---|---|---|\n");
     is_open = true;
-    page += "| `" + port.id + "` | " + std::string(name_of(port.kind)) + " | " + unit_of(port) + " | ";
+    page += "| `" + port.id + "` | " + std::string(kind_text(port.kind, port.made)) + " | " + unit_of(port) + " | ";
     if (!is_computed)
       page += cell(default_of(port)) + " | " + range_of(port) + " | " +
               (port.rule == CombineRule::none ? "" : std::string(name_of(port.rule))) + " | ";
@@ -69,7 +69,7 @@ void port_table(std::string& page, const TypeDefinition& type, bool is_computed,
     for (const ColumnDefinition& column : port.columns) {
       const std::string unit(info(column.unit).pretty);
       page += "- `" + column.id + "`" + (unit.empty() ? "" : " [" + unit + "]") + (column.is_required ? " (required)" : "") +
-              ": " + column.doc + "\n";
+              (column.list == ListOf::nothing ? "" : " (a list in each row)") + ": " + column.doc + "\n";
     }
     if (!port.columns.empty()) page += "\n";
     for (const ChoiceDefinition& choice : port.choices) page += "- `" + port.id + "` = `" + choice.id + "`: " + choice.doc + "\n";

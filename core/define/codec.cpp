@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/define/list_json.h"
 
 namespace bl {
 
@@ -88,11 +89,19 @@ Result<Scalar> field_from_json(const ColumnDefinition& column, const Json& json,
     return Scalar(json.get<std::string>());
   }
   PortDefinition port;
+  if (column.list == ListOf::indices) {
+    auto indices = indices_in(json);
+    if (indices) return Scalar(std::move(*indices));
+    return Error{ErrorCode::wrong_kind, place,
+                 "expects a list of whole numbers from 0 to " + std::to_string(kLargestIndex) + ", found " + shown(json)};
+  }
+  port.kind = column.list == ListOf::numbers ? ValueKind::numbers : ValueKind::number;
   port.unit = column.unit;
   port.hard_minimum = column.minimum;
   port.hard_maximum = column.maximum;
   auto number = read(port, json, place);
   if (!number) return number.error();
+  if (port.kind == ValueKind::numbers) return Scalar(std::get<Numbers>(std::move(*number)));
   return Scalar(std::get<double>(*number));
 }
 
@@ -130,7 +139,6 @@ Result<Shared<Table>> table_from_json(const PortDefinition& port, const Json& js
 
 // Kinds whose values look alike in JSON and in memory.
 Result<Value> text_like(const PortDefinition& port, const Json& json, const std::string& place) {
-  if (port.kind == ValueKind::json) return Value(write_json_line(json));
   if (!json.is_string()) return wrong_kind(port, json, place);
   return Value(json.get<std::string>());
 }
@@ -155,8 +163,8 @@ Result<Value> decode_kind(const PortDefinition& port, const Json& json, const st
       return Value(json.get<double>());
     case ValueKind::text:
     case ValueKind::choice:
-    case ValueKind::port:
-    case ValueKind::json: return text_like(port, json, place);
+    case ValueKind::port: return text_like(port, json, place);
+    case ValueKind::json: return Value(JsonValue::of(json));
     case ValueKind::point: return as_value(vector_from_json(json, place));
     case ValueKind::points: return as_value(points_from_json(port, json, place));
     case ValueKind::texts: return as_value(texts_from_json(port, json, place));
@@ -166,9 +174,15 @@ Result<Value> decode_kind(const PortDefinition& port, const Json& json, const st
       return Value(Shared<Selection>(std::move(*selection)));
     }
     case ValueKind::table: return as_value(table_from_json(port, json, place, value_from_json));
-    case ValueKind::mesh: break;
+    case ValueKind::numbers: {
+      auto numbers = numbers_in(json);
+      return numbers ? Result<Value>(Value(std::move(*numbers))) : wrong_kind(port, json, place);
+    }
+    case ValueKind::commands: return Error{ErrorCode::wrong_kind, place, "only commands hold commands"};
+    case ValueKind::mesh:
+    case ValueKind::made: break;
   }
-  return Error{ErrorCode::wrong_kind, place, "meshes cannot be set; they are computed"};
+  return Error{ErrorCode::wrong_kind, place, "meshes and made objects cannot be set; they are computed"};
 }
 
 Result<Value> decode(const PortDefinition& port, const Json& json, const std::string& place) {
@@ -239,8 +253,7 @@ Json row_to_json(const PortDefinition& port, const TableRow& row) {
   Json object = Json::object();
   for (std::size_t c = 0; c < row.size() && c < columns.size(); ++c) {
     if (!columns[c].is_required && row[c] == columns[c].default_value) continue;
-    if (const double* number = std::get_if<double>(&row[c])) object[columns[c].id] = *number;
-    else object[columns[c].id] = std::get<std::string>(row[c]);
+    object[columns[c].id] = field_to_json(row[c]);
   }
   return object;
 }
@@ -260,7 +273,10 @@ Json table_to_json(const Table& table, const PortDefinition& port) {
 }  // namespace
 
 Json value_to_json(const Value& value, const PortDefinition& port) {
-  if (port.kind == ValueKind::json) return Json::parse(std::get<std::string>(value), nullptr, false);
+  if (const auto* payload = std::get_if<JsonValue>(&value)) {
+    const auto json = payload->read();
+    return json ? **json : Json();
+  }
   if (const auto* flag = std::get_if<bool>(&value)) return *flag;
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
   if (const auto* number = std::get_if<double>(&value)) return *number;
@@ -269,6 +285,7 @@ Json value_to_json(const Value& value, const PortDefinition& port) {
   if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&value)) return **texts;
   if (const auto* selection = std::get_if<Shared<Selection>>(&value)) return selection_to_json(**selection);
   if (const auto* table = std::get_if<Shared<Table>>(&value)) return table_to_json(**table, port);
+  if (const auto* numbers = std::get_if<Numbers>(&value)) return **numbers;
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) {
     Json list = Json::array();
     for (const Point3& p : **points) list.push_back(vector_to_json(p));
@@ -283,6 +300,10 @@ bool is_within_reach(const Vector3& v) {
   return std::abs(v.x) <= kCoordinateLimit && std::abs(v.y) <= kCoordinateLimit && std::abs(v.z) <= kCoordinateLimit;
 }
 
+Error too_large(const std::string& place, double number) {
+  return {ErrorCode::out_of_range, place, "must be between -1e15 and 1e15, found " + shortest(number)};
+}
+
 Error far_away(const std::string& place) {
   return {ErrorCode::out_of_range, place, "lies farther than 10 000 km from the origin; use local metric coordinates"};
 }
@@ -295,10 +316,14 @@ Result<void> check_value(const PortDefinition& port, const Value& value, const s
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value))
     for (std::size_t i = 0; i < (*points)->size(); ++i)
       if (!is_within_reach((**points)[i])) return far_away(place + "/" + std::to_string(i));
+  if (const auto* numbers = std::get_if<Numbers>(&value))
+    if (const auto far =
+            std::find_if((*numbers)->begin(), (*numbers)->end(), [](double x) { return std::abs(x) > kNumberLimit; });
+        far != (*numbers)->end())
+      return too_large(place + "/" + std::to_string(far - (*numbers)->begin()), *far);
   if (port.kind == ValueKind::number || port.kind == ValueKind::integer) {
     const double number = as_number(value);
-    if (std::abs(number) > kNumberLimit)
-      return Error{ErrorCode::out_of_range, place, "must be between -1e15 and 1e15, found " + shortest(number)};
+    if (std::abs(number) > kNumberLimit) return too_large(place, number);
     if (number < port.hard_minimum || number > port.hard_maximum) {
       const std::string unit(info(port.unit).pretty.empty() ? "" : " " + std::string(info(port.unit).pretty));
       std::string range = std::isinf(port.hard_maximum) ? "at least " + shortest(port.hard_minimum)
@@ -346,7 +371,7 @@ Result<Value> running_value_from_json(const PortDefinition& port, const Json& js
     return table ? Result<Value>(Value(std::move(*table))) : Result<Value>(table.error());
   }
   const bool has_range = port.kind == ValueKind::number || port.kind == ValueKind::integer || port.kind == ValueKind::point ||
-                         port.kind == ValueKind::points;
+                         port.kind == ValueKind::points || port.kind == ValueKind::numbers;
   if (!has_range) return value_from_json(port, json, place);
   return decode(port, json, place);
 }
@@ -366,8 +391,9 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
                                                      std::span<const std::string_view> beside) {
   if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"port\": value, ...}, found " + shown(json)};
   std::map<std::string, Value> values;
+  const auto is_beside = [&](const std::string& key) { return std::find(beside.begin(), beside.end(), key) != beside.end(); };
   for (const auto& [key, content] : json.get_ref<const Json::object_t&>()) {
-    if (std::find(beside.begin(), beside.end(), key) != beside.end()) continue;
+    if (is_beside(key)) continue;
     const std::string here = place.empty() ? key : place + "/" + key;
     const PortDefinition* port = type.find_port(key);
     if (port == nullptr) return unknown_port(type, key, here);
@@ -377,7 +403,7 @@ Result<std::map<std::string, Value>> ports_from_json(const TypeDefinition& type,
     if (is_kept(*port, *value)) values[key] = std::move(*value);
   }
   for (const PortDefinition& port : type.ports)
-    if (port.is_required && !values.contains(port.id))
+    if (port.is_required && !values.contains(port.id) && !is_beside(port.id))
       return Error{ErrorCode::missing, place, "`" + type.id + "` needs `" + port.id + "`"};
   return values;
 }
@@ -388,33 +414,6 @@ Json ports_to_json(const TypeDefinition& type, const std::map<std::string, Value
     if (const auto it = values.find(port.id); it != values.end() && is_kept(port, it->second))
       append_field(json, port.id) = value_to_json(it->second, port);
   return json;
-}
-
-Json command_to_json(const Registry& registry, const Command& command) {
-  Json json = Json::object();
-  json["command"] = command.id;
-  if (const CommandDefinition* definition = registry.command(command.id))
-    if (Json arguments = ports_to_json(*definition, command.arguments); !arguments.empty())
-      json["arguments"] = std::move(arguments);
-  return json;
-}
-
-Result<Command> command_from_json(const Registry& registry, const Json& json, const std::string& place) {
-  if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, "expects {\"command\": ..., \"arguments\": {...}}"};
-  if (auto keys = check_keys(json, {"command", "arguments"}, place); !keys) return keys.error();
-  const auto name = json.find("command");
-  if (name == json.end() || !name->is_string()) return Error{ErrorCode::missing, place, "`command` is missing"};
-  const CommandDefinition* definition = registry.command(name->get_ref<const std::string&>());
-  if (definition == nullptr)
-    return Error{ErrorCode::unknown_type, place,
-                 "unknown command `" + name->get<std::string>() + "`" +
-                     did_you_mean(name->get<std::string>(), keys_of(registry.commands()))};
-  static const Json kNoArguments = Json::object();
-  const auto given = json.find("arguments");
-  auto arguments = ports_from_json(*definition, given == json.end() ? kNoArguments : *given,
-                                   place.empty() ? "arguments" : place + "/arguments");
-  if (!arguments) return arguments.error();
-  return Command{definition->id, std::move(*arguments)};
 }
 
 }  // namespace bl

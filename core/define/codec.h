@@ -17,7 +17,8 @@ namespace bl {
 /// No coordinate [m] and no number may be larger: beyond them a double has no millimetre, or no sense, left.
 inline constexpr double kCoordinateLimit = 1e7, kNumberLimit = 1e15;
 
-/// The JSON form of a value of this port; columns of tables only where they differ from their defaults. Meshes have none.
+/// The JSON form of a value of this port; columns of tables only where they differ from their defaults. Meshes and made
+/// objects have none.
 Json value_to_json(const Value& value, const PortDefinition& port);
 /// A value of the declared kind, inside the hard range, finite; otherwise an error at `place`.
 Result<Value> value_from_json(const PortDefinition& port, const Json& json, const std::string& place);

@@ -41,6 +41,20 @@ const PortDefinition* TypeDefinition::find_port(std::string_view port) const {
   return index < ports.size() ? &ports[index] : nullptr;
 }
 
+std::string_view kind_text(ValueKind kind, const MadeType& made) {
+  return kind == ValueKind::made && made.type != nullptr ? made.name : name_of(kind);
+}
+
+void make_objects(const TypeDefinition& type, std::span<Value> values, std::span<const Value> last) {
+  for (std::size_t p = 0; p < type.ports.size(); ++p) {
+    const PortDefinition& port = type.ports[p];
+    if (!port.make) continue;
+    const bool is_same = p < last.size() && std::all_of(port.made_from.begin(), port.made_from.end(),
+                                                        [&](std::size_t from) { return values[from] == last[from]; });
+    values[p] = is_same ? last[p] : Value(port.make(values));
+  }
+}
+
 bool LinkDefinition::is_whole(End end) const {
   return std::any_of(reads.begin(), reads.end(), [&](const LinkRead& r) { return r.end == end && r.is_whole; }) ||
          std::any_of(proposes.begin(), proposes.end(), [&](const LinkWrite& w) { return w.end == end && w.is_whole; });

@@ -51,11 +51,15 @@ struct Tick {
 enum class CombineRule { none, sum, blend, min, max, collect };
 std::string_view name_of(CombineRule rule);
 
+/// Does each field of a column hold a list?
+enum class ListOf { nothing, numbers, indices };
+
 /// One column of a table port.
 struct ColumnDefinition {
   std::string id;
   bool is_text = false;
   bool is_required = false;
+  ListOf list = ListOf::nothing;
   bool is_key = false;  ///< a text that names the row: people who change different rows do not get in each other's way
   Unit unit = Unit::none;
   Scalar default_value = 0.0;
@@ -99,9 +103,12 @@ struct PortDefinition {
   std::optional<double> soft_minimum, soft_maximum;
   std::vector<ChoiceDefinition> choices;
   std::vector<ColumnDefinition> columns;
-  std::function<Value(const void*)> get;            ///< reads the bound member of its struct
-  std::function<void(void*, const Value&)> set;     ///< writes it
-  std::function<void(void*, const Value&)> recall;  ///< of a computed port: gives its last value to the settings struct
+  std::function<Value(const void*)> get;             ///< reads the bound member of its struct
+  std::function<void(void*, const Value&)> set;      ///< writes it
+  std::function<void(void*, const Value&)> recall;   ///< of a computed port: gives its last value to the settings struct
+  MadeType made;                                     ///< of a port of made objects: of which type
+  std::vector<std::size_t> made_from;                ///< and the computed ports that they follow from
+  std::function<Made(std::span<const Value>)> make;  ///< the object that follows from all values of the typification, in order
 };
 
 /// `typification.port`, or the parameter that chooses it when `chosen_by` is set.
@@ -116,6 +123,7 @@ std::optional<PortPath> parse_port_path(std::string_view text);
 struct ReadDefinition {
   PortPath path;
   ValueKind kind = ValueKind::number;
+  MadeType made;             ///< of which type a made object has to be
   std::optional<Unit> unit;  ///< empty: any unit
   bool is_whole = false;     ///< gets the values of all nodes of its end at once
   std::function<void(void*, std::span<const Value* const>)> assign;
@@ -164,6 +172,12 @@ struct TypeDefinition {
   const PortDefinition* find_port(std::string_view port) const;
   std::size_t port_index(std::string_view port) const;  ///< ports.size() where there is none
 };
+
+/// "a number", and of made objects what they are: "a domain".
+std::string_view kind_text(ValueKind kind, const MadeType& made);
+/// Makes the objects among `values` that follow from the others. One stays the same object where all that it follows from is as
+/// in `last`.
+void make_objects(const TypeDefinition& type, std::span<Value> values, std::span<const Value> last);
 
 /// A role of a node. `evaluate` is empty for roles whose computed ports are written by a solver.
 struct TypificationDefinition : TypeDefinition {

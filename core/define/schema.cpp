@@ -36,10 +36,23 @@ Json selection_schema(bool may_be_empty) {
   return {{"anyOf", Json::array({text_schema(), list, query})}};
 }
 
+Json numbers_schema(double minimum, double maximum) { return {{"type", "array"}, {"items", number_schema(minimum, maximum)}}; }
+
+Json column_schema(const ColumnDefinition& column) {
+  if (column.is_text) return text_schema();
+  if (column.list == ListOf::indices) {
+    Json schema = numbers_schema(0, kLargestIndex);
+    schema["items"]["type"] = "integer";
+    return schema;
+  }
+  return column.list == ListOf::numbers ? numbers_schema(-kNumberLimit, kNumberLimit)
+                                        : number_schema(column.minimum, column.maximum);
+}
+
 Json table_schema(const PortDefinition& port) {
   Json properties = Json::object(), required = Json::array();
   for (const ColumnDefinition& column : port.columns) {
-    properties[column.id] = column.is_text ? text_schema() : number_schema(column.minimum, column.maximum);
+    properties[column.id] = column_schema(column);
     properties[column.id]["description"] = column.doc;
     if (column.is_required) required.push_back(column.id);
   }
@@ -70,7 +83,16 @@ Json form_of(const PortDefinition& port) {
     case ValueKind::texts: return {{"type", "array"}, {"items", text_schema()}};
     case ValueKind::selection: return selection_schema(true);
     case ValueKind::table: return table_schema(port);
-    case ValueKind::mesh: return {{"not", Json::object()}};
+    case ValueKind::numbers: return numbers_schema(-kNumberLimit, kNumberLimit);
+    case ValueKind::mesh:
+    case ValueKind::made: return {{"not", Json::object()}};
+    case ValueKind::commands:
+      return {{"type", "array"},
+              {"items",
+               {{"type", "object"},
+                {"properties", {{"command", text_schema()}, {"arguments", {{"type", "object"}}}}},
+                {"required", {"command"}},
+                {"additionalProperties", false}}}};
   }
   return Json::object();
 }
@@ -153,7 +175,7 @@ Json value_schema(const PortDefinition& port) {
   std::string text = port.doc;
   if (const UnitInfo& unit = info(port.unit); !unit.symbol.empty()) text += " [" + std::string(unit.symbol) + "]";
   schema["description"] = text;
-  if (port.kind != ValueKind::mesh && !port.is_required) schema["default"] = value_to_json(port.default_value, port);
+  if (!is_derived(port.kind) && !port.is_required) schema["default"] = value_to_json(port.default_value, port);
   return schema;
 }
 
@@ -165,19 +187,18 @@ Json scene_schema(const Registry& registry, const TypeDefinition& settings, int 
   const Json tick = {{"type", "integer"}, {"minimum", 0}, {"maximum", std::int64_t{1} << 53}};
   const Json object = {{"type", "object"}};
   const Json objects = {{"type", "object"}, {"additionalProperties", object}};
-  const Json state = {
-      {"type", "object"},
-      {"properties",
-       {{"tick", tick},
-        {"calm", tick},
-        {"nodes", objects},
-        {"voices", objects},
-        {"held", objects},  // of older files
-        {"errors", objects},
-        {"link_errors", objects},
-        {"analyses", objects},
-        {"meshes", objects}}},
-      {"additionalProperties", false}};
+  const Json state = {{"type", "object"},
+                      {"properties",
+                       {{"tick", tick},
+                        {"calm", tick},
+                        {"nodes", objects},
+                        {"voices", objects},
+                        {"held", objects},  // of older files
+                        {"errors", objects},
+                        {"link_errors", objects},
+                        {"analyses", objects},
+                        {"meshes", objects}}},
+                      {"additionalProperties", false}};
   const Json properties = {{"format", {{"const", "behaviourlinks"}}},
                            {"version", {{"type", "integer"}, {"minimum", 1}, {"maximum", version}}},
                            {"revisions", {{"type", "object"}, {"additionalProperties", {{"type", "integer"}, {"minimum", 1}}}}},

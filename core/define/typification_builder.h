@@ -93,6 +93,27 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
     return builder;
   }
 
+  /// An output for code: an object that follows from other computed ports, `from`, and from nothing else. It is neither saved
+  /// nor hashed, since these are: after loading it is made again. `make` is asked when somebody reads the object, with the
+  /// values of these ports. Not for analyses, nor from what members of sets are given: they would not be followed.
+  template <class Object, class... Sources>
+  PortBuilder<Made> made(std::string id, std::vector<std::string> from,
+                         std::shared_ptr<const Object> (*make)(const Sources&...)) {
+    PortDefinition& port = definition_->ports.emplace_back();
+    port.id = std::move(id);
+    port.kind = ValueKind::made;
+    port.is_computed = true;
+    port.made = made_type<Object>();
+    for (const std::string& source : from) port.made_from.push_back(definition_->port_index(source));
+    port.make = [make, sources = port.made_from](std::span<const Value> values) {
+      return made_of(make, sources, values, std::index_sequence_for<Sources...>());
+    };
+    std::vector<Value> defaults;
+    for (const PortDefinition& other : definition_->ports) defaults.push_back(other.default_value);
+    port.default_value = port.make(defaults);
+    return PortBuilder<Made>(port);
+  }
+
   /// An output that the next evaluation sees again: the own, saved state of a typification. Out and In hold the same struct of
   /// such members, `kept` and `last`. A typification with memory is evaluated in every tick, whether its settings change or not.
   template <class Memory, class M>
@@ -137,6 +158,13 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
   }
 
  private:
+  template <class Object, class... Sources, std::size_t... kIndices>
+  static Made made_of(std::shared_ptr<const Object> (*make)(const Sources&...), const std::vector<std::size_t>& sources,
+                      std::span<const Value> values, std::index_sequence<kIndices...>) {
+    return Made::of<Object>(
+        [make, ... source = Binding<Sources>::from_value(values[sources[kIndices]])] { return make(source...); });
+  }
+
   template <class Sets, class Member>
   SetDefinition& add_set(std::string selection, std::vector<Member> Sets::*members) {
     definition_->sets.push_back({std::move(selection), {}, {}});
@@ -181,7 +209,7 @@ class TypificationBuilder : public TypeBuilder<TypificationDefinition> {
         }();
         if (!out) return out.error();
         for (std::size_t p = 0; p < ports->size(); ++p)
-          if ((*ports)[p].is_computed) values[p] = (*ports)[p].get(&out.value());
+          if ((*ports)[p].is_computed && !(*ports)[p].make) values[p] = (*ports)[p].get(&out.value());
         for (std::size_t s = 0; s < repliers.size(); ++s) repliers[s](out.value(), (*sets)[s], set_values[s]);
         return {};
       };

@@ -2,8 +2,10 @@
 #include "core/define/value.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+
+#include "core/define/command_builder.h"
 
 namespace bl {
 
@@ -17,20 +19,19 @@ std::size_t Table::row_of(std::string_view column_name, std::string_view content
   return row;
 }
 
-double Table::number(std::size_t row, std::string_view name) const {
-  const std::size_t c = column(name);
-  if (row >= rows.size() || c >= rows[row].size()) return 0;
-  const double* number = std::get_if<double>(&rows[row][c]);
-  return number ? *number : 0;
-}
-
-const std::string& Table::text(std::size_t row, std::string_view name) const {
-  static const std::string kNothing;
+template <class T>
+const T& Table::field(std::size_t row, std::string_view name) const {
+  static const T kNothing{};
   const std::size_t c = column(name);
   if (row >= rows.size() || c >= rows[row].size()) return kNothing;
-  const std::string* text = std::get_if<std::string>(&rows[row][c]);
-  return text ? *text : kNothing;
+  const T* content = std::get_if<T>(&rows[row][c]);
+  return content ? *content : kNothing;
 }
+
+double Table::number(std::size_t row, std::string_view name) const { return field<double>(row, name); }
+const std::string& Table::text(std::size_t row, std::string_view name) const { return field<std::string>(row, name); }
+const Numbers& Table::numbers(std::size_t row, std::string_view name) const { return field<Numbers>(row, name); }
+const Indices& Table::indices(std::size_t row, std::string_view name) const { return field<Indices>(row, name); }
 
 std::string_view name_of(ValueKind kind) {
   switch (kind) {
@@ -41,22 +42,35 @@ std::string_view name_of(ValueKind kind) {
     case ValueKind::choice: return "one of its choices";
     case ValueKind::port: return "a port written `typification.port`";
     case ValueKind::json: return "a JSON object";
+    case ValueKind::commands: return "a list of commands";
     case ValueKind::point: return "a point [x, y, z]";
     case ValueKind::points: return "a list of points [[x, y, z], ...]";
     case ValueKind::texts: return "a list of texts";
     case ValueKind::selection: return "a node id, a list of node ids, or {\"typification\": ..., \"tag\": ...}";
     case ValueKind::table: return "a list of rows";
     case ValueKind::mesh: return "a mesh";
+    case ValueKind::numbers: return "a list of numbers";
+    case ValueKind::made: return "a made object";
   }
   return "a value";
 }
+
+bool is_derived(ValueKind kind) { return kind == ValueKind::mesh || kind == ValueKind::made; }
 
 bool is_proposable(ValueKind kind) { return kind == ValueKind::number || kind == ValueKind::point || kind == ValueKind::texts; }
 
 namespace {
 
-// Shows `see` every number in a value that a run may keep, until it says no. Meshes are not among them: they follow from the
-// rest.
+double number_of(const Numbers& numbers) { return numbers.is_finite() ? 0 : std::numeric_limits<double>::infinity(); }
+
+double number_of(const Scalar& field) {
+  if (const double* number = std::get_if<double>(&field)) return *number;
+  const Numbers* numbers = std::get_if<Numbers>(&field);
+  return numbers ? number_of(*numbers) : 0;
+}
+
+// Shows `see` every number in a value that a run may keep, until it says no. Meshes and made objects are not among them: they
+// follow from the rest. Lists have looked at theirs before: of one that is not finite, `see` is shown infinity.
 template <class See>
 bool all_numbers(const Value& value, const See& see) {
   const auto see_point = [&](const Vector3& v) { return see(v.x) && see(v.y) && see(v.z); };
@@ -67,8 +81,9 @@ bool all_numbers(const Value& value, const See& see) {
   if (const auto* table = std::get_if<Shared<Table>>(&value)) {
     for (const auto& row : (*table)->rows)
       for (const Scalar& field : row)
-        if (const double* number = std::get_if<double>(&field); number && !see(*number)) return false;
+        if (!see(number_of(field))) return false;
   }
+  if (const auto* numbers = std::get_if<Numbers>(&value)) return see(number_of(*numbers));
   return true;
 }
 
@@ -116,27 +131,13 @@ bool take_in(Value& value) {
 
 namespace {
 
-// Texts in tables from here on, such as the rows of a terrain, are folded as four hashes side by side: one waits for its last
-// word before each, and a million cells are read in every tick [characters].
-constexpr std::size_t kLongText = 256;
-
-// Eight characters, the first one lowest, on every machine.
-std::uint64_t word_at(std::string_view text, std::size_t at) {
-  std::uint64_t word = 0;
-  for (std::size_t k = 0; k < 8; ++k) word |= static_cast<std::uint64_t>(static_cast<unsigned char>(text[at + k])) << (8 * k);
-  return word;
-}
-
-void add_text(Hash& hash, std::string_view text) {
-  if (text.size() < kLongText) return hash.add(text);
-  std::array<Hash, 4> lanes;
-  std::size_t at = 0;
-  for (; at + 32 <= text.size(); at += 32)
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) lanes[lane].add(word_at(text, at + 8 * lane));
-  hash.add(static_cast<std::uint64_t>(text.size()));
-  for (const Hash& lane : lanes) hash.add(lane.value());
-  hash.add(text.substr(at));
-}
+struct FieldAdder {
+  Hash& hash;
+  void operator()(double number) const { hash.add(number); }
+  void operator()(const std::string& text) const { add_table_text(hash, text); }
+  void operator()(const Numbers& numbers) const { numbers.add_to(hash); }
+  void operator()(const Indices& indices) const { indices.add_to(hash); }
+};
 
 struct Adder {
   Hash& hash;
@@ -162,16 +163,28 @@ struct Adder {
   void operator()(const Shared<Table>& table) const {
     hash.add(std::uint64_t{table->rows.size()});
     for (const auto& row : table->rows)
-      for (const Scalar& field : row)
-        if (const double* number = std::get_if<double>(&field)) hash.add(*number);
-        else add_text(hash, std::get<std::string>(field));
+      for (const Scalar& field : row) std::visit(FieldAdder{hash}, field);
   }
   void operator()(const MeshPointer&) const {}
+  void operator()(const Numbers& numbers) const { numbers.add_to(hash); }
+  void operator()(const Made&) const {}
+  void operator()(const JsonValue& json) const { hash.add(std::string_view(json.text())); }
+  void operator()(const CommandList& commands) const {
+    hash.add(std::uint64_t{commands->size()});
+    for (const Command& command : *commands) {
+      hash.add(std::string_view(command.id));
+      for (const auto& [name, value] : command.arguments) {
+        hash.add(std::string_view(name));
+        add_to(hash, value);
+      }
+    }
+  }
 };
 
 }  // namespace
 
 void add_to(Hash& hash, const Value& value) {
+  if (std::holds_alternative<Made>(value)) return;
   hash.add(std::uint64_t{value.index()});
   std::visit(Adder{hash}, value);
 }

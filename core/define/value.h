@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "core/base/hash.h"
+#include "core/base/made.h"
 #include "core/base/mesh.h"
+#include "core/base/number_list.h"
 #include "core/base/vector.h"
+#include "core/define/payload.h"
 
 namespace bl {
 
@@ -42,8 +45,8 @@ struct Selection {
   bool is_query() const { return !typification.empty() || !tag.empty(); }
 };
 
-/// A number or a text: one field of a table.
-using Scalar = std::variant<double, std::string>;
+/// One field of a table: a number, a text, or a list.
+using Scalar = std::variant<double, std::string, Numbers, Indices>;
 
 using TableRow = std::vector<Scalar>;
 
@@ -60,16 +63,44 @@ struct Table {
   /// Nothing (0, an empty text) where row or column do not exist.
   double number(std::size_t row, std::string_view name) const;
   const std::string& text(std::size_t row, std::string_view name) const;
+  const Numbers& numbers(std::size_t row, std::string_view name) const;
+  const Indices& indices(std::size_t row, std::string_view name) const;
+
+ private:
+  template <class T>
+  const T& field(std::size_t row, std::string_view name) const;
 };
 
-/// `port` is a text of the form `typification.port`; `json` a text that holds one JSON value as it stood in a file.
-enum class ValueKind { boolean, integer, number, text, choice, port, json, point, points, texts, selection, table, mesh };
+/// `port` is a text of the form `typification.port`; `json` one JSON value as it stood in a file; `made` an object for code;
+/// `commands` what a batch holds.
+enum class ValueKind {
+  boolean,
+  integer,
+  number,
+  text,
+  choice,
+  port,
+  json,
+  point,
+  points,
+  texts,
+  selection,
+  table,
+  mesh,
+  numbers,
+  made,
+  commands
+};
 
-/// Text, choice, port and json share std::string; the declared kind tells them apart.
+/// Text, choice and port share std::string; the declared kind tells them apart. New kinds stand at the end: the place of a kind
+/// is a part of the hash.
 using Value = std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>,
-                           Shared<std::vector<std::string>>, Shared<Selection>, Shared<Table>, MeshPointer>;
+                           Shared<std::vector<std::string>>, Shared<Selection>, Shared<Table>, MeshPointer, Numbers, Made, JsonValue,
+                           CommandList>;
 
 std::string_view name_of(ValueKind kind);
+/// Do values of this kind follow from others, so that no file holds them?
+bool is_derived(ValueKind kind);
 /// Can a link propose values of this kind?
 bool is_proposable(ValueKind kind);
 /// Are all numbers in it finite?
@@ -77,7 +108,7 @@ bool is_finite(const Value& value);
 /// The door of everything that is kept, whether read, said or worked out: takes the sign off zeros, because -0 equals 0 and would
 /// come back as that from a file, but divides and reads otherwise. False where a number is not finite.
 [[nodiscard]] bool take_in(Value& value);
-/// Folds a value into a hash; meshes count as nothing, because they follow from the rest.
+/// Folds a value into a hash. Meshes count as nothing, because they follow from the rest; made objects are not even there.
 void add_to(Hash& hash, const Value& value);
 /// The number in a number, integer or boolean; 0 for other kinds.
 double as_number(const Value& value);

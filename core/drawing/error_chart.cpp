@@ -10,7 +10,7 @@ namespace bl::report {
 
 namespace {
 
-constexpr double kErrorChartWidth = 1000, kLeft = 74, kRight = 150;
+constexpr double kErrorChartWidth = 1000, kAxesLeft = 74, kAxesRight = 150;
 constexpr std::size_t kMostPoints = 450;
 
 struct Series {
@@ -18,12 +18,12 @@ struct Series {
   double ErrorSample::*value;
 };
 
-struct Chart {
+struct TickAxes {
   double top = 0, height = 0;
   double lowest = 0, highest = 0;  ///< powers of ten
   double first_tick = 0, last_tick = 1;
   double x(double tick) const {
-    return kLeft + (kErrorChartWidth - kLeft - kRight) * (tick - first_tick) / std::max(1.0, last_tick - first_tick);
+    return kAxesLeft + (kErrorChartWidth - kAxesLeft - kAxesRight) * (tick - first_tick) / std::max(1.0, last_tick - first_tick);
   }
   double y(double value) const {
     const double power = std::log10(std::max(value, 1e-300));
@@ -47,8 +47,8 @@ std::vector<ErrorSample> thinned(const std::vector<ErrorSample>& history) {
   return out;
 }
 
-Chart chart_of(const std::vector<ErrorSample>& samples, const std::vector<Series>& series, double limit, double top,
-               double height) {
+TickAxes chart_of(const std::vector<ErrorSample>& samples, const std::vector<Series>& series, double limit, double top,
+                  double height) {
   double low = limit, high = limit;
   for (const ErrorSample& sample : samples)
     for (const Series& line : series) {
@@ -62,34 +62,34 @@ Chart chart_of(const std::vector<ErrorSample>& samples, const std::vector<Series
   return {top, height, lowest, highest, static_cast<double>(samples.front().tick), static_cast<double>(samples.back().tick)};
 }
 
-void draw_axes(Markup& svg, const Chart& chart, const std::string& title, bool is_share) {
+void draw_axes(Markup& svg, const TickAxes& chart, const std::string& title, bool is_share) {
   PathText rules;
   for (double power = chart.lowest; power <= chart.highest; power += 1) {
     const double y = chart.y(std::pow(10.0, power)), value = std::pow(10.0, power + (is_share ? 2 : 0));
-    rules.polyline({{kLeft, y}, {kErrorChartWidth - kRight, y}}, false);
+    rules.polyline({{kAxesLeft, y}, {kErrorChartWidth - kAxesRight, y}}, false);
     const std::string figure =
         grouped(value, power + (is_share ? 2 : 0) >= 0 ? 0 : static_cast<int>(-power - (is_share ? 2 : 0))) +
         (is_share ? "\xC2\xA0%" : "\xC2\xA0m");
-    svg.element("text", figure, {{"x", pixels(kLeft - 8)}, {"y", pixels(y + 3.5)}, {"class", "figure end"}});
+    svg.element("text", figure, {{"x", pixels(kAxesLeft - 8)}, {"y", pixels(y + 3.5)}, {"class", "figure end"}});
   }
   svg.path(rules, {{"fill", "none"}, {"stroke", "#d9d5ca"}, {"stroke-width", ".8"}});
-  svg.element("text", title, {{"x", pixels(kLeft)}, {"y", pixels(chart.top - 10)}, {"class", "name start"}});
+  svg.element("text", title, {{"x", pixels(kAxesLeft)}, {"y", pixels(chart.top - 10)}, {"class", "name start"}});
   const double span = chart.last_tick - chart.first_tick, step = std::max(1.0, round_length(span / 5));
   for (double tick = std::ceil(chart.first_tick / step) * step; tick <= chart.last_tick; tick += step)
     svg.element("text", grouped(tick),
                 {{"x", pixels(chart.x(tick))}, {"y", pixels(chart.top + chart.height + 15)}, {"class", "figure"}});
 }
 
-void draw_limit(Markup& svg, const Chart& chart, double limit, const std::string& label) {
+void draw_limit(Markup& svg, const TickAxes& chart, double limit, const std::string& label) {
   if (!(limit > 0)) return;
   PathText line;
-  line.polyline({{kLeft, chart.y(limit)}, {kErrorChartWidth - kRight, chart.y(limit)}}, false);
+  line.polyline({{kAxesLeft, chart.y(limit)}, {kErrorChartWidth - kAxesRight, chart.y(limit)}}, false);
   svg.path(line, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1"}, {"stroke-dasharray", "2 3"}});
   svg.element("text", label,
-              {{"x", pixels(kErrorChartWidth - kRight - 4)}, {"y", pixels(chart.y(limit) - 4)}, {"class", "figure end"}});
+              {{"x", pixels(kErrorChartWidth - kAxesRight - 4)}, {"y", pixels(chart.y(limit) - 4)}, {"class", "figure end"}});
 }
 
-void draw_series(Markup& svg, const Chart& chart, const std::vector<ErrorSample>& samples, const std::vector<Series>& series,
+void draw_series(Markup& svg, const TickAxes& chart, const std::vector<ErrorSample>& samples, const std::vector<Series>& series,
                  bool is_share) {
   double last_label = -1e9;
   for (const Series& line : series) {
@@ -124,7 +124,7 @@ Picture draw_error_chart(const ReportModel& model, const std::vector<ErrorSample
   const std::vector<Series> moves = {{"move", "#117733", "", &ErrorSample::largest_move}};
   const double tolerance = std::max(model.tolerance, 1e-9);
   const double limit = model.move_limit > 0 ? model.move_limit : 0.01;
-  const Chart upper = chart_of(samples, errors, tolerance, 38, 190), lower = chart_of(samples, moves, limit, 292, 110);
+  const TickAxes upper = chart_of(samples, errors, tolerance, 38, 190), lower = chart_of(samples, moves, limit, 292, 110);
   Markup svg;
   open_picture(svg, kErrorChartWidth, 442, "errors", "Error over the ticks",
                "Worst error " + percent(history.back().worst_error) + " and mean error " + percent(history.back().mean_error) +
@@ -135,9 +135,10 @@ Picture draw_error_chart(const ReportModel& model, const std::vector<ErrorSample
   draw_axes(svg, lower, "Largest move of a node in a tick", false);
   draw_limit(svg, lower, model.move_limit, "limit of calm " + quantity(model.move_limit, Unit::metre));
   draw_series(svg, lower, samples, moves, false);
-  svg.element(
-      "text", "tick",
-      {{"x", pixels(kErrorChartWidth - kRight + 16)}, {"y", pixels(lower.top + lower.height + 15)}, {"class", "figure start"}});
+  svg.element("text", "tick",
+              {{"x", pixels(kErrorChartWidth - kAxesRight + 16)},
+               {"y", pixels(lower.top + lower.height + 15)},
+               {"class", "figure start"}});
   svg.close();
   std::string caption =
       "The negotiation, tick by tick, on logarithmic scales: settled is when all errors are below the tolerance and all moves "

@@ -9,7 +9,7 @@
 #include "core/drawing/pictures.h"
 #include "core/reading/figures.h"
 
-namespace bl::cli {
+namespace bl::report {
 
 namespace {
 
@@ -180,4 +180,4 @@ std::string draw_chart(const Chart& chart) {
   return svg.str() + "\n";
 }
 
-}  // namespace bl::cli
+}  // namespace bl::report

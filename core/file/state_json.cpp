@@ -283,7 +283,7 @@ Json analysis_to_json(const SavedAnalysis& saved, const Registry& types) {
   json["running"] = hex_digits(saved.running_inputs);
   if (saved.result.error) json["error"] = error_to_json(*saved.result.error);
   for (const AnalysisOutput& output : saved.result.outputs)
-    if (const PortDefinition& port = **types.port(*parse_port_path(output.path)); port.kind != ValueKind::mesh)
+    if (const PortDefinition& port = **types.port(*parse_port_path(output.path)); !is_derived(port.kind))
       json["outputs"][output.node][output.path] = value_to_json(output.value, port);
   return json;
 }

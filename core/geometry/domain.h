@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "core/geometry/convex_domain.h"
@@ -12,6 +13,7 @@ namespace bl {
 /// a piece lies either wholly on the surface of the solid or wholly between two pieces. One convex domain is one piece whose
 /// plane k is side `#k`.
 struct Domain {
+  static constexpr std::string_view kMadeName = "a domain";  ///< as nodes hand it on
   /// In `Piece::sides`: the face lies between two pieces and is no surface.
   static constexpr std::uint32_t kInner = 0xffffffffu;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +51,13 @@ Result<Domain> read_domain(const Table& table) {
     pieces.push_back(std::move(piece));
   }
   return join_pieces(std::move(pieces));
+}
+
+/// The domain of rows that are shared; nullptr where they are none.
+template <class SharedTable>
+std::shared_ptr<const Domain> shared_domain(const SharedTable& planes) {
+  auto domain = read_domain(*planes);
+  return domain ? std::make_shared<const Domain>(std::move(*domain)) : nullptr;
 }
 
 /// Rows that follow each other under one name are one ring; its heights are those of its first row.

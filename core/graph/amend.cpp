@@ -23,6 +23,7 @@ bool is_plain(const TypificationDefinition& type, const std::string& id) {
     case ValueKind::text:
     case ValueKind::point:
     case ValueKind::points:
+    case ValueKind::numbers:
     case ValueKind::table: break;
     default: return false;
   }

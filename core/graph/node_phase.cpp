@@ -36,6 +36,7 @@ void accept_values(const TypificationDefinition& definition, TypeState& state, s
     state.is_evaluated = false;
     return;
   }
+  make_objects(definition, values, state.values);
   state.error.reset();
   state.values = std::move(values);
   state.is_evaluated = true;

@@ -210,7 +210,7 @@ class Compiler {
       for (const std::uint32_t node : link.nodes[static_cast<int>(read.end)]) {
         const PortRef ref = *plan_->find(node, actual(definition, read.path, values));
         if (ref.type != PortRef::kNodeId && !read.is_lock)
-          if (auto kind = check_kind(ref, read.kind, "link reads"); !kind) return kind;
+          if (auto kind = check_kind(ref, read.kind, read.made, "link reads"); !kind) return kind;
         refs.push_back(ref);
       }
     }
@@ -221,7 +221,7 @@ class Compiler {
         const PortRef ref = *plan_->find(node, actual(definition, write.path, values));
         if (ref.type == PortRef::kNodeId || plan_->port(ref).rule == CombineRule::none)
           return Error{ErrorCode::conflict, "", "`" + plan_->path_text(ref) + "` cannot be changed by links"};
-        if (auto kind = check_kind(ref, write.kind, "link proposes"); !kind) return kind;
+        if (auto kind = check_kind(ref, write.kind, {}, "link proposes"); !kind) return kind;
         refs.push_back(ref);
         link.targets.push_back(ref);
       }
@@ -237,12 +237,13 @@ class Compiler {
     return {};
   }
 
-  Result<void> check_kind(PortRef ref, ValueKind expected, const char* verb) const {
-    const ValueKind found = plan_->port(ref).kind;
-    if (can_read(expected, found)) return {};
+  Result<void> check_kind(PortRef ref, ValueKind expected, const MadeType& made, const char* verb) const {
+    const PortDefinition& port = plan_->port(ref);
+    const ValueKind found = port.kind;
+    if (can_read(expected, found) && port.made == made) return {};
     return Error{ErrorCode::wrong_kind, "",
-                 "the " + std::string(verb) + " " + std::string(name_of(expected)) + ", but `" + plan_->path_text(ref) +
-                     "` holds " + std::string(name_of(found))};
+                 "the " + std::string(verb) + " " + std::string(kind_text(expected, made)) + ", but `" + plan_->path_text(ref) +
+                     "` holds " + std::string(kind_text(found, port.made))};
   }
 
   void add_sets(std::uint32_t n, std::uint32_t t) {
@@ -270,7 +271,8 @@ class Compiler {
       for (const ReadDefinition& read : definition.reads) {
         look_up(read.path, reads);
         if (!missing.empty() || reads.back().type == PortRef::kNodeId) continue;
-        if (auto kind = check_kind(reads.back(), read.kind, "evaluation reads"); !kind) set.error = kind.error().within(place);
+        if (auto kind = check_kind(reads.back(), read.kind, read.made, "evaluation reads"); !kind)
+          set.error = kind.error().within(place);
       }
       for (const WriteDefinition& write : definition.writes) look_up(write.path, writes);
       if (missing.empty()) {

@@ -60,8 +60,8 @@ void evaluate_now(State& next, SetCase& one, ThreadPool& pool, SetMemos& memos, 
   const TypificationDefinition& definition = one.definition(next);
   TypeState& state = next.nodes[one.node()].types[one.type()];
   const std::string place = place_of(next, one.node(), one.type());
-  auto done =
-      definition.evaluate(one.values, one.sets, Tick{next.tick, &pool, &memos[{next.plan->nodes[one.node()].id, definition.id}]});
+  Memo& memo = memos[{next.plan->nodes[one.node()].id, definition.id}];
+  auto done = definition.evaluate(one.values, one.sets, Tick{.index = next.tick, .pool = &pool, .memo = &memo});
   const bool is_good = done.ok();
   accept_values(definition, state, std::move(one.values), std::move(done), place);
   if (!is_good) return;
@@ -69,7 +69,8 @@ void evaluate_now(State& next, SetCase& one, ThreadPool& pool, SetMemos& memos, 
     for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w) {
       auto& value = one.sets[s].writes[w];
       if (!value) continue;
-      if (take_in(*value)) replies.push_back({one.plans[s].writes[w], std::move(*value), one.node(), one.type()});
+      if (take_in(*value))
+        replies.push_back({.target = one.plans[s].writes[w], .value = std::move(*value), .node = one.node(), .type = one.type()});
       else
         state.error =
             Error{ErrorCode::not_finite, place, "wrote a number that is not finite to a member; it keeps its last good value"};
@@ -97,7 +98,7 @@ void take_result(State& next, const SetCase& one, const AnalysisResult& result, 
                           "`" + output.path + "` of `" + output.node + "` came out as a number that is not finite"};
       continue;
     }
-    replies.push_back({*ref, std::move(value), one.node(), one.type()});
+    replies.push_back({.target = *ref, .value = std::move(value), .node = one.node(), .type = one.type()});
   }
 }
 
@@ -130,11 +131,7 @@ std::shared_ptr<AnalysisMemo> memo_of(Memo& memo) {
 }
 
 AnalysisState done_at(std::int64_t begun, std::int64_t taken, std::uint64_t inputs) {
-  AnalysisState done;
-  done.as_of = begun;
-  done.taken = taken;
-  done.inputs = inputs;
-  return done;
+  return {.as_of = begun, .taken = taken, .inputs = inputs, .begun = -1, .due = -1, .running_inputs = 0, .running = nullptr};
 }
 
 void advance_analysis(State& next, SetCase& one, AnalysisRunner& runner, Memo& memo, std::vector<Reply>& replies) {
@@ -249,7 +246,8 @@ void recall_meshes(State& state, ThreadPool& pool, SetMemos& memos) {
     if (!has_mesh || one.error() != nullptr) continue;
     Memo& memo = memos[{state.plan->nodes[one.node()].id, definition.id}];
     // A failure here is that of the next tick, which says so.
-    if (!definition.evaluate(one.values, one.sets, Tick{state.tick, &pool, &memo, true}).ok()) continue;
+    const Tick recall{.index = state.tick, .pool = &pool, .memo = &memo, .is_recall = true};
+    if (!definition.evaluate(one.values, one.sets, recall).ok()) continue;
     for (std::size_t s = 0; s < one.sets.size(); ++s)
       for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w)
         if (auto& value = one.sets[s].writes[w]; value && std::holds_alternative<MeshPointer>(*value)) {

@@ -115,7 +115,7 @@ SavedState save(const State& state) {
       const TypePlan& type = plan.nodes[n].types[t];
       for (std::uint16_t p = 0; p < type.definition->ports.size(); ++p)
         if (const Value& value = state.nodes[n].types[t].values[p];
-            type.definition->ports[p].kind != ValueKind::mesh && value != type.set_values[p])
+            !is_derived(type.definition->ports[p].kind) && value != type.set_values[p])
           values[plan.path_text({n, t, p})] = value;
       if (const auto& error = state.nodes[n].types[t].error) saved.errors[type_name(plan, n, t)] = *error;
     }
@@ -301,6 +301,9 @@ Result<State> restore(const SavedState& saved, std::shared_ptr<const Plan> plan)
       if (!ref) return ref.error();
       state.nodes[ref->node].types[ref->type].values[ref->port] = value;
     }
+  for (std::size_t n = 0; n < state.nodes.size(); ++n)
+    for (std::size_t t = 0; t < state.nodes[n].types.size(); ++t)
+      make_objects(*state.plan->nodes[n].types[t].definition, state.nodes[n].types[t].values, {});
   for (const auto& [target, mesh] : saved.meshes) {
     const auto ref = find(target.first, target.second);
     if (!ref) return ref.error();

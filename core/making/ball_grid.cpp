@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bl {
+namespace bl::making {
 
 namespace {
 constexpr double kLargeRadius = 2;        // [cubes] few sites can be as large in a prism that holds them all
@@ -105,4 +105,4 @@ bool BallGrid::crowded(std::size_t site, double limit) const {
   return false;
 }
 
-}  // namespace bl
+}  // namespace bl::making

@@ -7,7 +7,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::making {
 
 /// A ball: the power distance of a point to it is |point - at|² - radius².
 struct BallSite {
@@ -45,4 +45,4 @@ class BallGrid {
   double reach_ = 0;                           // largest squared radius among the others [m²]
 };
 
-}  // namespace bl
+}  // namespace bl::making

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "core/base/foreign_bytes.h"
 #include "core/base/plural.h"
 #include "core/base/stop.h"
 #include "core/base/text.h"
@@ -13,7 +14,6 @@
 #include "core/import/cityjson_context.h"
 #include "core/import/context_shape.h"
 #include "core/import/data_layer.h"
-#include "core/base/foreign_bytes.h"
 #include "core/import/geojson_context.h"
 #include "core/import/geojson_polygons.h"
 #include "core/import/inflate.h"
@@ -22,7 +22,7 @@
 #include "core/making/context_nodes.h"
 #include "core/session/ledger.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -171,8 +171,9 @@ class Import {
                                  "`: name the column or property with the values by --value " + theirs);
         continue;
       }
-      const bool is_there = std::any_of(properties_.begin(), properties_.end(),
-                                        [&theirs = theirs](const std::string& name) { return lower_case(name) == lower_case(theirs); });
+      const bool is_there = std::any_of(properties_.begin(), properties_.end(), [&theirs = theirs](const std::string& name) {
+        return lower_case(name) == lower_case(theirs);
+      });
       if (is_there) continue;
       const std::vector<std::string> names(properties_.begin(), properties_.end());
       std::string list;
@@ -335,4 +336,4 @@ ImportedScene import_context(const Scene& scene, const ImportOptions& options, c
   return Import(scene, options, registry).run();
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

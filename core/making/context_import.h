@@ -12,7 +12,7 @@
 #include "core/import/context.h"
 #include "core/making/site_buildings.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 struct ImportOptions {
   std::vector<std::string> files;
@@ -47,4 +47,4 @@ bool is_context_file(const std::string& path);
 /// Endings of such files, for lists of files; `.json` is a scene as well.
 const std::vector<std::string>& context_endings();
 
-}  // namespace bl::cli
+}  // namespace bl::making

@@ -14,7 +14,7 @@
 #include "core/geometry/plan_ring.h"
 #include "core/import/thin_line.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -99,7 +99,7 @@ std::string ContextNodes::fresh_id(const std::string& wanted) {
 
 void ContextNodes::place(const GeoReference& reference) {
   const auto set = [this](const std::string& id, const Json& value) {
-    commands_.push_back(write_json_line(command_to_json(*registry_, command<SetSetting>({id, {write_json_line(value)}}))));
+    commands_.push_back(command<SetSetting>({id, JsonValue::of(value)}));
   };
   set("coordinate_system", reference.crs);
   set("origin_x", reference.origin_x);
@@ -111,11 +111,7 @@ void ContextNodes::place(const GeoReference& reference) {
   set("true_north", reference.true_north);
 }
 
-Command ContextNodes::batch() const {
-  std::string list = "[";
-  for (const std::string& text : commands_) list += (list.size() > 1 ? "," : "") + text;
-  return command<Batch>({{list + "]"}});
-}
+Command ContextNodes::batch() const { return command<Batch>({commands_}); }
 
 void ContextNodes::reach(const Point3& point) {
   auto& [low, high] = bounds_;
@@ -123,19 +119,15 @@ void ContextNodes::reach(const Point3& point) {
   high = {std::max(high.x, point.x), std::max(high.y, point.y), std::max(high.z, point.z)};
 }
 
-// The command as a batch has it, without the node being written as its argument and read again.
 void ContextNodes::add_node(const std::string& id, Json&& node) {
-  Json added = {{"command", "add_node"}, {"arguments", {{"id", id}}}};
-  append_field(added["arguments"], "node") = std::move(node);
-  commands_.push_back(write_json_line(added));
+  commands_.push_back(command<AddNode>({id, JsonValue::of(std::move(node))}));
 }
 
 void ContextNodes::set_port(const std::string& node, const std::string& path, const Value& value) {
   const auto parsed = parse_port_path(path);
   const auto port = parsed ? registry_->port(*parsed) : Result<const PortDefinition*>(Error{});
   if (!port) return;
-  const JsonText text{write_json_line(value_to_json(value, **port))};
-  commands_.push_back(write_json_line(command_to_json(*registry_, command<SetPort>({node, {path}, text}))));
+  commands_.push_back(command<SetPort>({node, {path}, JsonValue::of(value_to_json(value, **port))}));
 }
 
 void ContextNodes::add(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report) {
@@ -406,4 +398,4 @@ void ContextNodes::add(const DataLayer& layer, const NodeMaking& making, ImportR
   ++made_["data_layer"];
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

@@ -14,7 +14,7 @@
 #include "core/making/site_buildings.h"
 #include "core/session/commands.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 /// Where nodes come from, and how they are made.
 struct NodeMaking {
@@ -70,10 +70,10 @@ class ContextNodes {
   const Registry* registry_;
   std::set<std::string> taken_;
   std::map<std::string, std::size_t> numbers_;  // the last one given to each stem
-  std::vector<std::string> commands_;           // each a JSON text
+  std::vector<Command> commands_;
   std::map<std::string, std::size_t> made_;
   std::vector<std::string> notes_;
   std::pair<Point3, Point3> bounds_{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
 };
 
-}  // namespace bl::cli
+}  // namespace bl::making

@@ -15,7 +15,7 @@
 #include "core/import/image_facts.h"
 #include "core/session/commands.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -153,8 +153,8 @@ Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const 
   const Json node{{"name", std::filesystem::path(file).stem().string()},
                   {"position", {at.x, at.y, at.z}},
                   {"types", {{"media", std::move(media)}}}};
-  made.command = command<AddNode>({made.id, {write_json_line(node)}});
+  made.command = command<AddNode>({made.id, JsonValue::of(node)});
   return made;
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

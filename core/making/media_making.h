@@ -8,7 +8,7 @@
 #include "core/define/command_builder.h"
 #include "core/graph/scene.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 struct MediaOptions {
   std::string scene;      ///< path of the scene file, which the picture's path becomes relative to; may be empty
@@ -31,4 +31,4 @@ Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const 
 /// Does the name end like one of a picture that is known?
 bool is_picture_name(const std::string& file);
 
-}  // namespace bl::cli
+}  // namespace bl::making

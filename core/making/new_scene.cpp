@@ -13,7 +13,7 @@
 #include "core/define/codec.h"
 #include "core/making/spread_points.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -42,10 +42,10 @@ class Builder {
  public:
   Builder(const SceneParts& parts, const Registry& registry) : parts_(parts), registry_(registry) {}
 
-  void setting(const std::string& id, const Json& value) { add(command<SetSetting>({id, {write_json_line(value)}})); }
-  void node(const std::string& id, const Json& content) { add(command<AddNode>({id, {write_json_line(content)}})); }
-  void link(const std::string& id, const Json& content) { add(command<AddLink>({id, {write_json_line(content)}})); }
-  Command batch() const { return command<Batch>({{write_json_line(commands_)}}); }
+  void setting(const std::string& id, const Json& value) { add(command<SetSetting>({id, JsonValue::of(value)})); }
+  void node(const std::string& id, const Json& content) { add(command<AddNode>({id, JsonValue::of(content)})); }
+  void link(const std::string& id, const Json& content) { add(command<AddLink>({id, JsonValue::of(content)})); }
+  Command batch() const { return command<Batch>({commands_}); }
 
   void settings() {
     const GeoReference& reference = parts_.reference;
@@ -128,11 +128,11 @@ class Builder {
   }
 
  private:
-  void add(const Command& command) { commands_.push_back(command_to_json(registry_, command)); }
+  void add(Command command) { commands_.push_back(std::move(command)); }
 
   const SceneParts& parts_;
   const Registry& registry_;
-  Json commands_ = Json::array();
+  std::vector<Command> commands_;
   std::set<std::string> link_ids_{"demands", kInsideLink, "room", "standing"};
 };
 
@@ -206,4 +206,4 @@ Result<Command> new_scene_command(const SceneParts& parts, const Registry& regis
   return builder.batch();
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

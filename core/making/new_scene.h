@@ -9,7 +9,7 @@
 #include "core/import/programme_csv.h"
 #include "core/session/commands.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 /// The link that keeps positions inside the site.
 inline constexpr const char* kInsideLink = "inside";
@@ -47,4 +47,4 @@ std::vector<WantedContact> contacts_of(const ProgrammeImport& programme, const s
 /// The scene as one command, positions spread by the seed.
 Result<Command> new_scene_command(const SceneParts& parts, const Registry& registry);
 
-}  // namespace bl::cli
+}  // namespace bl::making

@@ -6,7 +6,7 @@
 
 #include "core/base/random.h"
 
-namespace bl {
+namespace bl::making {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::vector<Point3> prism_samples(std::span<const Ring> rings, double bottom, do
   return samples;
 }
 
-}  // namespace bl
+}  // namespace bl::making

@@ -10,10 +10,10 @@
 #include "core/base/vector.h"
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::making {
 
 /// `count` points strictly inside the prism over the rings (a polygon, then its holes), evenly spread: a fixed low-discrepancy
 /// sequence shifted by the seed.
 std::vector<Point3> prism_samples(std::span<const Ring> rings, double bottom, double top, std::size_t count, std::uint64_t seed);
 
-}  // namespace bl
+}  // namespace bl::making

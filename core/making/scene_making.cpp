@@ -9,7 +9,7 @@
 #include "core/session/ledger.h"
 #include "core/session/session.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -142,4 +142,4 @@ MadeScene make_scene(const NewOptions& options, const Registry& registry) {
   return made;
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

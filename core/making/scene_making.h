@@ -9,7 +9,7 @@
 
 #include "core/making/new_scene.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 struct NewOptions {
   std::string boundary, programme, out, feature, crs, title;
@@ -37,4 +37,4 @@ struct MadeScene {
 };
 MadeScene make_scene(const NewOptions& options, const Registry& registry);
 
-}  // namespace bl::cli
+}  // namespace bl::making

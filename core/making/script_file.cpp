@@ -7,7 +7,7 @@
 #include "core/file/file_io.h"
 #include "core/script/link_script.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 std::string script_name(const std::string& file) { return to_identifier(std::filesystem::path(file).stem().string()); }
 
@@ -20,4 +20,4 @@ Result<Command> script_command(const std::string& file) {
   return command<SetScript>({script_name(file), std::move(*text), false});
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

@@ -10,7 +10,7 @@
 #include "core/import/box_grid.h"
 #include "core/import/plan_cover.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 namespace {
 
@@ -218,4 +218,4 @@ std::vector<std::string> SiteBuildings::notes() const {
   return notes;
 }
 
-}  // namespace bl::cli
+}  // namespace bl::making

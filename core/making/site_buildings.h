@@ -12,7 +12,7 @@
 #include "core/graph/scene.h"
 #include "core/import/context.h"
 
-namespace bl::cli {
+namespace bl::making {
 
 /// What becomes of them. Kept ones stand in the scene, and the site leaves out the ground that they stand on, up to their roofs;
 /// cleared ones are left out of the scene.
@@ -71,4 +71,4 @@ class SiteBuildings {
   std::map<std::size_t, std::vector<Stay>> stays_;  // by building of the file
 };
 
-}  // namespace bl::cli
+}  // namespace bl::making

@@ -13,7 +13,7 @@
 #include "core/making/ball_grid.h"
 #include "core/making/prism_samples.h"
 
-namespace bl {
+namespace bl::making {
 
 namespace {
 
@@ -336,4 +336,4 @@ Result<std::vector<Point3>> spread_points(std::span<const Point3> plan, double b
   return Spreader(std::move(rings), bottom, top, volumes, seed, neighbours, on_ground).run();
 }
 
-}  // namespace bl
+}  // namespace bl::making

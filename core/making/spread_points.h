@@ -11,7 +11,7 @@
 #include "core/base/vector.h"
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::making {
 
 /// No two points come closer than this share of the mean spacing, the cube root of (prism volume / number of points).
 constexpr double kSpreadSeparation = 0.15;
@@ -26,4 +26,4 @@ Result<std::vector<Point3>> spread_points(std::span<const Point3> plan, double b
                                           std::span<const std::pair<std::size_t, std::size_t>> neighbours = {},
                                           std::span<const Ring> holes = {}, std::span<const std::uint8_t> on_ground = {});
 
-}  // namespace bl
+}  // namespace bl::making

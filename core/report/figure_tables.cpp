@@ -33,6 +33,12 @@ CsvCell cell_of(const Value& value) {
   return std::isfinite(number) ? CsvCell(number) : CsvCell();
 }
 
+CsvCell cell_of(const Scalar& field) {
+  if (const auto* text = std::get_if<std::string>(&field)) return *text;
+  if (const double* number = std::get_if<double>(&field)) return *number;
+  return {};  // lists have no place in a cell
+}
+
 std::string csv_heading(std::string_view id, Unit unit) {
   const std::string_view symbol = info(unit).symbol;
   return std::string(id) + (symbol.empty() || unit == Unit::ratio || unit == Unit::count ? "" : " [" + std::string(symbol) + "]");
@@ -69,9 +75,7 @@ CsvFile part_file(const State& state, const FigureTable& table, const FigurePart
     for (const std::vector<Scalar>& fields : (*content)->rows) {
       std::vector<CsvCell>& row = rows.emplace_back();
       row.emplace_back(state.plan->nodes[node].id);
-      for (const Scalar& field : fields)
-        if (const auto* text = std::get_if<std::string>(&field)) row.emplace_back(*text);
-        else row.emplace_back(std::get<double>(field));
+      for (const Scalar& field : fields) row.push_back(cell_of(field));
     }
   }
   return {std::string(part.id) + ".csv", write_csv(header, rows), !rows.empty()};

@@ -248,7 +248,7 @@ class Declaration {
     else if (chosen) chosen_path(name, *chosen, wanted, path, kind);
     else declared_path(*port, path, kind, expected);
     if (!error_ && !is_readable(kind))
-      fail(name, "`" + name + "`: scripts cannot read a " + std::string(bl::name_of(kind)), ErrorCode::wrong_kind);
+      fail(name, "`" + name + "`: scripts cannot read " + std::string(bl::name_of(kind)), ErrorCode::wrong_kind);
     return at == "from" ? End::from : End::to;
   }
   void chosen_path(const std::string& name, const std::string& chosen, const std::optional<std::string>& wanted, PortPath& path,

@@ -23,9 +23,20 @@ void push_text(lua_State* lua, const std::string& text) {
   lua_pushlstring(lua, text.data(), text.size());
 }
 
+template <class T>
+void push_numbers(lua_State* lua, const std::vector<T>& numbers) {
+  lua_createtable(lua, list_places(numbers.size()), 0);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    lua_pushnumber(lua, static_cast<double>(numbers[i]));
+    lua_rawseti(lua, -2, static_cast<lua_Integer>(i + 1));
+  }
+}
+
 void push_scalar(lua_State* lua, const Scalar& scalar) {
-  if (const double* number = std::get_if<double>(&scalar)) lua_pushnumber(lua, *number);
-  else push_text(lua, *std::get_if<std::string>(&scalar));
+  if (const double* number = std::get_if<double>(&scalar)) return lua_pushnumber(lua, *number);
+  if (const std::string* text = std::get_if<std::string>(&scalar)) return push_text(lua, *text);
+  if (const Numbers* numbers = std::get_if<Numbers>(&scalar)) return push_numbers(lua, **numbers);
+  push_numbers(lua, **std::get_if<Indices>(&scalar));
 }
 
 void push_table(lua_State* lua, const Table& table) {
@@ -52,7 +63,9 @@ double coordinate(lua_State* lua, int index, const char* axis, const char* name)
 
 }  // namespace
 
-bool is_readable(ValueKind kind) { return kind != ValueKind::mesh && kind != ValueKind::json && kind != ValueKind::selection; }
+bool is_readable(ValueKind kind) {
+  return !is_derived(kind) && kind != ValueKind::json && kind != ValueKind::selection && kind != ValueKind::commands;
+}
 
 // Nothing in here may hold something with a destructor while Lua is called: an error leaves by a jump.
 void push_value(lua_State* lua, const Value& value) {
@@ -62,6 +75,7 @@ void push_value(lua_State* lua, const Value& value) {
   if (const std::string* text = std::get_if<std::string>(&value)) return push_text(lua, *text);
   if (const Vector3* point = std::get_if<Vector3>(&value)) return push_point(lua, point->x, point->y, point->z);
   if (const auto* table = std::get_if<Shared<Table>>(&value)) return push_table(lua, **table);
+  if (const auto* numbers = std::get_if<Numbers>(&value)) return push_numbers(lua, **numbers);
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) {
     lua_createtable(lua, list_places((*points)->size()), 0);
     for (std::size_t i = 0; i < (*points)->size(); ++i) {

@@ -16,7 +16,7 @@ using Inverse = Result<std::vector<Command>>;
 struct AddNode {
   struct In {
     std::string id;
-    JsonText node;
+    JsonValue node;
   };
   static void declare(CommandBuilder<AddNode>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
@@ -38,7 +38,7 @@ struct RenameNode {
 struct Typify {
   struct In {
     std::string node, typification;
-    JsonText values;
+    JsonValue values;
   };
   static void declare(CommandBuilder<Typify>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
@@ -54,7 +54,7 @@ struct SetPort {
   struct In {
     std::string node;
     PortChoice port;
-    JsonText value{"null"};
+    JsonValue value = JsonValue::null();
   };
   static void declare(CommandBuilder<SetPort>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
@@ -64,7 +64,7 @@ struct SetCell {
     std::string node;
     PortChoice port;
     std::string row, column;
-    JsonText value{"null"};
+    JsonValue value = JsonValue::null();
   };
   static void declare(CommandBuilder<SetCell>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
@@ -73,7 +73,7 @@ struct AddRow {
   struct In {
     std::string node;
     PortChoice port;
-    JsonText row;
+    JsonValue row;
     std::int64_t at = -1;
   };
   static void declare(CommandBuilder<AddRow>& c);
@@ -107,7 +107,7 @@ struct UnlockPort {
 struct AddLink {
   struct In {
     std::string id;
-    JsonText link;
+    JsonValue link;
     bool is_resting = false;
   };
   static void declare(CommandBuilder<AddLink>& c);
@@ -131,7 +131,7 @@ struct SetLinkEnds {
 struct SetLinkParameter {
   struct In {
     std::string id, parameter;
-    JsonText value{"null"};
+    JsonValue value = JsonValue::null();
   };
   static void declare(CommandBuilder<SetLinkParameter>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
@@ -163,7 +163,7 @@ struct MuteLink {
 struct SetSetting {
   struct In {
     std::string setting;
-    JsonText value{"null"};
+    JsonValue value = JsonValue::null();
   };
   static void declare(CommandBuilder<SetSetting>& c);
   static Inverse apply(SceneEdit& edit, const In& in);
@@ -185,7 +185,7 @@ struct RemoveScript {
 };
 struct SetView {
   struct In {
-    JsonText changes;
+    JsonValue changes;
     bool whole = false;
   };
   static void declare(CommandBuilder<SetView>& c);
@@ -213,7 +213,7 @@ struct NoteConnection {
 };
 struct Batch {
   struct In {
-    JsonText commands{"[]"};
+    CommandList commands;
   };
   static void declare(CommandBuilder<Batch>& c);
   static Inverse apply(SceneEdit& edit, const In& in);

@@ -37,7 +37,7 @@ Inverse exchange_scripts(SceneEdit& edit, const Scripts& after, std::vector<Comm
     auto returned = read_again(edit, id, *fresh, link_to_json(*fresh, new_types), old_types);
     if (!returned || *returned != link) {
       back.push_back(command<RemoveLink>({id}));
-      back.push_back(command<AddLink>({id, {write_json_line(json)}, !link.ghost.empty()}));
+      back.push_back(command<AddLink>({id, JsonValue::of(json), !link.ghost.empty()}));
     }
     if (*fresh != link) changed.emplace(id, std::move(*fresh));
   }

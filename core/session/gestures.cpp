@@ -26,10 +26,13 @@ Error not_there(const LogEntry& entry, const char* key, std::int64_t gesture, co
 }  // namespace
 
 Result<void> Gestures::check(const LogEntry& entry) const {
+  if (entry.rewinds_to) return {};
   if (const auto before = gestures_.find(entry.gesture); before != gestures_.end()) {
     const auto& stack = stack_of(entry.undoes != 0 ? redo_ : undo_, entry.author);
-    const bool goes_on = before->second.author == entry.author && before->second.undoes == entry.undoes &&
-                         before->second.redoes == entry.redoes && !stack.empty() && stack.back() == entry.gesture;
+    const Gesture& known = before->second;
+    const bool is_same = known.author == entry.author && known.undoes == entry.undoes && known.redoes == entry.redoes &&
+                         known.is_abandoned == entry.is_abandoned;
+    const bool goes_on = is_same && (entry.is_abandoned || (!stack.empty() && stack.back() == entry.gesture));
     if (goes_on) return {};
     return Error{ErrorCode::conflict, "gesture",
                  "the gesture " + std::to_string(entry.gesture) + " is closed or somebody else's"};
@@ -44,20 +47,24 @@ Result<void> Gestures::check(const LogEntry& entry) const {
 }
 
 void Gestures::take(const LogEntry& entry) {
-  if (entry.author.kind == AuthorKind::device) return;
-  gestures_[entry.gesture] = {entry.author, entry.undoes, entry.redoes};
+  if (entry.author.kind == AuthorKind::device || entry.rewinds_to) return;
+  gestures_[entry.gesture] = {entry.author, entry.undoes, entry.redoes, entry.is_abandoned};
   auto& undo = undo_[entry.author];
   auto& redo = redo_[entry.author];
   auto& stack = entry.undoes != 0 ? redo : undo;
   if (entry.undoes != 0) std::erase(undo, entry.undoes);
   else if (entry.redoes != 0) std::erase(redo, entry.redoes);
   else redo.clear();
+  if (entry.is_abandoned) return;
   if (stack.empty() || stack.back() != entry.gesture) stack.push_back(entry.gesture);
 }
 
 LogEntry Gestures::fitted(const LogEntry& entry) const {
   LogEntry fitting = entry;
-  if (!check(entry)) fitting.undoes = fitting.redoes = 0;
+  if (!check(entry)) {
+    fitting.undoes = fitting.redoes = 0;
+    fitting.is_abandoned = false;
+  }
   return fitting;
 }
 

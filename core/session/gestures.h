@@ -16,7 +16,8 @@ class Gestures {
   /// Can the entry follow on those that were taken? A gesture is one author's, and goes on only while it is that author's last;
   /// an undo takes back what its author has made and not taken back yet.
   Result<void> check(const LogEntry& entry) const;
-  /// Keeps it; it has to fit. What devices say is nobody's step: nothing of it is kept, however much they say.
+  /// Keeps it; it has to fit. What devices say is nobody's step: nothing of it is kept, however much they say. A rewind changes
+  /// no scene and is no step, either.
   void take(const LogEntry& entry);
   /// The entry as one that fits: where it takes back what stands in no entry here, it is a step like any other. So it is in a log
   /// that begins in the middle of a session.
@@ -29,6 +30,7 @@ class Gestures {
   struct Gesture {
     Author author;
     std::int64_t undoes = 0, redoes = 0;
+    bool is_abandoned = false;
   };
   using Stacks = std::map<Author, std::vector<std::int64_t>>;  // by author
 

@@ -16,6 +16,15 @@
 
 namespace bl {
 
+/// What somebody says, before it has its place in the log.
+struct Submission {
+  Command command = {};
+  Author author = {};
+  std::int64_t gesture = 0;  ///< 0: a new one
+  Source source = {};
+  std::string label = {};
+};
+
 /// What an undo or redo has done: the gesture, and where it left things alone because somebody else has written there since.
 struct TakenBack {
   std::int64_t gesture = 0;
@@ -29,25 +38,39 @@ std::string text_of(const Mark& left);
 /// thread while another one ticks. `tick` is always the tick that the entry takes effect in.
 class Ledger {
  public:
-  Ledger(const Registry& registry, const Scene& scene) : registry_(&registry), scene_(scene) {}
+  /// `base`: the number of the last entry that the scene holds already.
+  Ledger(const Registry& registry, const Scene& scene, std::int64_t base = 0)
+      : registry_(&registry), scene_(scene), base_(base) {}
 
   /// Applies a command now and logs it; on an error nothing changes. Commands of one gesture of an author (such as a drag) are
-  /// undone together; gesture 0 makes a new one.
-  Result<void> submit(const Command& command, const Author& author, std::int64_t tick, std::int64_t gesture = 0);
+  /// undone together. An operation that its origin has sent before is refused as `duplicate`.
+  Result<void> submit(Submission submission, std::int64_t tick);
+  Result<void> submit(const Command& command, const Author& author, std::int64_t tick, std::int64_t gesture = 0) {
+    return submit({.command = command, .author = author, .gesture = gesture}, tick);
+  }
+  /// Notes that the running state goes back from `tick` to an earlier one. The scene stays as it is, and so do the steps that can
+  /// be undone. The rewind itself cannot be: the states after it are given up.
+  Result<void> rewind(const Author& author, std::int64_t tick, std::int64_t to);
   std::int64_t new_gesture() { return ++last_gesture_; }
   /// Takes back the author's last gesture, or the one that is named, by new entries. What others wrote since stays as it is, and
   /// is told; a gesture of which nothing can be taken back is passed over.
-  Result<TakenBack> undo(const Author& author, std::int64_t tick, std::int64_t gesture = 0);
-  Result<TakenBack> redo(const Author& author, std::int64_t tick, std::int64_t gesture = 0);
+  Result<TakenBack> undo(const Author& author, std::int64_t tick, std::int64_t gesture = 0, const Source& source = {});
+  Result<TakenBack> redo(const Author& author, std::int64_t tick, std::int64_t gesture = 0, const Source& source = {});
+  /// Takes the gesture back as if it had never been: it cannot be brought back. For what its author has given up in the middle.
+  Result<TakenBack> abandon(const Author& author, std::int64_t tick, std::int64_t gesture);
+  bool can_redo(const Author& author) const { return !gestures_.open(author, false).empty(); }
   /// An entry of a log, with its number, gesture and undo marks as they were; one without a number (0) gets the next.
   Result<void> replay(const LogEntry& entry);
 
   const Scene& scene() const { return scene_; }
+  const Registry& registry() const { return *registry_; }
   const std::vector<LogEntry>& log() const { return log_; }
-  /// The number of the last entry; 0 where there is none.
-  std::int64_t last_seq() const { return log_.empty() ? 0 : log_.back().seq; }
-  /// Called with each new entry, to write it down at once.
-  void on_entry(std::function<void(const LogEntry&)> listener) { listener_ = std::move(listener); }
+  /// The number of the last entry; the base where there is none.
+  std::int64_t last_seq() const { return log_.empty() ? base_ : log_.back().seq; }
+  /// Called with each new entry, to write it down at once; several may listen, and hear in the order in which they came. The
+  /// number that unsubscribe() wants.
+  std::size_t subscribe(std::function<void(const LogEntry&)> listener);
+  void unsubscribe(std::size_t number) { listeners_.erase(number); }
 
   /// What a simulation of this scene has to hear of since the last call.
   struct Changes {
@@ -64,18 +87,34 @@ class Ledger {
     std::vector<Command> inverse;  ///< the last one is applied first
     Written written;
   };
-  Result<void> apply_entry(LogEntry entry);
-  void note(const LogEntry& entry, const std::vector<Touch>& touches, std::vector<Command> inverse);
-  Result<TakenBack> take_back(const Author& author, std::int64_t tick, std::int64_t gesture, bool is_undo);
-  /// The commands that undo the gesture and change nothing that others have written since; what they leave is added to `left`.
-  Result<std::vector<Command>> harmless(const Step& step, std::vector<Mark>& left);
-  /// A command that was applied, and the commands that undo it.
-  struct Trial {
+  /// A command that was applied to the scene, what that has touched, and the commands that undo it.
+  struct Done {
     Command command;
     std::vector<Command> inverse;
+    std::vector<Touch> touches;
+    std::set<std::pair<std::string, std::string>> placed;
+    bool is_logic_touched = false;
   };
-  Result<std::optional<Trial>> attempt(SceneEdit& edit, const Command& command, const Written& written,
-                                       std::vector<Mark>& left) const;
+  Result<void> check(const LogEntry& entry) const;
+  Result<Done> apply_now(const Command& command);
+  Result<void> apply_entry(LogEntry entry);
+  /// Gives an entry that was applied its place in the log.
+  void enter(LogEntry entry, Done done);
+  void note(const LogEntry& entry, const std::vector<Touch>& touches, std::vector<Command> inverse);
+  struct Wish {
+    const Author& author;
+    std::int64_t tick, gesture;
+    const Source& source;
+    bool is_undo;
+    bool is_abandoned = false;
+  };
+  Result<TakenBack> take_back(const Wish& wish);
+  /// Applies what undoes the gesture and changes nothing that others have written since; what that leaves is added to `left`.
+  Result<std::vector<Done>> apply_harmless(const Step& step, std::vector<Mark>& left);
+  Result<std::optional<Done>> attempt(const Command& command, const Written& written, std::vector<Mark>& left);
+  /// The scene as it was before these.
+  void roll_back(const std::vector<Done>& trials);
+  std::vector<Done> without_overwritten(std::vector<Done> trials);
   /// The first place that the gesture wrote and somebody else has written since.
   std::optional<Mark> first_since(const Written& written) const;
 
@@ -88,8 +127,10 @@ class Ledger {
   std::map<std::int64_t, Step> steps_;  ///< by gesture
   Writers writers_;
   Gestures gestures_;
-  std::int64_t last_gesture_ = 0;
-  std::function<void(const LogEntry&)> listener_;
+  std::int64_t base_ = 0, last_gesture_ = 0;
+  std::map<std::string, std::pair<std::int64_t, std::int64_t>> operations_;  ///< by origin: the last one, and its gesture
+  std::map<std::size_t, std::function<void(const LogEntry&)>> listeners_;
+  std::size_t last_listener_ = 0;
 };
 
 }  // namespace bl

@@ -12,8 +12,8 @@ namespace bl {
 
 namespace {
 
-// Version 1 has no base, and all its authors are persons.
-constexpr int kLogVersion = 2;
+// Version 1 has no base, and all its authors are persons; version 2 has neither sources, nor labels, nor rewinds.
+constexpr int kLogVersion = 3;
 constexpr std::int64_t kLargestNumber = std::int64_t{1} << 53;
 constexpr const char* kAuthorKinds[] = {"person", "device", "program"};
 
@@ -25,8 +25,22 @@ Result<std::int64_t> number_in(const Json& line, const char* key, bool is_requir
   return it->get<std::int64_t>();
 }
 
+Result<LogEntry> rewind_from_json(const Json& line, LogEntry entry) {
+  for (const char* key : {"command", "arguments", "undoes", "redoes"})
+    if (line.contains(key)) return Error{ErrorCode::conflict, key, "a rewind is no command and takes none back"};
+  const auto to = number_in(line, "rewind", true);
+  if (!to) return to.error();
+  if (*to >= entry.tick)
+    return Error{ErrorCode::out_of_range, "rewind", "goes back to tick " + std::to_string(*to) + ", which is not before its own"};
+  entry.rewinds_to = *to;
+  return entry;
+}
+
 Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
-  if (auto keys = check_keys(line, {"seq", "tick", "author", "kind", "gesture", "undoes", "redoes", "command", "arguments"}, "");
+  if (auto keys = check_keys(line,
+                             {"seq", "tick", "author", "kind", "gesture", "undoes", "redoes", "origin", "operation", "label",
+                              "abandoned", "rewind", "command", "arguments"},
+                             "");
       !keys)
     return keys.error();
   LogEntry entry;
@@ -34,7 +48,8 @@ Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
                                                  {"tick", &entry.tick, true},
                                                  {"gesture", &entry.gesture, true},
                                                  {"undoes", &entry.undoes, false},
-                                                 {"redoes", &entry.redoes, false}}) {
+                                                 {"redoes", &entry.redoes, false},
+                                                 {"operation", &entry.source.operation, false}}) {
     auto number = number_in(line, key, is_required);
     if (!number) return number.error();
     *target = *number;
@@ -46,6 +61,18 @@ Result<LogEntry> entry_from_json(const Json& line, const Registry& registry) {
     if (found == std::end(kAuthorKinds)) return Error{ErrorCode::wrong_kind, "kind", "expects `person`, `device` or `program`"};
     entry.author.kind = static_cast<AuthorKind>(found - std::begin(kAuthorKinds));
   }
+  for (const auto& [key, target] : {std::pair{"origin", &entry.source.origin}, {"label", &entry.label}}) {
+    const auto text = line.find(key);
+    if (text == line.end()) continue;
+    if (!text->is_string()) return Error{ErrorCode::wrong_kind, key, "expects a text"};
+    *target = text->get<std::string>();
+  }
+  if (const auto abandoned = line.find("abandoned"); abandoned != line.end()) {
+    if (*abandoned != true || entry.undoes == 0)
+      return Error{ErrorCode::wrong_kind, "abandoned", "expects true, at an entry that undoes a gesture"};
+    entry.is_abandoned = true;
+  }
+  if (line.contains("rewind")) return rewind_from_json(line, std::move(entry));
   Json command = Json::object();
   for (const char* key : {"command", "arguments"})
     if (line.contains(key)) command[key] = line[key];
@@ -74,7 +101,7 @@ class LogReader {
     const Json format = line.is_object() ? line.value("format", Json()) : Json();
     if (format != "behaviourlinks-log" || !line.contains("scene")) return no_log();
     const Json version = line.value("version", Json());
-    if (version != 1 && version != kLogVersion)
+    if (!version.is_number_integer() || version < 1 || version > kLogVersion)
       return Error{ErrorCode::version, "", "this program reads logs of versions 1 to " + std::to_string(kLogVersion)};
     const auto base = number_in(line, "base", false);
     if (!base) return base.error();
@@ -83,7 +110,7 @@ class LogReader {
     log.scene = write_json(scene) + "\n";
     // What the scene itself gets wrong is told when it is read.
     if (const auto state = scene.find("state"); scene.is_object() && state != scene.end() && state->is_object())
-      if (const auto tick = number_in(*state, "tick", false); tick) log.last_tick = *tick;
+      if (const auto tick = number_in(*state, "tick", false); tick) log.last_tick = first_tick_ = *tick;
     return {};
   }
 
@@ -104,23 +131,24 @@ class LogReader {
 
   static Error no_log() {
     return {ErrorCode::parse, "",
-            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 2, \"scene\": {...}}"};
+            "this is not a log: it starts with {\"format\": \"behaviourlinks-log\", \"version\": 3, \"scene\": {...}}"};
   }
 
   LogFile log;
 
  private:
   Result<void> take(LogCheck check) {
-    if (!log.checks.empty() && check.tick < log.checks.back().tick)
-      return Error{ErrorCode::conflict, "tick",
-                   "the checks are not in order: tick " + std::to_string(check.tick) + " comes after tick " +
-                       std::to_string(log.checks.back().tick)};
+    if (check.tick < check_tick_)
+      return Error{
+          ErrorCode::conflict, "tick",
+          "the checks are not in order: tick " + std::to_string(check.tick) + " comes after tick " + std::to_string(check_tick_)};
     // The tick for which the last entries came may have failed, and then the end is the tick before.
     const std::int64_t reached = check.tick + (check.is_end ? 1 : 0);
-    if (!log.entries.empty() && reached < log.entries.back().tick && use_ == LogUse::replay)
-      return out_of_order("a check", check.tick, "an entry", log.entries.back().tick);
+    if (reached < entry_tick_ && use_ == LogUse::replay) return out_of_order("a check", check.tick, "an entry", entry_tick_);
     if (auto near = reach(check.tick); !near) return near;
     log.has_end = check.is_end;
+    check_tick_ = check.tick;
+    check.entries = log.entries.size();
     log.checks.push_back(std::move(check));
     return {};
   }
@@ -129,11 +157,14 @@ class LogReader {
     if (entry.seq <= log.base)
       return Error{ErrorCode::conflict, "seq",
                    "the scene of the log holds all entries up to number " + std::to_string(log.base) + " already"};
-    if (!log.entries.empty() && (entry.seq <= log.entries.back().seq || entry.tick < log.entries.back().tick))
+    if (entry.tick < entry_tick_ || (!log.entries.empty() && entry.seq <= log.entries.back().seq))
       return Error{ErrorCode::conflict, "seq", "the entries are not in order"};
-    if (!log.checks.empty() && entry.tick < log.checks.back().tick && use_ == LogUse::replay)
-      return out_of_order("an entry", entry.tick, "a check", log.checks.back().tick);
+    if (entry.tick < check_tick_ && use_ == LogUse::replay) return out_of_order("an entry", entry.tick, "a check", check_tick_);
     if (auto near = reach(entry.tick); !near) return near;
+    entry_tick_ = entry.tick;
+    if (entry.rewinds_to) {
+      if (auto back = go_back(*entry.rewinds_to); !back) return back;
+    }
     if (use_ == LogUse::recovery) entry = gestures_.fitted(entry);
     else if (auto fits = gestures_.check(entry); !fits) return fits;
     gestures_.take(entry);
@@ -145,6 +176,16 @@ class LogReader {
     return {ErrorCode::conflict, "tick",
             std::string("the lines are not in order: ") + one + " of tick " + std::to_string(tick) + " comes after " + other +
                 " of tick " + std::to_string(last)};
+  }
+
+  // From here on the lines count from the tick that was returned to.
+  Result<void> go_back(std::int64_t tick) {
+    if (use_ == LogUse::replay && tick < first_tick_)
+      return Error{
+          ErrorCode::out_of_range, "rewind",
+          "tick " + std::to_string(tick) + " lies before the scene of the log, which is at tick " + std::to_string(first_tick_)};
+    log.last_tick = entry_tick_ = check_tick_ = tick;
+    return {};
   }
 
   // A replay runs up to the tick of each line.
@@ -164,6 +205,8 @@ class LogReader {
   const Registry& registry_;
   LogUse use_;
   Gestures gestures_;
+  std::int64_t first_tick_ = 0;                   // of the scene
+  std::int64_t entry_tick_ = 0, check_tick_ = 0;  // of the last lines since the last rewind
 };
 
 }  // namespace
@@ -188,7 +231,12 @@ std::string log_line(const LogEntry& entry, const Registry& registry) {
   line["gesture"] = entry.gesture;
   if (entry.undoes != 0) line["undoes"] = entry.undoes;
   if (entry.redoes != 0) line["redoes"] = entry.redoes;
-  line.update(command_to_json(registry, entry.command));
+  if (entry.is_abandoned) line["abandoned"] = true;
+  if (!entry.source.origin.empty()) line["origin"] = entry.source.origin;
+  if (entry.source.operation != 0) line["operation"] = entry.source.operation;
+  if (!entry.label.empty()) line["label"] = entry.label;
+  if (entry.rewinds_to) line["rewind"] = *entry.rewinds_to;
+  else line.update(command_to_json(registry, entry.command));
   return write_json_line(line) + "\n";
 }
 

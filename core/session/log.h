@@ -13,12 +13,25 @@
 
 namespace bl {
 
-/// One command as somebody gave it. Entries of one gesture are undone together.
+/// Where an entry came from: a window, a script, a connection; and its number there, so that one that is sent twice is taken
+/// once.
+struct Source {
+  std::string origin;
+  std::int64_t operation = 0;  ///< ascending within its origin; 0: none
+  bool operator==(const Source&) const = default;
+};
+
+/// One command as somebody gave it, or a rewind. Entries of one gesture are undone together.
 struct LogEntry {
   std::int64_t seq = 0, tick = 0, gesture = 0;
-  Author author;
-  Command command;
+  Author author = {};
+  Command command = {};
   std::int64_t undoes = 0, redoes = 0;  ///< the gesture that this entry takes back or brings back; 0: none
+  Source source = {};
+  std::string label = {};     ///< what the step is called in the history; empty: as its command says
+  bool is_abandoned = false;  ///< an undo that forgets the gesture as if it had never been: nothing brings it back
+  std::optional<std::int64_t> rewinds_to =
+      {};  ///< the running state goes back to this tick, the scene stays; there is no command
 };
 
 /// A hash that was reached at a tick; replay must reach it too.
@@ -26,6 +39,7 @@ struct LogCheck {
   std::int64_t tick = 0;
   std::string hash;
   bool is_end = false;
+  std::size_t entries = 0;  ///< how many entries of the log stand before it
 };
 
 /// What a log file holds: JSON lines, the first with the scene it starts from.
@@ -34,7 +48,7 @@ struct LogFile {
   std::int64_t base = 0;  ///< number of the last entry before the scene; 0 where the session began with it
   std::vector<LogEntry> entries;
   std::vector<LogCheck> checks;
-  std::int64_t last_tick = 0;  ///< of the scene and all lines
+  std::int64_t last_tick = 0;  ///< of the scene and all lines since the last rewind
   bool is_cut_off = false;     ///< the last line was incomplete, as after a crash; it is left out
   bool has_end = false;        ///< whoever wrote it came to the end; without it lines may be missing
 };

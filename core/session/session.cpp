@@ -30,6 +30,7 @@ bool Session::tick() {
   // Taken only once they have really taken part: a replay meets the last state without them.
   if (const Ledger::Changes changes = ledger_.changes(); changes.is_logic_changed)
     simulation_.set_scene(ledger_.scene(), changes.placed);
+  if (kept_ticks_.contains(before->tick)) kept_[before->tick] = simulation_.state();
   if (!simulation_.step()) {
     simulation_.put_back(before);
     return false;
@@ -38,25 +39,77 @@ bool Session::tick() {
   return true;
 }
 
+Result<void> Session::replay(const LogEntry& entry) {
+  if (!entry.rewinds_to) return ledger_.replay(entry);
+  const auto kept = kept_.find(*entry.rewinds_to);
+  if (kept == kept_.end() || kept->first >= state()->tick)
+    return Error{ErrorCode::not_found, "rewind", "the state of tick " + std::to_string(*entry.rewinds_to) + " is not kept"};
+  if (auto done = ledger_.replay(entry); !done) return done;
+  simulation_.return_to(kept->second);
+  return {};
+}
+
+Result<void> Session::rewind(std::int64_t tick, const Author& author) {
+  LogEntry entry{.tick = state()->tick, .gesture = new_gesture()};
+  entry.author = author;
+  entry.rewinds_to = tick;
+  return replay(entry);
+}
+
 namespace {
 
-// Compares the checks of a log as the run comes to them; they ascend.
-class Comparison {
+// Runs a session along a log, and compares its checks as the run comes to them. Between two rewinds they ascend.
+class Replaying {
  public:
-  Comparison(const LogFile& log, ReplayReport& report) : checks_(log.checks), report_(report) {}
+  Replaying(const LogFile& log, Session& session, ReplayReport& report) : log_(log), session_(session), report_(report) {
+    std::set<std::int64_t> targets;
+    for (const LogEntry& entry : log.entries)
+      if (entry.rewinds_to) targets.insert(*entry.rewinds_to);
+    session.keep_states(std::move(targets));
+    begin_stretch(0);
+  }
 
-  void at(const State& state) {
-    for (; next_ < checks_.size() && checks_[next_].tick <= state.tick; ++next_) {
-      if (checks_[next_].tick < state.tick) continue;
-      ++report_.checks;
-      if (checks_[next_].hash != hex_digits(state.hash) && !report_.first_mismatch) report_.first_mismatch = checks_[next_];
+  Result<void> take(std::size_t index) {
+    const LogEntry& entry = log_.entries[index];
+    run_to(entry.tick);
+    if (auto done = session_.replay(entry); !done) return done.error().within("entry " + std::to_string(entry.seq));
+    if (entry.rewinds_to) begin_stretch(index + 1);
+    ++report_.entries;
+    return {};
+  }
+
+  void run_to(std::int64_t tick) {
+    while (session_.state()->tick < tick) {
+      session_.tick();
+      compare();
     }
   }
 
  private:
-  const std::vector<LogCheck>& checks_;
+  // The entries from here to the next rewind, and the checks among them.
+  void begin_stretch(std::size_t first) {
+    while (next_ < log_.checks.size() && log_.checks[next_].entries < first) ++next_;
+    end_ = first;
+    while (end_ < log_.entries.size() && !log_.entries[end_].rewinds_to) ++end_;
+    compare();
+  }
+
+  void compare() {
+    const State& state = *session_.state();
+    for (; next_ < log_.checks.size() && log_.checks[next_].entries <= end_; ++next_) {
+      const LogCheck& check = log_.checks[next_];
+      if (check.tick > state.tick) return;
+      if (check.tick < state.tick) continue;
+      ++report_.checks;
+      if (check.hash != hex_digits(state.hash) && !report_.first_mismatch) report_.first_mismatch = check;
+    }
+  }
+
+  const LogFile& log_;
+  Session& session_;
   ReplayReport& report_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0;  // check
+  std::size_t end_ = 0;   // of the stretch: the rewind, or the end of the log
 };
 
 }  // namespace
@@ -67,20 +120,10 @@ Result<ReplayReport> replay(const LogFile& log, const Registry& registry, int th
   auto session = Session::start(registry, reading.scene, reading.state ? &*reading.state : nullptr, threads);
   if (!session) return session.error();
   ReplayReport report;
-  Comparison comparison(log, report);
-  comparison.at(*(*session)->state());
-  for (const LogEntry& entry : log.entries) {
-    while ((*session)->state()->tick < entry.tick) {
-      (*session)->tick();
-      comparison.at(*(*session)->state());
-    }
-    if (auto done = (*session)->replay(entry); !done) return done.error().within("entry " + std::to_string(entry.seq));
-    ++report.entries;
-  }
-  while ((*session)->state()->tick < log.last_tick) {
-    (*session)->tick();
-    comparison.at(*(*session)->state());
-  }
+  Replaying replaying(log, **session, report);
+  for (std::size_t i = 0; i < log.entries.size(); ++i)
+    if (auto taken = replaying.take(i); !taken) return taken.error();
+  replaying.run_to(log.last_tick);
   report.ticks = (*session)->state()->tick;
   report.hash = hex_digits((*session)->state()->hash);
   return report;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,29 +25,40 @@ class Session {
   Result<void> submit(const Command& command, const Author& author, std::int64_t gesture = 0) {
     return ledger_.submit(command, author, state()->tick, gesture);
   }
+  Result<void> submit(Submission submission) { return ledger_.submit(std::move(submission), state()->tick); }
   std::int64_t new_gesture() { return ledger_.new_gesture(); }
   Result<TakenBack> undo(const Author& author) { return ledger_.undo(author, state()->tick); }
   Result<TakenBack> redo(const Author& author) { return ledger_.redo(author, state()->tick); }
-  Result<void> replay(const LogEntry& entry) { return ledger_.replay(entry); }
+  /// An entry of a log, as Ledger's; a rewind takes the running state back.
+  Result<void> replay(const LogEntry& entry);
+  /// The running state goes back to a tick whose state is kept; the scene stays as it is.
+  Result<void> rewind(std::int64_t tick, const Author& author);
+  /// The states with which these ticks begin are kept, so that a rewind can return to them.
+  void keep_states(std::set<std::int64_t> ticks) { kept_ticks_ = std::move(ticks); }
 
   /// One tick; the commands since the last one take part. False where the work was stopped on the way (core/base/stop): the state
   /// is the one before, and the commands wait for the next tick.
   bool tick();
 
+  /// For gestures that are under way (`open_gestures.h`).
+  Ledger& ledger() { return ledger_; }
   const Scene& scene() const { return ledger_.scene(); }
   std::shared_ptr<const State> state() const { return simulation_.state(); }
   /// The state as the next tick will begin with it, under the scene as people have it now: what is saved beside that scene.
   std::shared_ptr<const State> coming_state() const;
   const std::vector<LogEntry>& log() const { return ledger_.log(); }
   const PhaseTimes& times() const { return simulation_.times(); }
-  /// Called with each new entry, to write it down at once.
-  void on_entry(std::function<void(const LogEntry&)> listener) { ledger_.on_entry(std::move(listener)); }
+  /// As Ledger's.
+  std::size_t subscribe(std::function<void(const LogEntry&)> listener) { return ledger_.subscribe(std::move(listener)); }
+  void unsubscribe(std::size_t number) { ledger_.unsubscribe(number); }
 
  private:
   Session(const Registry& registry, const Scene& scene, int threads, double (*now)());
 
   Ledger ledger_;
   Simulation simulation_;
+  std::set<std::int64_t> kept_ticks_;
+  std::map<std::int64_t, std::shared_ptr<const State>> kept_;
 };
 
 /// The end of a replay, and where it first left the path of the log.

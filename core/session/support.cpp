@@ -11,19 +11,19 @@
 
 namespace bl {
 
-JsonText as_json_text(const Value& value, const PortDefinition& port) { return {write_json_line(value_to_json(value, port))}; }
+JsonValue json_of(const Value& value, const PortDefinition& port) { return JsonValue::of(value_to_json(value, port)); }
 
-Result<Value> argument_value(const TypeDefinition& type, const std::string& port_id, const JsonText& json,
+Result<Value> argument_value(const TypeDefinition& type, const std::string& port_id, const JsonValue& json,
                              const std::string& place) {
   const PortDefinition* port = type.find_port(port_id);
   if (port == nullptr)
     return Error{ErrorCode::unknown_field, place,
                  "`" + type.id + "` has no `" + port_id + "`" + did_you_mean(port_id, port_ids(type))};
   if (auto reason = why_unsettable(*port); !reason.empty()) return Error{ErrorCode::conflict, place, std::move(reason)};
-  auto value = parse_json(json.text);
+  const auto value = json.read();
   if (!value) return value.error().within(place);
-  if (value->is_null()) return port->default_value;
-  return value_from_json(*port, *value, place);
+  if ((*value)->is_null()) return port->default_value;
+  return value_from_json(*port, **value, place);
 }
 
 Result<void> check_references(const SceneEdit& edit, const TypeDefinition& type, const PortValues& values,
@@ -48,9 +48,9 @@ void assign(PortValues& values, const PortDefinition& port, const Value& value) 
   else values.erase(port.id);
 }
 
-JsonText current_value(const PortValues& values, const PortDefinition& port) {
+JsonValue current_value(const PortValues& values, const PortDefinition& port) {
   const auto it = values.find(port.id);
-  return it == values.end() ? JsonText{"null"} : as_json_text(it->second, port);
+  return it == values.end() ? JsonValue::null() : json_of(it->second, port);
 }
 
 Result<PortSite> find_setting(const SceneEdit& edit, const std::string& node_id, const PortChoice& choice) {

@@ -8,17 +8,18 @@
 
 namespace bl {
 
-/// The text of a value as a command argument.
-JsonText as_json_text(const Value& value, const PortDefinition& port);
+/// A value as a command argument.
+JsonValue json_of(const Value& value, const PortDefinition& port);
 /// A setting of a type from a JSON argument; `null` stands for the default.
-Result<Value> argument_value(const TypeDefinition& type, const std::string& port, const JsonText& json, const std::string& place);
+Result<Value> argument_value(const TypeDefinition& type, const std::string& port, const JsonValue& json,
+                             const std::string& place);
 /// Do the nodes and ports that values name exist? `self` is the node that is being added, if any.
 Result<void> check_references(const SceneEdit& edit, const TypeDefinition& type, const PortValues& values,
                               const std::string& self, const std::string& place);
 /// Sets a value, or takes it away where it is the default.
 void assign(PortValues& values, const PortDefinition& port, const Value& value);
 /// The current value of a port as a command argument.
-JsonText current_value(const PortValues& values, const PortDefinition& port);
+JsonValue current_value(const PortValues& values, const PortDefinition& port);
 /// A node's setting: its node, type and port, or the sentence why there is none.
 struct PortSite {
   const NodeRecord* node;

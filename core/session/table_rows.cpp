@@ -74,16 +74,16 @@ std::vector<Command> table_commands(const std::string& node, const std::string& 
                         [&](const TableRow& row) { return std::get<std::string>(row[key]) == name; });
   };
   for (const TableDifference& difference : table_differences(port, before, after)) {
-    if (difference.is_whole()) return {command<SetPort>({node, {path}, as_json_text(Shared<Table>(after), port)})};
+    if (difference.is_whole()) return {command<SetPort>({node, {path}, json_of(Shared<Table>(after), port)})};
     const auto row = named(after, difference.row);
     if (row == after.rows.end()) {
       commands.push_back(command<RemoveRow>({node, {path}, difference.row}));
     } else if (difference.column.empty()) {
-      commands.push_back(command<AddRow>({node, {path}, {write_json_line(row_to_json(port, *row))}, row - after.rows.begin()}));
+      commands.push_back(command<AddRow>({node, {path}, JsonValue::of(row_to_json(port, *row)), row - after.rows.begin()}));
     } else {
       const Json fields = row_to_json(port, *row);
       const Json value = fields.contains(difference.column) ? fields[difference.column] : Json();
-      commands.push_back(command<SetCell>({node, {path}, difference.row, difference.column, {write_json_line(value)}}));
+      commands.push_back(command<SetCell>({node, {path}, difference.row, difference.column, JsonValue::of(value)}));
     }
   }
   return commands;

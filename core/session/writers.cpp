@@ -1,6 +1,8 @@
 // Marks in ascending order of their places, so that what lies inside a place follows it.
 #include "core/session/writers.h"
 
+#include <algorithm>
+
 namespace bl {
 
 namespace {
@@ -13,6 +15,14 @@ Touch first_inside(const Touch& place) {
 }
 
 }  // namespace
+
+bool is_set_value(const Touch& place) {
+  if (place.part == ScenePart::setting) return true;
+  if (place.part == ScenePart::script || place.path.empty()) return false;
+  if (!place.path.starts_with("types/")) return !place.path.starts_with("locked/");
+  const auto steps = std::count(place.path.begin(), place.path.end(), '/');
+  return steps == 2 || steps == 4;  // types/programme/rows, types/programme/rows/housing/count
+}
 
 Mark Writers::of(const Touch& place) const {
   Touch at = place;

@@ -19,6 +19,9 @@ struct Writer {
   bool operator==(const Writer&) const = default;
 };
 
+/// Is the place something that is set, in contrast to a node, role, row, lock, link or script that comes and goes?
+bool is_set_value(const Touch& place);
+
 /// A place, and whose it is.
 struct Mark {
   Touch place;

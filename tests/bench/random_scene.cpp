@@ -31,9 +31,9 @@ Result<Scene> random_scene(int count, const Registry& registry) {
   std::vector<double> shares;
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += shares.emplace_back(random.uniform(0.25, 1.75));
-  Json commands = Json::array();
+  std::vector<Command> commands;
   const auto add = [&](const std::string& id, const Json& node) {
-    commands.push_back(command_to_json(registry, command<AddNode>({id, {write_json_line(node)}})));
+    commands.push_back(command<AddNode>({id, JsonValue::of(node)}));
   };
   const Json plan = {{0.0, 0.0, 0.0}, {side, 0.0, 0.0}, {side, side, 0.0}, {0.0, side, 0.0}};
   add("box", {{"types", {{"boundary", {{"form", "plan"}, {"plan", plan}, {"height", side}}}}}});
@@ -45,7 +45,7 @@ Result<Scene> random_scene(int count, const Registry& registry) {
   }
   auto session = Session::start(registry, Scene{}, nullptr, 1);
   if (!session) return session.error();
-  if (auto done = (*session)->submit(command<Batch>({{write_json_line(commands)}}), "bench"); !done) return done.error();
+  if (auto done = (*session)->submit(command<Batch>({commands}), "bench"); !done) return done.error();
   return (*session)->scene();
 }
 

@@ -62,10 +62,10 @@ Result<GrowthRow> measure(const SolverBench& bench, int count) {
 }
 
 Result<void> draw(const std::vector<GrowthRow>& rows, const std::string& folder) {
-  ChartPanel time{"time per site [µs], one thread", "sites", {}, 0, ""};
-  ChartPanel memory{"peak memory per site [bytes]", "sites", {}, 0, ""};
+  report::ChartPanel time{"time per site [µs], one thread", "sites", {}, 0, ""};
+  report::ChartPanel memory{"peak memory per site [bytes]", "sites", {}, 0, ""};
   for (std::size_t c = 0; c < kCurves.size(); ++c) {
-    ChartLine seconds{kCurves[c].label, kCurves[c].colour, kCurves[c].dashes, {}}, bytes = seconds;
+    report::ChartLine seconds{kCurves[c].label, kCurves[c].colour, kCurves[c].dashes, {}}, bytes = seconds;
     for (const GrowthRow& row : rows) {
       const double count = row.sites;
       if (row.seconds[c]) seconds.points.push_back({count, 1e6 * *row.seconds[c] / count});
@@ -78,7 +78,7 @@ Result<void> draw(const std::vector<GrowthRow>& rows, const std::string& folder)
   std::error_code ignored;  // a folder that cannot be made is told by the file that cannot be written
   std::filesystem::create_directories(folder, ignored);
   return write_file(folder + "/growth.svg",
-                    draw_chart({"growth",
+                    report::draw_chart({"growth",
                                 "Growth of the solver",
                                 "Time and peak memory per site over the number of sites, on logarithmic scales: the diagram "
                                 "without balls, a cold fit, the plain triangulation of CGAL, and the diagram of Voro++.",

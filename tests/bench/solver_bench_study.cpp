@@ -100,9 +100,9 @@ Result<Curve> best_of_2007(const SolverBench& bench, const Study& study) {
 Result<void> draw(const Study& study, const std::vector<Curve>& curves, const std::string& folder) {
   static constexpr const char* kColours[] = {"#8a5a00", "#225599", "#aa3311"};
   static constexpr const char* kDashes[] = {"2 2.5", "6 2.5", ""};
-  ChartPanel panel{"largest relative error of a volume", "evaluations of the diagram (one a tick)", {}, kGoal, "1 %"};
+  report::ChartPanel panel{"largest relative error of a volume", "evaluations of the diagram (one a tick)", {}, kGoal, "1 %"};
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    ChartLine line{curves[c].name + " (" + std::to_string(curves[c].to_goal) + " to 1 %)", kColours[c], kDashes[c], {}};
+    report::ChartLine line{curves[c].name + " (" + std::to_string(curves[c].to_goal) + " to 1 %)", kColours[c], kDashes[c], {}};
     for (std::size_t k = 0; k < curves[c].errors.size(); ++k) {
       line.points.push_back({static_cast<double>(k + 1), curves[c].errors[k]});
     }
@@ -111,7 +111,7 @@ Result<void> draw(const Study& study, const std::vector<Curve>& curves, const st
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
   return write_file(folder + "/feedback_newton.svg",
-                    draw_chart({"feedback-newton",
+                    report::draw_chart({"feedback-newton",
                                 "Feedback against Newton",
                                 "The largest relative error of " + std::to_string(study.sites.size()) +
                                     " volumes over the evaluations of the diagram, on logarithmic scales; the numbers are "

@@ -48,17 +48,16 @@ Scene rebuilt(const Scene& scene, std::uint64_t seed) {
     std::erase_if(bare.types, [](const auto& type) { return type.first != kBaseNode; });
     bare.locked.clear();
     bare.ghosts.clear();
-    nodes.push_back(command<AddNode>({id, {write_json_line(node_to_json(bare, full_registry()))}}));
+    nodes.push_back(command<AddNode>({id, JsonValue::of(node_to_json(bare, full_registry()))}));
   }
   std::vector<Command> roles;
   for (const auto& [id, node] : scene.nodes) {
     for (const auto& [type, values] : node.types)
       if (type != kBaseNode)
-        roles.push_back(
-            command<Typify>({id, type, {write_json_line(ports_to_json(*full_registry().typification(type), values))}}));
+        roles.push_back(command<Typify>({id, type, JsonValue::of(ports_to_json(*full_registry().typification(type), values))}));
   }
   for (const auto& [id, link] : scene.links)
-    links.push_back(command<AddLink>({id, {write_json_line(link_to_json(link, full_registry()))}}));
+    links.push_back(command<AddLink>({id, JsonValue::of(link_to_json(link, full_registry()))}));
   Scene fresh;
   fresh.settings = scene.settings;
   fresh.view = scene.view;

@@ -1,20 +1,26 @@
 // Inside boundary: projections by hand, margins that leave no room, and volumes drawn off the site.
+#include "core/geometry/domain_table.h"
 #include "tests/links/link_case.h"
 
 namespace bl {
 namespace {
+
+// What a boundary makes of such planes.
+Value domain_of(const Table& planes) {
+  return Made::of<Domain>([planes = Shared<Table>(planes)] { return shared_domain(planes); });
+}
 
 // A box of 60 x 40 x 30 m; the normal of one side is not of length 1.
 Value box() {
   Table planes{{"x", "y", "z", "offset"}, {}};
   planes.rows = {{2.0, 0.0, 0.0, 120.0}, {-1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 40.0},
                  {0.0, -1.0, 0.0, 0.0},  {0.0, 0.0, 1.0, 30.0}, {0.0, 0.0, -1.0, 0.0}};
-  return Shared<Table>(planes);
+  return domain_of(planes);
 }
 
 LinkCase inside(Point3 position, double margin) {
   LinkCase link("inside_boundary");
-  link.set("margin", margin).from("boundary.planes", box()).to("node.position", position);
+  link.set("margin", margin).from("boundary.domain", box()).to("node.position", position);
   return link;
 }
 
@@ -30,8 +36,11 @@ TEST(InsideBoundary, ProjectsOntoSidesEdgesAndCorners) {
 
 TEST(InsideBoundary, FindsTheNearestPointBetweenSlantedSides) {
   Table wedge{{"x", "y", "z", "offset"}, {{0.0, 1.0, 0.0, 0.0}, {0.6, 0.8, 0.0, 0.0}}};
+  for (const double side : {-1.0, 1.0}) wedge.rows.push_back({0.0, 0.0, side, 100.0});
+  wedge.rows.push_back({-1.0, 0.0, 0.0, 100.0});
+  wedge.rows.push_back({0.0, -1.0, 0.0, 100.0});
   LinkCase link("inside_boundary");
-  link.from("boundary.planes", Shared<Table>(wedge)).to("node.position", Point3{1, 3, 2});
+  link.from("boundary.domain", domain_of(wedge)).to("node.position", Point3{1, 3, 2});
   ASSERT_EQ(link.run(), "");
   expect_near(link.move(End::to), {-1, -3, 0}, 1e-6);  // the edge where both sides meet
 }
@@ -40,7 +49,7 @@ TEST(InsideBoundary, LeavesTheInsideAloneAndWaitsForAShape) {
   auto link = inside({55, 35, 25}, 5);
   ASSERT_EQ(link.run(), "");
   EXPECT_FALSE(link.moves(End::to));
-  ASSERT_EQ(link.from("boundary.planes", Shared<Table>(Table{})).to("node.position", Point3{1e6, 0, 0}).run(), "");
+  ASSERT_EQ(link.from("boundary.domain", domain_of({})).to("node.position", Point3{1e6, 0, 0}).run(), "");
   EXPECT_FALSE(link.moves(End::to));
 }
 
@@ -60,7 +69,7 @@ TEST(InsideBoundary, GoesToTheNearestOfThePieces) {
   add(10, 30, 6, 1);
   const auto moved = [&](Point3 position) {
     LinkCase link("inside_boundary");
-    link.set("margin", 1.0).from("boundary.planes", Shared<Table>(planes)).to("node.position", position);
+    link.set("margin", 1.0).from("boundary.domain", domain_of(planes)).to("node.position", position);
     EXPECT_EQ(link.run(), "");
     return link.moves(End::to) ? link.move(End::to) : Vector3{};
   };

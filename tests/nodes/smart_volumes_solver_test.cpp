@@ -195,8 +195,10 @@ TEST(SmartVolumesSolver, NeedsExactlyOneBoundaryWithAShape) {
   EXPECT_TRUE(chosen.settle(100));
   World flat = World::from_text(with_solver(R"("form": "plan", "plan": [[0,0,0],[1,0,0],[2,0,0]])", volume));
   flat.tick();
-  EXPECT_EQ(flat.node_error("solver", "smart_volumes_solver"),
-            "nodes/solver/smart_volumes_solver/boundary: the boundary `plot` has no shape: see its own error");
+  EXPECT_EQ(
+      flat.node_error("solver", "smart_volumes_solver"),
+      "nodes/solver/smart_volumes_solver/boundary: the boundary `plot` has no shape: see its own error, or make it simpler where "
+      "it has none");
   EXPECT_EQ(flat.text("v", "smart_volume.state"), "idle");
 }
 

@@ -1,8 +1,11 @@
 // The network: what leaves arrives, a saved state goes on, Braess's streets, and faults that keep the last good figures.
+#include <map>
+
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/file/scene_file.h"
-#include "core/traffic/packed_numbers.h"
+#include "core/traffic/trip_flows.h"
 #include "tests/nodes/scene_text.h"
 #include "tests/support/world.h"
 
@@ -27,8 +30,8 @@ TEST(TrafficNetwork, FourZonesFindTheirWays) {
   const std::size_t place = ways.row_of("zone", "j32");
   double ending = 0;
   for (std::size_t r = 0; r < ways.rows.size(); ++r) {
-    const auto trips = unpacked_numbers(ways.text(r, "trips"));
-    ASSERT_TRUE(trips && place < trips->size());
+    const Numbers& trips = ways.numbers(r, "trips");
+    ASSERT_LT(place, trips->size());
     ending += (*trips)[place];
   }
   EXPECT_NEAR(ending, 600.0 * 1260 / 1230, 0.5);
@@ -58,6 +61,34 @@ TEST(TrafficNetwork, ASavedStateGoesOnBitForBit) {
     two.tick();
     ASSERT_EQ(one.state().hash, two.state().hash) << "tick " << i;
   }
+}
+
+TEST(TrafficNetwork, TripsThatOlderFilesHeldAsDigitsAreTheSame) {
+  World now = World::from_file("scenes/nodes/traffic_network.json");
+  now.tick(2);
+  const SavedState saved = save(now.state());
+  Json file = *parse_json(write_scene(now.session().scene(), full_registry(), &saved));
+  Json& ways = file["state"]["nodes"]["network"]["traffic_network.ways"];
+  ASSERT_FALSE(ways.empty());
+  for (Json& row : ways) {
+    row["links"] = digits_of(row.value("links", std::vector<std::uint32_t>()));
+    for (const char* list : {"flows", "trips"}) row[list] = digits_of(row.value(list, std::vector<double>()));
+  }
+  World old = World::from_text(write_json(file));
+  for (int i = 0; i < 3; ++i, now.tick(), old.tick()) ASSERT_EQ(old.state().hash, now.state().hash) << i;
+}
+
+TEST(TrafficNetwork, ItsFlowsAreHandedOnByStreet) {
+  World world = World::from_file("scenes/nodes/traffic_network.json");
+  ASSERT_TRUE(world.settle(200));
+  const auto flows = std::get<Made>(value_in(world.state(), "network", "traffic_network.trip_flows")).get<TripFlows>();
+  ASSERT_NE(flows, nullptr);
+  std::map<std::string, double> by_place;
+  for (const TripFlows::Zone& zone : flows->zones)
+    for (std::size_t k = 0; k < zone.links->size(); ++k) by_place[flows->places.at((*zone.links)[k])] += (*zone.flows)[k];
+  for (const char* street : {"e11", "e12"})
+    EXPECT_NEAR(by_place[street], world.number(street, "street.flow_forth") + world.number(street, "street.flow_back"), 1e-6)
+        << street;
 }
 
 TEST(TrafficNetwork, FiguresThatAnOlderProgramKeptAreNoReasonToLoseAScene) {

@@ -78,7 +78,7 @@ Command random_command(const Scene& scene, Random& random, int number) {
       const LinkDefinition* type = full_registry().link(scene.links.at(id).kind);
       if (type == nullptr || type->ports.empty()) return command<SetLinkParameter>({id, "distance", {number_text}});
       const PortDefinition& port = type->ports[random.below(type->ports.size())];
-      return command<SetLinkParameter>({id, port.id, {write_json_line(value_to_json(random_value(port, random), port))}});
+      return command<SetLinkParameter>({id, port.id, JsonValue::of(value_to_json(random_value(port, random), port))});
     }
     case 20:
       return command<Receive>({.node = playing_or(scene, "sensor", pick(scene.nodes)),
@@ -90,9 +90,8 @@ Command random_command(const Scene& scene, Random& random, int number) {
       return command<NoteConnection>(
           {playing_or(scene, "sensor", pick(scene.nodes)), random.below(2) == 0 ? "nobody is there, " + number_text : ""});
     case 22:
-      return command<Batch>(
-          {{R"([{"command": "rename_node", "arguments": {"id": ")" + pick(scene.nodes) + R"(", "name": "B)" + number_text +
-            R"("}}, {"command": "add_node", "arguments": {"id": ")" + fresh + R"(", "node": {"types": {"sensor": {}}}}}])"}});
+      return command<Batch>({std::vector{command<RenameNode>({pick(scene.nodes), "B" + number_text}),
+                                         command<AddNode>({fresh, {R"({"types": {"sensor": {}}})"}})}});
     case 23:
       return command<SetCell>({playing_or(scene, "programme", pick(scene.nodes)),
                                {"programme.rows"},

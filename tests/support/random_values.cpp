@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/define/registry.h"
+#include "tests/support/world.h"
+
 namespace bl {
 
 namespace {
@@ -32,6 +35,34 @@ std::string random_word(Random& random) {
   return kWords[random.below(std::size(kWords))];
 }
 
+Numbers random_numbers(Random& random) {
+  std::vector<double> numbers(random.below(60));
+  for (double& number : numbers) number = random_number(-1e15, 1e15, std::nullopt, std::nullopt, random);
+  return numbers;
+}
+
+Indices random_indices(Random& random) {
+  std::vector<std::uint32_t> indices(random.below(100));
+  for (std::uint32_t& index : indices) index = static_cast<std::uint32_t>(random.below(kLargestIndex + 1));
+  return indices;
+}
+
+// What the port's typification makes of random settings, now and then of none.
+Value random_object(const PortDefinition& port, Random& random) {
+  for (const auto& [id, type] : full_registry().typifications()) {
+    const std::size_t place = type.port_index(port.id);
+    if (place == type.ports.size() || !(type.ports[place].made == port.made)) continue;
+    std::vector<Value> values;
+    for (const PortDefinition& one : type.ports)
+      values.push_back(one.is_computed || random.below(2) == 0 ? one.default_value : random_value(one, random));
+    std::vector<SetValues> sets(type.sets.size());
+    if (random.below(8) == 0 || !type.evaluate(values, sets, Tick{})) return port.default_value;
+    make_objects(type, values, {});
+    return values[place];
+  }
+  return Made();
+}
+
 Table random_table(const PortDefinition& port, Random& random) {
   Table table;
   for (const ColumnDefinition& column : port.columns) table.columns.push_back(column.id);
@@ -39,6 +70,8 @@ Table random_table(const PortDefinition& port, Random& random) {
     auto& row = table.rows.emplace_back();
     for (const ColumnDefinition& column : port.columns)
       if (column.is_text) row.push_back(random_word(random));
+      else if (column.list == ListOf::numbers) row.push_back(random_numbers(random));
+      else if (column.list == ListOf::indices) row.push_back(random_indices(random));
       else row.push_back(random_number(column.minimum, column.maximum, std::nullopt, std::nullopt, random));
   }
   return table;
@@ -56,7 +89,8 @@ Value random_value(const PortDefinition& port, Random& random) {
       return random_number(port.hard_minimum, port.hard_maximum, port.soft_minimum, port.soft_maximum, random);
     case ValueKind::choice: return port.choices[random.below(port.choices.size())].id;
     case ValueKind::port: return std::string(random.below(2) == 0 ? "smart_volume.volume" : "node.position");
-    case ValueKind::json: return std::string("{}");
+    case ValueKind::json: return JsonValue();
+    case ValueKind::commands: return CommandList();
     case ValueKind::text: return random_word(random);
     case ValueKind::point: return random_point(random);
     case ValueKind::points: {
@@ -68,6 +102,8 @@ Value random_value(const PortDefinition& port, Random& random) {
     case ValueKind::selection: return Shared<Selection>(Selection{{"a"}, "", ""});
     case ValueKind::table: return Shared<Table>(random_table(port, random));
     case ValueKind::mesh: return MeshPointer{};
+    case ValueKind::numbers: return random_numbers(random);
+    case ValueKind::made: return random_object(port, random);
   }
   return 0.0;
 }

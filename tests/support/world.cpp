@@ -4,6 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/define/codec.h"
 #include "core/file/file_io.h"
 
 namespace bl {
@@ -34,6 +38,16 @@ std::string project_file(std::string_view path_from_root) {
   auto text = read_file(std::string(BL_SOURCE_DIR) + "/" + std::string(path_from_root));
   if (!text) give_up(text.error().text());
   return *text;
+}
+
+Command batch_of_text(const std::string& list) {
+  Json json = {{"command", "batch"}};
+  auto commands = parse_json(list);
+  EXPECT_TRUE(commands.ok()) << list;
+  if (commands) json["arguments"]["commands"] = std::move(*commands);
+  auto command = command_from_json(full_registry(), json, "");
+  EXPECT_TRUE(command.ok()) << command.error().text();
+  return command ? *command : Command();
 }
 
 World World::from_text(std::string_view scene_json, int threads) {

@@ -15,6 +15,9 @@ const Value& value_in(const State& state, std::string_view node, std::string_vie
 /// The content of a file named from the root of the project.
 std::string project_file(std::string_view path_from_root);
 
+/// A batch of the list that a log or a script has as text.
+Command batch_of_text(const std::string& list);
+
 class World {
  public:
   /// A scene that cannot be loaded ends the test program with its first error.

@@ -100,7 +100,7 @@ Checked check_file(const std::string& file, bool is_writing) {
     return checked;
   }
   if (file.ends_with(".lua")) {
-    auto kind = read_link_script(script_name(file), *text, full_registry());
+    auto kind = read_link_script(making::script_name(file), *text, full_registry());
     if (!kind) checked.problems.push_back({true, kind.error()});
     else if (auto fault = fault_of_kind(*kind, full_registry())) checked.problems.push_back({fault->is_certain, fault->error});
     return checked;

@@ -58,14 +58,14 @@ struct CompareOptions {
 };
 int compare_command(const CompareOptions& options);
 
-int new_command(const NewOptions& options);
+int new_command(const making::NewOptions& options);
 
-int import_command(const ImportOptions& options);
+int import_command(const making::ImportOptions& options);
 struct PlaceOptions {
   std::vector<std::string> files;
   std::string into, out;
   std::vector<double> at;  ///< nothing, or x, y, z [m]
-  MediaOptions media;
+  making::MediaOptions media;
   bool is_forced = false;
 };
 int place_command(const PlaceOptions& options);

@@ -10,8 +10,8 @@ namespace bl::cli {
 /// --threads, as all commands have it that compute.
 void add_threads(CLI::App& command, int& threads);
 
-void declare_new(CLI::App& app, NewOptions& o);
-void declare_import(CLI::App& app, ImportOptions& o);
+void declare_new(CLI::App& app, making::NewOptions& o);
+void declare_import(CLI::App& app, making::ImportOptions& o);
 void declare_place(CLI::App& app, PlaceOptions& o);
 void declare_script(CLI::App& app, ScriptOptions& o);
 

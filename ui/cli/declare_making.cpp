@@ -21,7 +21,7 @@ void declare_script(CLI::App& app, ScriptOptions& o) {
   c.footer("Example:\n  behaviourlinks script scene.json lean_uphill.lua --out scene.json");
 }
 
-void declare_new(CLI::App& app, NewOptions& o) {
+void declare_new(CLI::App& app, making::NewOptions& o) {
   CLI::App& c = *app.add_subcommand("new", "Makes a scene from a plan boundary and a programme of demands.");
   c.add_option("--boundary", o.boundary, "Plan polygon as GeoJSON, in WGS84 or in a CRS in metres.")
       ->type_name("FILE")
@@ -57,7 +57,7 @@ void declare_new(CLI::App& app, NewOptions& o) {
 namespace {
 
 // What files of surroundings leave open, such as heights.
-void declare_assumptions(CLI::App& c, ImportOptions& o) {
+void declare_assumptions(CLI::App& c, making::ImportOptions& o) {
   c.add_option(
        "--height-unit", o.context.height_unit,
        "Metres of one unit of height in city models and terrains, such as 0.3048. Default: what the file or its CRS says.")
@@ -77,7 +77,7 @@ void declare_assumptions(CLI::App& c, ImportOptions& o) {
 
 }  // namespace
 
-void declare_import(CLI::App& app, ImportOptions& o) {
+void declare_import(CLI::App& app, making::ImportOptions& o) {
   CLI::App& c =
       *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
   c.add_option("files", o.files,

@@ -63,7 +63,7 @@ std::optional<Scripts> scripts_of(const std::string& file) {
   }
   Scripts scripts;
   if (file.ends_with(".lua")) {
-    scripts = Scripts::read({{script_name(file), *text}}, full_registry());
+    scripts = Scripts::read({{making::script_name(file), *text}}, full_registry());
   } else {
     const SceneReading reading = read_scene(*text, full_registry());
     if (!reading.is_usable()) {

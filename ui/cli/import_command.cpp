@@ -23,7 +23,7 @@ namespace bl::cli {
 
 namespace {
 
-void print_counts(const ImportedScene& imported) {
+void print_counts(const making::ImportedScene& imported) {
   for (const auto& [file, report] : imported.reports) {
     if (report.total("file") > 0) continue;  // it could not be read, which is told as an error
     print_line(file, Colour::bold);
@@ -124,7 +124,7 @@ bool asks_to_clear(std::size_t buildings, const std::string& site) {
 }
 
 // An old report must not stand for an import that failed.
-bool write_import_report(const ImportOptions& options, const ImportReports& reports) {
+bool write_import_report(const making::ImportOptions& options, const ImportReports& reports) {
   if (options.report.empty()) return true;
   auto written = write_file(options.report, import_csv(reports));
   if (!written) print_error(options.report, written.error());
@@ -132,14 +132,14 @@ bool write_import_report(const ImportOptions& options, const ImportReports& repo
 }
 
 // Why none of the files was imported, in a row for each.
-bool write_refusal(const ImportOptions& options, const std::string& why) {
+bool write_refusal(const making::ImportOptions& options, const std::string& why) {
   ImportReports nothing;
   for (const std::string& file : options.files) nothing.emplace_back(file, ImportReport()).second.skip("file", "", why);
   return write_import_report(options, nothing);
 }
 
 // Pictures alone: as `place` does it.
-int import_pictures(const ImportOptions& options) {
+int import_pictures(const making::ImportOptions& options) {
   if (options.into.empty()) {
     complain("pictures are put into a scene: name it by --into");
     return kBadInput;
@@ -154,8 +154,8 @@ int import_pictures(const ImportOptions& options) {
 }
 
 // Writes the scene with all that was imported, and says what that is.
-int write_imported(const ImportOptions& options, const ImportedScene& imported, const std::vector<Problem>& problems,
-                   const std::string& text) {
+int write_imported(const making::ImportOptions& options, const making::ImportedScene& imported,
+                   const std::vector<Problem>& problems, const std::string& text) {
   print_problems(options.out, problems);
   if (auto written = write_file(options.out, text); !written) {
     print_error(options.out, written.error());
@@ -170,14 +170,14 @@ int write_imported(const ImportOptions& options, const ImportedScene& imported, 
 
 }  // namespace
 
-int import_command(const ImportOptions& given) {
-  if (std::all_of(given.files.begin(), given.files.end(), is_picture_name)) return import_pictures(given);
-  ImportOptions options = given;
+int import_command(const making::ImportOptions& given) {
+  if (std::all_of(given.files.begin(), given.files.end(), making::is_picture_name)) return import_pictures(given);
+  making::ImportOptions options = given;
   if (options.keeps && options.clears) {
     complain("--keep and --clear say two things of the same buildings: choose one.");
     return kBadInput;
   }
-  if (options.keeps || options.clears) options.inside = options.clears ? InsideChoice::clear : InsideChoice::keep;
+  if (options.keeps || options.clears) options.inside = options.clears ? making::InsideChoice::clear : making::InsideChoice::keep;
   const Registry& registry = full_registry();
   Scene scene;
   if (!options.into.empty()) {
@@ -205,7 +205,7 @@ int import_command(const ImportOptions& given) {
       display->pause(false);
       return is_clearing;
     };
-  const ImportedScene imported = import_context(scene, options, registry);
+  const making::ImportedScene imported = making::import_context(scene, options, registry);
   std::vector<Problem> problems;
   std::string text;
   if (imported.scene) {

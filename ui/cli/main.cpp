@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/session/types/plugins.h"
 #include "core/report/report.h"
+#include "core/session/types/plugins.h"
 #include "ui/cli/declarations.h"
 #include "ui/cli/file_rule.h"
 #include "ui/cli/program.h"
@@ -141,8 +141,8 @@ struct Options {
   RunOptions run;
   ScriptOptions script;
   OpenOptions window;
-  NewOptions fresh;
-  ImportOptions import;
+  making::NewOptions fresh;
+  making::ImportOptions import;
   PlaceOptions place;
   CheckOptions check;
   ReplayOptions replay;

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kTightFill = 0.9;
 
-void print_figures(const NewOptions& o, const MadeScene& made) {
+void print_figures(const making::NewOptions& o, const making::MadeScene& made) {
   const PlanBoundary& plan = *made.plan;
-  const SceneParts& parts = made.parts;
+  const making::SceneParts& parts = made.parts;
   const double plan_area = made.plan_area, demand = made.demand, space = plan_area * parts.height, fill = made.fill();
   const std::string added = plan_area > plan.area ? ", of which the hull adds " + fixed(plan_area - plan.area, 1) + " m²" : "";
   const std::string holes = parts.holes.empty() ? "" : " and " + counted(parts.holes.size(), "hole");
@@ -39,14 +39,14 @@ void print_figures(const NewOptions& o, const MadeScene& made) {
 
 }  // namespace
 
-int new_command(const NewOptions& options) {
+int new_command(const making::NewOptions& options) {
   const Registry& registry = full_registry();
   struct stat status {};
   if (!options.is_forced && ::stat(options.out.c_str(), &status) == 0) {
     print_error(options.out, {ErrorCode::conflict, "", "exists already; choose another name, or replace it with --force"});
     return kBadInput;
   }
-  const MadeScene made = make_scene(options, registry);
+  const making::MadeScene made = making::make_scene(options, registry);
   for (const std::string& note : made.notes) print_line("note: " + note);
   for (const auto& [file, warning] : made.warnings)
     print_error(file, {warning.code, warning.place, "warning: " + warning.message});

@@ -11,13 +11,13 @@ int place_command(const PlaceOptions& options) {
   if (!options.out.empty() && !may_write(options.out, options.into, options.is_forced)) return kBadInput;
   const auto reading = load_scene(options.into);
   if (!reading) return kBadInput;
-  MediaOptions media = options.media;
+  making::MediaOptions media = options.media;
   media.scene = options.out.empty() ? options.into : options.out;
   if (options.at.size() == 3) media.position = Vector3{options.at[0], options.at[1], options.at[2]};
   Ledger ledger(full_registry(), reading->scene);
   bool is_all_well = true;
   for (const std::string& file : options.files) {
-    const auto made = make_media(file, ledger.scene(), media);
+    const auto made = making::make_media(file, ledger.scene(), media);
     const auto added = made ? ledger.submit(made->command, "place", 0) : Result<void>(made.error());
     if (!added) {
       print_error(file, added.error());

@@ -60,9 +60,9 @@ class Run {
     session_ = std::move(*session);
     // The log of an earlier run is replaced only once it is sure that there is another.
     std::string lines = log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr));
-    session_->on_entry([&lines](const LogEntry& entry) { lines += log_line(entry, full_registry()); });
+    const std::size_t listener = session_->subscribe([&lines](const LogEntry& entry) { lines += log_line(entry, full_registry()); });
     for (const std::string& file : options_.scripts) {
-      auto command = script_command(file);
+      auto command = making::script_command(file);
       if (!command) return fail(file, command.error());
       if (auto done = session_->submit(*command, "command line"); !done) return fail(file, done.error());
     }
@@ -76,14 +76,14 @@ class Run {
       if (!command) return fail("", command.error());
       if (auto done = session_->submit(*command, "command line"); !done) return fail("--set " + argument, done.error());
     }
-    session_->on_entry({});
+    session_->unsubscribe(listener);
     return options_.log.empty() || begin_log(lines);
   }
 
   bool begin_log(const std::string& lines) {
     if (auto opened = log_.open(options_.log); !opened) return fail(options_.log, opened.error());
     log_.write(lines);
-    session_->on_entry([this](const LogEntry& entry) { log_.write(log_line(entry, full_registry())); });
+    session_->subscribe([this](const LogEntry& entry) { log_.write(log_line(entry, full_registry())); });
     return true;
   }
 

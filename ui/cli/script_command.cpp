@@ -61,7 +61,7 @@ int script_command(const ScriptOptions& options) {
   if (!reading) return kBadInput;
   SceneEdit edit(reading->scene, full_registry());
   for (const std::string& file : options.files) {
-    auto command = script_command(file);
+    auto command = making::script_command(file);
     if (!command) {
       print_error(file, command.error());
       return kBadInput;

@@ -40,6 +40,7 @@ Value trial_value(const PortDefinition& port, double number) {
     case ValueKind::point: return Vector3{number, 2 * number, 3};
     case ValueKind::points: return Shared<std::vector<Point3>>({{0, 0, 0}, {number, 0, 0}, {0, number, 0}});
     case ValueKind::texts: return Shared<std::vector<std::string>>({"a"});
+    case ValueKind::numbers: return Numbers({number, 2 * number});
     default: return port.default_value;
   }
 }

@@ -51,8 +51,7 @@ void NetworkFigures::declare(ViewBuilder<NetworkFigures>& v) {
   v.reads(&NetworkFigures::isochrone_bands, "traffic_network.isochrone_bands");
   v.reads(&NetworkFigures::gap, "traffic_network.gap", Unit::ratio);
   v.reads(&NetworkFigures::relative_gap, "traffic_network.relative_gap", Unit::ratio);
-  v.reads(&NetworkFigures::links, "traffic_network.links");
-  v.reads(&NetworkFigures::ways, "traffic_network.ways");
+  v.reads(&NetworkFigures::trip_flows, "traffic_network.trip_flows");
 }
 BL_VIEW(NetworkFigures)
 

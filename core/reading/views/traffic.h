@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/reading/view.h"
+#include "core/traffic/trip_flows.h"
 
 namespace bl::reading {
 
@@ -61,8 +62,7 @@ struct NetworkFigures {
   std::int64_t isochrone_bands = 0;
   double gap = 0;           ///< that is good enough
   double relative_gap = 0;  ///< that was reached
-  Shared<Table> links;      ///< which street and direction a number in `ways` stands for
-  Shared<Table> ways;       ///< flows by the zone where they begin
+  std::shared_ptr<const TripFlows> trip_flows;  ///< by the zone where they begin
 
   static void declare(ViewBuilder<NetworkFigures>& v);
   static const ViewDefinition& view();

@@ -18,10 +18,10 @@ void AddLink::declare(CommandBuilder<AddLink>& c) {
 Inverse AddLink::apply(SceneEdit& edit, const In& in) {
   if (auto id = check_new_id(in.id, edit.scene().links.contains(in.id), "links"); !id) return id.error();
   const std::string place = "links/" + in.id;
-  auto json = parse_json(in.link.text);
+  const auto json = in.link.read();
   if (!json) return json.error().within(place);
   // Where no kind is known, all links are ghosts.
-  auto link = link_from_json(*json, in.is_resting ? Registry() : edit.registry(), place);
+  auto link = link_from_json(**json, in.is_resting ? Registry() : edit.registry(), place);
   if (!link) return link.error();
   if (link->ghost.empty()) {
     if (auto from = check_selection(edit.scene(), link->from, place + "/from"); !from) return from.error();

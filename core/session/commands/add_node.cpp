@@ -14,9 +14,9 @@ void AddNode::declare(CommandBuilder<AddNode>& c) {
 
 Inverse AddNode::apply(SceneEdit& edit, const In& in) {
   if (auto id = check_new_id(in.id, edit.scene().nodes.contains(in.id), "nodes"); !id) return id.error();
-  auto json = parse_json(in.node.text);
+  const auto json = in.node.read();
   if (!json) return json.error().within("nodes/" + in.id);
-  auto node = node_from_json(*json, edit.registry(), "nodes/" + in.id);
+  auto node = node_from_json(**json, edit.registry(), "nodes/" + in.id);
   if (!node) return node.error();
   for (const auto& [type, values] : node->types)
     if (auto known = check_references(edit, *edit.registry().typification(type), values, in.id, "nodes/" + in.id + "/" + type);

@@ -19,11 +19,11 @@ void AddRow::declare(CommandBuilder<AddRow>& c) {
 Inverse AddRow::apply(SceneEdit& edit, const In& in) {
   auto site = find_table(edit, in.node, in.port);
   if (!site) return site.error();
-  auto content = parse_json(in.row.text);
+  const auto content = in.row.read();
   if (!content) return content.error().within(site->place);
   auto& rows = site->table.rows;
   const std::size_t at = in.at < 0 ? rows.size() : std::min(rows.size(), static_cast<std::size_t>(in.at));
-  auto row = row_from_json(*site->port.port, *content, site->place + "/" + std::to_string(at));
+  auto row = row_from_json(*site->port.port, **content, site->place + "/" + std::to_string(at));
   if (!row) return row.error();
   rows.insert(rows.begin() + static_cast<std::ptrdiff_t>(at), std::move(*row));
   const std::string name = name_of_row(*site, at);

@@ -2,10 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include <nlohmann/json.hpp>
-
 #include "core/base/stop_check.h"
-#include "core/define/codec.h"
 #include "core/session/support.h"
 
 namespace bl {
@@ -26,14 +23,11 @@ void append_backwards(std::vector<Command>& list, std::vector<Command>& step) {
 }  // namespace
 
 Inverse Batch::apply(SceneEdit& edit, const In& in) {
-  auto list = parse_json(in.commands.text);
-  if (!list) return list.error().within("commands");
-  if (!list->is_array()) return Error{ErrorCode::wrong_kind, "commands", "expects a list of commands"};
-  if (list->empty()) return Error{ErrorCode::missing, "commands", "an empty batch changes nothing"};
+  if (in.commands->empty()) return Error{ErrorCode::missing, "commands", "an empty batch changes nothing"};
   std::vector<Command> backwards;
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    auto step = command_from_json(edit.registry(), (*list)[i], "commands/" + std::to_string(i));
-    Inverse undo = step ? bl::apply(edit, *step) : Inverse(step.error());
+  for (std::size_t i = 0; i < in.commands->size(); ++i) {
+    Inverse undo = bl::apply(edit, (*in.commands)[i]);
+    if (!undo) undo = undo.error().within("commands/" + std::to_string(i));
     if (undo && i % 256 == 0 && is_stop_wished()) {
       append_backwards(backwards, *undo);
       undo = Error{ErrorCode::cancelled, "commands", "This was stopped; nothing was changed."};

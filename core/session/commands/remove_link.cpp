@@ -14,8 +14,7 @@ void RemoveLink::declare(CommandBuilder<RemoveLink>& c) {
 Inverse RemoveLink::apply(SceneEdit& edit, const In& in) {
   auto link = edit.link(in.id);
   if (!link) return link.error();
-  std::vector inverse{
-      command<AddLink>({in.id, {write_json_line(link_to_json(**link, edit.registry()))}, !(*link)->ghost.empty()})};
+  std::vector inverse{command<AddLink>({in.id, JsonValue::of(link_to_json(**link, edit.registry())), !(*link)->ghost.empty()})};
   edit.remove_link(in.id);
   return inverse;
 }

@@ -23,7 +23,7 @@ void leave_links(SceneEdit& edit, const std::string& id, std::vector<Command>& i
     Selection from = link.from, to = link.to;
     const bool is_from = drop(from, id), is_to = drop(to, id);
     if ((is_from && from.is_empty()) || (is_to && to.is_empty())) {
-      inverse.push_back(command<AddLink>({name, {write_json_line(link_to_json(link, edit.registry()))}}));
+      inverse.push_back(command<AddLink>({name, JsonValue::of(link_to_json(link, edit.registry()))}));
       edit.remove_link(name);
     } else if (is_from || is_to) {
       inverse.push_back(command<SetLinkEnds>({name, link.from, link.to}));
@@ -45,7 +45,7 @@ void leave_sets_of(SceneEdit& edit, const std::string& other, const std::string&
       if (it == values.end() || port.kind != ValueKind::selection) continue;
       Selection selection = *std::get<Shared<Selection>>(it->second);
       if (!drop(selection, id)) continue;
-      inverse.push_back(command<SetPort>({other, {type_id + "." + port.id}, as_json_text(it->second, port)}));
+      inverse.push_back(command<SetPort>({other, {type_id + "." + port.id}, json_of(it->second, port)}));
       edit.set_value(other, type_id, port, Shared<Selection>(std::move(selection)));
     }
   }
@@ -56,7 +56,7 @@ void leave_sets_of(SceneEdit& edit, const std::string& other, const std::string&
 Inverse RemoveNode::apply(SceneEdit& edit, const In& in) {
   auto node = edit.node(in.id);
   if (!node) return node.error();
-  std::vector<Command> inverse{command<AddNode>({in.id, {write_json_line(node_to_json(**node, edit.registry()))}})};
+  std::vector<Command> inverse{command<AddNode>({in.id, JsonValue::of(node_to_json(**node, edit.registry()))})};
   edit.remove_node(in.id);
   leave_links(edit, in.id, inverse);
   for (const std::string& other : edit.namers().nodes_to(in.id)) leave_sets_of(edit, other, in.id, inverse);

@@ -22,7 +22,7 @@ Inverse RemoveRow::apply(SceneEdit& edit, const In& in) {
   if (!row) return row.error();
   auto& rows = site->table.rows;
   std::vector inverse{command<AddRow>(
-      {in.node, {site->path}, {write_json_line(row_to_json(*site->port.port, rows[*row]))}, static_cast<std::int64_t>(*row)})};
+      {in.node, {site->path}, JsonValue::of(row_to_json(*site->port.port, rows[*row])), static_cast<std::int64_t>(*row)})};
   rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(*row));
   edit.set_value(in.node, site->port.type->id, *site->port.port, Shared<Table>(std::move(site->table)));
   return inverse;

@@ -1,7 +1,7 @@
 // Sets one field of a table, so that people who change other rows at the same time keep what they wrote.
 #include <nlohmann/json.hpp>
 
-#include "core/base/near_names.h"
+#include "core/base/text.h"
 #include "core/define/codec.h"
 #include "core/session/table_rows.h"
 
@@ -28,13 +28,13 @@ Inverse SetCell::apply(SceneEdit& edit, const In& in) {
   if (column == site->table.columns.size())
     return Error{ErrorCode::unknown_field, place,
                  "the table has no column `" + in.column + "`" + did_you_mean(in.column, site->table.columns)};
-  auto value = parse_json(in.value.text);
+  const auto value = in.value.read();
   if (!value) return value.error().within(place + "/" + in.column);
   const PortDefinition& port = *site->port.port;
   Json content = row_to_json(port, site->table.rows[*row]);
   const Json before = content.contains(in.column) ? content[in.column] : Json();
-  if (value->is_null()) content.erase(in.column);
-  else content[in.column] = *value;
+  if (in.value.is_null()) content.erase(in.column);
+  else content[in.column] = **value;
   auto changed = row_from_json(port, content, place);
   if (!changed) return changed.error();
   site->table.rows[*row] = std::move(*changed);
@@ -42,7 +42,7 @@ Inverse SetCell::apply(SceneEdit& edit, const In& in) {
   if (name != in.row && find_row(*site, name).ok() == false)
     return Error{ErrorCode::duplicate, place, "there is a row `" + name + "` already"};
   edit.set_value(in.node, site->port.type->id, port, Shared<Table>(std::move(site->table)));
-  return std::vector{command<SetCell>({in.node, {site->path}, name, in.column, {write_json_line(before)}})};
+  return std::vector{command<SetCell>({in.node, {site->path}, name, in.column, JsonValue::of(before)})};
 }
 
 }  // namespace bl

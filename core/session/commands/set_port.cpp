@@ -26,7 +26,7 @@ Inverse SetPort::apply(SceneEdit& edit, const In& in) {
     return known.error();
   const PortValues& values = site->node->types.at(site->type->id);
   std::vector inverse{command<SetPort>({in.node, {path}, current_value(values, *site->port)})};
-  if (in.value.text == "null") edit.erase_value(in.node, site->type->id, *site->port);  // the scene's, where the port follows it
+  if (in.value.is_null()) edit.erase_value(in.node, site->type->id, *site->port);  // the scene's, where the port follows it
   else edit.set_value(in.node, site->type->id, *site->port, *value);
   edit.place(in.node, path);
   return inverse;

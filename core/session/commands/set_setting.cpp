@@ -14,7 +14,7 @@ Inverse SetSetting::apply(SceneEdit& edit, const In& in) {
   if (!value) return value.error();
   const PortDefinition& port = *settings_type().find_port(in.setting);
   std::vector inverse{command<SetSetting>({in.setting, current_value(edit.scene().settings, port)})};
-  if (in.value.text == "null") edit.erase_setting(port.id);
+  if (in.value.is_null()) edit.erase_setting(port.id);
   else edit.set_setting(port, *value);
   return inverse;
 }

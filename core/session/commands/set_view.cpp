@@ -107,20 +107,21 @@ void SetView::declare(CommandBuilder<SetView>& c) {
 }
 
 Inverse SetView::apply(SceneEdit& edit, const In& in) {
-  auto changes = parse_json(in.changes.text);
-  if (!changes) return changes.error().within("changes");
-  if (!changes->is_object()) return Error{ErrorCode::wrong_kind, "changes", "expects an object"};
+  const auto read = in.changes.read();
+  if (!read) return read.error().within("changes");
+  const Json& changes = **read;
+  if (!changes.is_object()) return Error{ErrorCode::wrong_kind, "changes", "expects an object"};
   const std::string& view = edit.scene().view;
   const Json before = read_view(view);
-  Json after = in.whole ? *changes : before;
-  if (!in.whole) merge(after, *changes);
-  const Json back = reversed(before, *changes, in.whole);
+  Json after = in.whole ? changes : before;
+  if (!in.whole) merge(after, changes);
+  const Json back = reversed(before, changes, in.whole);
   Json returned = after;
   merge(returned, back);
   // What a patch cannot bring back byte for byte (keys that stood in another order) comes back as a whole.
   const bool is_exact = text_of(returned) == view;
-  std::vector inverse{is_exact ? command<SetView>({{write_json_line(back)}, false}) : command<SetView>({{view}, true})};
-  const auto paths = view_differences(before, after, in.whole ? nullptr : &*changes);
+  std::vector inverse{is_exact ? command<SetView>({JsonValue::of(back), false}) : command<SetView>({view, true})};
+  const auto paths = view_differences(before, after, in.whole ? nullptr : &changes);
   edit.set_view(in.whole ? write_json_line(after) : text_of(after), paths);
   return inverse;
 }
@@ -129,7 +130,7 @@ Command SetView::narrow(const Scene& done, const std::set<Touch>& places) {
   std::set<std::string> paths;
   for (const Touch& place : places)
     if (place.part == ScenePart::view) paths.insert(place.path);
-  return command<SetView>({{write_json_line(patch_at(read_view(done.view), paths))}, false});
+  return command<SetView>({JsonValue::of(patch_at(read_view(done.view), paths)), false});
 }
 
 }  // namespace bl

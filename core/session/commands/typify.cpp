@@ -24,9 +24,9 @@ Inverse Typify::apply(SceneEdit& edit, const In& in) {
                  "unknown typification `" + in.typification + "`" +
                      did_you_mean(in.typification, keys_of(edit.registry().typifications()))};
   if ((*node)->types.contains(type->id)) return Error{ErrorCode::duplicate, place, "the node is a `" + type->id + "` already"};
-  auto json = parse_json(in.values.text);
+  const auto json = in.values.read();
   if (!json) return json.error().within(place);
-  auto values = ports_from_json(*type, *json, place);
+  auto values = ports_from_json(*type, **json, place);
   if (!values) return values.error();
   if (auto known = check_references(edit, *type, *values, "", place); !known) return known.error();
   edit.add_type(in.node, type->id, std::move(*values));

@@ -21,7 +21,7 @@ Inverse Untypify::apply(SceneEdit& edit, const In& in) {
     return Error{ErrorCode::not_found, place, "the node is no `" + in.typification + "`"};
   if (type->id == kBaseNode) return Error{ErrorCode::conflict, place, "every node is a `node`; remove the node instead"};
   std::vector<Command> inverse{
-      command<Typify>({in.node, type->id, {write_json_line(ports_to_json(*type, (*node)->types.at(type->id)))}})};
+      command<Typify>({in.node, type->id, JsonValue::of(ports_to_json(*type, (*node)->types.at(type->id)))})};
   for (const std::string& path : std::set<std::string>((*node)->locked)) {
     if (!path.starts_with(type->id + ".")) continue;
     inverse.push_back(command<LockPort>({in.node, {path}}));

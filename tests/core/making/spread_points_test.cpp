@@ -43,7 +43,7 @@ TEST(SpreadPoints, InsideAndApartInEveryShape) {
     for (const double top : {3.0, 30.0, 300.0})
       for (const std::size_t count : {1u, 2u, 7u, 60u, 300u}) {
         const double prism = signed_area(plan) * top;
-        const auto points = spread_points(plan, 0, top, mixed_volumes(count, 0.8 * prism), 3);
+        const auto points = making::spread_points(plan, 0, top, mixed_volumes(count, 0.8 * prism), 3);
         ASSERT_TRUE(points) << points.error().text();
         ASSERT_EQ(points->size(), count);
         for (const Point3& p : *points) {
@@ -59,7 +59,7 @@ TEST(SpreadPoints, InsideAndApartInEveryShape) {
 TEST(SpreadPoints, KeepsOutOfHoles) {
   const std::vector<Ring> holes = {{{20, 20, 0}, {20, 60, 0}, {45, 60, 0}, {45, 20, 0}}, {{60, 10, 0}, {55, 70, 0}, {90, 40, 0}}};
   for (const std::size_t count : {1u, 5u, 60u, 300u}) {
-    const auto points = spread_points(kSquare, 0, 20, mixed_volumes(count, 60000), 3, {}, holes);
+    const auto points = making::spread_points(kSquare, 0, 20, mixed_volumes(count, 60000), 3, {}, holes);
     ASSERT_TRUE(points) << points.error().text();
     for (const Point3& p : *points) {
       EXPECT_TRUE(ring_contains(kSquare, p));
@@ -67,11 +67,11 @@ TEST(SpreadPoints, KeepsOutOfHoles) {
     }
   }
   const std::vector<Ring> beyond = {{{90, 10, 0}, {110, 10, 0}, {110, 20, 0}}};
-  EXPECT_EQ(spread_points(kSquare, 0, 20, std::vector<double>{1}, 3, {}, beyond).error().place, "holes/0");
+  EXPECT_EQ(making::spread_points(kSquare, 0, 20, std::vector<double>{1}, 3, {}, beyond).error().place, "holes/0");
 }
 
 TEST(SpreadPoints, OnePointStandsInTheMiddle) {
-  const auto points = spread_points(kSquare, 10, 30, std::vector<double>{100}, 1);
+  const auto points = making::spread_points(kSquare, 10, 30, std::vector<double>{100}, 1);
   ASSERT_TRUE(points);
   EXPECT_NEAR((*points)[0].x, 50, 0.5);
   EXPECT_NEAR((*points)[0].y, 40, 0.5);
@@ -80,7 +80,7 @@ TEST(SpreadPoints, OnePointStandsInTheMiddle) {
 
 TEST(SpreadPoints, BallsStayOffGroundRoofAndSides) {
   const std::vector<double> volumes(20, 0.3 * 100 * 80 * 30 / 20);
-  const auto points = spread_points(kSquare, 0, 30, volumes, 5);
+  const auto points = making::spread_points(kSquare, 0, 30, volumes, 5);
   ASSERT_TRUE(points);
   const double radius = std::cbrt(volumes[0] / 4.18879020478639);
   for (const Point3& p : *points) {
@@ -95,7 +95,7 @@ TEST(SpreadPoints, StandsOnTheGroundWhereAsked) {
   const auto volumes = mixed_volumes(30, 0.3 * 100 * 80 * 30);
   std::vector<std::uint8_t> on_ground(30, 0);
   for (std::size_t i = 0; i < 30; i += 3) on_ground[i] = 1;
-  const auto points = spread_points(kSquare, 4, 34, volumes, 5, {}, {}, on_ground);
+  const auto points = making::spread_points(kSquare, 4, 34, volumes, 5, {}, {}, on_ground);
   ASSERT_TRUE(points);
   for (std::size_t i = 0; i < 30; ++i) {
     const double radius = std::cbrt(volumes[i] / 4.18879020478639);
@@ -104,13 +104,14 @@ TEST(SpreadPoints, StandsOnTheGroundWhereAsked) {
     for (std::size_t j = 0; j < i; ++j)
       EXPECT_GT(distance((*points)[i], (*points)[j]), kSpreadSeparation * std::cbrt(100.0 * 80 * 30 / 30)) << i << " " << j;
   }
-  EXPECT_EQ(spread_points(kSquare, 4, 34, volumes, 5, {}, {}, std::vector<std::uint8_t>(29, 0)).error().place, "on_ground");
+  EXPECT_EQ(making::spread_points(kSquare, 4, 34, volumes, 5, {}, {}, std::vector<std::uint8_t>(29, 0)).error().place,
+            "on_ground");
 }
 
 TEST(SpreadPoints, SeedAloneDecides) {
   const auto volumes = mixed_volumes(50, 1e5);
-  const auto first = spread_points(kComb, 0, 30, volumes, 11), again = spread_points(kComb, 0, 30, volumes, 11),
-             other = spread_points(kComb, 0, 30, volumes, 12);
+  const auto first = making::spread_points(kComb, 0, 30, volumes, 11), again = making::spread_points(kComb, 0, 30, volumes, 11),
+             other = making::spread_points(kComb, 0, 30, volumes, 12);
   ASSERT_TRUE(first && again && other);
   EXPECT_EQ(*first, *again);
   EXPECT_NE(*first, *other);
@@ -119,7 +120,7 @@ TEST(SpreadPoints, SeedAloneDecides) {
 TEST(SpreadPoints, LargeDemandsGetMoreRoom) {
   std::vector<double> volumes(40, 1000);
   volumes[7] = volumes[23] = 40000;
-  const auto points = spread_points(kSquare, 0, 30, volumes, 2);
+  const auto points = making::spread_points(kSquare, 0, 30, volumes, 2);
   ASSERT_TRUE(points);
   EXPECT_GT(distance((*points)[7], (*points)[23]), 30);
 }
@@ -128,7 +129,8 @@ TEST(SpreadPoints, NeighboursStartNear) {
   const auto volumes = std::vector<double>(60, 2000);
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0; i + 30 < 60; ++i) pairs.emplace_back(i, i + 30);
-  const auto with = spread_points(kSquare, 0, 30, volumes, 4, pairs), without = spread_points(kSquare, 0, 30, volumes, 4);
+  const auto with = making::spread_points(kSquare, 0, 30, volumes, 4, pairs),
+             without = making::spread_points(kSquare, 0, 30, volumes, 4);
   ASSERT_TRUE(with && without);
   double near = 0, far = 0;
   for (const auto& [a, b] : pairs) {
@@ -142,7 +144,7 @@ TEST(SpreadPoints, NeighboursStartNear) {
 TEST(SpreadPoints, AThousandInUnderASecond) {
   const auto volumes = mixed_volumes(1000, 2e5);
   const auto start = std::chrono::steady_clock::now();
-  const auto points = spread_points(kEll, 0, 60, volumes, 9);
+  const auto points = making::spread_points(kEll, 0, 60, volumes, 9);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   ASSERT_TRUE(points);
   RecordProperty("seconds", std::to_string(seconds));
@@ -152,19 +154,19 @@ TEST(SpreadPoints, AThousandInUnderASecond) {
 TEST(SpreadPoints, Errors) {
   const auto text = [](auto result) { return result ? std::string("no error") : result.error().text(); };
   const std::vector<double> one{1}, bad{1, -2};
-  EXPECT_EQ(text(spread_points(std::vector<Point3>(2), 0, 1, one, 1)),
+  EXPECT_EQ(text(making::spread_points(std::vector<Point3>(2), 0, 1, one, 1)),
             "plan: The plan must be a simple polygon of at least 3 finite points with an area.");
-  EXPECT_EQ(text(spread_points(kSquare, 5, 5, one, 1)), "plan: The top (5 m) must lie above the bottom (5 m).");
-  EXPECT_EQ(text(spread_points(kSquare, 0, 5, bad, 1)),
+  EXPECT_EQ(text(making::spread_points(kSquare, 5, 5, one, 1)), "plan: The top (5 m) must lie above the bottom (5 m).");
+  EXPECT_EQ(text(making::spread_points(kSquare, 0, 5, bad, 1)),
             "volumes/1: The demand is -2 m³. It must be greater than zero and finite.");
   const std::vector<std::pair<std::size_t, std::size_t>> pairs{{0, 0}};
-  EXPECT_EQ(text(spread_points(kSquare, 0, 5, one, 1, pairs)),
+  EXPECT_EQ(text(making::spread_points(kSquare, 0, 5, one, 1, pairs)),
             "neighbours/0: The pair (0, 0) must name two different points of 1, counted from 0.");
-  EXPECT_TRUE(spread_points(kSquare, 0, 5, {}, 1)->empty());
+  EXPECT_TRUE(making::spread_points(kSquare, 0, 5, {}, 1)->empty());
 }
 
 TEST(PrismSamples, CoverThePlanEvenly) {
-  const auto samples = prism_samples(std::vector<Ring>{kEll}, 0, 10, 36000, 1);
+  const auto samples = making::prism_samples(std::vector<Ring>{kEll}, 0, 10, 36000, 1);
   std::size_t arm = 0;
   for (const Point3& p : samples) {
     EXPECT_TRUE(ring_contains(kEll, p));
@@ -176,11 +178,11 @@ TEST(PrismSamples, CoverThePlanEvenly) {
 
 TEST(BallGrid, AgreesWithLookingAtAll) {
   Random random(3);
-  std::vector<BallSite> sites;
+  std::vector<making::BallSite> sites;
   for (int i = 0; i < 200; ++i)
     sites.push_back(
         {{random.uniform(0, 50), random.uniform(0, 20), random.uniform(0, 10)}, i % 40 == 0 ? 12.0 : random.uniform(0, 2)});
-  const BallGrid grid(sites, 3);
+  const making::BallGrid grid(sites, 3);
   for (int k = 0; k < 2000; ++k) {
     const Point3 p{random.uniform(-20, 70), random.uniform(-20, 40), random.uniform(-20, 30)};
     std::size_t best = 0;

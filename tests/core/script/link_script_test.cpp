@@ -180,16 +180,46 @@ TEST(LinkScript, WholeEndsAreLists) {
   EXPECT_EQ(link.number(End::to, "smart_volume.demand_limit", 2), 75);
 }
 
+struct Party {
+  static constexpr std::string_view kMadeName = "a party";
+};
+
 struct Guest {
   struct In {
     std::vector<std::string> friends;
+    Numbers ages;
   };
-  struct Out {};
+  struct Out {
+    double count = 0;
+  };
   static void declare(TypificationBuilder<Guest>& t) {
     t.id("guest").label("Guest").doc("Somebody with friends.");
     t.in(&In::friends, "friends").collect().doc("Names.");
+    t.in(&In::ages, "ages").doc("How old they are.");
+    t.out(&Out::count, "count").doc("How many.");
+    t.made("party", {"count"}, &party_of).doc("All together.");
   }
+  static std::shared_ptr<const Party> party_of(const double&) { return nullptr; }
 };
+
+TEST(LinkScript, ListsOfNumbersAreReadAndMadeObjectsAreNot) {
+  Registry types = full_registry();
+  types.add(TypificationBuilder<Guest>::build());
+  auto text = [](const std::string& port) {
+    return "return {id = 'ages', doc = 'x', reads = {ages = {at = 'from', port = 'guest." + port +
+           "'}},\n"
+           "proposes = {move = {at = 'to', port = 'node.position', unit = 'm'}},\n"
+           "evaluate = function(p, ends) return {move = point(#ends.ages, ends.ages[2], 0)} end}";
+  };
+  const auto kind = read_link_script("case", text("ages"), types);
+  ASSERT_TRUE(kind.ok()) << kind.error().text();
+  LinkCase link(*kind);
+  ASSERT_EQ(link.from("guest.ages", Numbers({7, 42.5, 3})).run(), "");
+  expect_near(link.move(End::to), {3, 42.5, 0});
+  const auto refused = read_link_script("case", text("party"), types);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_TRUE(refused.error().message.ends_with("`ages`: scripts cannot read a made object")) << refused.error().text();
+}
 
 TEST(LinkScript, ListsOfTextsAreCollected) {
   Registry types = full_registry();

@@ -21,7 +21,7 @@ std::string batch_of(std::size_t count, const std::string& last = "") {
 double seconds_for(std::size_t count) {
   Scene scene;
   SceneEdit edit(scene, full_registry());
-  const Command batch = command<Batch>({{batch_of(count)}});
+  const Command batch = batch_of_text(batch_of(count));
   const std::clock_t start = std::clock();
   const Inverse inverse = apply(edit, batch);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -43,7 +43,7 @@ TEST(Batch, TwiceAsManyCommandsTakeAboutTwiceAsLong) {
 TEST(Batch, UndoingTwiceAsManyTakesAboutTwiceAsLong) {
   const auto undo_of = [](std::size_t count) {
     Ledger ledger(full_registry(), Scene());
-    EXPECT_TRUE(ledger.submit(command<Batch>({{batch_of(count)}}), "test", 0).ok());
+    EXPECT_TRUE(ledger.submit(batch_of_text(batch_of(count)), "test", 0).ok());
     const std::clock_t start = std::clock();
     EXPECT_TRUE(ledger.undo("test", 0).ok());
     const double undone = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -71,8 +71,8 @@ TEST(Batch, StepsThatShareWhatIsKnownDoWhatStepsAloneDo) {
   std::size_t done = 0, dropped = 0;
   for (int step = 0; step < 4000; ++step) {
     const std::string one = name(choose(12)), other = name(choose(12)), third = name(choose(12)), link = "l" + one + other;
-    const JsonText of_two{R"({"kind": "attract", "from": [")" + one + "\", \"" + third + R"("], "to": ")" + other + "\"}"};
-    const JsonText street{R"({"types": {"street": {"start": ")" + other + R"(", "end": ")" + third + "\"}}}"};
+    const JsonValue of_two{R"({"kind": "attract", "from": [")" + one + "\", \"" + third + R"("], "to": ")" + other + "\"}"};
+    const JsonValue street{R"({"types": {"street": {"start": ")" + other + R"(", "end": ")" + third + "\"}}}"};
     const Command commands[] = {command<AddNode>({one, {R"({"types": {"junction": {}}})"}}),
                                 command<AddNode>({one, street}),
                                 command<RemoveNode>({one}),
@@ -105,7 +105,7 @@ TEST(Batch, ItsInversesUndoFromTheLastToTheFirst) {
           {"command": "set_port", "arguments": {"node": "a", "port": "smart_volume.demand", "value": 7}},
           {"command": "rename_node", "arguments": {"id": "a", "name": "A"}},
           {"command": "remove_node", "arguments": {"id": "parking"}}])";
-  ASSERT_EQ(world.submit(command<Batch>({{list}})), "");
+  ASSERT_EQ(world.submit(batch_of_text(list)), "");
   const Scene after = world.session().scene();
   EXPECT_FALSE(after.nodes.contains("parking"));
   ASSERT_TRUE(world.session().undo("test").ok());
@@ -118,7 +118,7 @@ TEST(Batch, AFaultAtItsEndLeavesTheSceneAsItWas) {
   World world = World::from_file("scenes/links/ratio.json");
   const Scene before = world.session().scene();
   const std::string twice = R"({"command": "add_node", "arguments": {"id": "n3", "node": {"types": {"junction": {}}}}})";
-  EXPECT_NE(world.submit(command<Batch>({{batch_of(500, twice)}})).find("taken"), std::string::npos);
+  EXPECT_NE(world.submit(batch_of_text(batch_of(500, twice))).find("taken"), std::string::npos);
   EXPECT_EQ(world.session().scene(), before);
 }
 
@@ -128,7 +128,7 @@ TEST(Batch, OneThatNobodyWantsAnyMoreChangesNothing) {
   SceneEdit edit(scene, full_registry());
   int asked = 0;
   const StopScope scope([&asked] { return ++asked > 3; });
-  const Inverse stopped = apply(edit, command<Batch>({{batch_of(5000)}}));
+  const Inverse stopped = apply(edit, batch_of_text(batch_of(5000)));
   ASSERT_FALSE(stopped.ok());
   EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
   EXPECT_TRUE(scene.nodes.empty());

@@ -78,7 +78,7 @@ TEST(Log, AnInterruptedTickLeavesALogThatReplays) {
   };
   World world = World::from_text(kScene), whole = World::from_text(kScene);
   std::string log = log_header(kScene);
-  world.session().on_entry([&](const LogEntry& e) { log += log_line(e, full_registry()); });
+  world.session().subscribe([&](const LogEntry& e) { log += log_line(e, full_registry()); });
   for (World* each : {&world, &whole}) {
     each->tick(3);
     change(*each);
@@ -139,7 +139,7 @@ TEST(Log, SaysWhichAuthorsAreDevices) {
 // Logs of the program before: no base, no kinds of authors.
 TEST(Log, VersionOneIsRead) {
   std::string header = log_header(kScene);
-  header.replace(header.find("\"version\": 2"), 12, "\"version\": 1");
+  header.replace(header.find("\"version\": 3"), 12, "\"version\": 1");
   const auto log = read_log(header + entry(1, 0, 1) + mark("end", 2), full_registry());
   ASSERT_TRUE(log.ok()) << log.error().text();
   EXPECT_EQ(log->entries.size(), 1u);
@@ -170,7 +170,7 @@ TEST(Log, ARecoveryTakesWhatOlderProgramsWrote) {
 TEST(Log, CutBetweenTwoLinesItHasNoEndAndReplaysAsFarAsItGoes) {
   World world = World::from_text(kScene);
   std::vector<std::string> lines{log_header(kScene)};
-  world.session().on_entry([&](const LogEntry& e) { lines.push_back(log_line(e, full_registry())); });
+  world.session().subscribe([&](const LogEntry& e) { lines.push_back(log_line(e, full_registry())); });
   for (int k = 0; k < 20; ++k) {
     if (k % 3 == 0) {
       ASSERT_EQ(world.submit(command<SetPort>({"a", {"node.position"}, {"[" + std::to_string(k) + ", 2, 0]"}})), "");

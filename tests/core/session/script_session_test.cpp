@@ -182,7 +182,7 @@ TEST(ScriptSession, OneAndManyThreadsGiveTheSameBits) {
 TEST(ScriptSession, ALogWithScriptEditsIsReplayedToTheSameHash) {
   World world = World::from_text(ratio_scene());
   std::string log = log_header(write_scene(world.session().scene(), full_registry()));
-  world.session().on_entry([&](const LogEntry& entry) { log += log_line(entry, full_registry()); });
+  world.session().subscribe([&](const LogEntry& entry) { log += log_line(entry, full_registry()); });
   const auto edit = [&](const std::string& factor) {
     ASSERT_EQ(world.submit(command<SetScript>({"my_ratio", ratio_script("my_ratio", factor), false})), "");
     world.tick(7);

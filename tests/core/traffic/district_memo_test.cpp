@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "core/traffic/packed_numbers.h"
 
 namespace bl {
 namespace {
@@ -113,30 +112,6 @@ TEST(DistrictMemo, ATownThatMovesStaysNearItsEquilibrium) {
     EXPECT_NEAR(flows, trips, 1e-9 * trips) << tick;
     if (tick > 3) { EXPECT_LT(result.gap, 1e-4) << tick; }
   }
-}
-
-TEST(PackedNumbers, TheyComeBackBitForBit) {
-  const std::vector<double> numbers{0, -0.0, 1, 1.0 / 3, -1e15, 5e-324, 123456.789};
-  const auto back = unpacked_numbers(packed(numbers));
-  ASSERT_TRUE(back);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    EXPECT_EQ(std::bit_cast<std::uint64_t>((*back)[i]), std::bit_cast<std::uint64_t>(numbers[i]));
-  const std::vector<std::uint32_t> indices{0, 1, 63, 64, 16777215};
-  EXPECT_EQ(unpacked_indices(packed(indices)), indices);
-  EXPECT_EQ(packed(std::vector<double>{0}), "AAAAAAAAAAA");
-  EXPECT_EQ(packed(std::vector<std::uint32_t>{65}), "BBAA");
-}
-
-TEST(PackedNumbers, WhatIsNoSuchListIsNothing) {
-  EXPECT_TRUE(unpacked_numbers("")->empty());
-  EXPECT_FALSE(unpacked_numbers("AAAA"));
-  for (const double broken : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), -2e15})
-    EXPECT_FALSE(unpacked_numbers(packed(std::vector<double>{1, broken}))) << broken;
-  EXPECT_FALSE(unpacked_numbers("AAAAAAAAAA!"));
-  EXPECT_FALSE(unpacked_indices("AAA"));
-  EXPECT_FALSE(
-      unpacked_indices("AA\xff"
-                       "A"));
 }
 
 }  // namespace

@@ -316,13 +316,13 @@ TEST(ReportParts, SectionsOfABoxAreItsPlan) {
   ASSERT_NEAR(enclosed_volume(box), 24, 1e-12);
   const auto all = [](std::size_t) { return true; };
   for (const double z : {1.0, 4.0}) {
-    const auto lines = report::section(box, z, all);
+    const auto lines = section(box, z, all);
     ASSERT_EQ(lines.size(), 1u) << z;
     EXPECT_TRUE(lines.front().is_closed);
   }
-  EXPECT_TRUE(report::section(box, 5, all).empty());
-  const auto normals = report::unit_normals(box);
-  const auto roof = report::outline(box, [&](std::size_t t) { return normals[t].z > 0.5; });
+  EXPECT_TRUE(section(box, 5, all).empty());
+  const auto normals = unit_normals(box);
+  const auto roof = outline(box, [&](std::size_t t) { return normals[t].z > 0.5; });
   ASSERT_EQ(roof.size(), 1u);
   EXPECT_EQ(roof.front().points.size(), 4u);
 }
@@ -339,7 +339,7 @@ TEST(ReportParts, ACellInPiecesHasOneLineAroundItsCut) {
   const auto cells = power_cells(*ell, sites, options);
   ASSERT_TRUE(cells.ok());
   const MeshPointer fine = mesh_of_depth((*cells)[0].mesh, kDeepestTessellation);
-  const auto cut = report::section(*fine, 20.003, [](std::size_t) { return true; });
+  const auto cut = section(*fine, 20.003, [](std::size_t) { return true; });
   ASSERT_EQ(cut.size(), 1u);
   EXPECT_TRUE(cut.front().is_closed);
   double twice_area = 0;
@@ -369,12 +369,12 @@ TEST(ReportParts, BodiesSideBySideHaveOneOutline) {
   Mesh both = tall_box();
   for (const Point3& v : tall_box().vertices) both.vertices.push_back({v.x + 2, 2 * v.y, v.z});
   for (const auto& [a, b, c] : tall_box().triangles) both.triangles.push_back({a + 8, b + 8, c + 8});
-  EXPECT_EQ(report::bodies_of(both).size(), 2u);
-  const Mesh mesh = report::joined(both);
-  EXPECT_EQ(report::bodies_of(mesh).size(), 1u);
-  EXPECT_EQ(report::seen_from_above(both).size(), 1u);
-  const auto normals = report::unit_normals(mesh);
-  const auto roof = report::outline(mesh, [&](std::size_t t) { return normals[t].z > 0.5; });
+  EXPECT_EQ(bodies_of(both).size(), 2u);
+  const Mesh mesh = joined(both);
+  EXPECT_EQ(bodies_of(mesh).size(), 1u);
+  EXPECT_EQ(seen_from_above(both).size(), 1u);
+  const auto normals = unit_normals(mesh);
+  const auto roof = outline(mesh, [&](std::size_t t) { return normals[t].z > 0.5; });
   ASSERT_EQ(roof.size(), 1u);
   EXPECT_TRUE(roof.front().is_closed);
   double twice_area = 0, length = 0;

@@ -48,7 +48,7 @@ class LiveSession {
   Result<TakenBack> undo(std::int64_t gesture = 0);
   Result<TakenBack> redo();
   Result<void> replay(LogEntry entry);
-  void on_entry(std::function<void(const LogEntry&)> listener) { ledger_.on_entry(std::move(listener)); }
+  void on_entry(std::function<void(const LogEntry&)> listener) { (void)ledger_.subscribe(std::move(listener)); }
 
   // Of the clock.
   std::shared_ptr<const Moment> moment() const;

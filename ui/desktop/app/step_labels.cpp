@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/define/codec.h"
 #include "core/file/scene_file.h"
 #include "core/reading/figures.h"
 
@@ -28,8 +27,10 @@ bool is_off(const Command& command, const char* argument) {
 }
 
 Json json_argument(const Command& command, const char* argument) {
-  const std::string* text = text_argument(command, argument);
-  return text == nullptr ? Json() : Json::parse(*text, nullptr, false);
+  const auto found = command.arguments.find(argument);
+  const auto* value = found == command.arguments.end() ? nullptr : std::get_if<JsonValue>(&found->second);
+  const auto json = value == nullptr ? Result<const Json*>(nullptr) : value->read();
+  return json && *json != nullptr ? **json : Json();
 }
 
 std::string name_of(const Scene& scene, const std::string& id) {
@@ -153,11 +154,9 @@ std::string label_of_many(const Registry& registry, std::vector<Command> command
 
 std::string label_of_step(const Registry& registry, const Command& command, const Scene& scene) {
   if (command.id == "batch") {
-    std::vector<Command> commands;
-    if (const Json list = json_argument(command, "commands"); list.is_array())
-      for (const Json& item : list)
-        if (auto read = command_from_json(registry, item, ""); read) commands.push_back(std::move(*read));
-    return label_of_many(registry, std::move(commands), scene);
+    const auto list = command.arguments.find("commands");
+    const auto* commands = list == command.arguments.end() ? nullptr : std::get_if<CommandList>(&list->second);
+    return label_of_many(registry, commands == nullptr ? std::vector<Command>() : **commands, scene);
   }
   const CommandDefinition* definition = registry.command(command.id);
   std::string label = definition != nullptr ? definition->label : command.id;

@@ -286,9 +286,7 @@ bool Document::has_redo() {
 Result<void> Document::submit(const std::vector<Command>& commands, std::int64_t gesture) {
   if (commands.empty()) return {};
   if (commands.size() == 1) return session_->submit(commands.front(), gesture);
-  Json list = Json::array();
-  for (const Command& command : commands) list.push_back(command_to_json(*registry_, command));
-  return session_->submit(bl::command<Batch>({{write_json_line(list)}}), gesture);
+  return session_->submit(bl::command<Batch>({commands}), gesture);
 }
 
 }  // namespace bl::desktop

@@ -9,7 +9,7 @@
 
 namespace bl::desktop {
 
-ImportTask::ImportTask(Scene scene, cli::ImportOptions options, const Registry& registry)
+ImportTask::ImportTask(Scene scene, making::ImportOptions options, const Registry& registry)
     : scene_(std::move(scene)), options_(std::move(options)), registry_(&registry) {
   options_.context.watch = &watch_;
   thread_ = std::thread([this] { run(); });
@@ -26,7 +26,7 @@ void ImportTask::wait() {
 
 void ImportTask::run() {
   try {
-    result_ = cli::import_context(scene_, options_, *registry_);
+    result_ = making::import_context(scene_, options_, *registry_);
   } catch (const std::bad_alloc&) {
     result_.emplace();
     result_->errors.push_back({"", {ErrorCode::out_of_range, "", "The import has stopped: " + memory_sentence()}});

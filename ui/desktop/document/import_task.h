@@ -12,7 +12,7 @@ namespace bl::desktop {
 class ImportTask {
  public:
   /// Begins at once. `scene` is the one that is added to; it is not changed. The registry outlives the task.
-  ImportTask(Scene scene, cli::ImportOptions options, const Registry& registry);
+  ImportTask(Scene scene, making::ImportOptions options, const Registry& registry);
   /// Stops it, and waits until it has.
   ~ImportTask();
   ImportTask(const ImportTask&) = delete;
@@ -24,16 +24,16 @@ class ImportTask {
   bool is_done() const { return is_done_; }
   void wait();
   /// What came of it, once it is done.
-  cli::ImportedScene& result() { return *result_; }
+  making::ImportedScene& result() { return *result_; }
 
  private:
   void run();
 
   Scene scene_;
-  cli::ImportOptions options_;
+  making::ImportOptions options_;
   const Registry* registry_;
   ImportWatch watch_;
-  std::optional<cli::ImportedScene> result_;
+  std::optional<making::ImportedScene> result_;
   std::atomic<bool> is_done_{false};
   std::thread thread_;
 };

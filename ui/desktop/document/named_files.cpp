@@ -55,7 +55,7 @@ files::path place_for(const files::path& table, const files::path& folder) {
 }
 
 Command set_text(const std::string& node, const std::string& port, const std::string& text) {
-  return command<SetPort>({node, {port}, {write_json_line(Json(text))}});
+  return command<SetPort>({node, {port}, JsonValue::of(Json(text))});
 }
 
 }  // namespace

@@ -54,9 +54,7 @@ bool Editor::submit(const std::vector<Command>& commands, std::int64_t gesture) 
   return done.ok();
 }
 
-bool Editor::arrange(const std::string& json_patch, std::int64_t gesture) {
-  return submit(command<SetView>({{json_patch}, false}), gesture);
-}
+bool Editor::arrange(const JsonValue& patch, std::int64_t gesture) { return submit(command<SetView>({patch, false}), gesture); }
 
 void Editor::undo() {
   if (!document) return;

@@ -86,7 +86,7 @@ class Editor {
   bool submit(const std::vector<Command>& commands, std::int64_t gesture = 0);
   bool submit(const Command& command, std::int64_t gesture = 0) { return submit(std::vector<Command>{command}, gesture); }
   /// A patch of the scene's view (canvas layout, cameras), as one step.
-  bool arrange(const std::string& json_patch, std::int64_t gesture = 0);
+  bool arrange(const JsonValue& patch, std::int64_t gesture = 0);
   std::int64_t new_gesture() { return document->session().new_gesture(); }
   void undo();
   void redo();

@@ -26,7 +26,7 @@ bool has_changed(const std::string& path, std::filesystem::file_time_type& writt
 }  // namespace
 
 void ScriptWatch::add(Editor& editor, const std::string& path) {
-  const std::string name = cli::script_name(path);
+  const std::string name = making::script_name(path);
   File& file = files_[name];
   file.path = path;
   (void)has_changed(path, file.written, file.size);
@@ -46,7 +46,7 @@ void ScriptWatch::take(Editor& editor, const std::string& name, const File& file
   std::erase_if(problems, [&](const Problem& problem) { return problem.error.place == place; });
   const auto& texts = editor.scene().scripts.texts();
   const bool was_there = texts.contains(name);
-  const auto command = cli::script_command(file.path);
+  const auto command = making::script_command(file.path);
   const auto done = command ? editor.document->submit({*command}) : Result<void>(command.error());
   if (!done) problems.push_back({true, {done.error().code, place, done.error().message}});
   if (problems.size() != editor.problems.size() || !done) editor.list_problems(editor.problem_file, std::move(problems));

@@ -34,7 +34,7 @@ class Dialogs {
   /// Returns once the import that runs is through; the next frame takes it over. For tests.
   void wait_for_import();
   /// What is imported next, and how.
-  cli::ImportOptions& import_options() { return import_; }
+  making::ImportOptions& import_options() { return import_; }
   /// What the last try to make a scene or to import has said.
   const std::vector<std::string>& told() const { return told_; }
   void show_palette();
@@ -71,7 +71,7 @@ class Dialogs {
   void draw_import_options();
   void draw_import_progress();
   void begin_import();
-  bool take_import(cli::ImportedScene& imported);
+  bool take_import(making::ImportedScene& imported);
   bool prepare_scene_for_import();
 
   Workbench* editor_;
@@ -82,11 +82,11 @@ class Dialogs {
   std::function<void()> then_;  ///< what the question about unsaved changes was asked for; gone with the question
   std::string query_;
   int marked_ = 0;
-  cli::NewOptions fresh_;
+  making::NewOptions fresh_;
   std::vector<std::string> told_;  ///< notes and errors of the last try to make a scene
   bool is_told_error_ = false;
   std::vector<Journal::Remains> remains_;
-  cli::ImportOptions import_;
+  making::ImportOptions import_;
   void stop_import();
   std::unique_ptr<ImportTask> import_task_;
   std::vector<std::unique_ptr<ImportTask>> ending_;  ///< stopped, but not through yet

@@ -18,7 +18,7 @@ std::set<std::string> hidden_in(const Workbench& editor) { return canvas::read_v
 void arrange_hidden(Workbench& editor, const std::set<std::string>& nodes, bool hides) {
   Json patch = Json::object();
   for (const std::string& id : nodes) patch["hidden"][id] = hides ? Json(true) : Json();
-  if (!patch.empty()) editor.arrange(write_json_line(patch), editor.new_gesture());
+  if (!patch.empty()) editor.arrange(JsonValue::of(patch), editor.new_gesture());
 }
 
 }  // namespace

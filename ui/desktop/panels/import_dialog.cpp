@@ -62,7 +62,7 @@ void text_field(const Theme& theme, const char* text, const char* doc, std::stri
 }
 
 // "966 existing buildings, 781 junctions"
-std::string made_text(const cli::ImportedScene& imported, const Registry& types) {
+std::string made_text(const making::ImportedScene& imported, const Registry& types) {
   std::string text;
   for (const auto& [type, count] : imported.nodes) {
     const TypificationDefinition* known = types.typification(type);
@@ -101,7 +101,7 @@ void Dialogs::draw_import_files() {
   if (import_.files.empty()) ImGui::TextDisabled("No file yet: choose one, or drop files onto the window.");
   ImGui::EndChild();
   if (ImGui::Button("Add a file ...")) {
-    chooser_.open(FileChooser::Purpose::open_file, "Import surroundings from", cli::context_endings(),
+    chooser_.open(FileChooser::Purpose::open_file, "Import surroundings from", making::context_endings(),
                   import_.files.empty() ? "." : import_.files.back());
     chosen_ = [this](const std::string& path) { import_.files.push_back(path); };
   }
@@ -233,7 +233,7 @@ bool Dialogs::prepare_scene_for_import() {
   return true;
 }
 
-bool Dialogs::take_import(cli::ImportedScene& imported) {
+bool Dialogs::take_import(making::ImportedScene& imported) {
   told_.clear();
   is_told_error_ = true;
   for (const auto& [file, error] : imported.errors) told_.push_back(sentence_of(file, error));

@@ -52,8 +52,8 @@ void drive_by_expression(Workbench& editor, const std::string& node, const std::
                      {"parameters",
                       {{port_name_of<&CarriedPort::source>(), path_of<&FormulaSettings::result>()},
                        {port_name_of<&CarriedPort::target>(), path}}}};
-  std::vector<Command> commands{command<AddNode>({expression, {write_json_line(made)}}),
-                                command<AddLink>({link, {write_json_line(laid)}})};
+  std::vector<Command> commands{command<AddNode>({expression, JsonValue::of(made)}),
+                                command<AddLink>({link, JsonValue::of(laid)})};
   // A value that is set would be blended with the formula's: the formula shall have its way.
   const auto parsed = parse_port_path(path);
   if (parsed && record->second.types.contains(parsed->typification) &&

@@ -76,17 +76,25 @@ bool read_field(Workbench& editor, const Grid& grid, const ColumnDefinition& col
   return true;
 }
 
+std::string field_text(const Scalar& field, bool is_fixed) {
+  if (const double* number = std::get_if<double>(&field))
+    return is_fixed ? report::readable(*number) : shown_number(*number, Unit::none);
+  if (const auto* numbers = std::get_if<Numbers>(&field)) return report::counted((*numbers)->size(), "number");
+  if (const auto* indices = std::get_if<Indices>(&field)) return report::counted((*indices)->size(), "number");
+  return std::get<std::string>(field);
+}
+
 void draw_field(Workbench& editor, const Grid& grid, std::size_t r, std::size_t c, float width, GridEdit& edit) {
   const ColumnDefinition& column = grid.columns[c];
   const Scalar value = grid.get(r, c);
   const double* number = std::get_if<double>(&value);
   CellLook look;
-  look.is_fixed = grid.is_fixed;
+  // Lists are for programs: nobody edits a hundred thousand fields.
+  look.is_fixed = grid.is_fixed || column.list != ListOf::nothing;
   look.is_right = number != nullptr;
   if (value == column.default_value && !column.is_required) look.colour = editor.theme.colours().text_faint;
   const std::string key = grid.key + "/" + std::to_string(r) + "/" + column.id;
-  const std::string shown =
-      number ? (grid.is_fixed ? report::readable(*number) : shown_number(*number, Unit::none)) : std::get<std::string>(value);
+  const std::string shown = field_text(value, grid.is_fixed);
   const std::string start = number ? typed_form(*number, column.unit) : shown;
   const CellEvent event = cell(editor, key, shown, start, width, look);
   if (!event.is_typed) return;

@@ -144,7 +144,7 @@ void change_parameter(Workbench& editor, const InspectorView& view, const PortDe
     const Value fresh = change.make(old);
     if (fresh == old) continue;
     if (auto checked = check_value(port, fresh, ""); !checked) return complain(editor, key, checked.error().message);
-    commands.push_back(command<SetLinkParameter>({id, port.id, {write_json_line(value_to_json(fresh, port))}}));
+    commands.push_back(command<SetLinkParameter>({id, port.id, JsonValue::of(value_to_json(fresh, port))}));
   }
   editor.submit(commands, change.is_live ? memory.scrub.gesture : 0);
 }

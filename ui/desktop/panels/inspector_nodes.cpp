@@ -192,7 +192,7 @@ void change_ports(Workbench& editor, const std::vector<std::string>& nodes, cons
           table_commands(id, path_of(type, port), port, *std::get<Shared<Table>>(old), *std::get<Shared<Table>>(fresh));
       commands.insert(commands.end(), steps.begin(), steps.end());
     } else {
-      commands.push_back(command<SetPort>({id, {path_of(type, port)}, {write_json_line(value_to_json(fresh, port))}}));
+      commands.push_back(command<SetPort>({id, {path_of(type, port)}, JsonValue::of(value_to_json(fresh, port))}));
     }
   }
   editor.submit(commands, change.is_live ? memory.scrub.gesture : 0);

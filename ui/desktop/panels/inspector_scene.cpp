@@ -55,7 +55,7 @@ void inspect_scene(Workbench& editor) {
     const Value fresh = change->make(value);
     if (auto checked = check_value(port, fresh, ""); !checked) complain(editor, key, checked.error().message);
     else if (!(fresh == value) || (port.keeps_default && is_default))
-      editor.submit(command<SetSetting>({port.id, {write_json_line(value_to_json(fresh, port))}}),
+      editor.submit(command<SetSetting>({port.id, JsonValue::of(value_to_json(fresh, port))}),
                     change->is_live ? memory.scrub.gesture : 0);
   }
   list_scripts(editor);

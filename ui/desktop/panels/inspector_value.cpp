@@ -260,6 +260,8 @@ std::string value_text(const Value& value, const PortDefinition& port, Unit unit
                        report::counted((*mesh)->triangles.size(), "triangle")
                  : "none";
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* numbers = std::get_if<Numbers>(&value)) return report::counted((*numbers)->size(), "number");
+  if (port.kind == ValueKind::made) return std::string(kind_text(port.kind, port.made));
   if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) return report::counted((*points)->size(), "point");
   if (const auto* table = std::get_if<Shared<Table>>(&value)) return report::counted((*table)->rows.size(), "row");
   if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&value)) {
@@ -304,6 +306,9 @@ std::optional<Change> value_field(Workbench& editor, const Subject& subject, flo
       return constant(Shared<Selection>(*chosen));
     }
     case ValueKind::json:
+    case ValueKind::numbers:
+    case ValueKind::made:
+    case ValueKind::commands:
     case ValueKind::mesh: break;
   }
   return fixed_field(editor, subject, width);

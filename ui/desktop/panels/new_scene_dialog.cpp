@@ -54,13 +54,14 @@ void Dialogs::draw_new_scene() {
   ImGui::InputTextWithHint("CRS", "as the file says", &fresh_.crs);
   ImGui::Checkbox("Take the convex hull of a plan that is not convex", &fresh_.use_hull);
   const bool is_ready = !fresh_.boundary.empty() && !fresh_.programme.empty();
-  if (draw_foot("Make the scene", "new_scene/make", is_ready ? "" : "A boundary and a programme are needed.")) make_scene();
+  if (draw_foot("Make the scene", "new_scene/make", is_ready ? "" : "A boundary and a programme are needed."))
+    make_scene();
   if (!told_.empty() && !is_told_error_) close();
   ImGui::EndPopup();
 }
 
 void Dialogs::make_scene() {
-  const cli::MadeScene made = cli::make_scene(fresh_, editor_->program);
+  const making::MadeScene made = making::make_scene(fresh_, editor_->program);
   told_ = made.notes;
   is_told_error_ = !made.scene;
   for (const auto& [file, warning] : made.warnings) told_.push_back(file + ": " + warning.text());

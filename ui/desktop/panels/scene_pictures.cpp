@@ -99,7 +99,7 @@ using Lines = std::vector<std::vector<Projected>>;
 Lines ground_lines(const report::ReportModel& model) {
   Lines lines;
   for (const report::SiteRow& site : model.sites)
-    for (const report::Polyline& line : site.ground) {
+    for (const Polyline& line : site.ground) {
       lines.emplace_back();
       for (const Point3& point : line.points) lines.back().push_back(project({point.x, point.y, site.bottom}));
     }

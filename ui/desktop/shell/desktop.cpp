@@ -66,9 +66,9 @@ std::string Desktop::title() {
 
 void Desktop::place_picture(const std::string& path) {
   Workbench& editor = *editor_;
-  cli::MediaOptions options;
+  making::MediaOptions options;
   options.scene = editor.document->source();
-  const auto made = cli::make_media(path, editor.scene(), options);
+  const auto made = making::make_media(path, editor.scene(), options);
   if (!made) return editor.tell(NoticeKind::error, path + ": " + made.error().message);
   if (!editor.submit(made->command)) return;
   editor.picks.only_node(made->id);
@@ -78,14 +78,14 @@ void Desktop::place_picture(const std::string& path) {
 void Desktop::drop(const std::vector<std::string>& paths) {
   std::vector<std::string> surroundings;
   for (const std::string& path : paths)
-    if (cli::is_context_file(path)) surroundings.push_back(path);
+    if (making::is_context_file(path)) surroundings.push_back(path);
   for (const std::string& path : paths)
     if (std::find(surroundings.begin(), surroundings.end(), path) == surroundings.end()) drop_one(path);
   if (!surroundings.empty()) dialogs_->show_import(surroundings);
 }
 
 void Desktop::drop_one(const std::string& path) {
-  if (editor_->document && cli::is_picture_name(path)) return place_picture(path);
+  if (editor_->document && making::is_picture_name(path)) return place_picture(path);
   if (!path.ends_with(".lua")) return dialogs_->guard([this, path] { editor_->open(path, true); });
   if (editor_->document) editor_->script_watch.add(*editor_, path);
   else editor_->tell(NoticeKind::warning, "A link script belongs to a scene: open the scene first, then drop the script again.");

@@ -270,8 +270,8 @@ MeshPointer ball_cell(const Point3& centre, double radius) {
 }
 
 std::vector<std::pair<Point3, Point3>> sharp_edges(const Mesh& given) {
-  const Mesh mesh = report::joined(given);
-  const std::vector<Vector3> normals = report::unit_normals(mesh);
+  const Mesh mesh = joined(given);
+  const std::vector<Vector3> normals = unit_normals(mesh);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> sides;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) sides[std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3])].push_back(t);

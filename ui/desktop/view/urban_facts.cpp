@@ -10,7 +10,7 @@
 #include "core/reading/views/traffic.h"
 #include "core/reading/views/volume.h"
 #include "core/sun/solar_position.h"
-#include "core/traffic/packed_numbers.h"
+#include "core/traffic/trip_flows.h"
 #include "ui/desktop/view/scene_facts.h"
 
 namespace bl::desktop {
@@ -44,21 +44,15 @@ void add_street(const State& state, std::uint32_t node, reading::StreetFigures&&
   urban.streets.push_back(std::move(street));
 }
 
-// The flows of a network are kept by origin: "street:forth" or "street:back" of each zone's trips.
-void add_routes(const State& state, const Table& links, const Table& ways, UrbanFacts& urban) {
+void add_routes(const State& state, const TripFlows& trips, UrbanFacts& urban) {
   std::vector<std::uint32_t> street_of;  // by link; the number of nodes where it is no street
-  for (std::size_t l = 0; l < links.rows.size(); ++l) {
-    const std::string& link = links.text(l, "link");
-    street_of.push_back(state.plan->node_index(link.substr(0, link.rfind(':'))));
-  }
-  for (std::size_t row = 0; row < ways.rows.size(); ++row) {
-    const std::uint32_t from = state.plan->node_index(ways.text(row, "zone"));
-    const auto used = unpacked_indices(ways.text(row, "links"));
-    const auto flows = unpacked_numbers(ways.text(row, "flows"));
-    if (from == state.plan->nodes.size() || !used || !flows) continue;
-    for (std::size_t k = 0; k < std::min(used->size(), flows->size()); ++k)
-      if ((*used)[k] < street_of.size() && street_of[(*used)[k]] < state.plan->nodes.size())
-        urban.routes[from][street_of[(*used)[k]]] += (*flows)[k];
+  for (const std::string& place : trips.places) street_of.push_back(state.plan->node_index(place));
+  for (const TripFlows::Zone& zone : trips.zones) {
+    const std::uint32_t from = state.plan->node_index(zone.id);
+    if (from == state.plan->nodes.size()) continue;
+    for (std::size_t k = 0; k < std::min(zone.links->size(), zone.flows->size()); ++k)
+      if (const std::uint32_t link = (*zone.links)[k]; link < street_of.size() && street_of[link] < state.plan->nodes.size())
+        urban.routes[from][street_of[link]] += (*zone.flows)[k];
   }
 }
 
@@ -220,7 +214,8 @@ UrbanFacts read_urban(const State& state, const UrbanFacts* last) {
   using namespace reading;
   UrbanFacts urban;
   for (auto& [node, street] : rows<StreetFigures>(state)) add_street(state, node, std::move(street), urban);
-  for (const auto& [node, network] : rows<NetworkFigures>(state)) add_routes(state, *network.links, *network.ways, urban);
+  for (const auto& [node, network] : rows<NetworkFigures>(state))
+    if (network.trip_flows) add_routes(state, *network.trip_flows, urban);
   for (const auto& [node, building] : rows<BuildingFigures>(state)) add_body(state, node, building, last, urban);
   for (const auto& [node, receiver] : rows<ReceiverFigures>(state)) add_sun_map(state, node, receiver, last, urban);
   for (const auto& [node, layer] : rows<DataLayerFigures>(state)) add_layer(state, node, layer, urban);

@@ -57,7 +57,7 @@ Command new_node(Board& board, const TypificationDefinition& role, const std::st
   patch["boxes"][id] =
       place_json({std::round((at.x - kBoxWidth / 2) / kGrid) * kGrid, std::round((at.y - kHeadHeight / 2) / kGrid) * kGrid});
   join_entered(board, patch, "nodes", id);
-  return command<AddNode>({id, {write_json_line(node)}});
+  return command<AddNode>({id, JsonValue::of(node)});
 }
 
 Command new_link(const Board& board, const LinkDefinition& kind, const std::string& id, const Selection& from,
@@ -67,7 +67,7 @@ Command new_link(const Board& board, const LinkDefinition& kind, const std::stri
   link.from = from;
   link.to = to;
   link.parameters = std::move(parameters);
-  return command<AddLink>({id, {write_json_line(link_to_json(link, board.editor.types()))}});
+  return command<AddLink>({id, JsonValue::of(link_to_json(link, board.editor.types()))});
 }
 
 }  // namespace

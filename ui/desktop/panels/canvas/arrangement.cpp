@@ -217,7 +217,7 @@ void frame_chosen(Board& board) {
   const std::string in = around.size() == 1 && view.frames.contains(*around.begin()) ? *around.begin() : board.model.entered;
   if (!in.empty()) patch["frames"][id]["in"] = in;
   drop_emptied_frames(board, patch);
-  if (!board.editor.arrange(write_json_line(patch), board.editor.new_gesture())) return;
+  if (!board.editor.arrange(JsonValue::of(patch), board.editor.new_gesture())) return;
   update_now(board);
   board.picked_frames = {id};
   begin_edit(board, Thing::frame, id);
@@ -232,7 +232,7 @@ void add_comment(Board& board, ImVec2 at) {
   comment["size"] = place_json({220, 70});
   comment["text"] = "";
   join_entered(board, patch, "comments", id);
-  if (!board.editor.arrange(write_json_line(patch), board.editor.new_gesture())) return;
+  if (!board.editor.arrange(JsonValue::of(patch), board.editor.new_gesture())) return;
   update_now(board);
   board.picked_comments = {id};
   begin_edit(board, Thing::comment, id);
@@ -263,7 +263,7 @@ void end_edit(Board& board) {
   } else if (edit.thing == Thing::frame && view.frames.contains(edit.id) && view.frames.at(edit.id).name != edit.text) {
     patch["frames"][edit.id]["name"] = edit.text;
   }
-  if (!patch.empty()) editor.arrange(write_json_line(patch), editor.new_gesture());
+  if (!patch.empty()) editor.arrange(JsonValue::of(patch), editor.new_gesture());
 }
 
 // Where the text stands that is edited; nothing where it has gone.

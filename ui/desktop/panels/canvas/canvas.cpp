@@ -137,7 +137,7 @@ std::optional<Command> Canvas::joining(const std::string& node) const {
   Json patch = Json::object();
   canvas::join_entered(*board_, patch, "nodes", node);
   if (patch.empty()) return std::nullopt;
-  return command<SetView>({{write_json_line(patch)}, false});
+  return command<SetView>({JsonValue::of(patch), false});
 }
 
 std::optional<ImVec2> Canvas::screen_of(const std::string& node) const {

@@ -100,7 +100,7 @@ std::vector<Command> settle_references(Pasting& pasting, const std::string& id, 
       value->second = Shared<Selection>(std::move(renamed));
       if (names_copies)
         later.push_back(command<SetPort>(
-            {pasting.new_ids.at(id), {type + "." + port->id}, {write_json_line(value_to_json(value->second, *port))}}));
+            {pasting.new_ids.at(id), {type + "." + port->id}, JsonValue::of(value_to_json(value->second, *port))}));
       value = names_copies ? values.erase(value) : std::next(value);
     }
   }
@@ -131,7 +131,7 @@ Result<void> paste_nodes(Pasting& pasting, const Json& list) {
   for (auto& [id, node] : nodes) {
     const std::vector<Command> references = settle_references(pasting, id, node);
     later.insert(later.end(), references.begin(), references.end());
-    pasting.commands.push_back(command<AddNode>({pasting.new_ids[id], {write_json_line(node_to_json(node, registry))}}));
+    pasting.commands.push_back(command<AddNode>({pasting.new_ids[id], JsonValue::of(node_to_json(node, registry))}));
   }
   pasting.commands.insert(pasting.commands.end(), later.begin(), later.end());
   return {};
@@ -149,7 +149,7 @@ Result<void> paste_links(Pasting& pasting, const Json& list) {
     rename(pasting, link->to);
     if (link->from.is_empty() || link->to.is_empty()) continue;
     const std::string copy = pasting.ids.of(id);
-    pasting.commands.push_back(command<AddLink>({copy, {write_json_line(link_to_json(*link, registry))}}));
+    pasting.commands.push_back(command<AddLink>({copy, JsonValue::of(link_to_json(*link, registry))}));
     if (const auto dots = item.find("dots"); dots != item.end() && dots->is_array())
       for (const Json& dot : *dots)
         if (const auto at = point_in(Json::object({{"at", dot}}), "at")) {

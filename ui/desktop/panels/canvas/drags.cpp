@@ -300,7 +300,7 @@ void end_move(Board& board) {
   }
   patch_membership(board, drag, patch);
   drop_emptied_frames(board, patch);
-  if (!patch.empty()) board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
+  if (!patch.empty()) board.editor.arrange(JsonValue::of(patch), board.editor.new_gesture());
 }
 
 void end_cut(Board& board) {
@@ -351,7 +351,7 @@ void end_drag(Board& board) {
     case Deed::comment_corner: {
       Json patch = Json::object();
       patch["comments"][board.drag.grabbed.id]["size"] = place_json(board.model.view.comments.at(board.drag.grabbed.id).box.size);
-      if (board.drag.is_far) board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
+      if (board.drag.is_far) board.editor.arrange(JsonValue::of(patch), board.editor.new_gesture());
       break;
     }
     default: break;

@@ -180,7 +180,7 @@ std::vector<CardRow> rows_of(const Board& board, const NodeBox& box) {
     std::size_t count = 0;
     for (std::size_t p = 0; p < section.type->ports.size() && count < kMostCardRows; ++p) {
       const PortDefinition& port = section.type->ports[p];
-      if (port.kind == ValueKind::mesh || port.kind == ValueKind::table) continue;
+      if (is_derived(port.kind) || port.kind == ValueKind::table) continue;
       const Value* value = value_of(editor, box, section, p);
       if (value == nullptr || (!port.is_computed && *value == port.default_value)) continue;
       rows.push_back({label_of(port), text_of(editor, box, section, p)});

@@ -96,7 +96,7 @@ void reconnect(const Board& board, const std::string& node, const std::set<std::
       link.to.ids = {pairs[k].second};
       if (pairs[k].first == pairs[k].second) continue;
       commands.push_back(command<AddLink>(
-          {ids.of(pairs[k].first + "_" + pairs[k].second), {write_json_line(link_to_json(link, board.editor.types()))}}));
+          {ids.of(pairs[k].first + "_" + pairs[k].second), JsonValue::of(link_to_json(link, board.editor.types()))}));
     }
   }
 }
@@ -119,7 +119,7 @@ void update_now(Board& board) {
 }
 
 void add_view_patch(std::vector<Command>& commands, const Json& patch) {
-  if (!patch.empty()) commands.push_back(command<SetView>({{write_json_line(patch)}, false}));
+  if (!patch.empty()) commands.push_back(command<SetView>({JsonValue::of(patch), false}));
 }
 
 std::set<std::string> links_of_choice(const Board& board) {
@@ -291,7 +291,7 @@ void collapse_chosen(Board& board) {
     if (closes) patch["collapsed"][id] = true;
     else patch["collapsed"][id] = nullptr;
   }
-  board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
+  board.editor.arrange(JsonValue::of(patch), board.editor.new_gesture());
 }
 
 namespace {
@@ -301,7 +301,7 @@ void arrange_dots(Board& board, const std::string& link, const std::vector<ImVec
   Json& list = patch["dots"][link];
   list = dots.empty() ? Json() : Json::array();
   for (const ImVec2& p : dots) list.push_back(place_json(p));
-  board.editor.arrange(write_json_line(patch), board.editor.new_gesture());
+  board.editor.arrange(JsonValue::of(patch), board.editor.new_gesture());
 }
 
 }  // namespace

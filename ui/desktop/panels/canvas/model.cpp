@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/reading/report_model.h"
 #include "core/reading/views/volume.h"
 #include "ui/desktop/panels/canvas/auto_layout.h"
 #include "ui/desktop/panels/canvas/link_paths.h"

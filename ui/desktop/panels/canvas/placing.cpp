@@ -71,9 +71,8 @@ Point3 place_volume(const Registry& registry, const Scene& scene) {
     for (int j = 0; j < kTries; ++j) {
       const double x = box.plan[0].x + (box.plan[2].x - box.plan[0].x) * (i + 0.5) / kTries;
       const double y = box.plan[0].y + (box.plan[2].y - box.plan[0].y) * (j + 0.5) / kTries;
-      const Point3 spot{x, y, 0};
-      if (!ring_contains(site->plan, spot)) continue;
-      double free = 2 * distance_to_outline(site->plan, spot);
+      if (!ring_contains(site->plan, {x, y, 0})) continue;
+      double free = 2 * distance_to_outline(site->plan, {x, y, 0});
       for (const Point3& other : others) free = std::min(free, std::hypot(x - other.x, y - other.y));
       if (free > best) best = free, place = {std::round(10 * x) / 10, std::round(10 * y) / 10, middle};
     }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMostRows = 5, kMostSettings = 3;
 constexpr double kLeastShare = 1e-4;  // smaller ones are written as such
 
-bool is_shown_in_a_row(const PortDefinition& port) { return port.kind != ValueKind::mesh && port.kind != ValueKind::json; }
+bool is_shown_in_a_row(const PortDefinition& port) { return !is_derived(port.kind) && port.kind != ValueKind::json; }
 
 bool is_number(const PortDefinition& port) { return port.kind == ValueKind::number || port.kind == ValueKind::integer; }
 
@@ -132,7 +132,8 @@ std::string text_of(const Workbench& editor, const NodeBox& box, const Section& 
   if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(value)) return counted((*texts)->size(), "text");
   if (const auto* table = std::get_if<Shared<Table>>(value)) return counted((*table)->rows.size(), "row");
   if (const auto* selection = std::get_if<Shared<Selection>>(value)) return text_of(editor, **selection);
-  if (std::holds_alternative<MeshPointer>(*value)) return "a mesh";
+  if (const auto* numbers = std::get_if<Numbers>(value)) return counted((*numbers)->size(), "number");
+  if (is_derived(definition.kind)) return std::string(kind_text(definition.kind, definition.made));
   if (is_no_limit(definition, as_number(*value))) return kNoLimit;
   if (definition.unit == Unit::ratio) {
     const double share = as_number(*value);

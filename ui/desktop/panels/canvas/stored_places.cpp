@@ -65,7 +65,7 @@ bool store_places(Board& board) {
   Json patch = Json::object();
   for (const auto& [id, at] : model.unstored_boxes) patch["boxes"][id] = place_json(at);
   for (const auto& [key, at] : model.unstored_sets) patch["sets"][key] = place_json(at);
-  return board.editor.arrange(write_json_line(patch), gesture);
+  return board.editor.arrange(JsonValue::of(patch), gesture);
 }
 
 }  // namespace bl::desktop::canvas

@@ -1,0 +1,118 @@
+// Frames are applied to a copy of the scene that people look at; the ledger gets what is due.
+#include "core/session/open_gestures.h"
+
+#include <algorithm>
+
+namespace bl {
+
+namespace {
+
+bool covers(const std::vector<Touch>& places, const std::vector<Touch>& others) {
+  return std::all_of(others.begin(), others.end(),
+                     [&](const Touch& place) { return std::find(places.begin(), places.end(), place) != places.end(); });
+}
+
+}  // namespace
+
+OpenGestures::OpenGestures(Ledger& ledger)
+    : ledger_(&ledger), listener_(ledger.subscribe([this](const LogEntry&) {
+        // What was said by others, or by an undo, lies under what waits.
+        if (!is_saying_) show_again();
+      })) {}
+
+// Anew from what was said. What does not fit any more is not seen; whoever says it hears why.
+void OpenGestures::show_again() {
+  if (!shown_) return;
+  shown_ = ledger_->scene();
+  ++revision_;
+  SceneEdit edit(*shown_, ledger_->registry());
+  for (const auto& [number, gesture] : open_)
+    for (const Frame& frame : gesture.frames) (void)bl::apply(edit, frame.said.command);
+}
+
+Result<void> OpenGestures::show(Submission frame, std::int64_t tick, double now) {
+  const auto known = open_.find(frame.gesture);
+  if (known != open_.end() && known->second.author != frame.author)
+    return Error{ErrorCode::conflict, "gesture", "the gesture " + std::to_string(frame.gesture) + " is somebody else's"};
+  if (!shown_) shown_ = ledger_->scene();
+  SceneEdit edit(*shown_, ledger_->registry());
+  if (auto done = bl::apply(edit, frame.command); !done) {
+    if (open_.empty()) shown_.reset();
+    return done.error();
+  }
+  Gesture& gesture = known != open_.end() ? known->second : open_[frame.gesture];
+  gesture.author = frame.author;
+  // A hand that rests says nothing.
+  if (edit.touches().empty()) return say_due(tick, now);
+  std::erase_if(gesture.frames, [&](const Frame& earlier) { return covers(edit.touches(), earlier.touches); });
+  auto touches = edit.take_touches();
+  gesture.frames.push_back({std::move(frame), std::move(touches), edit.placed()});
+  ++revision_;
+  return say_due(tick, now);
+}
+
+Result<void> OpenGestures::say(Gesture& gesture, std::int64_t tick) {
+  if (gesture.frames.empty()) return {};
+  Submission said = gesture.frames.back().said;
+  if (gesture.frames.size() > 1) {
+    std::vector<Command> commands;
+    for (const Frame& frame : gesture.frames) commands.push_back(frame.said.command);
+    said.command = command<Batch>({std::move(commands)});
+  }
+  gesture.frames.clear();
+  ++revision_;
+  is_saying_ = true;
+  const auto done = ledger_->submit(std::move(said), tick);
+  is_saying_ = false;
+  if (!done) show_again();
+  return done;
+}
+
+Result<void> OpenGestures::say_due(std::int64_t tick, double now) {
+  Result<void> all;
+  for (auto& [number, gesture] : open_) {
+    if (gesture.frames.empty() || now - gesture.said_at < kBetweenEntries) continue;
+    gesture.said_at = now;
+    if (auto done = say(gesture, tick); !done) all = done;
+  }
+  return all;
+}
+
+Result<void> OpenGestures::end(std::int64_t number, std::int64_t tick) {
+  const auto gesture = open_.find(number);
+  if (gesture == open_.end()) return {};
+  const auto done = say(gesture->second, tick);
+  open_.erase(gesture);
+  if (open_.empty()) shown_.reset();
+  return done;
+}
+
+Result<void> OpenGestures::end_all(const Author& author, std::int64_t tick) {
+  Result<void> all;
+  std::vector<std::int64_t> numbers;
+  for (const auto& [number, gesture] : open_)
+    if (gesture.author == author) numbers.push_back(number);
+  for (const std::int64_t number : numbers)
+    if (auto done = end(number, tick); !done) all = done;
+  return all;
+}
+
+void OpenGestures::drop(std::int64_t number) {
+  if (open_.erase(number) == 0) return;
+  ++revision_;
+  if (open_.empty()) shown_.reset();
+  else show_again();
+}
+
+bool OpenGestures::is_waiting() const {
+  return std::any_of(open_.begin(), open_.end(), [](const auto& entry) { return !entry.second.frames.empty(); });
+}
+
+std::set<std::pair<std::string, std::string>> OpenGestures::placed() const {
+  std::set<std::pair<std::string, std::string>> placed;
+  for (const auto& [number, gesture] : open_)
+    for (const Frame& frame : gesture.frames) placed.insert(frame.placed.begin(), frame.placed.end());
+  return placed;
+}
+
+}  // namespace bl
