@@ -29,7 +29,7 @@ std::string fault_of(const ViewDefinition& view, const ViewRead& read) {
   const PortDefinition* port = type->find_port(read.path.port);
   if (port == nullptr) return where + ", and there is no such port";
   if (read.is_tension) return port->rule == CombineRule::none ? where + " disagreeing, and nobody proposes to it" : "";
-  if (!can_read(read.kind, port->kind))
+  if (!can_read(read.kind, port->kind) || read.made != port->made)
     return where + " as " + std::string(name_of(read.kind)) + ", and it holds " + std::string(name_of(port->kind));
   const bool has_unit = port->unit_from.empty() && port->unit != Unit::none && port->unit != Unit::count;
   const bool is_quantity = read.kind == ValueKind::number || read.kind == ValueKind::integer || read.kind == ValueKind::point;

@@ -64,7 +64,7 @@ struct NetworkFigures {
   std::int64_t isochrone_bands = 0;
   double gap = 0;           ///< that is good enough
   double relative_gap = 0;  ///< that was reached
-  std::shared_ptr<const TripFlows> trip_flows;  ///< by the zone where trips begin; nothing before there are any
+  std::shared_ptr<const TripFlows> trip_flows;  ///< by the zone where they begin
 
   static void declare(ViewBuilder<NetworkFigures>& v);
   static const ViewDefinition& view();

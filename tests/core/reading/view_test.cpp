@@ -22,7 +22,7 @@ constexpr const char* kScene = R"({"format": "behaviourlinks", "version": 1, "no
   {"id": "a", "position": [-5, 0, 5], "types": {"smart_volume": {"use": "housing", "demand": 500}}},
   {"id": "b", "name": "Hall", "position": [5, 0, 5], "types": {"plot": {}, "smart_volume": {"demand": 300}}}],
   "links": [{"id": "brief", "kind": "demand", "from": "site", "to": "a", "parameters": {"use": "office"}},
-            {"id": "pair", "kind": "keep_distance", "from": "a", "to": "b", "parameters": {"distance": 60}}]})";
+            {"id": "pair", "kind": "keep_distance", "from": "a", "to": "b", "parameters": {"minimum": 15}}]})";
 
 TEST(Views, RowsAreTheNodesOfTheTypificationInOrder) {
   World world = World::from_text(kScene);

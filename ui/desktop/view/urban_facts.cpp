@@ -44,12 +44,10 @@ void add_street(const State& state, std::uint32_t node, reading::StreetFigures&&
   urban.streets.push_back(std::move(street));
 }
 
-// The flows of a network are kept by the zone where their trips begin.
-void add_routes(const State& state, const std::shared_ptr<const TripFlows>& trips, UrbanFacts& urban) {
-  if (!trips) return;
+void add_routes(const State& state, const TripFlows& trips, UrbanFacts& urban) {
   std::vector<std::uint32_t> street_of;  // by link; the number of nodes where it is no street
-  for (const std::string& place : trips->places) street_of.push_back(state.plan->node_index(place));
-  for (const TripFlows::Zone& zone : trips->zones) {
+  for (const std::string& place : trips.places) street_of.push_back(state.plan->node_index(place));
+  for (const TripFlows::Zone& zone : trips.zones) {
     const std::uint32_t from = state.plan->node_index(zone.id);
     if (from == state.plan->nodes.size()) continue;
     for (std::size_t k = 0; k < std::min(zone.links->size(), zone.flows->size()); ++k)
@@ -216,7 +214,8 @@ UrbanFacts read_urban(const State& state, const UrbanFacts* last) {
   using namespace reading;
   UrbanFacts urban;
   for (auto& [node, street] : rows<StreetFigures>(state)) add_street(state, node, std::move(street), urban);
-  for (const auto& [node, network] : rows<NetworkFigures>(state)) add_routes(state, network.trip_flows, urban);
+  for (const auto& [node, network] : rows<NetworkFigures>(state))
+    if (network.trip_flows) add_routes(state, *network.trip_flows, urban);
   for (const auto& [node, building] : rows<BuildingFigures>(state)) add_body(state, node, building, last, urban);
   for (const auto& [node, receiver] : rows<ReceiverFigures>(state)) add_sun_map(state, node, receiver, last, urban);
   for (const auto& [node, layer] : rows<DataLayerFigures>(state)) add_layer(state, node, layer, urban);
