@@ -96,7 +96,7 @@ struct CongestionFeedback {
     const std::vector<double> demands{ends.demand}, limits{ends.demand_limit}, wanted{ends.wanted}, volumes{ends.volume};
     const std::vector<bool> locked{ends.is_locked};
     const std::vector<std::size_t> it{0};
-    const HeldBack held{ids, demands, limits, wanted, volumes, locked};
+    const LimitedVolumes held{ids, demands, limits, wanted, volumes, locked};
     const bool is_lost = ends.lost > ends.served;
     const std::string found =
         is_lost ? "of the trips of `" + ends.id + "` " + fixed(100 * ends.lost / (ends.lost + ends.served), 0) + " % find no way"

@@ -83,8 +83,8 @@ struct PlotRules {
     std::vector<std::size_t> on_plot;
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
       if (ring_contains(ends.polygon, ends.centroids.values[i])) on_plot.push_back(i);
-    const HeldBack held{ends.ids.values,    ends.demands.values, ends.limits.values,
-                        ends.wanted.values, ends.volumes.values, ends.locked.values};
+    const LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                              ends.wanted.values, ends.volumes.values, ends.locked.values};
     const double share = share_granted(held, on_plot);
     double room = 2;
     if (in.hold_fsi) room = std::min(room, answer_within(ends.fsi_max, ends.fsi, in.tolerance));
@@ -129,7 +129,7 @@ struct PlotRules {
   }
 
   // What nobody can mend any more, and who holds it; what holds both is said once.
-  static std::string unmet(const HeldBack& held, const Broken& all, const Broken& heights, double least) {
+  static std::string unmet(const LimitedVolumes& held, const Broken& all, const Broken& heights, double least) {
     const std::string by = all.found.empty() ? "" : held_by(held, all.who, least);
     const std::string heights_by = heights.found.empty() ? "" : held_by(held, heights.who, least);
     if (by == heights_by || by.empty() || heights_by.empty())
@@ -138,7 +138,7 @@ struct PlotRules {
   }
 
   // Every rule that is broken: on its way, or held up by volumes that give way no further.
-  static void tell(const In& in, const Ends& ends, const HeldBack& held, const std::vector<std::size_t>& on_plot,
+  static void tell(const In& in, const Ends& ends, const LimitedVolumes& held, const std::vector<std::size_t>& on_plot,
                    const Tick& tick) {
     Broken all{{}, on_plot}, stuck, sinking;
     if (in.hold_fsi && ends.fsi > ends.fsi_max) all.found.push_back("FSI " + found_of_allowed(ends.fsi, ends.fsi_max, 2));

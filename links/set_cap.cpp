@@ -74,8 +74,8 @@ struct SetCap {
     out.limits.values.resize(ends.demands.values.size());
     if (!(ends.total > 0)) return out;
     const double answer = 1 + in.gain * (answer_within(in.cap, ends.total, in.tolerance) - 1);
-    const HeldBack held{ends.ids.values,    ends.demands.values, ends.limits.values,
-                        ends.wanted.values, ends.volumes.values, ends.locked.values};
+    const LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                              ends.wanted.values, ends.volumes.values, ends.locked.values};
     std::vector<std::size_t> all(ends.ids.values.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     const double share = std::max(in.least, share_granted(held, all) * answer);
@@ -86,7 +86,8 @@ struct SetCap {
   }
 
  private:
-  static void tell(const In& in, double total, const HeldBack& held, const std::vector<std::size_t>& all, const Tick& tick) {
+  static void tell(const In& in, double total, const LimitedVolumes& held, const std::vector<std::size_t>& all,
+                   const Tick& tick) {
     const std::string found = "a sum of " + found_of_allowed(total, in.cap, 0);
     if (!is_exhausted(held, all, in.least)) return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "cap", found});
     remark(tick, LinkRemark::unmet,

@@ -160,7 +160,7 @@ struct SolarEnvelope {
   static void tell(const In& in, const Ends& ends, double through, const Tick& tick) {
     const std::string found = "`" + ends.id + "` reaches " + fixed(through * ends.radius, 2) + " m through the planes of the sun";
     const std::vector<bool> locked = {ends.is_limit_locked};
-    const HeldBack held{{&ends.id, 1}, {&ends.demand, 1}, {&ends.limit, 1}, {&ends.wanted, 1}, {&ends.volume, 1}, locked};
+    const LimitedVolumes held{{&ends.id, 1}, {&ends.demand, 1}, {&ends.limit, 1}, {&ends.wanted, 1}, {&ends.volume, 1}, locked};
     std::string held_up;
     if (in.mode == Mode::move && ends.is_position_locked)
       held_up = ", and its position is locked; unlock the position, or let it be shaved";

@@ -112,8 +112,8 @@ struct SolarRight {
 
   // Why those who take the sun cannot give way any further; empty while one of them can.
   static std::string why_held(const In& in, const Ends& ends, const std::vector<std::size_t>& who) {
-    const HeldBack held{ends.ids.values,    ends.demands.values, ends.limits.values,
-                        ends.wanted.values, ends.volumes.values, ends.are_limits_locked.values};
+    const LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                              ends.wanted.values, ends.volumes.values, ends.are_limits_locked.values};
     const std::string advice = "; lower `required_sun`";
     if (who.empty()) return held_by(held, who, in.least) + advice + ", or lead the link to them";
     if (in.mode == Mode::shave && !is_exhausted(held, who, in.least)) return "";

@@ -47,12 +47,12 @@ struct TerrainFollow {
   }
 
   // The grid is kept for the other nodes that the link looks at in the same tick; another terrain is another table.
-  struct Kept {
+  struct Cache {
     std::optional<Shared<Table>> table;
     std::vector<std::string_view> rows;  // of that table
   };
 
-  static void find_rows(const Ends& ends, Kept& kept) {
+  static void find_rows(const Ends& ends, Cache& kept) {
     if (kept.table && &**kept.table == &*ends.rows) return;
     kept.table = ends.rows;
     kept.rows.clear();
@@ -63,8 +63,8 @@ struct TerrainFollow {
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
-    Kept own;
-    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
+    Cache own;
+    Cache& kept = tick.memo != nullptr ? tick.memo->of<Cache>() : own;
     HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
     find_rows(ends, kept);
     grid.rows.swap(kept.rows);  // lent for the question

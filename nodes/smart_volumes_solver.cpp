@@ -271,8 +271,8 @@ struct SmartVolumesSolver {
       storey_heights.push_back(member.storey_height);
       names.push_back(member.id);
     }
-    VolumeTick::Kept own;
-    VolumeTick::Kept& kept = tick.memo != nullptr ? tick.memo->of<VolumeTick::Kept>() : own;
+    VolumeTick::Cache own;
+    VolumeTick::Cache& kept = tick.memo != nullptr ? tick.memo->of<VolumeTick::Cache>() : own;
     const VolumeTick now{.metric = in.metric,
                          .samples = in.resolution,
                          .method = in.method,

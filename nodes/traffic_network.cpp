@@ -271,7 +271,7 @@ struct TrafficNetworkNode {
     bool operator==(const Step&) const = default;
   };
   // A network at rest is asked the same in every tick, and one that moves starts from what it has just said.
-  struct Kept {
+  struct Cache {
     Step step;
     std::optional<Out> out;  // of that step, where it ended at rest
     Memory memory;           // the last one, and the same as numbers
@@ -292,8 +292,8 @@ struct TrafficNetworkNode {
   }
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
-    Kept own;
-    Kept& kept = tick.memo != nullptr ? tick.memo->of<Kept>() : own;
+    Cache own;
+    Cache& kept = tick.memo != nullptr ? tick.memo->of<Cache>() : own;
     Step step = step_of(in, sets);
     if (kept.out && kept.step == step) return *kept.out;
     if (kept.memory != in.last) kept.state = recalled(in.last);
@@ -305,7 +305,7 @@ struct TrafficNetworkNode {
     return out;
   }
 
-  static Result<Out> worked_out(const In& in, const Sets& sets, const Step& step, Kept& kept) {
+  static Result<Out> worked_out(const In& in, const Sets& sets, const Step& step, Cache& kept) {
     auto result = step_district(step.parts, kept.state, &kept.memo);
     if (!result) return Error{result.error().code, "streets", "`" + result.error().place + "`: " + result.error().message};
     Out out;

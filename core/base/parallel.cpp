@@ -35,7 +35,7 @@ struct ThreadPool::Shared {
       std::exception_ptr caught;
       bool is_stopped = false;
       try {
-        const StopLoan loan(wished);
+        const InheritedStop loan(wished);
         is_stopped = is_stop_wished();
         if (!is_stopped) (*current)(begin, end);
       } catch (...) { caught = std::current_exception(); }

@@ -17,8 +17,8 @@ StopScope::~StopScope() { innermost = outer_; }
 
 const StopWish* stop_wish() { return innermost; }
 
-StopLoan::StopLoan(const StopWish* wish) : own_(std::exchange(innermost, wish)) {}
+InheritedStop::InheritedStop(const StopWish* wish) : own_(std::exchange(innermost, wish)) {}
 
-StopLoan::~StopLoan() { innermost = own_; }
+InheritedStop::~InheritedStop() { innermost = own_; }
 
 }  // namespace bl

@@ -27,12 +27,12 @@ class StopScope {
 const StopWish* stop_wish();
 
 /// While it lives, this thread stops by the wish of the thread that it works for (nullptr: by none).
-class StopLoan {
+class InheritedStop {
  public:
-  explicit StopLoan(const StopWish* wish);
-  ~StopLoan();
-  StopLoan(const StopLoan&) = delete;
-  StopLoan& operator=(const StopLoan&) = delete;
+  explicit InheritedStop(const StopWish* wish);
+  ~InheritedStop();
+  InheritedStop(const InheritedStop&) = delete;
+  InheritedStop& operator=(const InheritedStop&) = delete;
 
  private:
   const StopWish* own_;

@@ -187,7 +187,7 @@ Result<Value> decode_kind(const PortDefinition& port, const Json& json, const st
 
 Result<Value> decode(const PortDefinition& port, const Json& json, const std::string& place) {
   auto value = decode_kind(port, json, place);
-  if (value && !take_in(*value)) return Error{ErrorCode::not_finite, place, "must be a finite number"};
+  if (value && !make_storable(*value)) return Error{ErrorCode::not_finite, place, "must be a finite number"};
   return value;
 }
 

@@ -119,7 +119,7 @@ bool is_finite(const Value& value) {
   return all_numbers(value, [](double number) { return std::isfinite(number); });
 }
 
-bool take_in(Value& value) {
+bool make_storable(Value& value) {
   bool is_plain = true;
   const bool is_sound = all_numbers(value, [&](double number) {
     is_plain = is_plain && !is_negative_zero(number);

@@ -94,9 +94,9 @@ enum class ValueKind {
 
 /// Text, choice and port share std::string; the declared kind tells them apart. New kinds stand at the end: the place of a kind
 /// is a part of the hash.
-using Value = std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>,
-                           Shared<std::vector<std::string>>, Shared<Selection>, Shared<Table>, MeshPointer, Numbers, Made, JsonValue,
-                           CommandList>;
+using Value =
+    std::variant<bool, std::int64_t, double, std::string, Vector3, Shared<std::vector<Point3>>, Shared<std::vector<std::string>>,
+                 Shared<Selection>, Shared<Table>, MeshPointer, Numbers, Made, JsonValue, CommandList>;
 
 std::string_view name_of(ValueKind kind);
 /// Do values of this kind follow from others, so that no file holds them?
@@ -107,7 +107,7 @@ bool is_proposable(ValueKind kind);
 bool is_finite(const Value& value);
 /// The door of everything that is kept, whether read, said or worked out: takes the sign off zeros, because -0 equals 0 and would
 /// come back as that from a file, but divides and reads otherwise. False where a number is not finite.
-[[nodiscard]] bool take_in(Value& value);
+[[nodiscard]] bool make_storable(Value& value);
 /// Folds a value into a hash. Meshes count as nothing, because they follow from the rest; made objects are not even there.
 void add_to(Hash& hash, const Value& value);
 /// The number in a number, integer or boolean; 0 for other kinds.

@@ -16,12 +16,12 @@ constexpr int kMostDecimals = 9;
 constexpr double kAsTyped = 0.01;  // how near a limit has to read to what it is, as a share of it
 
 // Above the least share, whoever holds it there.
-bool is_above_least(const HeldBack& held, std::size_t i, double least) {
+bool is_above_least(const LimitedVolumes& held, std::size_t i, double least) {
   return held.wanted[i] > least * held.demands[i] * (1 + kGrantRounding);
 }
 
 // By a lock of people, which is more than what is insisted on.
-bool is_locked_up(const HeldBack& held, std::size_t i, double least) {
+bool is_locked_up(const LimitedVolumes& held, std::size_t i, double least) {
   return held.locked[i] && is_above_least(held, i, least) && held.limits[i] > least * held.demands[i] * (1 + kGrantRounding);
 }
 
@@ -36,7 +36,7 @@ std::string found_of_allowed(double found, double allowed, int decimals, std::st
   return fixed(found, decimals) + std::string(unit) + " of " + fixed(allowed, decimals) + std::string(unit);
 }
 
-double share_granted(const HeldBack& held, const std::vector<std::size_t>& which) {
+double share_granted(const LimitedVolumes& held, const std::vector<std::size_t>& which) {
   const bool is_any_free = std::any_of(which.begin(), which.end(), [&](std::size_t i) { return !held.locked[i]; });
   double share = kLeastGranted;
   for (const std::size_t i : which)
@@ -44,7 +44,7 @@ double share_granted(const HeldBack& held, const std::vector<std::size_t>& which
   return share;
 }
 
-bool is_at_least(const HeldBack& held, std::size_t i, double least) {
+bool is_at_least(const LimitedVolumes& held, std::size_t i, double least) {
   const double bottom = least * held.demands[i];
   const bool is_down = held.locked[i] || held.limits[i] <= bottom * (1 + kGrantRounding) || held.demands[i] <= 0;
   // Whoever has nothing, outside of the boundary or below others, has nothing to give.
@@ -52,11 +52,11 @@ bool is_at_least(const HeldBack& held, std::size_t i, double least) {
   return is_down && has_followed;
 }
 
-bool is_exhausted(const HeldBack& held, const std::vector<std::size_t>& which, double least) {
+bool is_exhausted(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least) {
   return std::all_of(which.begin(), which.end(), [&](std::size_t i) { return is_at_least(held, i, least); });
 }
 
-std::string held_by(const HeldBack& held, const std::vector<std::size_t>& which, double least) {
+std::string held_by(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least) {
   if (which.empty()) return "held by volumes that this link does not lead to";
   std::vector<std::size_t> holding;
   for (const std::size_t i : which)
@@ -73,7 +73,7 @@ std::string held_by(const HeldBack& held, const std::vector<std::size_t>& which,
   return text;
 }
 
-std::string unlocking(const HeldBack& held, const std::vector<std::size_t>& which, double least) {
+std::string unlocking(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least) {
   const bool is_any = std::any_of(which.begin(), which.end(), [&](std::size_t i) { return is_locked_up(held, i, least); });
   return is_any ? " unlock the limits," : "";
 }

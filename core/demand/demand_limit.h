@@ -43,7 +43,7 @@ inline double answer_within(double most, double now, double tolerance, double li
 std::string found_of_allowed(double found, double allowed, int decimals, std::string_view unit = "");
 
 /// Volumes that a rule holds back, side by side.
-struct HeldBack {
+struct LimitedVolumes {
   std::span<const std::string> ids;
   std::span<const double> demands, limits, wanted, volumes;  ///< [m³]; wanted: what the solver aims at
   const std::vector<bool>& locked;                           ///< limits that people hold where they are
@@ -51,17 +51,17 @@ struct HeldBack {
 
 /// The proportion of their demands that the limits of `which` leave now: that of the least limited one, because limits of others
 /// may hold back some. One whose limit is locked follows nobody, so that it does not count beside others.
-double share_granted(const HeldBack& held, const std::vector<std::size_t>& which);
+double share_granted(const LimitedVolumes& held, const std::vector<std::size_t>& which);
 
 /// Can one give way no further: has it come down to the least share that a rule leaves it or to what is insisted on, or is its
 /// limit locked, and has its shape followed, if it has one?
-bool is_at_least(const HeldBack& held, std::size_t i, double least);
+bool is_at_least(const LimitedVolumes& held, std::size_t i, double least);
 /// Have all of `which` come down to that, and their shapes with them? Then the rule has no more to give.
-bool is_exhausted(const HeldBack& held, const std::vector<std::size_t>& which, double least);
+bool is_exhausted(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least);
 /// Who keeps a rule from being met: those of `which` that are held above the least share, with what they have, largest first; or
 /// that all are down to that share, or that there are none.
-std::string held_by(const HeldBack& held, const std::vector<std::size_t>& which, double least);
+std::string held_by(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least);
 /// " unlock the limits," where a lock of people keeps one of `which` above the least share: a part of what to do about it.
-std::string unlocking(const HeldBack& held, const std::vector<std::size_t>& which, double least);
+std::string unlocking(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least);
 
 }  // namespace bl

@@ -24,12 +24,12 @@ FacadeSurvey survey_of(const SurveyCase& one) {
 }  // namespace
 
 std::vector<const FacadeSurvey*> SurveyCache::of(const std::vector<SurveyCase>& cases, ThreadPool* pool) {
-  std::map<std::string, Kept> next;
-  std::vector<Kept*> entries, fresh;
+  std::map<std::string, Entry> next;
+  std::vector<Entry*> entries, fresh;
   for (const SurveyCase& one : cases) {
     const auto found = kept_.find(one.id);
     const bool is_same = found != kept_.end() && found->second.asked == one;
-    const auto entry = is_same ? next.insert(kept_.extract(found)).position : next.emplace(one.id, Kept{one, {}}).first;
+    const auto entry = is_same ? next.insert(kept_.extract(found)).position : next.emplace(one.id, Entry{one, {}}).first;
     entries.push_back(&entry->second);
     if (!is_same) fresh.push_back(&entry->second);
   }
@@ -41,7 +41,7 @@ std::vector<const FacadeSurvey*> SurveyCache::of(const std::vector<SurveyCase>& 
   if (pool != nullptr) pool->for_each_chunk(fresh.size(), 1, make);
   else make(0, fresh.size());
   std::vector<const FacadeSurvey*> surveys;
-  for (const Kept* entry : entries) surveys.push_back(&entry->survey);
+  for (const Entry* entry : entries) surveys.push_back(&entry->survey);
   return surveys;
 }
 

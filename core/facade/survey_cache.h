@@ -29,11 +29,11 @@ class SurveyCache {
   std::size_t made() const { return made_; }
 
  private:
-  struct Kept {
+  struct Entry {
     SurveyCase asked;
     FacadeSurvey survey;
   };
-  std::map<std::string, Kept> kept_;
+  std::map<std::string, Entry> kept_;
   std::size_t made_ = 0;
 };
 

@@ -98,7 +98,7 @@ class Reader {
     read_scripts(file);
     read_records(file, "nodes",
                  [this](Json& json, const std::string& id, const std::string& place) { read_node(json, id, place); });
-    settle_what_nodes_said();
+    merge_node_settings();
     read_records(file, "links",
                  [this](Json& json, const std::string& id, const std::string& place) { read_link(json, id, place); });
     if (const auto it = file.find("view"); it != file.end()) {
@@ -184,14 +184,14 @@ class Reader {
       auto value = value_from_json(port, values[port.id], place + "/" + port.id);
       if (!note(value)) return false;
       values.erase(port.id);
-      said_at_nodes_.try_emplace({port.id, place + "/" + port.id}, std::move(*value));
+      node_settings_.try_emplace({port.id, place + "/" + port.id}, std::move(*value));
     }
     return true;
   }
 
   // The first place that says something becomes the setting where there is none, whatever the order in the file; others are told.
-  void settle_what_nodes_said() {
-    for (const auto& [where, value] : said_at_nodes_) {
+  void merge_node_settings() {
+    for (const auto& [where, value] : node_settings_) {
       const auto& [port, place] = where;
       const PortDefinition& setting = *settings_type().find_port(port);
       PortValues& settings = reading_.scene.settings;
@@ -222,7 +222,7 @@ class Reader {
   const Registry* registry_;  // with the kinds of the scene's scripts
   SceneReading reading_;
   std::map<std::string, std::int64_t> revisions_;
-  std::map<std::pair<std::string, std::string>, Value> said_at_nodes_;  // by setting and place
+  std::map<std::pair<std::string, std::string>, Value> node_settings_;  // by setting and place
 };
 
 // One line per element, so that a diff shows the lines that changed.

@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view kShortOfIt = "; short of it fall ";
 
 // The greatest loss first; `missing` is all of them together.
-std::string who_is_short(std::span<const DemandLoss> losses, std::span<const std::string> names, double& missing) {
+std::string list_of_losses(std::span<const DemandLoss> losses, std::span<const std::string> names, double& missing) {
   constexpr std::size_t kNamed = 5;
   std::vector<DemandLoss> sorted(losses.begin(), losses.end());
   std::stable_sort(sorted.begin(), sorted.end(),
@@ -41,7 +41,7 @@ std::string who_is_short(std::span<const DemandLoss> losses, std::span<const std
 std::string losses_text(std::span<const DemandLoss> losses, double total_demand, std::span<const std::string> names) {
   if (losses.empty()) return "";
   double missing = 0;
-  const std::string who = who_is_short(losses, names, missing);
+  const std::string who = list_of_losses(losses, names, missing);
   return fixed(total_demand, 1) + " m³ are wanted, " + fixed(missing, 1) + " m³ more than can be had" + std::string(kShortOfIt) +
          who;
 }
@@ -51,7 +51,7 @@ std::string with_losses(std::string sentence, std::span<const DemandLoss> losses
   if (at == std::string::npos) return sentence;
   const std::size_t end = std::min(sentence.find("; ", at + kShortOfIt.size()), sentence.size());
   double missing = 0;
-  const std::string who = who_is_short(losses, names, missing);
+  const std::string who = list_of_losses(losses, names, missing);
   return sentence.replace(at, end - at, who.empty() ? "" : std::string(kShortOfIt) + who);
 }
 

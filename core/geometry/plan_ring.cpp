@@ -102,9 +102,9 @@ void lay_out(std::vector<SweepEdge>& edges) {
 }
 
 // Open edges of a sweep, by number, on shelves across it: an edge lies on each shelf that it reaches.
-class Shelves {
+class EdgeBuckets {
  public:
-  explicit Shelves(const std::vector<SweepEdge>& edges) : edges_(edges), asked_(edges.size(), edges.size()) {
+  explicit EdgeBuckets(const std::vector<SweepEdge>& edges) : edges_(edges), asked_(edges.size(), edges.size()) {
     double top = -kFar;
     for (const SweepEdge& edge : edges) bottom_ = std::min(bottom_, edge.bottom), top = std::max(top, edge.top);
     const auto count = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(edges.size()))), 1, 1024);
@@ -151,7 +151,7 @@ std::optional<Crossing> sweep(std::vector<SweepEdge> edges, const Meet& meet) {
     if (a.low != b.low) return a.low < b.low;
     return a.ring != b.ring ? a.ring < b.ring : a.index < b.index;
   });
-  Shelves shelves(edges);
+  EdgeBuckets shelves(edges);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     std::optional<Crossing> found;
     shelves.open(i, [&](std::size_t k) {

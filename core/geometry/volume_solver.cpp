@@ -32,7 +32,7 @@ CellOptions plain_cells(ThreadPool* pool) {
 
 }  // namespace
 
-struct VolumeSolver::Desk {
+struct VolumeSolver::Workspace {
   CellWorkshop workshop;
   std::vector<PowerSite> sites;
   std::vector<double> demand, volume, shift;  // shift: how far the cell's borders may have moved since it was made [m]
@@ -270,7 +270,7 @@ struct VolumeSolver::Desk {
   }
 };
 
-VolumeSolver::VolumeSolver() : desk_(std::make_unique<Desk>()) {}
+VolumeSolver::VolumeSolver() : workspace_(std::make_unique<Workspace>()) {}
 VolumeSolver::~VolumeSolver() = default;
 VolumeSolver::VolumeSolver(VolumeSolver&&) noexcept = default;
 VolumeSolver& VolumeSolver::operator=(VolumeSolver&&) noexcept = default;
@@ -295,65 +295,65 @@ Result<void> VolumeSolver::start(const Domain& domain, std::span<const PowerSite
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (auto checked = check_place(sites[i].position, demands[i]); !checked) return checked.error();
   }
-  auto desk = std::make_unique<Desk>();
-  desk->workshop.set_domain(domain);
-  desk->resize(sites.size());
-  desk->sites.assign(sites.begin(), sites.end());
-  desk->demand.assign(demands.begin(), demands.end());
-  desk_ = std::move(desk);
+  auto workspace = std::make_unique<Workspace>();
+  workspace->workshop.set_domain(domain);
+  workspace->resize(sites.size());
+  workspace->sites.assign(sites.begin(), sites.end());
+  workspace->demand.assign(demands.begin(), demands.end());
+  workspace_ = std::move(workspace);
   return {};
 }
 
 Result<void> VolumeSolver::move(std::uint32_t site, const Point3& position) {
-  if (site >= desk_->size() || desk_->absent[site]) return no_such_site(site);
+  if (site >= workspace_->size() || workspace_->absent[site]) return no_such_site(site);
   if (auto checked = check_place(position, 0); !checked) return checked;
-  desk_->sites[site].position = position;
-  desk_->touch(site);
+  workspace_->sites[site].position = position;
+  workspace_->touch(site);
   return {};
 }
 
 Result<void> VolumeSolver::set_demand(std::uint32_t site, double demand) {
-  if (site >= desk_->size() || desk_->absent[site]) return no_such_site(site);
+  if (site >= workspace_->size() || workspace_->absent[site]) return no_such_site(site);
   if (auto checked = check_place({}, demand); !checked) return checked;
   // From or to nothing is another set of free weights; and a sum that may not fit has to be looked at as a whole.
-  if (!(demand > 0) || !(desk_->demand[site] > 0)) desk_->is_fresh = true;
-  desk_->demand[site] = demand;
+  if (!(demand > 0) || !(workspace_->demand[site] > 0)) workspace_->is_fresh = true;
+  workspace_->demand[site] = demand;
   return {};
 }
 
 Result<std::uint32_t> VolumeSolver::add(const Point3& position, double demand) {
   if (auto checked = check_place(position, demand); !checked) return checked.error();
-  Desk& desk = *desk_;
-  const auto free = std::find(desk.absent.begin(), desk.absent.end(), std::uint8_t{1});
-  const auto place = static_cast<std::uint32_t>(free - desk.absent.begin());
-  if (place == desk.size()) desk.resize(desk.size() + 1);
-  desk.absent[place] = 0;
-  desk.demand[place] = demand;
+  Workspace& workspace = *workspace_;
+  const auto free = std::find(workspace.absent.begin(), workspace.absent.end(), std::uint8_t{1});
+  const auto place = static_cast<std::uint32_t>(free - workspace.absent.begin());
+  if (place == workspace.size()) workspace.resize(workspace.size() + 1);
+  workspace.absent[place] = 0;
+  workspace.demand[place] = demand;
   // Among settled ones a newcomer starts small, so that it pushes nobody out.
-  desk.sites[place] = {position, weight_of_volume(0.3 * demand)};
-  desk.touch(place);
+  workspace.sites[place] = {position, weight_of_volume(0.3 * demand)};
+  workspace.touch(place);
   return place;
 }
 
 Result<void> VolumeSolver::remove(std::uint32_t site) {
-  if (site >= desk_->size() || desk_->absent[site]) return no_such_site(site);
-  desk_->absent[site] = 1;
-  desk_->sites[site].weight = desk_->demand[site] = desk_->volume[site] = desk_->shift[site] = 0;
-  desk_->cells[site] = {};
-  desk_->touch(site);
+  if (site >= workspace_->size() || workspace_->absent[site]) return no_such_site(site);
+  workspace_->absent[site] = 1;
+  workspace_->sites[site].weight = workspace_->demand[site] = workspace_->volume[site] = workspace_->shift[site] = 0;
+  workspace_->cells[site] = {};
+  workspace_->touch(site);
   return {};
 }
 
 Result<SolveReport> VolumeSolver::solve(const SolveOptions& options) try {
   if (!(options.tolerance > 0)) return Error{ErrorCode::out_of_range, "", "the tolerance has to be above zero"};
-  if (desk_->workshop.domain().pieces.empty()) return Error{ErrorCode::missing, "", "the solver has not been started"};
-  return desk_->solve(options);
+  if (workspace_->workshop.domain().pieces.empty()) return Error{ErrorCode::missing, "", "the solver has not been started"};
+  return workspace_->solve(options);
 } catch (const std::exception& problem) {
   return Error{ErrorCode::internal, "", std::string("the fit failed: ") + problem.what()};
 }
 
-std::span<const PowerSite> VolumeSolver::sites() const { return desk_->sites; }
-std::span<const double> VolumeSolver::volumes() const { return desk_->volume; }
-std::span<const double> VolumeSolver::demands() const { return desk_->demand; }
+std::span<const PowerSite> VolumeSolver::sites() const { return workspace_->sites; }
+std::span<const double> VolumeSolver::volumes() const { return workspace_->volume; }
+std::span<const double> VolumeSolver::demands() const { return workspace_->demand; }
 
 }  // namespace bl

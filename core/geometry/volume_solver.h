@@ -55,8 +55,8 @@ class VolumeSolver {
   std::span<const double> demands() const;
 
  private:
-  struct Desk;
-  std::unique_ptr<Desk> desk_;
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
 };
 
 }  // namespace bl

@@ -24,14 +24,14 @@ void take_weights(const FitReport& fit, std::span<PowerSite> sites) {
 }  // namespace
 
 Result<VolumeTick::Outcome> VolumeTick::run(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted,
-                                            const FitState& state, Kept& kept) const {
+                                            const FitState& state, Cache& kept) const {
   if (steps > 0) start_newcomers(domain, sites, wanted);
   return metric == Metric::power ? run_exact(domain, sites, wanted, state, kept)
                                  : run_sampled(domain, sites, wanted, state, kept);
 }
 
 Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vector<PowerSite>& sites,
-                                                  std::span<const double> wanted, const FitState& state, Kept& kept) const {
+                                                  std::span<const double> wanted, const FitState& state, Cache& kept) const {
   FitReport fit;
   fit.state = state;
   if (steps > 0) {
@@ -51,7 +51,7 @@ Result<VolumeTick::Outcome> VolumeTick::run_exact(const Domain& domain, std::vec
 }
 
 Result<VolumeTick::Outcome> VolumeTick::run_sampled(const Domain& domain, std::vector<PowerSite>& sites,
-                                                    std::span<const double> wanted, const FitState& state, Kept& kept) const {
+                                                    std::span<const double> wanted, const FitState& state, Cache& kept) const {
   // Weights that the power metric has left below zero are no radii.
   for (PowerSite& site : sites) site.weight = std::max(0.0, site.weight);
   const SampledFitOptions options{

@@ -22,7 +22,7 @@ struct VolumeTick {
   ThreadPool* pool = nullptr;
 
   /// Cells and lines of the last tick: what no change has touched is not made again. It changes no bit.
-  struct Kept {
+  struct Cache {
     PowerDiagram fitted, shown;
     SampledDiagram lines;
     SampledCells sampled;
@@ -38,13 +38,13 @@ struct VolumeTick {
   /// Moves the weights of `sites` towards `wanted` [m³] and measures their cells. Newcomers among settled sites start small, so
   /// that they push nobody out; where all are new, the fit starts them all alike.
   Result<Outcome> run(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted, const FitState& state,
-                      Kept& kept) const;
+                      Cache& kept) const;
 
  private:
   Result<Outcome> run_exact(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted,
-                            const FitState& state, Kept& kept) const;
+                            const FitState& state, Cache& kept) const;
   Result<Outcome> run_sampled(const Domain& domain, std::vector<PowerSite>& sites, std::span<const double> wanted,
-                              const FitState& state, Kept& kept) const;
+                              const FitState& state, Cache& kept) const;
 };
 
 }  // namespace bl

@@ -67,7 +67,7 @@ struct Collected {
 };
 
 // What a link goes on to want, as loud as people want it now.
-Voice still_said(const Voice& voice, const LinkPlan& plan) {
+Voice held_voice(const Voice& voice, const LinkPlan& plan) {
   Voice held = voice;
   held.strength = plan.strength;
   return held;
@@ -129,14 +129,14 @@ class LinkRun {
       if (collected_[i].count > 0) {
         // Means of numbers that are finite may be none, and zeros may get a sign.
         Voice voice = collected_[i].voice(target, port, plan_.strength);
-        is_missing = !take_in(voice.value);
+        is_missing = !make_storable(voice.value);
         if (is_missing) note_overflow(target);
         else voices.push_back(std::move(voice));
       }
       if (is_missing && port.rule != CombineRule::sum) {
         const auto held = std::lower_bound(last.begin(), last.end(), target,
                                            [](const Voice& voice, const PortRef& ref) { return voice.target < ref; });
-        if (held != last.end() && held->target == target) voices.push_back(still_said(*held, plan_));
+        if (held != last.end() && held->target == target) voices.push_back(held_voice(*held, plan_));
       }
     }
     return voices;
@@ -178,7 +178,7 @@ class LinkRun {
   }
 
   // A figure that does not follow any more must not be answered to tick by tick.
-  bool is_of_the_past(PortRef ref) const {
+  bool is_out_of_date(PortRef ref) const {
     return ref.type != PortRef::kNodeId && frozen_.nodes[ref.node].types[ref.type].error && frozen_.plan->port(ref).is_computed;
   }
 
@@ -195,11 +195,11 @@ class LinkRun {
         const PortRef ref = plan_.reads[r][first + i];
         reads_.values[r][i] = read.is_lock ? &lock_at(ref) : &frozen_.value(ref);
       }
-      if (!read.is_whole && is_of_the_past(plan_.reads[r][first]))
+      if (!read.is_whole && is_out_of_date(plan_.reads[r][first]))
         return Error{ErrorCode::missing, "",
                      "`" + frozen_.plan->nodes[plan_.reads[r][first].node].id + "` has an error, so that its `" +
                          frozen_.plan->path_text(plan_.reads[r][first]) +
-                         "` is of the past. What was proposed last stays in force"};
+                         "` is out of date. What was proposed last stays in force"};
     }
     for (auto& values : writes_.values) std::fill(values.begin(), values.end(), std::nullopt);
     if (auto done = definition_.evaluate(plan_.parameters.get(), reads_, writes_, tick); !done) return done;
@@ -207,7 +207,7 @@ class LinkRun {
       const LinkWrite& write = definition_.proposes[w];
       const std::size_t first = write.is_whole ? 0 : (write.end == End::from ? f : t);
       for (std::size_t i = 0; i < writes_.values[w].size(); ++i)
-        if (auto& value = writes_.values[w][i]; value && !take_in(*value))
+        if (auto& value = writes_.values[w][i]; value && !make_storable(*value))
           return Error{ErrorCode::not_finite, "",
                        "proposed a value that is not a finite number for `" +
                            frozen_.plan->nodes[plan_.targets[plan_.writes[w][first + i]].node].id + "`"};
@@ -245,7 +245,7 @@ void evaluate_link(const State& frozen, std::size_t index, LinkState& next) {
   if (plan.error) {
     next.error = plan.error;
     for (const Voice& voice : last)
-      if (is_lasting(frozen, voice)) next.voices.push_back(still_said(voice, plan));
+      if (is_lasting(frozen, voice)) next.voices.push_back(held_voice(voice, plan));
     return;
   }
   LinkRun run(frozen, plan);

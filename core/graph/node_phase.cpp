@@ -28,7 +28,7 @@ std::string place_of(const State& state, std::size_t n, std::size_t t) {
 void accept_values(const TypificationDefinition& definition, TypeState& state, std::vector<Value>&& values, Result<void> done,
                    const std::string& place) {
   for (std::size_t p = 0; done && p < values.size(); ++p)
-    if (definition.ports[p].is_computed && !take_in(values[p]))
+    if (definition.ports[p].is_computed && !make_storable(values[p]))
       done = Error{ErrorCode::not_finite, definition.ports[p].id,
                    "came out as a number that is not finite; the last good values are kept"};
   if (!done) {

@@ -69,7 +69,7 @@ void evaluate_now(State& next, SetCase& one, ThreadPool& pool, SetMemos& memos, 
     for (std::size_t w = 0; w < one.sets[s].writes.size(); ++w) {
       auto& value = one.sets[s].writes[w];
       if (!value) continue;
-      if (take_in(*value))
+      if (make_storable(*value))
         replies.push_back({.target = one.plans[s].writes[w], .value = std::move(*value), .node = one.node(), .type = one.type()});
       else
         state.error =
@@ -93,7 +93,7 @@ void take_result(State& next, const SetCase& one, const AnalysisResult& result, 
     const auto ref = next.plan->find(node, *path);
     if (!ref || (!members.contains(*ref) && (ref->node != one.node() || ref->type != one.type()))) continue;
     Value value = output.value;
-    if (!take_in(value)) {
+    if (!make_storable(value)) {
       state.error = Error{ErrorCode::not_finite, place_of(next, one.node(), one.type()),
                           "`" + output.path + "` of `" + output.node + "` came out as a number that is not finite"};
       continue;

@@ -200,7 +200,7 @@ void carry_link(const State& old, std::size_t from, const Plan& plan, LinkState&
 }
 
 // Do two scenes ask for the same? Names, titles and what stands on the canvas move nobody.
-bool asks_the_same(const Scene& a, const Scene& b) {
+bool has_same_inputs(const Scene& a, const Scene& b) {
   const auto asked = [](PortValues settings) {
     for (const char* told : {"title", "about"}) settings.erase(told);
     return settings;
@@ -223,7 +223,7 @@ State carry(const State& old, std::shared_ptr<const Plan> plan, const std::set<s
   State state = fresh_state(std::move(plan));
   state.tick = old.tick;
   // What rests goes on resting, unless somebody asks for something else.
-  if (old.calm > 0 && placed.empty() && asks_the_same(old.plan->scene, state.plan->scene)) state.calm = old.calm;
+  if (old.calm > 0 && placed.empty() && has_same_inputs(old.plan->scene, state.plan->scene)) state.calm = old.calm;
   for (std::size_t n = 0; n < state.nodes.size(); ++n) {
     const NodePlan& node = state.plan->nodes[n];
     const std::uint32_t before = old.plan->node_index(node.id);

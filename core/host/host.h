@@ -33,7 +33,7 @@ class Host {
   void begin_journal(const std::string& scene_path, const std::string& scene_text);
   /// Why a crash would lose what has not been saved; empty where it would not.
   std::string journal_problem() const { return journal_.problem(); }
-  /// Applies the entries of a journal; what does not fit is left out and told. Ticks and rewinds of it are of the past.
+  /// Applies the entries of a journal; what does not fit is left out and told. Its ticks and rewinds are not repeated.
   std::vector<Error> recover(const std::vector<LogEntry>& entries);
 
   /// The log since the session began, for `replay`.

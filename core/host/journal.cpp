@@ -132,8 +132,8 @@ void Journal::end() {
   path_.clear();
 }
 
-std::vector<Journal::Remains> Journal::find(const Registry& registry, std::vector<std::string>* unreadable) {
-  std::vector<Remains> found;
+std::vector<Journal::UnsavedJournal> Journal::find(const Registry& registry, std::vector<std::string>* unreadable) {
+  std::vector<UnsavedJournal> found;
   const std::string folder = journal_folder();
   if (folder.empty()) return found;
   std::vector<std::string> paths;
@@ -166,6 +166,6 @@ std::vector<Journal::Remains> Journal::find(const Registry& registry, std::vecto
   return found;
 }
 
-void Journal::discard(const Remains& remains) { remove_both(remains.path); }
+void Journal::discard(const UnsavedJournal& remains) { remove_both(remains.path); }
 
 }  // namespace bl

@@ -30,14 +30,14 @@ class Journal {
   std::string problem() const;
 
   /// What a window that did not end well has left.
-  struct Remains {
+  struct UnsavedJournal {
     std::string path, scene_path;
     LogFile log;
   };
   /// Journals whose window is gone and that hold changes; empty ones of dead windows are cleared away. Those that cannot be read
   /// are kept under another name; `unreadable` then says of each why, and where it is.
-  static std::vector<Remains> find(const Registry& registry, std::vector<std::string>* unreadable = nullptr);
-  static void discard(const Remains& remains);
+  static std::vector<UnsavedJournal> find(const Registry& registry, std::vector<std::string>* unreadable = nullptr);
+  static void discard(const UnsavedJournal& remains);
 
  private:
   std::unique_ptr<LogWriter> writer_;  // none where there is no journal

@@ -244,13 +244,13 @@ std::optional<RecordedArrival> Connections::play(Sensor& sensor, std::int64_t ti
   return newest;
 }
 
-std::vector<Report> Connections::take(std::int64_t tick) {
+std::vector<Report> Connections::collect(std::int64_t tick) {
   std::vector<Report> reports;
   for (const auto& [id, address] : forgotten_)
     reports.push_back({{address, AuthorKind::device}, command<NoteConnection>({id, ""})});
   const Clock::time_point now = Clock::now();
   for (auto& [id, sensor] : sensors_) {
-    const Station::Taken taken = sensor->station->take();
+    const Station::Taken taken = sensor->station->collect();
     if (taken.line && *taken.line != sensor->known_line)
       reports.push_back({{sensor->address, AuthorKind::device}, command<NoteConnection>({id, *taken.line})});
     std::optional<Arrival> newest = taken.newest;

@@ -49,7 +49,7 @@ struct ConnectionStatus {
 struct RecordedArrival;
 
 /// All of it is for one thread, the owner's; the connections have threads of their own. Nothing of the network reaches a state
-/// but through the commands of take().
+/// but through the commands of collect().
 class Connections {
  public:
   explicit Connections(LiveOptions options);
@@ -61,7 +61,7 @@ class Connections {
   void follow(const Scene& scene);
   /// What has come for the tick after `tick`: at most one reading for each sensor, in ascending node id. Where the clock was set
   /// back, recordings go back with it.
-  std::vector<Report> take(std::int64_t tick);
+  std::vector<Report> collect(std::int64_t tick);
   /// Sends what has changed since the last time, where the interval of its actuator allows.
   void send(const State& state);
   /// In ascending node id, sensors before actuators.

@@ -32,7 +32,7 @@ class Broker {
   // Until the connection ends; the sentence why it did.
   std::string run() {
     if (!client_) return "there is no memory for a connection";
-    mosquitto_connect_callback_set(client_.get(), [](mosquitto*, void* self, int code) { of(self).greeted(code); });
+    mosquitto_connect_callback_set(client_.get(), [](mosquitto*, void* self, int code) { of(self).on_connected(code); });
     mosquitto_message_callback_set(client_.get(),
                                    [](mosquitto*, void* self, const mosquitto_message* m) { of(self).arrived(*m); });
     mosquitto_publish_callback_set(client_.get(), [](mosquitto*, void* self, int id) { of(self).confirmed(id); });
@@ -96,7 +96,7 @@ class Broker {
                                : "see node `" + access.node + "`";
   }
 
-  void greeted(int code) {
+  void on_connected(int code) {
     if (code != 0) {
       const bool is_name = code == CONNACK_REFUSED_BAD_USERNAME_PASSWORD || code == CONNACK_REFUSED_NOT_AUTHORIZED;
       const Access& access = endpoint_.access();

@@ -39,7 +39,7 @@ void Station::count(std::int64_t Traffic::*what) {
   ++(traffic_.*what);
 }
 
-Station::Taken Station::take() {
+Station::Taken Station::collect() {
   const std::lock_guard lock(mutex_);
   Taken taken{std::exchange(newest_, std::nullopt), std::nullopt};
   if (std::exchange(is_line_new_, false)) taken.line = line_;

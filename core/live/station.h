@@ -45,7 +45,7 @@ class Station {
     std::optional<Arrival> newest;
     std::optional<std::string> line;  ///< where it has changed
   };
-  Taken take();
+  Taken collect();
   /// Which part of the messages holds the number, from the next message on.
   void set_field(std::string field);
   Traffic traffic() const;

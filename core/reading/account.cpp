@@ -20,32 +20,32 @@ constexpr double kNothing = 1e-3;
 double share_missing(double asked, double had) { return asked > kNothing ? std::clamp((asked - had) / asked, 0.0, 1.0) : 0; }
 
 // Which use a volume counts for, and whether a brief speaks to it at all.
-struct Briefed {
-  std::map<std::uint32_t, std::string> credited;  // by a demand link with a use of its own
+struct BriefTargets {
+  std::map<std::uint32_t, std::string> use_by_node;  // by a demand link with a use of its own
   std::set<std::uint32_t> nodes;
 };
 
-Briefed read_briefed(const State& state) {
-  Briefed briefed;
+BriefTargets read_briefed(const State& state) {
+  BriefTargets briefed;
   const Plan& plan = *state.plan;
   for (const LinkPlan& link : plan.links) {
     const auto demand = reading::parameters_of<reading::DemandParameters>(link);
     if (!demand || !link.is_enabled || link.error) continue;
     for (const std::uint32_t node : link.nodes[1]) {
-      if (!demand->use.empty()) briefed.credited.emplace(node, demand->use);
+      if (!demand->use.empty()) briefed.use_by_node.emplace(node, demand->use);
       if (!link.is_muted) briefed.nodes.insert(node);
     }
   }
   return briefed;
 }
 
-VolumeAccount account_of(reading::Row<reading::VolumeFigures>&& row, const Briefed& briefed) {
+VolumeAccount account_of(reading::Row<reading::VolumeFigures>&& row, const BriefTargets& briefed) {
   VolumeAccount account;
   account.node = row.node;
   account.figures = std::move(row.figures);
   const reading::VolumeFigures& figures = account.figures;
-  const auto other = briefed.credited.find(account.node);
-  account.use = other != briefed.credited.end() ? other->second : figures.use;
+  const auto other = briefed.use_by_node.find(account.node);
+  account.use = other != briefed.use_by_node.end() ? other->second : figures.use;
   account.is_alive = figures.state == "alive";
   account.asked = std::max(figures.demand, figures.demand_min);
   // Before a solver has seen the volume nobody aims at anything yet: then its limits themselves are the next best word.
@@ -163,7 +163,7 @@ std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
 Accounts accounts_of(const State& state) {
   Accounts accounts;
   accounts.tolerance = std::max(state.plan->settings.tolerance, 1e-6);
-  const Briefed briefed = read_briefed(state);
+  const BriefTargets briefed = read_briefed(state);
   std::map<std::string, std::size_t> index;
   const auto use_of = [&](const std::string& use) -> UseAccount& {
     const auto [found, is_new] = index.emplace(use, accounts.uses.size());

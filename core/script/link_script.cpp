@@ -28,7 +28,7 @@ struct Script {
   std::mutex mutex;
   std::vector<std::unique_ptr<Machine>> idle;
 
-  Result<std::unique_ptr<Machine>> lend() {
+  Result<std::unique_ptr<Machine>> acquire_machine() {
     {
       const std::lock_guard lock(mutex);
       if (!idle.empty()) {
@@ -115,7 +115,8 @@ void check_list(lua_State* lua, const char* name, ValueKind kind, std::size_t co
     if (lua_isinteger(lua, -1) != 0) {
       const lua_Integer at = lua_tointeger(lua, -1);
       if (at < 1 || at > static_cast<lua_Integer>(count))
-        luaL_error(lua, "`%s` answers a value for node %d of an end of %d nodes", name, static_cast<int>(at), static_cast<int>(count));
+        luaL_error(lua, "`%s` answers a value for node %d of an end of %d nodes", name, static_cast<int>(at),
+                   static_cast<int>(count));
       continue;
     }
     if (kind == ValueKind::point) luaL_error(lua, "`%s` needs a list of points, one for each node, not a point", name);
@@ -173,7 +174,7 @@ Result<void> evaluate(const std::shared_ptr<Script>& script, const void* paramet
   TickRun& run = tick.memo != nullptr ? tick.memo->of<TickRun>() : alone;
   run.script = script;
   if (!run.machine) {
-    auto machine = script->lend();
+    auto machine = script->acquire_machine();
     if (!machine) return machine.error();
     run.machine = std::move(*machine);
   }

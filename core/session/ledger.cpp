@@ -20,7 +20,7 @@ Inverse apply(SceneEdit& edit, const Command& command) {
     if (it == command.arguments.end() && port.is_required)
       return Error{ErrorCode::missing, command.id, "the argument `" + port.id + "` is missing"};
     values.push_back(it == command.arguments.end() ? port.default_value : it->second);
-    if (!take_in(values.back())) return Error{ErrorCode::not_finite, command.id + "/" + port.id, "must be a finite number"};
+    if (!make_storable(values.back())) return Error{ErrorCode::not_finite, command.id + "/" + port.id, "must be a finite number"};
   }
   return definition->apply(edit, values);
 }

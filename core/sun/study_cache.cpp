@@ -63,7 +63,7 @@ std::map<std::string, MeshPointer> shapes_for(const SunReceiver& receiver, std::
 
 }  // namespace
 
-bool SunStudyCache::is_current(const Kept& kept, const SunReceiver& now, const Shapes& shapes) const {
+bool SunStudyCache::is_current(const Entry& kept, const SunReceiver& now, const Shapes& shapes) const {
   if (!is_same_place(kept.receiver, now)) return false;
   std::vector<Point3> corners;
   for (const double across : {-1.0, 1.0})
@@ -97,7 +97,7 @@ Result<void> SunStudyCache::measure(std::span<const SunCaster> casters, std::spa
   auto fresh = sun_study(meshes, moments_, stale, pool);
   if (!fresh) return fresh.error();
   for (std::size_t k = 0; k < which.size(); ++k) {
-    Kept& kept = kept_[cases[which[k]].name] = {stale[k], {}, std::move((*fresh)[k]), {}};
+    Entry& kept = kept_[cases[which[k]].name] = {stale[k], {}, std::move((*fresh)[k]), {}};
     for (std::size_t c = 0; c < casters.size(); ++c)
       if (const SunLoss& loss = kept.record.hours.casters[c]; loss.shared > 0) kept.losses[casters[c].name] = loss;
   }
@@ -119,9 +119,9 @@ Result<std::vector<SunRecord>> SunStudyCache::of(std::span<const SunCaster> cast
   for (const SunReceiver& receiver : all) shapes.push_back(shapes_for(receiver, casters));
   if (auto done = measure(casters, cases, shapes, pool); !done) return done.error();
   std::vector<SunRecord> records;
-  std::map<std::string, Kept> next;
+  std::map<std::string, Entry> next;
   for (std::size_t r = 0; r < cases.size(); ++r) {
-    Kept kept = std::move(kept_.at(cases[r].name));
+    Entry kept = std::move(kept_.at(cases[r].name));
     kept.shapes = std::move(shapes[r]);
     kept.record.judge(all[r].required);
     SunRecord& record = records.emplace_back(kept.record);

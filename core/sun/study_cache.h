@@ -30,18 +30,18 @@ class SunStudyCache {
 
  private:
   using Shapes = std::map<std::string, MeshPointer>;  ///< of the casters that cast and count
-  struct Kept {
+  struct Entry {
     SunReceiver receiver;
     Shapes shapes;
     SunRecord record;                       ///< without its casters
     std::map<std::string, SunLoss> losses;  ///< of those in the way
   };
-  bool is_current(const Kept& kept, const SunReceiver& now, const Shapes& shapes) const;
+  bool is_current(const Entry& kept, const SunReceiver& now, const Shapes& shapes) const;
   Result<void> measure(std::span<const SunCaster> casters, std::span<const SunCase> cases, std::span<const Shapes> shapes,
                        ThreadPool* pool);
 
   std::vector<SunMoment> moments_;
-  std::map<std::string, Kept> kept_;
+  std::map<std::string, Entry> kept_;
   std::size_t measured_ = 0;
 };
 

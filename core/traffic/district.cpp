@@ -29,7 +29,7 @@ constexpr double kRest = 1e-7;
 }  // namespace
 
 // `equilibrium` works on a network of its own, and the trees on that one.
-struct DistrictMemo::Held {
+struct DistrictMemo::Content {
   DistrictNetwork network;
   std::unique_ptr<Equilibrium> equilibrium;
   std::unique_ptr<ShortestTrees> trees;
@@ -71,7 +71,7 @@ std::vector<std::size_t> places_in(const std::vector<std::string>& ids, const st
 
 class District {
  public:
-  District(const std::vector<DistrictZone>& zones, const DistrictSettings& settings, DistrictMemo::Held& held)
+  District(const std::vector<DistrictZone>& zones, const DistrictSettings& settings, DistrictMemo::Content& held)
       : zones_(zones),
         settings_(settings),
         made_(held.network),
@@ -356,7 +356,7 @@ class District {
   const std::vector<DistrictZone>& zones_;
   const DistrictSettings& settings_;
   const DistrictNetwork& made_;
-  DistrictMemo::Held& held_;
+  DistrictMemo::Content& held_;
   Equilibrium& equilibrium_;
   ShortestTrees& trees_;
   std::vector<std::uint32_t> seen_at_;                                             // by link: the last origin that was on it
@@ -372,9 +372,9 @@ class District {
 };
 
 // The network and all that hangs on it; where it is another one, the ways found in the last one are still a good start.
-Result<void> renew(std::unique_ptr<DistrictMemo::Held>& held, Result<DistrictNetwork> made) {
+Result<void> renew(std::unique_ptr<DistrictMemo::Content>& held, Result<DistrictNetwork> made) {
   if (!made) return made.error();
-  auto fresh = std::make_unique<DistrictMemo::Held>();
+  auto fresh = std::make_unique<DistrictMemo::Content>();
   fresh->network = std::move(*made);
   fresh->equilibrium = std::make_unique<Equilibrium>(fresh->network.network, std::vector<TripDemand>());
   if (held && held->network.zone_nodes == fresh->network.zone_nodes) {
@@ -391,7 +391,7 @@ Result<void> renew(std::unique_ptr<DistrictMemo::Held>& held, Result<DistrictNet
 
 Result<DistrictResult> step_district(const DistrictParts& parts, const DistrictState& last, DistrictMemo* memo) {
   DistrictMemo own;
-  std::unique_ptr<DistrictMemo::Held>& held = (memo != nullptr ? *memo : own).held;
+  std::unique_ptr<DistrictMemo::Content>& held = (memo != nullptr ? *memo : own).held;
   if (!held || !held->network.is_made_of(parts))
     if (auto renewed = renew(held, make_district_network(parts)); !renewed) return renewed.error();
   return District(parts.zones, parts.settings, *held).step(last);

@@ -143,8 +143,8 @@ class DistrictMemo {
   DistrictMemo& operator=(DistrictMemo&&) noexcept;
   ~DistrictMemo();
 
-  struct Held;
-  std::unique_ptr<Held> held;  ///< nullptr before the first step
+  struct Content;
+  std::unique_ptr<Content> held;  ///< nullptr before the first step
 };
 
 /// Ways and destinations are chosen by generalised cost: time, with tolls and distance as time. What is told of them is time

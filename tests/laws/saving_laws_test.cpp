@@ -61,7 +61,7 @@ struct Told {
 // Does a link rest because what it reads is of the past?
 bool has_link_that_holds(const State& state) {
   for (const LinkState& link : state.links)
-    if (link.error && link.error->message.find("is of the past") != std::string::npos) return true;
+    if (link.error && link.error->message.find("is out of date") != std::string::npos) return true;
   return false;
 }
 

@@ -29,18 +29,18 @@ double squared_gap(const Point3& p, const Vector3& low, const Vector3& high) {
 
 }  // namespace
 
-void CellGround::set_domain(const Domain& given) {
+void CellInput::set_domain(const Domain& given) {
   domain = given;
   pieces.clear();
   for (const Domain::Piece& piece : domain.pieces) pieces.emplace_back(piece.shape, piece.sides);
 }
 
-double CellGround::limit_of(double weight, bool whole) const {
+double CellInput::limit_of(double weight, bool whole) const {
   const double radius = std::sqrt(std::max(0.0, weight));
   return whole || radius > kLargeBall * domain.size() ? kUnlimited : radius;
 }
 
-Result<void> CellGround::set_sites(std::span<const PowerSite> all, std::span<const std::uint32_t> participants) {
+Result<void> CellInput::set_sites(std::span<const PowerSite> all, std::span<const std::uint32_t> participants) {
   sites = all;
   grid.build(all, participants);
   is_triangulated = grid.is_uneven();
@@ -49,7 +49,7 @@ Result<void> CellGround::set_sites(std::span<const PowerSite> all, std::span<con
 
 double CellMaker::reach() const { return std::min(limit_, cell_.reach()); }
 
-void CellMaker::begin(const CellGround& ground, std::uint32_t site) {
+void CellMaker::begin(const CellInput& ground, std::uint32_t site) {
   const Point3& origin = ground.sites[site].position;
   if (limit_ < kUnlimited) {
     const double side = (1 + kFrameMargin) * limit_;
@@ -64,7 +64,7 @@ void CellMaker::begin(const CellGround& ground, std::uint32_t site) {
   }
 }
 
-void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
+void CellMaker::cut_by_search(const CellInput& ground, std::uint32_t site) {
   const PowerSite& own = ground.sites[site];
   const Point3 centre = own.position;
   const double weight = own.weight;
@@ -101,7 +101,7 @@ void CellMaker::cut_by_search(const CellGround& ground, std::uint32_t site) {
       [&](const SiteGrid::Entry& entry) { cut_by(entry.position, entry.weight, entry.site); });
 }
 
-void CellMaker::start_run(const CellGround& ground, std::uint32_t first_place, std::uint32_t count) {
+void CellMaker::start_run(const CellInput& ground, std::uint32_t first_place, std::uint32_t count) {
   run_ = {first_place, first_place};
   known_.assign(ground.is_triangulated ? 0 : count, kNone);
   links_.clear();
@@ -109,7 +109,7 @@ void CellMaker::start_run(const CellGround& ground, std::uint32_t first_place, s
 }
 
 // Tells the sites that are still to come who borders them.
-void CellMaker::remember(const CellGround& ground, std::uint32_t site, bool is_sure) {
+void CellMaker::remember(const CellInput& ground, std::uint32_t site, bool is_sure) {
   const std::uint32_t place = ground.grid.place_of(site);
   run_.end = place + 1;
   for (const std::uint32_t j : borders_) {
@@ -129,7 +129,7 @@ void CellMaker::remember(const CellGround& ground, std::uint32_t site, bool is_s
 }
 
 // All sites whose bisectors may come nearer than `reach`, nearest bisector first.
-void CellMaker::gather(const CellGround& ground, std::uint32_t site, double reach) {
+void CellMaker::gather(const CellInput& ground, std::uint32_t site, double reach) {
   const PowerSite& own = ground.sites[site];
   candidates_.clear();
   const auto consider = [&](const Point3& position, double weight, std::uint32_t j) {
@@ -150,7 +150,7 @@ void CellMaker::gather(const CellGround& ground, std::uint32_t site, double reac
             [](const Candidate& a, const Candidate& b) { return a.offset != b.offset ? a.offset < b.offset : a.site < b.site; });
 }
 
-void CellMaker::cut_in_order(const CellGround& ground, std::uint32_t site) {
+void CellMaker::cut_in_order(const CellInput& ground, std::uint32_t site) {
   begin(ground, site);
   for (const Candidate& candidate : candidates_) {
     if (!cell_.cut(candidate.normal, candidate.offset, FaceKind::site, candidate.site)) return;
@@ -170,7 +170,7 @@ Polyhedron& CellMaker::next_part() {
 }
 
 // The cell, cut up by the pieces of the domain. False where the order of the cuts that made the cell may show in a part.
-bool CellMaker::keep_parts(const CellGround& ground, const Point3& origin) {
+bool CellMaker::keep_parts(const CellInput& ground, const Point3& origin) {
   bool is_sure = true;
   for (std::size_t k = 0; k < ground.pieces.size(); ++k) {
     const ConvexDomain& shape = ground.domain.pieces[k].shape;
@@ -185,7 +185,7 @@ bool CellMaker::keep_parts(const CellGround& ground, const Point3& origin) {
   return is_sure;
 }
 
-void CellMaker::make(const CellGround& ground, std::uint32_t site, bool whole) {
+void CellMaker::make(const CellInput& ground, std::uint32_t site, bool whole) {
   const PowerSite& own = ground.sites[site];
   part_count_ = 0;
   borders_.clear();

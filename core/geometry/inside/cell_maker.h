@@ -13,7 +13,7 @@
 namespace bl {
 
 /// What all threads read while cells are made.
-struct CellGround {
+struct CellInput {
   Domain domain;
   std::vector<Clipper::Start> pieces;  ///< of the domain, ready to be clipped
   std::span<const PowerSite> sites;
@@ -33,14 +33,14 @@ class CellMaker {
  public:
   /// From here on cells will be made in the order of the grid, from a place on: who borders whom is then remembered, and sites
   /// whose cells are done are not searched for again. It saves time and changes no cell.
-  void start_run(const CellGround& ground, std::uint32_t first_place, std::uint32_t count);
+  void start_run(const CellInput& ground, std::uint32_t first_place, std::uint32_t count);
   void end_run() {
     run_ = {};
     known_.clear();
   }
 
   /// `whole`: the whole power cell inside the domain; otherwise only what may lie in the site's ball.
-  void make(const CellGround& ground, std::uint32_t site, bool whole);
+  void make(const CellInput& ground, std::uint32_t site, bool whole);
 
   /// Relative to the site; one for each piece of the domain that the cell reaches into.
   std::span<const Polyhedron> parts() const { return std::span(parts_).first(part_count_); }
@@ -55,12 +55,12 @@ class CellMaker {
     std::uint32_t site;
     Vector3 normal;
   };
-  void remember(const CellGround& ground, std::uint32_t site, bool is_sure);
-  void begin(const CellGround& ground, std::uint32_t site);
-  void cut_by_search(const CellGround& ground, std::uint32_t site);
-  void cut_in_order(const CellGround& ground, std::uint32_t site);
-  void gather(const CellGround& ground, std::uint32_t site, double reach);
-  bool keep_parts(const CellGround& ground, const Point3& origin);
+  void remember(const CellInput& ground, std::uint32_t site, bool is_sure);
+  void begin(const CellInput& ground, std::uint32_t site);
+  void cut_by_search(const CellInput& ground, std::uint32_t site);
+  void cut_in_order(const CellInput& ground, std::uint32_t site);
+  void gather(const CellInput& ground, std::uint32_t site, double reach);
+  bool keep_parts(const CellInput& ground, const Point3& origin);
   double reach() const;
   bool finish(Clipper& shape, Polyhedron& out);
   Polyhedron& next_part();

@@ -55,7 +55,7 @@ void gather_facets(const Polyhedron& part, double squared_radius, const ShapeMea
 }
 
 // What follows from facets and spherical area.
-void add_up(const CellGround& ground, const PowerSite& site, CellMeasure& out) {
+void add_up(const CellInput& ground, const PowerSite& site, CellMeasure& out) {
   out.surface_area = out.spherical_area;
   out.volume_by_own_weight = out.spherical_area > 0 ? out.spherical_area / (2 * std::sqrt(site.weight)) : 0;
   for (const FacetArea& facet : out.facets) {
@@ -86,8 +86,7 @@ void measure_storeys(std::span<const Polyhedron> parts, std::span<ShapeMeasure> 
   out.footprint = plan_cover(parts, shapes, site.weight);
 }
 
-void measure_parts(const CellGround& ground, std::uint32_t index, const CellOptions& options, CellBench& bench,
-                   CellMeasure& out) {
+void measure_parts(const CellInput& ground, std::uint32_t index, const CellOptions& options, CellBench& bench, CellMeasure& out) {
   const PowerSite& site = ground.sites[index];
   const auto parts = bench.maker.parts();
   bench.shapes.resize(parts.size());

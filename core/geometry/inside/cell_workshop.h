@@ -74,7 +74,7 @@ class CellWorkshop {
   std::unique_ptr<CellBench> take_bench();
   void give_back(std::unique_ptr<CellBench> bench);
 
-  CellGround ground_;
+  CellInput ground_;
   std::vector<PowerSite> sites_;
   std::vector<std::uint32_t> twin_, participants_;
   std::vector<std::uint8_t> absent_;

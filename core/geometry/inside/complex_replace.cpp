@@ -62,7 +62,7 @@ bool ComplexUpdate::is_single(std::uint32_t cell, std::uint32_t corner) const {
 }
 
 // Dissolves the places of all corners that go, and returns for each cell what its corners were before.
-std::vector<std::vector<std::uint32_t>> ComplexUpdate::let_go(const Fresh& fresh, bool keeps_corners) {
+std::vector<std::vector<std::uint32_t>> ComplexUpdate::detach_corners(const Fresh& fresh, bool keeps_corners) {
   std::vector<std::vector<std::uint32_t>> same;
   for (const auto& [cell, view] : fresh) {
     same.emplace_back(view.corners.size(), kNone);
@@ -94,7 +94,7 @@ void ComplexUpdate::exchange_view(std::uint32_t index, CellView view, std::span<
 
 void ComplexUpdate::exchange_views(Fresh fresh, bool keeps_corners) {
   for (const auto& [cell, view] : fresh) store_.cells[cell].is_replaced = true;
-  const auto same = let_go(fresh, keeps_corners);
+  const auto same = detach_corners(fresh, keeps_corners);
   const std::uint32_t node_count = static_cast<std::uint32_t>(store_.nodes.size());
   std::vector<std::vector<NumberedOutline>> before;
   for (const auto& [cell, view] : fresh) before.push_back(outlines_between(store_.cells[cell], node_count));

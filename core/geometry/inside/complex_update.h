@@ -38,8 +38,8 @@ class ComplexUpdate {
 
   void exchange_views(std::vector<std::pair<std::uint32_t, CellView>> fresh, bool keeps_corners);
   void exchange_view(std::uint32_t cell, CellView view, std::span<const std::uint32_t> same);
-  std::vector<std::vector<std::uint32_t>> let_go(const std::vector<std::pair<std::uint32_t, CellView>>& fresh,
-                                                 bool keeps_corners);
+  std::vector<std::vector<std::uint32_t>> detach_corners(const std::vector<std::pair<std::uint32_t, CellView>>& fresh,
+                                                         bool keeps_corners);
   bool is_single(std::uint32_t cell, std::uint32_t corner) const;
   void dissolve(std::uint32_t node);
   void loosen(const Corner& corner);

@@ -80,9 +80,9 @@ TEST(ListJson, SchemasNameTheirItems) {
 
 TEST(ListJson, ListsThatAreNotFiniteAreNotTakenIn) {
   Value list = Numbers({1, std::numeric_limits<double>::infinity()});
-  EXPECT_FALSE(take_in(list));
+  EXPECT_FALSE(make_storable(list));
   Value table = Shared<Table>(Table{{"flows"}, {{std::get<Numbers>(list)}}});
-  EXPECT_FALSE(take_in(table));
+  EXPECT_FALSE(make_storable(table));
 }
 
 }  // namespace

@@ -98,8 +98,8 @@ TEST(CellEngine, TheGridFindsWhatTheTriangulationFinds) {
     for (std::uint32_t i = 0; i < twin.size(); ++i) {
       if (twin[i] == kNone) participants.push_back(i);
     }
-    CellGround by_grid, by_triangles;
-    for (CellGround* ground : {&by_grid, &by_triangles}) {
+    CellInput by_grid, by_triangles;
+    for (CellInput* ground : {&by_grid, &by_triangles}) {
       ground->set_domain(set.domain);
       ASSERT_TRUE(ground->set_sites(set.sites, participants).ok());
     }
@@ -108,7 +108,7 @@ TEST(CellEngine, TheGridFindsWhatTheTriangulationFinds) {
     ASSERT_TRUE(find_power_neighbours(set.sites, participants, by_triangles.neighbours).ok());
     CellMaker a, b;
     ShapeMeasure shape;
-    const auto volume = [&](CellMaker& maker, const CellGround& ground, std::uint32_t i, bool whole) {
+    const auto volume = [&](CellMaker& maker, const CellInput& ground, std::uint32_t i, bool whole) {
       maker.make(ground, i, whole);
       double sum = 0;
       Point3 middle;
@@ -133,7 +133,7 @@ TEST(CellEngine, UnevenSetsTileTheDomainToo) {
   for (int k = 0; k < rounds(20); ++k) {
     SiteSet set = zoo_set(13, 900, 77 + static_cast<std::uint64_t>(k));
     for (int i = 0; i < 20; ++i) set.sites.push_back(random_sites(1, 900 + static_cast<std::uint64_t>(i), 0, 0.01)[0]);
-    CellGround ground;
+    CellInput ground;
     ground.set_domain(set.domain);
     std::vector<std::uint32_t> all(set.sites.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;

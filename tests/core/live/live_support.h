@@ -179,7 +179,7 @@ class LiveWorld {
 
   void step() {
     connections_->follow(world_.session().scene());
-    for (const Report& report : connections_->take(world_.state().tick)) {
+    for (const Report& report : connections_->collect(world_.state().tick)) {
       ++reports_;
       EXPECT_TRUE(world_.session().submit(report.command, report.author).ok());
     }

@@ -118,12 +118,14 @@ TEST(TimeText, RefusesWhatNoClockShows) {
   EXPECT_EQ(seconds_of_digits("2003013112"), seconds_of_time("2003-01-31 12:00"));
   EXPECT_EQ(seconds_of_digits("200301311230"), seconds_of_time("2003-01-31 12:30"));
   EXPECT_EQ(seconds_of_digits("20030131123015"), seconds_of_time("2003-01-31 12:30:15"));
-  for (const char* text : {"20030229", "18991231", "22000101", "200301311", "2003013125", "2003-131", "200301311260", "1724567400"})
+  for (const char* text :
+       {"20030229", "18991231", "22000101", "200301311", "2003013125", "2003-131", "200301311260", "1724567400"})
     EXPECT_FALSE(seconds_of_digits(text)) << text;
 }
 
 TEST(Recording, ReadsDaysOfDigitsAsWeatherTablesWriteThem) {
-  const auto recording = read("replay:d.csv?time=date+hour#count", "date,hour,count\n20110131,1,10\n20110131,2,20\n20110201,1,30\n");
+  const auto recording =
+      read("replay:d.csv?time=date+hour#count", "date,hour,count\n20110131,1,10\n20110131,2,20\n20110201,1,30\n");
   ASSERT_TRUE(recording.ok()) << recording.error().text();
   const std::int64_t ticks[] = {1, 2, 25};
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(tick_of(*recording, recording->readings[i], 3600), ticks[i]);
@@ -165,10 +167,10 @@ TEST(Recording, GoesBackWithTheClock) {
   folder.write("scene.csv", "time,v\n0,1\n10,2\n20,3\n30,4\n");
   Connections connections({folder.path(), false, {}});
   World world = World::from_text(R"({"format": "behaviourlinks", "version": 1, "nodes": [)" +
-                                            sensor("s", "replay:scene.csv#v", R"(, "tick_length": 10)") + R"(], "links": []})");
+                                 sensor("s", "replay:scene.csv#v", R"(, "tick_length": 10)") + R"(], "links": []})");
   connections.follow(world.session().scene());
   const auto value = [&](std::int64_t tick) {
-    const auto reports = connections.take(tick);
+    const auto reports = connections.collect(tick);
     return reports.empty() ? 0.0 : as_number(reports.front().command.arguments.at("value"));
   };
   EXPECT_EQ(value(0), 1);

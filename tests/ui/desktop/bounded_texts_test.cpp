@@ -54,12 +54,12 @@ TEST(BoundedTexts, ProblemsOfTheStateAreCut) {
 
 TEST(BoundedTexts, NoticesAreCut) {
   PanelDesktop desktop("scenes/start/quarter.json");
-  desktop.editor().tell(NoticeKind::error, "This is no `" + std::string(20'000'000, 'x') + "`.");
+  desktop.editor().notify(NoticeKind::error, "This is no `" + std::string(20'000'000, 'x') + "`.");
   desktop.frames(1);
   ASSERT_EQ(desktop.editor().notices.size(), 1u);
   EXPECT_LT(desktop.editor().notices.back().text.size(), 1000u);
   EXPECT_TRUE(desktop.editor().notices.back().text.ends_with("x`.")) << desktop.editor().notices.back().text;
-  desktop.editor().tell(NoticeKind::told, "Saved as quarter.json.");
+  desktop.editor().notify(NoticeKind::told, "Saved as quarter.json.");
   EXPECT_EQ(desktop.editor().notices.back().text, "Saved as quarter.json.");
 }
 

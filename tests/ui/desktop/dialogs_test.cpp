@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/file/file_io.h"
-#include "tests/ui/desktop/null_desktop.h"
 #include "core/host/journal.h"
+#include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/look/fuzzy.h"
 #include "ui/desktop/panels/actions.h"
 #include "ui/desktop/panels/dialogs.h"
@@ -30,7 +30,7 @@ void save_as(NullDesktop& desktop, const std::string& name) {
 }
 
 // What a window has left that is gone: a scene, and one change to it.
-std::vector<Journal::Remains> remains_of(const std::string& scene, const Command& change) {
+std::vector<Journal::UnsavedJournal> remains_of(const std::string& scene, const Command& change) {
   const std::string folder = person_folder() + "/journals";
   std::filesystem::create_directories(folder);
   const std::string text = log_header(scene) + log_line(LogEntry{1, 0, 1, "somebody", change}, full_registry());

@@ -140,7 +140,7 @@ TEST(Problems, FailuresAndSwitchedOffLinksAreListedAndFiltered) {
   // The statistic, and the cap that follows from its figures.
   ASSERT_EQ(failing.size(), 2u);
   EXPECT_EQ(failing.front().nodes, std::vector<std::string>{"floor_area"});
-  EXPECT_NE(failing.back().text.find("of the past"), std::string::npos) << failing.back().text;
+  EXPECT_NE(failing.back().text.find("out of date"), std::string::npos) << failing.back().text;
   const auto idle = desktop.of(ProblemKind::idle);
   ASSERT_EQ(idle.size(), 1u);
   EXPECT_EQ(idle.front().links, std::vector<std::string>{"library_cafe"});

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/file/file_io.h"
-#include "tests/ui/desktop/null_desktop.h"
 #include "core/host/journal.h"
+#include "tests/ui/desktop/null_desktop.h"
 #include "ui/desktop/view/scene_facts.h"
 
 namespace bl::desktop {
@@ -54,7 +54,7 @@ TEST(Paused, SavingAndRewindingBeforeTheFirstTickKeepItInSight) {
 
 TEST(Paused, ARecoveredSceneShowsItsBoundary) {
   NullDesktop desktop(kPausedScene);
-  Journal::Remains remains;
+  Journal::UnsavedJournal remains;
   remains.log.scene = desktop.scene_text();
   std::vector<Problem> problems;
   desktop.editor().take(Document::recover(full_registry(), remains, 1, problems));

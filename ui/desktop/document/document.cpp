@@ -63,7 +63,7 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   return document;
 }
 
-std::unique_ptr<Document> Document::recover(const Registry& registry, const Journal::Remains& remains, int threads,
+std::unique_ptr<Document> Document::recover(const Registry& registry, const Journal::UnsavedJournal& remains, int threads,
                                             std::vector<Problem>& problems) {
   auto document = from_text(registry, remains.log.scene, remains.scene_path, threads, problems);
   if (!document) return nullptr;

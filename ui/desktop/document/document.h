@@ -30,7 +30,7 @@ class Document {
   static std::unique_ptr<Document> from_text(const Registry& registry, const std::string& text, const std::string& path,
                                              int threads, std::vector<Problem>& problems);
   /// From the journal of a window that did not end well; the commands in it are applied again.
-  static std::unique_ptr<Document> recover(const Registry& registry, const Journal::Remains& remains, int threads,
+  static std::unique_ptr<Document> recover(const Registry& registry, const Journal::UnsavedJournal& remains, int threads,
                                            std::vector<Problem>& problems);
 
   /// No other document that this window has opened has it: an address can come again.

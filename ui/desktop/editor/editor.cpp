@@ -20,19 +20,19 @@ constexpr double kNoticeSeconds = 5;
 constexpr std::size_t kMostNotices = 4;
 
 // That there is nothing is no error; that it does not fit any more is one, and says so itself.
-void tell_why(Editor& editor, const Error& error, const char* nothing) {
+void report_error(Editor& editor, const Error& error, const char* nothing) {
   const bool is_nothing = error.code == ErrorCode::not_found && error.place.empty();
-  editor.tell(is_nothing ? NoticeKind::told : NoticeKind::error, is_nothing ? nothing : error.text());
+  editor.notify(is_nothing ? NoticeKind::told : NoticeKind::error, is_nothing ? nothing : error.text());
 }
 
 // What was left because others have written there since is told in one sentence, the first place of all.
 void tell_left(Editor& editor, const Result<TakenBack>& done, const char* nothing) {
-  if (!done) return tell_why(editor, done.error(), nothing);
-  if (done->misfit) tell_why(editor, *done->misfit, nothing);
+  if (!done) return report_error(editor, done.error(), nothing);
+  if (done->misfit) report_error(editor, *done->misfit, nothing);
   if (done->left.empty()) return;
   const std::size_t more = done->left.size() - 1;
-  editor.tell(NoticeKind::told,
-              "Left as it is: " + text_of(done->left.front()) + (more == 0 ? "." : ", and " + std::to_string(more) + " more."));
+  editor.notify(NoticeKind::told,
+                "Left as it is: " + text_of(done->left.front()) + (more == 0 ? "." : ", and " + std::to_string(more) + " more."));
 }
 
 }  // namespace
@@ -51,20 +51,20 @@ std::string Editor::name_of(const std::string& node) const {
 bool Editor::submit(const std::vector<Command>& commands, std::int64_t gesture, const std::string& label) {
   if (!document) return false;
   auto done = document->submit(commands, gesture, label);
-  if (!done) tell(NoticeKind::error, done.error().text());
+  if (!done) notify(NoticeKind::error, done.error().text());
   return done.ok();
 }
 
 bool Editor::show(const std::vector<Command>& commands, std::int64_t gesture) {
   if (!document) return false;
   auto done = document->show(commands, gesture);
-  if (!done) tell(NoticeKind::error, done.error().text());
+  if (!done) notify(NoticeKind::error, done.error().text());
   return done.ok();
 }
 
 void Editor::end_gesture(std::int64_t gesture) {
   if (!document) return;
-  if (auto done = document->session().end_gesture(gesture); !done) tell(NoticeKind::error, done.error().text());
+  if (auto done = document->session().end_gesture(gesture); !done) notify(NoticeKind::error, done.error().text());
 }
 
 bool Editor::arrange(const JsonValue& patch, std::int64_t gesture) { return submit(command<SetView>({patch, false}), gesture); }
@@ -91,7 +91,7 @@ void Editor::point_at(Area where) {
   if (is_used) area = where;
 }
 
-void Editor::tell(NoticeKind kind, std::string text) {
+void Editor::notify(NoticeKind kind, std::string text) {
   text = bounded({ErrorCode::internal, "", std::move(text)}).message;
   std::erase_if(notices, [&](const Notice& n) { return n.text == text; });
   notices.push_back({kind, std::move(text), now + (kind == NoticeKind::error ? 2 : 1) * kNoticeSeconds});
@@ -118,14 +118,14 @@ bool Editor::open(const std::string& wanted, bool plays) {
   }
   list_problems(path, std::move(found));
   if (!fresh) {
-    tell(NoticeKind::error, document ? "This scene could not be opened; the problems list says why."
-                                     : "This scene could not be opened; the start page says why.");
+    notify(NoticeKind::error, document ? "This scene could not be opened; the problems list says why."
+                                       : "This scene could not be opened; the start page says why.");
     return false;
   }
   person.remember(person.recent, path);
   take(std::move(fresh));
   document->session().play(plays);
-  if (!problems.empty()) tell(NoticeKind::warning, "The scene was opened; the problems list says what is idle in it.");
+  if (!problems.empty()) notify(NoticeKind::warning, "The scene was opened; the problems list says what is idle in it.");
   return true;
 }
 
@@ -148,7 +148,7 @@ const Registry& Editor::types() const {
 
 void Editor::begin_frame() {
   if (document)
-    if (auto done = document->session().keep_up(); !done) tell(NoticeKind::error, done.error().text());
+    if (auto done = document->session().keep_up(); !done) notify(NoticeKind::error, done.error().text());
   held_before_ = std::move(held_);
   held_.clear();
   (void)types();

@@ -67,7 +67,7 @@ class Editor {
   Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;
-  bool serves_ticks = false;  ///< somebody serves each tick of a scene with recordings: they wait for it
+  bool serves_ticks = false;                   ///< somebody serves each tick of a scene with recordings: they wait for it
   ScriptWatch script_watch;                    ///< files that link kinds of this scene are read from
   std::shared_ptr<PanelMemory> panels;         ///< what inspector, lists and charts remember of this document
   std::uint64_t bytes_sent = 0;                ///< to the graphics processor, since the window opened
@@ -100,7 +100,7 @@ class Editor {
 
   /// The mouse is over this area. One that rests there does not take the keys away from another.
   void point_at(Area where);
-  void tell(NoticeKind kind, std::string text);
+  void notify(NoticeKind kind, std::string text);
   /// What is wrong with a file, in place of what was wrong with the last one.
   void list_problems(std::string file, std::vector<Problem> found);
   /// Opens a file and shows its problems; the old document stays where the new one cannot be opened.

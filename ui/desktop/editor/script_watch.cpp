@@ -51,13 +51,13 @@ void ScriptWatch::take(Editor& editor, const std::string& name, const File& file
   if (!done) problems.push_back({true, {done.error().code, place, done.error().message}});
   if (problems.size() != editor.problems.size() || !done) editor.list_problems(editor.problem_file, std::move(problems));
   if (!done) {
-    return editor.tell(NoticeKind::error, done.error().message + (was_there ? " The old version stays in force." : ""));
+    return editor.notify(NoticeKind::error, done.error().message + (was_there ? " The old version stays in force." : ""));
   }
   const std::string& id = editor.scene().scripts.kinds().at(name);
   const std::string label = editor.types().link(id)->label;
-  editor.tell(NoticeKind::told,
-              was_there ? "\xe2\x80\x9c" + label + "\xe2\x80\x9d was read again."
-                        : "Links can be \xe2\x80\x9c" + label + "\xe2\x80\x9d now; the file is read again when it is saved.");
+  editor.notify(NoticeKind::told,
+                was_there ? "\xe2\x80\x9c" + label + "\xe2\x80\x9d was read again."
+                          : "Links can be \xe2\x80\x9c" + label + "\xe2\x80\x9d now; the file is read again when it is saved.");
 }
 
 }  // namespace bl::desktop

@@ -83,9 +83,10 @@ void tell_uses(Workbench& editor, const std::vector<std::string>& nodes) {
   if (uses.empty()) return;
   std::string names;
   for (const std::string& use : uses) names += (names.empty() ? "`" : ", `") + use + "`";
-  editor.tell(NoticeKind::told, (uses.size() == 1 ? "It takes the use " + names + ", which lacks most, and a share of its demand"
-                                                  : "They take the uses that lack most, " + names) +
-                                    "; choose another in the inspector.");
+  editor.notify(NoticeKind::told,
+                (uses.size() == 1 ? "It takes the use " + names + ", which lacks most, and a share of its demand"
+                                  : "They take the uses that lack most, " + names) +
+                    "; choose another in the inspector.");
 }
 
 std::string first_values(Workbench& editor, const std::string& type, std::size_t number) {

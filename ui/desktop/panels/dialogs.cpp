@@ -48,8 +48,8 @@ std::string place_to_save(const Workbench& editor) {
 }
 
 void tell_saved(Workbench& editor, const std::string& what) {
-  editor.tell(NoticeKind::told, "Saved " + what + ".");
-  if (const std::string& note = editor.document->save_note(); !note.empty()) editor.tell(NoticeKind::warning, note);
+  editor.notify(NoticeKind::told, "Saved " + what + ".");
+  if (const std::string& note = editor.document->save_note(); !note.empty()) editor.notify(NoticeKind::warning, note);
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ void Dialogs::ask_save_as(std::function<void()> then) {
 void Dialogs::save(std::function<void()> then) {
   Document& document = *editor_->document;
   if (document.path().empty()) return ask_save_as(std::move(then));
-  if (auto saved = editor_->save(document.path()); !saved) return editor_->tell(NoticeKind::error, saved.error().text());
+  if (auto saved = editor_->save(document.path()); !saved) return editor_->notify(NoticeKind::error, saved.error().text());
   tell_saved(*editor_, document.name());
   if (then) then();
 }
@@ -168,7 +168,7 @@ void Dialogs::ask_report() {
     data.outcome = editor_->state().is_settled() ? "settled" : "still negotiating";
     data.outcome += " at tick " + std::to_string(editor_->state().tick);
     if (auto written = write_report(folder, data); !written) return chooser_.complain(written.error().text());
-    editor_->tell(NoticeKind::told, "Wrote report.html, volumes.csv and volumes.obj into " + folder + ".");
+    editor_->notify(NoticeKind::told, "Wrote report.html, volumes.csv and volumes.obj into " + folder + ".");
   };
 }
 
@@ -176,7 +176,7 @@ void Dialogs::ask_log() {
   chooser_.open(FileChooser::Purpose::save_file, "Save the log for replay", {".log"}, folder_of(*editor_));
   chosen_ = [this](const std::string& path) {
     if (auto written = editor_->document->save_log(path); !written) return chooser_.complain(written.error().text());
-    editor_->tell(NoticeKind::told, "Saved the log " + path + "; `behaviourlinks replay` runs it again.");
+    editor_->notify(NoticeKind::told, "Saved the log " + path + "; `behaviourlinks replay` runs it again.");
   };
 }
 
@@ -189,7 +189,7 @@ void Dialogs::ask_import_report() {
   chosen_ = [this](const std::string& path) {
     if (auto written = write_file(path, import_csv(editor_->document->imports())); !written)
       return chooser_.complain(written.error().text());
-    editor_->tell(NoticeKind::told, "Wrote the import report " + path + ".");
+    editor_->notify(NoticeKind::told, "Wrote the import report " + path + ".");
   };
 }
 
@@ -226,27 +226,27 @@ void Dialogs::draw_unsaved() {
   ImGui::EndPopup();
 }
 
-void Dialogs::offer_recovery(std::vector<Journal::Remains> remains) {
+void Dialogs::offer_recovery(std::vector<Journal::UnsavedJournal> remains) {
   remains_ = std::move(remains);
   if (!remains_.empty()) show(Kind::recovery);
 }
 
-Dialogs::Recovered Dialogs::recover(const Journal::Remains& remains) {
+Dialogs::Recovered Dialogs::recover(const Journal::UnsavedJournal& remains) {
   std::vector<Problem> problems;
   auto document = Document::recover(editor_->program, remains, kTickThreads, problems);
   editor_->list_problems(remains.path, std::move(problems));
   if (!document) {
-    editor_->tell(NoticeKind::error, std::string("The journal's scene could not be opened; the ") +
-                                         (editor_->document ? "problems list" : "start page") +
-                                         " says why. The journal is kept.");
+    editor_->notify(NoticeKind::error, std::string("The journal's scene could not be opened; the ") +
+                                           (editor_->document ? "problems list" : "start page") +
+                                           " says why. The journal is kept.");
     return Recovered::nothing;
   }
   editor_->take(std::move(document));
   if (editor_->problems.empty()) {
-    editor_->tell(NoticeKind::told, "Recovered. Save it to keep it.");
+    editor_->notify(NoticeKind::told, "Recovered. Save it to keep it.");
     return Recovered::all;
   }
-  editor_->tell(NoticeKind::warning, "Recovered as far as it goes: the problems list says what is amiss. The journal is kept.");
+  editor_->notify(NoticeKind::warning, "Recovered as far as it goes: the problems list says what is amiss. The journal is kept.");
   return Recovered::in_part;
 }
 
@@ -258,7 +258,7 @@ void Dialogs::draw_recovery() {
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, theme.px(6)});
   for (std::size_t k = 0; k < remains_.size(); ++k) {
-    const Journal::Remains& one = remains_[k];
+    const Journal::UnsavedJournal& one = remains_[k];
     ImGui::PushID(static_cast<int>(k));
     const bool recovers = ImGui::Button("Recover", {theme.px(90), 0});
     ImGui::SameLine();

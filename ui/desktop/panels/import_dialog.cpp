@@ -75,7 +75,7 @@ std::string made_text(const making::ImportedScene& imported, const Registry& typ
 }  // namespace
 
 void Dialogs::show_import(const std::vector<std::string>& files) {
-  if (import_task_) return editor_->tell(NoticeKind::told, "An import is running: wait for its end, or stop it.");
+  if (import_task_) return editor_->notify(NoticeKind::told, "An import is running: wait for its end, or stop it.");
   if (kind_ != Kind::import) import_.files.clear();  // what was given up is not offered again
   for (const std::string& file : files)
     if (std::find(import_.files.begin(), import_.files.end(), file) == import_.files.end()) import_.files.push_back(file);
@@ -261,7 +261,7 @@ bool Dialogs::take_import(making::ImportedScene& imported) {
     skipped += report.count(ImportOutcome::skipped);
     repaired += report.count(ImportOutcome::repaired);
   }
-  editor_->tell(
+  editor_->notify(
       NoticeKind::told,
       "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
           (repaired == 0 ? "" : report::counted(repaired, "element") + " repaired, ") +

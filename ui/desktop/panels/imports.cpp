@@ -77,9 +77,9 @@ void go_to(Workbench& editor, const ImportRow& row) {
                              (special_of(row).empty() ? "" : "\n" + special_of(row));
     return editor.view->put_pin({{(*row.place)[0], (*row.place)[1], ground}, what});
   }
-  editor.tell(NoticeKind::told,
-              row.count > 1 ? "This row speaks of " + number(row.count) + " elements together, which have no place of their own."
-                            : "The file does not say where " + title_of(row) + " lies.");
+  editor.notify(NoticeKind::told, row.count > 1 ? "This row speaks of " + number(row.count) +
+                                                      " elements together, which have no place of their own."
+                                                : "The file does not say where " + title_of(row) + " lies.");
 }
 
 void draw_outcomes(Workbench& editor, ImportList& list) {

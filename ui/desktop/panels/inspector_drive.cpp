@@ -63,7 +63,7 @@ void drive_by_expression(Workbench& editor, const std::string& node, const std::
     if (auto joining = editor.canvas->joining(expression)) commands.push_back(std::move(*joining));
   if (!editor.submit(commands)) return;
   editor.picks.only_node(expression);
-  editor.tell(NoticeKind::told, "An expression now drives " + label_of(port) + " of " + subject + ": change its formula here.");
+  editor.notify(NoticeKind::told, "An expression now drives " + label_of(port) + " of " + subject + ": change its formula here.");
 }
 
 }  // namespace bl::desktop

@@ -54,8 +54,7 @@ void Dialogs::draw_new_scene() {
   ImGui::InputTextWithHint("CRS", "as the file says", &fresh_.crs);
   ImGui::Checkbox("Take the convex hull of a plan that is not convex", &fresh_.use_hull);
   const bool is_ready = !fresh_.boundary.empty() && !fresh_.programme.empty();
-  if (draw_foot("Make the scene", "new_scene/make", is_ready ? "" : "A boundary and a programme are needed."))
-    make_scene();
+  if (draw_foot("Make the scene", "new_scene/make", is_ready ? "" : "A boundary and a programme are needed.")) make_scene();
   if (!told_.empty() && !is_told_error_) close();
   ImGui::EndPopup();
 }
@@ -84,7 +83,7 @@ void Dialogs::make_scene() {
   editor_->document->session().play(true);
   told_.push_back("done");
   if (made.fill() > 1)
-    editor_->tell(NoticeKind::warning, "The demands do not fit into the boundary; the problems list says who goes short.");
+    editor_->notify(NoticeKind::warning, "The demands do not fit into the boundary; the problems list says who goes short.");
 }
 
 }  // namespace bl::desktop

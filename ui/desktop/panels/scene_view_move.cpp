@@ -58,7 +58,7 @@ std::vector<std::string> SceneView::placed(bool tells) {
     const auto found = editor_->scene().nodes.find(id);
     if (found == editor_->scene().nodes.end() || seen_index(id) >= facts_->places.size()) continue;
     if (left_out_.contains(id)) {
-      if (tells) editor_->tell(NoticeKind::told, editor_->name_of(id) + " is hidden from 3D: Shift+H shows it again.");
+      if (tells) editor_->notify(NoticeKind::told, editor_->name_of(id) + " is hidden from 3D: Shift+H shows it again.");
       continue;
     }
     // A boundary stands where its corners are, whatever its node's place.
@@ -73,8 +73,8 @@ std::vector<std::string> SceneView::movable(bool tells) {
   std::erase_if(ids, [&](const std::string& id) {
     const bool is_locked = editor_->scene().nodes.at(id).locked.contains(reading::path_of<&reading::NodePlace::position>());
     if (is_locked && tells)
-      editor_->tell(NoticeKind::warning, std::string(icon::kLock) + "  " + editor_->name_of(id) +
-                                             " is locked in its place. Unlock its position in the inspector to move it.");
+      editor_->notify(NoticeKind::warning, std::string(icon::kLock) + "  " + editor_->name_of(id) +
+                                               " is locked in its place. Unlock its position in the inspector to move it.");
     return is_locked;
   });
   return ids;
@@ -219,7 +219,8 @@ void SceneView::end_move(bool is_kept) {
   if (!move_) return;
   // What was read before the slip is not what is meant: it can be mended, or taken back.
   if (is_kept && !move_->typed.empty() && !typed_length(move_->typed))
-    return editor_->tell(NoticeKind::warning, "`" + move_->typed + "` is no length: type a number, and a unit such as m or cm.");
+    return editor_->notify(NoticeKind::warning,
+                           "`" + move_->typed + "` is no length: type a number, and a unit such as m or cm.");
   if (is_kept) editor_->end_gesture(move_->gesture);
   else editor_->document->session().abandon(move_->gesture);
   move_.reset();

@@ -21,7 +21,7 @@ struct Rectangle {
   bool meets(const Rectangle& o) const { return left < o.right && o.left < right && top < o.bottom && o.top < bottom; }
 };
 
-struct Wish {
+struct LabelRequest {
   const std::string* text;
   Seen at;
   double importance;
@@ -31,7 +31,7 @@ struct Wish {
 };
 
 // Of the name, and of the line below it in which a sensor says what it has measured.
-ImVec2 extent_of(ImFont* font, const Wish& wish) {
+ImVec2 extent_of(ImFont* font, const LabelRequest& wish) {
   ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, wish.text->c_str());
   if (!wish.stream) return extent;
   const float line = font->CalcTextSizeA(font->FontSize, 1e4f, 0, wish.stream->text().c_str()).x;
@@ -39,7 +39,7 @@ ImVec2 extent_of(ImFont* font, const Wish& wish) {
 }
 
 // The stream is written in the colour of how far it can be relied on, which needs the panel's ground.
-void write_label(ImDrawList& list, const Theme& theme, const Wish& wish, const Rectangle& place, ImVec2 corner) {
+void write_label(ImDrawList& list, const Theme& theme, const LabelRequest& wish, const Rectangle& place, ImVec2 corner) {
   const Colours& c = theme.colours();
   ImFont* font = theme.fonts().small;
   const float size = font->FontSize;
@@ -115,7 +115,7 @@ void SceneView::draw_labels() {
   if (!shows("labels")) return;
   const Theme& theme = editor_->theme;
   const Colours& c = theme.colours();
-  std::vector<Wish> wishes;
+  std::vector<LabelRequest> wishes;
   const auto wish = [&](const std::string& id, const std::string& text, std::uint32_t node, double size, bool is_mark) {
     const bool is_chosen = editor_->picks.nodes.contains(id), is_hovered = editor_->picks.hovered_node == id;
     const Seen at = seen(place_of(node));
@@ -130,14 +130,15 @@ void SceneView::draw_labels() {
          volume.figures.radius / choices_.camera.metres_per_pixel(volume.figures.position, height()), false);
   if (shows("marks"))
     for (const MarkFacts& mark : facts_->marks) wish(mark.id, mark.name, mark.node, 14.0 * theme.scale(), true);
-  std::stable_sort(wishes.begin(), wishes.end(), [](const Wish& a, const Wish& b) { return a.importance > b.importance; });
+  std::stable_sort(wishes.begin(), wishes.end(),
+                   [](const LabelRequest& a, const LabelRequest& b) { return a.importance > b.importance; });
   if (wishes.size() > kMostLabels) wishes.resize(kMostLabels);
-  for (Wish& one : wishes) one.stream = stream_of(*editor_, *facts_->state, one.node);
+  for (LabelRequest& one : wishes) one.stream = stream_of(*editor_, *facts_->state, one.node);
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = theme.fonts().small;
   std::vector<Rectangle> taken;
-  for (const Wish& w : wishes) {
+  for (const LabelRequest& w : wishes) {
     const Seen anchor = w.is_mark || w.is_chosen ? w.at : visible_anchor(w.node, w.at);
     if (!anchor.is_in_front) continue;
     const ImVec2 p = on_screen(anchor);

@@ -101,8 +101,8 @@ void SceneView::set_sun_in_scene() {
     for (const PortRef& target : link.targets)
       if (!link.is_muted && link.is_enabled && plan.nodes[target.node].id == node &&
           reading::port_of<&reading::SunFigures::time>(plan, target.node) == target)
-        editor_->tell(NoticeKind::warning,
-                      "The link `" + link.id + "` has a say in the time of `" + node + "`: it may not stay.");
+        editor_->notify(NoticeKind::warning,
+                        "The link `" + link.id + "` has a say in the time of `" + node + "`: it may not stay.");
   end_preview();
 }
 

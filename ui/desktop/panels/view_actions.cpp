@@ -198,7 +198,7 @@ void next_pane(Workbench& e) {
     default: e.area = Area::canvas; break;
   }
   if (e.area == Area::panels) name = "fields: arrows walk, Enter types";
-  e.tell(NoticeKind::told, std::string("Keys go to the ") + name + ".");
+  e.notify(NoticeKind::told, std::string("Keys go to the ") + name + ".");
 }
 
 void add_window_actions(std::vector<Action>& list) {

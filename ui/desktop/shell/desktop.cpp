@@ -69,10 +69,10 @@ void Desktop::place_picture(const std::string& path) {
   making::MediaOptions options;
   options.scene = editor.document->source();
   const auto made = making::make_media(path, editor.scene(), options);
-  if (!made) return editor.tell(NoticeKind::error, path + ": " + made.error().message);
+  if (!made) return editor.notify(NoticeKind::error, path + ": " + made.error().message);
   if (!editor.submit(made->command)) return;
   editor.picks.only_node(made->id);
-  for (const std::string& note : made->notes) editor.tell(NoticeKind::told, note);
+  for (const std::string& note : made->notes) editor.notify(NoticeKind::told, note);
 }
 
 void Desktop::drop(const std::vector<std::string>& paths) {
@@ -88,7 +88,8 @@ void Desktop::drop_one(const std::string& path) {
   if (editor_->document && making::is_picture_name(path)) return place_picture(path);
   if (!path.ends_with(".lua")) return dialogs_->guard([this, path] { editor_->open(path, true); });
   if (editor_->document) editor_->script_watch.add(*editor_, path);
-  else editor_->tell(NoticeKind::warning, "A link script belongs to a scene: open the scene first, then drop the script again.");
+  else
+    editor_->notify(NoticeKind::warning, "A link script belongs to a scene: open the scene first, then drop the script again.");
 }
 
 void Desktop::ask_to_quit() {
@@ -98,14 +99,14 @@ void Desktop::ask_to_quit() {
 void Desktop::offer_recovery() {
   std::vector<std::string> unreadable;
   dialogs_->offer_recovery(Journal::find(editor_->program, &unreadable));
-  for (const std::string& text : unreadable) editor_->tell(NoticeKind::warning, text);
+  for (const std::string& text : unreadable) editor_->notify(NoticeKind::warning, text);
 }
 
 // Each reason once: people who go on working with a full disk know it.
 void Desktop::watch_journal() {
   const std::string problem = editor_->document->journal_problem();
   if (problem != told_problem_ && !problem.empty())
-    editor_->tell(NoticeKind::warning, "What you do is not safe from a crash until it is saved: " + problem);
+    editor_->notify(NoticeKind::warning, "What you do is not safe from a crash until it is saved: " + problem);
   told_problem_ = problem;
 }
 

@@ -31,7 +31,7 @@ void LiveScene::frame() {
   }
   tick_ = tick;
   for (const Error& refused : devices_->bring(tick, [&](Submission said) { return session.submit(std::move(said)); }))
-    editor.tell(NoticeKind::warning, refused.text());
+    editor.notify(NoticeKind::warning, refused.text());
   session.serve(tick);
   devices_->send(*editor.moment->state);
   note_deliveries();

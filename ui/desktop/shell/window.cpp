@@ -20,9 +20,9 @@
 #include "core/base/printable.h"
 #include "core/file/file_io.h"
 #include "core/session/types/plugins.h"
-#include "ui/desktop/shell/live_scene.h"
 #include "ui/desktop/shell/desktop.h"
 #include "ui/desktop/shell/input_queue.h"
+#include "ui/desktop/shell/live_scene.h"
 #include "ui/desktop/view/gl_renderer.h"
 
 namespace bl::desktop {
@@ -52,8 +52,8 @@ void take_picture(Editor& editor, const std::string& wanted_folder, GLFWwindow* 
   for (std::size_t k = 3; k < pixels.size(); k += 4) pixels[k] = 255;
   stbi_flip_vertically_on_write(1);
   if (stbi_write_png(path.c_str(), width, height, 4, pixels.data(), 4 * width) != 0)
-    editor.tell(NoticeKind::told, "Took the picture " + path + ".");
-  else editor.tell(NoticeKind::error, "The picture " + path + " could not be written.");
+    editor.notify(NoticeKind::told, "Took the picture " + path + ".");
+  else editor.notify(NoticeKind::error, "The picture " + path + " could not be written.");
 }
 
 // Without a display that paces the frames, the loop does it itself; an event ends the wait.
@@ -127,13 +127,13 @@ class Window {
 };
 
 // What the window's callbacks reach.
-struct Hands {
+struct CallbackTarget {
   Desktop& desktop;
   InputQueue input;
 };
-Hands& hands_of(GLFWwindow* window) { return *static_cast<Hands*>(glfwGetWindowUserPointer(window)); }
+CallbackTarget& hands_of(GLFWwindow* window) { return *static_cast<CallbackTarget*>(glfwGetWindowUserPointer(window)); }
 
-void listen(GLFWwindow* window, Hands& hands) {
+void listen(GLFWwindow* window, CallbackTarget& hands) {
   glfwSetWindowUserPointer(window, &hands);
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     if (count > 0) hands_of(w).desktop.drop(std::vector<std::string>(paths, paths + count));
@@ -162,7 +162,7 @@ class Look {
     const PersonSettings& person = editor.person;
     if (scale_ == person.scale && is_dark_ == person.is_dark) return;
     if (scale_ != person.scale) {
-      if (const std::string note = editor.theme.load_fonts(person.scale); !note.empty()) editor.tell(NoticeKind::warning, note);
+      if (const std::string note = editor.theme.load_fonts(person.scale); !note.empty()) editor.notify(NoticeKind::warning, note);
       // The first letters go to the graphics processor with all else; later ones take their place.
       if (scale_ != 0) ImGui_ImplOpenGL3_DestroyFontsTexture(), ImGui_ImplOpenGL3_CreateFontsTexture();
     }
@@ -177,7 +177,7 @@ class Look {
 };
 
 // From what people have done since the last frame to the picture behind the screen.
-void draw_frame(GLFWwindow* window, Hands& hands, double begin) {
+void draw_frame(GLFWwindow* window, CallbackTarget& hands, double begin) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   hands.input.hand_over(ImGui::GetIO());
@@ -219,7 +219,7 @@ int run_window(const WindowOptions& options) noexcept {
   {
     Desktop desktop(full_registry(), person, *renderer);
     Editor& editor = desktop.editor();
-    Hands hands{desktop, {}};
+    CallbackTarget hands{desktop, {}};
     LiveScene live(editor, options.is_live);
     listen(window.handle(), hands);
     Look look;

@@ -50,7 +50,7 @@ std::optional<Box> box_of_choice(const Board& board) {
 
 void align_chosen(Board& board, Alignment alignment) {
   const auto chosen = chosen_boxes(board);
-  if (chosen.size() < 2) return board.editor.tell(NoticeKind::told, "Choose two or more nodes to align them.");
+  if (chosen.size() < 2) return board.editor.notify(NoticeKind::told, "Choose two or more nodes to align them.");
   const Box all = *box_of_choice(board);
   std::vector<std::pair<std::size_t, ImVec2>> places;
   for (const std::size_t k : chosen) {
@@ -71,7 +71,7 @@ void align_chosen(Board& board, Alignment alignment) {
 
 void distribute_chosen(Board& board, bool is_across) {
   auto chosen = chosen_boxes(board);
-  if (chosen.size() < 3) return board.editor.tell(NoticeKind::told, "Choose three or more nodes to distribute them.");
+  if (chosen.size() < 3) return board.editor.notify(NoticeKind::told, "Choose three or more nodes to distribute them.");
   const auto low = [&](std::size_t k) { return is_across ? board.model.boxes[k].box.at.x : board.model.boxes[k].box.at.y; };
   const auto size = [&](std::size_t k) { return is_across ? board.model.boxes[k].box.size.x : board.model.boxes[k].box.size.y; };
   std::stable_sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) { return low(a) < low(b); });
@@ -191,7 +191,7 @@ void drop_emptied_frames(const Board& board, Json& patch) {
 void frame_chosen(Board& board) {
   const auto& nodes = board.editor.picks.nodes;
   if (nodes.empty() && board.picked_comments.empty() && board.picked_frames.empty())
-    return board.editor.tell(NoticeKind::told, "Choose nodes, and Ctrl+G puts a frame around them.");
+    return board.editor.notify(NoticeKind::told, "Choose nodes, and Ctrl+G puts a frame around them.");
   const ViewData& view = board.model.view;
   const std::string id = fresh_key("frame", [&](const std::string& key) { return view.frames.contains(key); });
   Json patch = Json::object();

@@ -49,11 +49,11 @@ struct Hit {
 };
 
 /// What a held mouse button does.
-enum class Deed { none, pan, box, move, link, relink, cut, dot, comment_corner, minimap };
+enum class DragMode { none, pan, box, move, link, relink, cut, dot, comment_corner, minimap };
 
 /// A drag from press to release. Nothing is submitted before the end: one drag is one step, and Esc leaves no trace.
 struct Drag {
-  Deed deed = Deed::none;
+  DragMode deed = DragMode::none;
   Hit grabbed;
   int button = 0;
   ImVec2 begin;                                  ///< in the plane

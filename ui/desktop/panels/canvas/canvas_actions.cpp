@@ -56,7 +56,7 @@ void select_all(Workbench& e) {
 
 void select_none(Workbench& e) {
   // Esc ends a drag or closes the menu, and no more. With keyboard navigation the menu is closed already when keys are looked at.
-  if (board_of(e).drag.deed != Deed::none || board_of(e).menu.is_open || board_of(e).families.is_open ||
+  if (board_of(e).drag.deed != DragMode::none || board_of(e).menu.is_open || board_of(e).families.is_open ||
       !memory_of(e).scrub.key.empty())
     return;
   // First what is chosen, then what is pinned.
@@ -97,7 +97,7 @@ void link_chosen(Workbench& e) {
   if (ends.size() == 2) open_link_menu(board, ends[0], ends[1], at);
   else if (ends.size() == 1)
     open_drop_menu(board, ends[0], board.camera.to_screen(board.model.anchor(ends[0]).high() + ImVec2(160, -60)));
-  else e.tell(NoticeKind::told, "Choose two nodes to link them, or one to link it to a new one.");
+  else e.notify(NoticeKind::told, "Choose two nodes to link them, or one to link it to a new one.");
 }
 
 template <Alignment kind>

@@ -243,7 +243,7 @@ bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shi
   Workbench& editor = board.editor;
   const auto clip = parse_json(text);
   if (!clip || !clip->is_object() || text_in(*clip, kMark) != "clip") {
-    editor.tell(NoticeKind::told, "The clipboard holds nothing that was copied from a canvas.");
+    editor.notify(NoticeKind::told, "The clipboard holds nothing that was copied from a canvas.");
     return false;
   }
   const auto box = box_of_clip(*clip);
@@ -254,7 +254,7 @@ bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shi
   auto done = paste_nodes(pasting, list_in(*clip, "nodes"));
   if (done) done = paste_links(pasting, list_in(*clip, "links"));
   if (!done) {
-    editor.tell(NoticeKind::error, "This copy cannot be pasted: " + done.error().text());
+    editor.notify(NoticeKind::error, "This copy cannot be pasted: " + done.error().text());
     return false;
   }
   paste_comments(pasting, list_in(*clip, "comments"), comments);
@@ -267,23 +267,23 @@ bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shi
   update_now(board);
   board.picked_comments = comments;
   if (pasting.lost > 0)
-    editor.tell(NoticeKind::warning,
-                "Pasted without " + report::counted(pasting.lost, "reference") + " to nodes that are not in this scene.");
+    editor.notify(NoticeKind::warning,
+                  "Pasted without " + report::counted(pasting.lost, "reference") + " to nodes that are not in this scene.");
   return true;
 }
 
 void copy_chosen(Board& board) {
   const std::string clip = clip_of_choice(board);
-  if (clip.empty()) return board.editor.tell(NoticeKind::told, "Choose nodes to copy them.");
+  if (clip.empty()) return board.editor.notify(NoticeKind::told, "Choose nodes to copy them.");
   ImGui::SetClipboardText(clip.c_str());
   if (!board.editor.picks.nodes.empty())
-    board.editor.tell(NoticeKind::told,
-                      report::counted(board.editor.picks.nodes.size(), "node") + " copied, with the links among them.");
+    board.editor.notify(NoticeKind::told,
+                        report::counted(board.editor.picks.nodes.size(), "node") + " copied, with the links among them.");
 }
 
 void cut_chosen(Board& board) {
   const std::string clip = clip_of_choice(board);
-  if (clip.empty()) return board.editor.tell(NoticeKind::told, "Choose nodes to cut them.");
+  if (clip.empty()) return board.editor.notify(NoticeKind::told, "Choose nodes to cut them.");
   ImGui::SetClipboardText(clip.c_str());
   remove_chosen(board, false);
 }
@@ -295,7 +295,7 @@ void paste(Board& board) {
 
 void duplicate_chosen(Board& board, ImVec2 shift) {
   const std::string clip = clip_of_choice(board);
-  if (clip.empty()) return board.editor.tell(NoticeKind::told, "Choose nodes to duplicate them.");
+  if (clip.empty()) return board.editor.notify(NoticeKind::told, "Choose nodes to duplicate them.");
   paste_clip(board, clip, shift, true);
 }
 

@@ -195,8 +195,8 @@ void centre_by_minimap(Board& board) {
 void cancel_drag(Board& board) {
   Drag& drag = board.drag;
   drag.shift = {};
-  if (drag.deed == Deed::move || drag.deed == Deed::dot) move_to_shift(board);
-  if (drag.deed == Deed::comment_corner && !drag.old_comments.empty())
+  if (drag.deed == DragMode::move || drag.deed == DragMode::dot) move_to_shift(board);
+  if (drag.deed == DragMode::comment_corner && !drag.old_comments.empty())
     board.model.view.comments.at(drag.grabbed.id).box = drag.old_comments.front();
   drag = {};
 }
@@ -208,30 +208,30 @@ void go_on_dragging(Board& board) {
   const bool is_new = !drag.is_far && drag.old_anchors.empty();
   if (!drag.is_far && length(cursor - drag.begin) * board.camera.factor() > kTremble) drag.is_far = true;
   switch (drag.deed) {
-    case Deed::pan:
+    case DragMode::pan:
       if (drag.is_far) board.camera.pan(io.MouseDelta);
       if (board.space_since >= 0) board.has_space_panned = true;
       break;
-    case Deed::box:
+    case DragMode::box:
       if (is_new) {
         drag.base_nodes = board.editor.picks.nodes, drag.base_links = board.editor.picks.links;
         drag.base_comments = board.picked_comments, drag.base_frames = board.picked_frames;
       }
       if (drag.is_far) go_on_boxing(board);
       break;
-    case Deed::move:
+    case DragMode::move:
       if (ImGui::IsMouseClicked(drag.button)) choose_pressed(board);
       if (drag.is_far) go_on_moving(board);
       break;
-    case Deed::cut: go_on_cutting(board, cursor); break;
-    case Deed::dot:
+    case DragMode::cut: go_on_cutting(board, cursor); break;
+    case DragMode::dot:
       if (const std::size_t line = board.model.find_line(drag.grabbed.id); line < board.model.lines.size()) {
         if (drag.old_dots.empty()) drag.old_dots = {board.model.lines[line].dots[drag.grabbed.index]};
         drag.shift = cursor - drag.begin;
         if (drag.is_far) move_to_shift(board);
       }
       break;
-    case Deed::comment_corner: {
+    case DragMode::comment_corner: {
       Box& box = board.model.view.comments.at(drag.grabbed.id).box;
       if (drag.old_comments.empty()) drag.old_comments = {box};
       board.model.is_view_moved = true;
@@ -239,7 +239,7 @@ void go_on_dragging(Board& board) {
       box.size = {std::max(60.0f, std::round(size.x / kGrid) * kGrid), std::max(30.0f, std::round(size.y / kGrid) * kGrid)};
       break;
     }
-    case Deed::minimap: centre_by_minimap(board); break;
+    case DragMode::minimap: centre_by_minimap(board); break;
     default: break;
   }
 }
@@ -315,9 +315,9 @@ void end_link(Board& board) {
   const ImVec2 at = ImGui::GetIO().MousePos;
   if (takes_links(over.thing)) {
     if (over.index == drag.grabbed.index) return;
-    if (drag.deed == Deed::relink) move_links(board, drag.grabbed.index, over.index);
+    if (drag.deed == DragMode::relink) move_links(board, drag.grabbed.index, over.index);
     else open_link_menu(board, drag.grabbed.index, over.index, at);
-  } else if (drag.deed == Deed::link && drag.is_far && board.camera.pane().holds(at)) {
+  } else if (drag.deed == DragMode::link && drag.is_far && board.camera.pane().holds(at)) {
     open_drop_menu(board, drag.grabbed.index, at);
   }
 }
@@ -332,23 +332,23 @@ void pin_or_unpin(Board& board) {
 
 void end_drag(Board& board) {
   switch (board.drag.deed) {
-    case Deed::pan:
+    case DragMode::pan:
       if (!board.drag.is_far && board.drag.button == 2) pin_or_unpin(board);
       if (!board.drag.is_far && board.drag.button == 1) open_menu(board, board.drag.grabbed, ImGui::GetIO().MousePos);
       break;
-    case Deed::box:
+    case DragMode::box:
       if (!board.drag.is_far && !board.drag.adds && !board.drag.toggles) {
         board.editor.picks.clear();
         board.picked_comments.clear();
         board.picked_frames.clear();
       }
       break;
-    case Deed::dot: board.drag.anchors.clear(); [[fallthrough]];
-    case Deed::move: end_move(board); break;
-    case Deed::cut: end_cut(board); break;
-    case Deed::link:
-    case Deed::relink: end_link(board); break;
-    case Deed::comment_corner: {
+    case DragMode::dot: board.drag.anchors.clear(); [[fallthrough]];
+    case DragMode::move: end_move(board); break;
+    case DragMode::cut: end_cut(board); break;
+    case DragMode::link:
+    case DragMode::relink: end_link(board); break;
+    case DragMode::comment_corner: {
       Json patch = Json::object();
       patch["comments"][board.drag.grabbed.id]["size"] = place_json(board.model.view.comments.at(board.drag.grabbed.id).box.size);
       if (board.drag.is_far) board.editor.arrange(JsonValue::of(patch), board.editor.new_gesture());

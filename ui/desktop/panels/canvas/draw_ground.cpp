@@ -73,7 +73,7 @@ void draw_comment(Board& board, const std::string& id, const Comment& comment) {
 void draw_new_link(Board& board, ImDrawList& list, ImVec2 cursor) {
   const Colours& c = board.theme().colours();
   const Drag& drag = board.drag;
-  const bool is_moving = drag.deed == Deed::relink;
+  const bool is_moving = drag.deed == DragMode::relink;
   const auto points = trace_to_point(board.model.anchor(drag.grabbed.index), cursor);
   std::vector<ImVec2> screen;
   for (const ImVec2& p : points) screen.push_back(board.camera.to_screen(p));
@@ -118,8 +118,8 @@ void draw_deed(Board& board) {
   const Colours& c = board.theme().colours();
   const Drag& drag = board.drag;
   const ImVec2 cursor = board.cursor();
-  if (drag.deed == Deed::link || drag.deed == Deed::relink) return draw_new_link(board, list, cursor);
-  if (drag.deed == Deed::cut) {
+  if (drag.deed == DragMode::link || drag.deed == DragMode::relink) return draw_new_link(board, list, cursor);
+  if (drag.deed == DragMode::cut) {
     std::vector<ImVec2> screen;
     for (const ImVec2& p : drag.swipe) screen.push_back(board.camera.to_screen(p));
     if (screen.size() > 1)
@@ -127,7 +127,7 @@ void draw_deed(Board& board) {
     return;
   }
   if (!drag.is_far) return;
-  if (drag.deed == Deed::box) {
+  if (drag.deed == DragMode::box) {
     const Box box = box_between(board.camera.to_screen(drag.begin), board.camera.to_screen(cursor));
     const bool encloses = cursor.x >= drag.begin.x;
     list.AddRectFilled(box.low(), box.high(), faded(c.accent, 0.1f));
@@ -136,7 +136,7 @@ void draw_deed(Board& board) {
     draw_text(board, {box.low().x + 4, box.high().y + 3}, 11 * board.theme().scale(), c.text_soft,
               encloses ? "inside" : "touching");
   }
-  if (drag.deed != Deed::move) return;
+  if (drag.deed != DragMode::move) return;
   for (const auto& [from, to] : drag.guides)
     list.AddLine(board.camera.to_screen(from), board.camera.to_screen(to), faded(c.accent, 0.7f), 1);
   if (drag.copies)

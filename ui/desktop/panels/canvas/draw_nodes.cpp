@@ -363,7 +363,7 @@ void draw_nodes(Board& board) {
   for (NodeBox& box : board.model.boxes)
     if (box.box.touches(sight) && (picks.contains(box.id) || board.editor.picks.lit_node == box.id)) draw_node(ink, box);
   const Thing thing = board.hovered.thing;
-  if (is_body(thing) && board.drag.deed == Deed::none && board.hovered.index < board.model.anchors() && ink.zoom > 0.15)
+  if (is_body(thing) && board.drag.deed == DragMode::none && board.hovered.index < board.model.anchors() && ink.zoom > 0.15)
     draw_handles(ink, board.camera.to_screen(board.model.anchor(board.hovered.index)),
                  thing == Thing::node_edge || thing == Thing::pill_edge);
 }

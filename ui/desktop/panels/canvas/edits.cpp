@@ -211,7 +211,7 @@ void remove_chosen(Board& board, bool reconnects) {
   for (const std::string& id : board.picked_frames) dissolve(board, id, nodes, patch);
   drop_emptied_frames(board, patch);
   add_view_patch(commands, patch);
-  if (commands.empty()) return editor.tell(NoticeKind::told, "Nothing is chosen that could be removed.");
+  if (commands.empty()) return editor.notify(NoticeKind::told, "Nothing is chosen that could be removed.");
   editor.submit(commands, editor.new_gesture());
 }
 
@@ -220,7 +220,7 @@ void remove_links(Board& board, const std::set<std::string>& links) {
   for (const std::string& id : links) commands.push_back(command<RemoveLink>({id}));
   add_view_patch(commands, forgetting(board, {}, links));
   if (board.editor.submit(commands, board.editor.new_gesture()))
-    board.editor.tell(NoticeKind::told, report::counted(links.size(), "link") + " removed.");
+    board.editor.notify(NoticeKind::told, report::counted(links.size(), "link") + " removed.");
 }
 
 void mute_chosen(Board& board) {
@@ -228,7 +228,7 @@ void mute_chosen(Board& board) {
   const auto& all = board.editor.scene().links;
   // Those of unknown kinds are kept as they are; they do not run anyway.
   std::erase_if(links, [&](const std::string& id) { return !all.at(id).ghost.empty(); });
-  if (links.empty()) return board.editor.tell(NoticeKind::told, "Choose links, or nodes with links, to mute them.");
+  if (links.empty()) return board.editor.notify(NoticeKind::told, "Choose links, or nodes with links, to mute them.");
   const bool mutes = std::any_of(links.begin(), links.end(), [&](const std::string& id) { return !all.at(id).is_muted; });
   std::vector<Command> commands;
   for (const std::string& id : links)
@@ -245,19 +245,19 @@ void solo_chosen(Board& board) {
       if (all.contains(id) && all.at(id).is_muted) commands.push_back(command<MuteLink>({id, false}));
     board.soloed.clear();
     if (submit_as(board, commands, "Unmute " + report::counted(commands.size(), "link")))
-      editor.tell(NoticeKind::told, "All links speak again.");
+      editor.notify(NoticeKind::told, "All links speak again.");
     return;
   }
   const std::set<std::string> heard = links_heard(board);
-  if (heard.empty()) return editor.tell(NoticeKind::told, "Choose links, or nodes with links, to hear them alone.");
+  if (heard.empty()) return editor.notify(NoticeKind::told, "Choose links, or nodes with links, to hear them alone.");
   std::set<std::string> others;
   for (const auto& [id, link] : all)
     if (!heard.contains(id) && !link.is_muted && link.ghost.empty())
       commands.push_back(command<MuteLink>({id, true})), others.insert(id);
-  if (commands.empty()) return editor.tell(NoticeKind::told, "No other link speaks.");
+  if (commands.empty()) return editor.notify(NoticeKind::told, "No other link speaks.");
   if (!submit_as(board, commands, "Solo " + soloists(board))) return;
   board.soloed = others;
-  editor.tell(NoticeKind::told, report::counted(others.size(), "other link") + " muted; Q brings them back.");
+  editor.notify(NoticeKind::told, report::counted(others.size(), "other link") + " muted; Q brings them back.");
 }
 
 void move_links(Board& board, std::size_t from, std::size_t to) {
@@ -275,8 +275,9 @@ void move_links(Board& board, std::size_t from, std::size_t to) {
     else commands.push_back(command<SetLinkEnds>({line.id, a, b})), ++count;
   }
   if (!commands.empty()) editor.submit(commands, editor.new_gesture());
-  if (!refused.empty()) return editor.tell(NoticeKind::warning, refused);
-  editor.tell(NoticeKind::told, count == 0 ? "It has no links that could be moved." : report::counted(count, "link") + " moved.");
+  if (!refused.empty()) return editor.notify(NoticeKind::warning, refused);
+  editor.notify(NoticeKind::told,
+                count == 0 ? "It has no links that could be moved." : report::counted(count, "link") + " moved.");
 }
 
 void collapse_chosen(Board& board) {
@@ -308,8 +309,8 @@ void add_dot(Board& board, std::size_t line, ImVec2 at) {
   if (line >= board.model.lines.size()) return;
   const Line& known = board.model.lines[line];
   if (known.is_crossing)
-    return board.editor.tell(NoticeKind::told,
-                             "This link leads out of the frame: its dots lie outside, where all of it is seen.");
+    return board.editor.notify(NoticeKind::told,
+                               "This link leads out of the frame: its dots lie outside, where all of it is seen.");
   // Between the two neighbours that the curve passes there: counted by how many dots come before the nearest stretch.
   std::size_t nearest = 1;
   for (std::size_t s = 1; s < known.points.size(); ++s)

@@ -31,7 +31,7 @@ Side side_of(const Box& body, const Box& other) {
   return side_towards(body, other.centre());
 }
 
-struct Mouth {
+struct RouteEnd {
   std::size_t route = 0, body = 0;
   int end = 0;
   Side side = right;
@@ -41,13 +41,13 @@ struct Mouth {
 
 bool is_loop(const Route& route) { return route.from == route.to && route.dots.empty(); }
 
-std::vector<Mouth> mouths_of(const std::vector<Box>& bodies, const std::vector<Route>& routes) {
-  std::vector<Mouth> mouths;
+std::vector<RouteEnd> mouths_of(const std::vector<Box>& bodies, const std::vector<Route>& routes) {
+  std::vector<RouteEnd> mouths;
   for (std::size_t r = 0; r < routes.size(); ++r) {
     const Route& route = routes[r];
     for (int end = 0; end < 2; ++end) {
       const std::size_t body = end == 0 ? route.from : route.to, other = end == 0 ? route.to : route.from;
-      Mouth mouth{r, body, end, right, 0, {}};
+      RouteEnd mouth{r, body, end, right, 0, {}};
       ImVec2 towards = bodies[other].centre();
       if (!route.dots.empty()) towards = end == 0 ? route.dots.front() : route.dots.back();
       mouth.side = route.dots.empty() ? side_of(bodies[body], bodies[other]) : side_towards(bodies[body], towards);
@@ -60,16 +60,16 @@ std::vector<Mouth> mouths_of(const std::vector<Box>& bodies, const std::vector<R
 }
 
 // Spreads the mouths of each side along it, in the order of what they lead to.
-void spread(const std::vector<Box>& bodies, const std::vector<Route>& routes, std::vector<Mouth>& mouths) {
+void spread(const std::vector<Box>& bodies, const std::vector<Route>& routes, std::vector<RouteEnd>& mouths) {
   std::vector<std::size_t> order(mouths.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const Mouth &x = mouths[a], &y = mouths[b];
+    const RouteEnd &x = mouths[a], &y = mouths[b];
     return std::tie(x.body, x.side, x.order, x.route, x.end) < std::tie(y.body, y.side, y.order, y.route, y.end);
   });
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin;
-    const Mouth& first = mouths[order[begin]];
+    const RouteEnd& first = mouths[order[begin]];
     if (is_loop(routes[first.route])) {  // have a place of their own
       ++begin;
       continue;
@@ -82,7 +82,7 @@ void spread(const std::vector<Box>& bodies, const std::vector<Route>& routes, st
     const float room = (is_upright ? body.size.y : body.size.x) * kUsableSide;
     const float spacing = std::min(kSpacing, room / static_cast<float>(end - begin));
     for (std::size_t k = begin; k < end; ++k) {
-      Mouth& mouth = mouths[order[k]];
+      RouteEnd& mouth = mouths[order[k]];
       const float shift = (static_cast<float>(k - begin) - static_cast<float>(end - begin - 1) / 2) * spacing;
       const ImVec2 normal = kNormals[mouth.side];
       const ImVec2 middle = body.centre() + ImVec2(normal.x * body.size.x / 2, normal.y * body.size.y / 2);
@@ -137,13 +137,13 @@ std::vector<ImVec2> loop(const Box& body, std::size_t number) {
 }  // namespace
 
 std::vector<std::vector<ImVec2>> trace(const std::vector<Box>& bodies, const std::vector<Route>& routes) {
-  std::vector<Mouth> mouths = mouths_of(bodies, routes);
+  std::vector<RouteEnd> mouths = mouths_of(bodies, routes);
   spread(bodies, routes, mouths);
   std::vector<std::vector<ImVec2>> curves;
   std::map<std::size_t, std::size_t> loops;
   curves.reserve(routes.size());
   for (std::size_t r = 0; r < routes.size(); ++r) {
-    const Mouth &begin = mouths[2 * r], &end = mouths[2 * r + 1];
+    const RouteEnd &begin = mouths[2 * r], &end = mouths[2 * r + 1];
     curves.push_back(is_loop(routes[r]) ? loop(bodies[begin.body], loops[begin.body]++)
                                         : curve(begin.at, kNormals[begin.side], end.at, kNormals[end.side], routes[r].dots));
   }

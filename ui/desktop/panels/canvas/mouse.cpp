@@ -86,7 +86,7 @@ void handle_double_click(Board& board, const Hit& hit) {
 
 void handle_keys_held(Board& board, bool is_hovered) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && board.drag.deed != Deed::none) cancel_drag(board);
+  if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && board.drag.deed != DragMode::none) cancel_drag(board);
   const bool is_typing = io.WantTextInput || board.picker.is_open;
   if (is_hovered && !is_typing && ImGui::IsKeyPressed(GLFW_KEY_SPACE, false) && !io.KeyCtrl && !io.KeyAlt && !io.KeyShift) {
     board.space_since = board.editor.now;
@@ -114,7 +114,7 @@ void point_at(Board& board, bool is_hovered) {
 
 void set_cursor(const Board& board) {
   const Thing thing = board.hovered.thing;
-  if (board.drag.deed == Deed::pan || (board.space_since >= 0 && board.drag.deed == Deed::none))
+  if (board.drag.deed == DragMode::pan || (board.space_since >= 0 && board.drag.deed == DragMode::none))
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   else if (thing == Thing::node_edge || thing == Thing::pill_edge || thing == Thing::chip || thing == Thing::door ||
            thing == Thing::crumb || thing == Thing::card_cross)
@@ -127,7 +127,7 @@ void set_cursor(const Board& board) {
 ImVec2 Board::cursor() const {
   if (menu.is_acting) return camera.to_plane(menu.at);
   const ImVec2 at = ImGui::GetIO().MousePos;
-  return camera.to_plane(camera.pane().holds(at) || drag.deed != Deed::none ? at : camera.pane().centre());
+  return camera.to_plane(camera.pane().holds(at) || drag.deed != DragMode::none ? at : camera.pane().centre());
 }
 
 Hit hit_at(const Board& board, ImVec2 at) {
@@ -153,12 +153,12 @@ Hit hit_at(const Board& board, ImVec2 at) {
 
 void handle_mouse(Board& board, bool is_hovered) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (board.drag.deed != Deed::none && board.drag.revision != board.model.revision) board.drag = {};
-  point_at(board, is_hovered || board.drag.deed != Deed::none);
+  if (board.drag.deed != DragMode::none && board.drag.revision != board.model.revision) board.drag = {};
+  point_at(board, is_hovered || board.drag.deed != DragMode::none);
   handle_keys_held(board, is_hovered);
   if (is_hovered && io.MouseWheel != 0)
     board.camera.zoom_at(io.MousePos, std::pow(kWheelStep, static_cast<double>(io.MouseWheel)));
-  if (board.drag.deed != Deed::none) {
+  if (board.drag.deed != DragMode::none) {
     if (ImGui::IsMouseDown(board.drag.button)) go_on_dragging(board);
     else if (const Hit grabbed = board.drag.grabbed; board.drag.is_double && !board.drag.is_far)
       board.drag = {}, handle_double_click(board, grabbed);
@@ -170,7 +170,7 @@ void handle_mouse(Board& board, bool is_hovered) {
         begin_drag(board, button);
         // A second press may still become a drag; on a link there is none.
         board.drag.is_double = button == 0 && ImGui::IsMouseDoubleClicked(0) && !io.KeyAlt && !io.KeyCtrl && !io.KeyShift;
-        if (board.drag.is_double && board.drag.deed == Deed::none) board.drag = {}, handle_double_click(board, hit);
+        if (board.drag.is_double && board.drag.deed == DragMode::none) board.drag = {}, handle_double_click(board, hit);
         break;
       }
   }
@@ -189,9 +189,9 @@ void begin_drag(Board& board, int button) {
   Picks& picks = board.editor.picks;
   const bool is_swipe = (button == 1 && io.KeyCtrl) || (button == 0 && ImGui::IsKeyDown(GLFW_KEY_Y) && !io.KeyCtrl);
   if (is_swipe) {
-    drag.deed = Deed::cut;
+    drag.deed = DragMode::cut;
   } else if (button != 0 || board.space_since >= 0) {
-    drag.deed = Deed::pan;
+    drag.deed = DragMode::pan;
   } else if (hit.thing == Thing::chip) {
     press_chip(board, hit.id);
   } else if (hit.thing == Thing::card_cross) {
@@ -202,13 +202,13 @@ void begin_drag(Board& board, int button) {
     const std::size_t door = hit.index - board.model.boxes.size() - board.model.pills.size();
     board.after_frame = [door](Board& b) { go_through(b, door); };
   } else if (hit.thing == Thing::minimap) {
-    drag.deed = Deed::minimap;
+    drag.deed = DragMode::minimap;
   } else if (is_body(hit.thing) && io.KeyCtrl && io.KeyShift) {
-    drag.deed = Deed::relink;
+    drag.deed = DragMode::relink;
   } else if (hit.thing == Thing::node_edge || hit.thing == Thing::pill_edge) {
-    drag.deed = Deed::link;
+    drag.deed = DragMode::link;
   } else if (hit.thing == Thing::dot) {
-    drag.deed = Deed::dot;
+    drag.deed = DragMode::dot;
     drag.dots = {{hit.id, hit.index}};
   } else if (hit.thing == Thing::link) {
     if (io.KeyAlt) return add_dot(board, hit.index, drag.begin);
@@ -216,9 +216,9 @@ void begin_drag(Board& board, int button) {
     else if (io.KeyCtrl && picks.links.erase(hit.id) > 0) return;
     else picks.links.insert(hit.id);
   } else if (hit.thing == Thing::comment_corner) {
-    drag.deed = Deed::comment_corner;
+    drag.deed = DragMode::comment_corner;
   } else {
-    drag.deed = hit.thing == Thing::nothing ? Deed::box : Deed::move;
+    drag.deed = hit.thing == Thing::nothing ? DragMode::box : DragMode::move;
     drag.adds = io.KeyShift;
     drag.toggles = io.KeyCtrl;
     drag.copies = io.KeyAlt && (hit.thing == Thing::node || hit.thing == Thing::comment);  // as a clip can hold

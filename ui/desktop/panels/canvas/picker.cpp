@@ -232,7 +232,7 @@ void draw_picker(Board& board) {
       // It may change the scene, or open the next list: after all of this has been drawn.
       board.after_frame = [choice, action = picker.taken](Board& b) { action(b, choice); };
     } else {
-      board.editor.tell(NoticeKind::told, choice.why_not);
+      board.editor.notify(NoticeKind::told, choice.why_not);
       ImGui::SetKeyboardFocusHere(-1);
     }
   }

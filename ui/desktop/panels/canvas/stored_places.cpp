@@ -45,7 +45,7 @@ void lay_out_all(Board& board) {
   drop_stale(model, patch);
   std::vector<Command> commands;
   add_view_patch(commands, patch);
-  if (commands.empty()) board.editor.tell(NoticeKind::told, "Everything lies where the layout puts it.");
+  if (commands.empty()) board.editor.notify(NoticeKind::told, "Everything lies where the layout puts it.");
   else submit_as(board, commands, "Lay out all");
   board.after_frame = [](Board& b) {
     b.model.update(b.editor);
