@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "core/base/foreign_bytes.h"
-#include "core/base/text.h"
 #include "core/base/plural.h"
 #include "core/base/stop_check.h"
+#include "core/base/text.h"
 
 namespace bl {
 

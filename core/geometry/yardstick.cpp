@@ -9,8 +9,8 @@
 namespace bl {
 
 std::size_t plain_triangulation(std::span<const PowerSite> sites) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Triangulation = CGAL::Regular_triangulation_3<Kernel>;
+  using Predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Triangulation = CGAL::Regular_triangulation_3<Predicates>;
   std::vector<Triangulation::Weighted_point> points;
   points.reserve(sites.size());
   for (const PowerSite& site : sites)

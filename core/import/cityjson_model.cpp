@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/foreign_bytes.h"
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
 #include "core/define/bounded_json.h"
 #include "core/import/context_shape.h"
-#include "core/base/foreign_bytes.h"
 #include "core/import/inflate.h"
 #include "core/import/local_frame.h"
 

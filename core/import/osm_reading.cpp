@@ -11,8 +11,8 @@
 #include <set>
 #include <system_error>
 
-#include "core/define/bounded_json.h"
 #include "core/base/foreign_bytes.h"
+#include "core/define/bounded_json.h"
 #include "core/import/inflate.h"
 #include "core/import/osm_store.h"
 #include "core/import/pbf_blocks.h"

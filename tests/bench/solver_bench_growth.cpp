@@ -77,12 +77,13 @@ Result<void> draw(const std::vector<GrowthRow>& rows, const std::string& folder)
   }
   std::error_code ignored;  // a folder that cannot be made is told by the file that cannot be written
   std::filesystem::create_directories(folder, ignored);
-  return write_file(folder + "/growth.svg",
-                    report::draw_chart({"growth",
-                                "Growth of the solver",
-                                "Time and peak memory per site over the number of sites, on logarithmic scales: the diagram "
-                                "without balls, a cold fit, the plain triangulation of CGAL, and the diagram of Voro++.",
-                                {time, memory}}));
+  return write_file(
+      folder + "/growth.svg",
+      report::draw_chart({"growth",
+                          "Growth of the solver",
+                          "Time and peak memory per site over the number of sites, on logarithmic scales: the diagram "
+                          "without balls, a cold fit, the plain triangulation of CGAL, and the diagram of Voro++.",
+                          {time, memory}}));
 }
 
 }  // namespace

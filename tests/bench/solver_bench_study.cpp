@@ -110,13 +110,14 @@ Result<void> draw(const Study& study, const std::vector<Curve>& curves, const st
   }
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
-  return write_file(folder + "/feedback_newton.svg",
-                    report::draw_chart({"feedback-newton",
-                                "Feedback against Newton",
-                                "The largest relative error of " + std::to_string(study.sites.size()) +
-                                    " volumes over the evaluations of the diagram, on logarithmic scales; the numbers are "
-                                    "evaluations to one per cent.",
-                                {panel}}));
+  return write_file(
+      folder + "/feedback_newton.svg",
+      report::draw_chart({"feedback-newton",
+                          "Feedback against Newton",
+                          "The largest relative error of " + std::to_string(study.sites.size()) +
+                              " volumes over the evaluations of the diagram, on logarithmic scales; the numbers are "
+                              "evaluations to one per cent.",
+                          {panel}}));
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST(HouseRules, IncludesOfSamples) {
       {"core/define/a.cpp", "#include <nlohmann/json.hpp>", ""},
       {"core/define/a.h", "#include <nlohmann/json.hpp>", ".cpp files only"},
       {"core/define/a.h", "#include <nlohmann/json_fwd.hpp>", ""},
-      {"ui/desktop/app/window.cpp", "#include <GLFW/glfw3.h>", ""},
+      {"ui/desktop/shell/window.cpp", "#include <GLFW/glfw3.h>", ""},
       {"ui/cli/main.cpp", "#include <imgui.h>", "ui/desktop/ only"},
   };
   for (const Sample& sample : samples) {

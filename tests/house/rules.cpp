@@ -79,7 +79,10 @@ constexpr std::array kWords = {
     Word{"ofstream", {}, kWriters, kOneWriter},
     Word{"O_CREAT", {}, kWriters, kOneWriter},
     Word{"mkstemp", {}, kWriters, kOneWriter},
-    Word{"chrono", {}, kClocks, "the wall clock must not reach the result: only ui, tests, core/base, core/live and core/host may read it"},
+    Word{"chrono",
+         {},
+         kClocks,
+         "the wall clock must not reach the result: only ui, tests, core/base, core/live and core/host may read it"},
 };
 
 bool is_word_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }

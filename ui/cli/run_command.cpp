@@ -60,7 +60,8 @@ class Run {
     session_ = std::move(*session);
     // The log of an earlier run is replaced only once it is sure that there is another.
     std::string lines = log_header(write_scene(reading->scene, full_registry(), reading->state ? &*reading->state : nullptr));
-    const std::size_t listener = session_->subscribe([&lines](const LogEntry& entry) { lines += log_line(entry, full_registry()); });
+    const std::size_t listener =
+        session_->subscribe([&lines](const LogEntry& entry) { lines += log_line(entry, full_registry()); });
     for (const std::string& file : options_.scripts) {
       auto command = making::script_command(file);
       if (!command) return fail(file, command.error());

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "core/base/foreign_bytes.h"
 #include "core/base/packed_kind.h"
 #include "core/file/file_io.h"
-#include "core/base/foreign_bytes.h"
 #include "ui/cli/terminal.h"
 
 namespace bl::cli {

@@ -102,7 +102,8 @@ TEST(SpreadPoints, StandsOnTheGroundWhereAsked) {
     if (on_ground[i] != 0) EXPECT_NEAR((*points)[i].z, 4 + std::min(0.8 * radius, 15.0), 1e-9) << i;
     else EXPECT_GE((*points)[i].z, 4 + std::min(radius, 15.0) - 1e-9) << i;
     for (std::size_t j = 0; j < i; ++j)
-      EXPECT_GT(distance((*points)[i], (*points)[j]), making::kSpreadSeparation * std::cbrt(100.0 * 80 * 30 / 30)) << i << " " << j;
+      EXPECT_GT(distance((*points)[i], (*points)[j]), making::kSpreadSeparation * std::cbrt(100.0 * 80 * 30 / 30))
+          << i << " " << j;
   }
   EXPECT_EQ(making::spread_points(kSquare, 4, 34, volumes, 5, {}, {}, std::vector<std::uint8_t>(29, 0)).error().place,
             "on_ground");

@@ -10,8 +10,8 @@
 
 #include "core/define/json_text.h"
 #include "core/file/file_io.h"
-#include "tests/ui/desktop/canvas_support.h"
 #include "core/host/journal.h"
+#include "tests/ui/desktop/canvas_support.h"
 #include "ui/desktop/panels/canvas/arrangement.h"
 #include "ui/desktop/panels/canvas/stored_places.h"
 

@@ -116,9 +116,9 @@ TEST(ProblemsLaw, ListColoursStatisticsAndReportAgreeOnWhoIsShort) {
         if (!is_short) continue;
         EXPECT_NE(fill.colours[k], Theme::ramp(1)) << rows[k].id << " is short, and its colour says that it is full";
         const bool is_told = !rows[k].is_alive || std::any_of(items.begin(), items.end(), [&](const ProblemItem& item) {
-                               return item.key == "volume/" + rows[k].id ||
-                                      std::find(item.nodes.begin(), item.nodes.end(), rows[k].id) != item.nodes.end();
-                             });
+          return item.key == "volume/" + rows[k].id ||
+                 std::find(item.nodes.begin(), item.nodes.end(), rows[k].id) != item.nodes.end();
+        });
         EXPECT_TRUE(is_told) << rows[k].id << " is short by " << rows[k].short_share() << " and the list does not say so";
       }
       for (const report::UseAccount& use : page.accounts.uses) {

@@ -9,9 +9,9 @@
 
 #include "core/base/scarcity.h"
 #include "core/file/file_io.h"
+#include "core/host/journal.h"
 #include "tests/support/sanitized.h"
 #include "tests/ui/desktop/null_desktop.h"
-#include "core/host/journal.h"
 #include "ui/desktop/shell/window.h"
 
 namespace bl::desktop {

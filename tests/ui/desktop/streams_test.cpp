@@ -1,8 +1,8 @@
 // Sensors and actuators show their last value with its age and quality, on the canvas and in the 3D view alike.
 #include "tests/ui/desktop/import_support.h"
-#include "ui/desktop/shell/live_scene.h"
 #include "ui/desktop/panels/canvas/model.h"
 #include "ui/desktop/panels/stream_text.h"
+#include "ui/desktop/shell/live_scene.h"
 
 namespace bl::desktop {
 namespace {

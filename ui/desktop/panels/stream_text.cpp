@@ -69,13 +69,13 @@ std::string StreamText::text() const {
 }
 
 std::string age_text(double seconds) {
-  constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
+  constexpr double kMinute = 60, kHour = 3600, kWholeDay = 86400;
   const auto whole = [](double number) { return report::grouped(std::floor(number)); };
   if (!(seconds >= 0)) return "0 s";
   if (seconds < 2 * kMinute) return whole(seconds) + " s";
   if (seconds < 2 * kHour) return whole(seconds / kMinute) + " min";
-  if (seconds < 2 * kDay) return whole(seconds / kHour) + " h";
-  return whole(seconds / kDay) + " days";
+  if (seconds < 2 * kWholeDay) return whole(seconds / kHour) + " h";
+  return whole(seconds / kWholeDay) + " days";
 }
 
 bool is_stream(const TypificationDefinition& type) {
