@@ -68,34 +68,50 @@ TEST(MadeLaws, AnalysesReadNone) {
   }
 }
 
+// One world after the other: two would begin their sun studies at the same time, and the thread sanitizer cannot see the locks
+// inside of Embree.
 TEST(MadeLaws, ReadingThemChangesNoHash) {
+  constexpr int kTicks = 5;
   for (const std::string& scene : small_scenes()) {
-    World reading = World::from_file(scene), plain = World::from_file(scene);
-    for (int tick = 0; tick < 5; ++tick) {
+    std::vector<std::uint64_t> hashes;
+    {
+      World plain = World::from_file(scene);
+      for (int tick = 0; tick < kTicks; ++tick) {
+        plain.tick();
+        hashes.push_back(plain.state().hash);
+      }
+      State without = plain.state();
+      for (NodeState& node : without.nodes)
+        for (TypeState& type : node.types)
+          for (Value& value : type.values)
+            if (std::holds_alternative<Made>(value)) value = Made();
+      EXPECT_EQ(hash_of(without), plain.state().hash) << scene;
+    }
+    World reading = World::from_file(scene);
+    for (int tick = 0; tick < kTicks; ++tick) {
       (void)domains_of(reading.state());
       reading.tick();
-      plain.tick();
-      ASSERT_EQ(reading.state().hash, plain.state().hash) << scene;
+      ASSERT_EQ(reading.state().hash, hashes[static_cast<std::size_t>(tick)]) << scene;
     }
-    State without = plain.state();
-    for (NodeState& node : without.nodes)
-      for (TypeState& type : node.types)
-        for (Value& value : type.values)
-          if (std::holds_alternative<Made>(value)) value = Made();
-    EXPECT_EQ(hash_of(without), plain.state().hash) << scene;
   }
 }
 
 TEST(MadeLaws, NoFileHoldsThemAndLoadingMakesThemAgain) {
   const std::set<std::string> paths = made_paths();
   for (const std::string& scene : small_scenes()) {
-    World world = World::from_file(scene);
-    world.tick(3);
-    const SavedState saved = save(world.state());
-    for (const auto& [node, values] : saved.nodes)
-      for (const auto& [path, value] : values) EXPECT_FALSE(paths.contains(path)) << scene << " " << node;
-    World loaded = World::from_text(write_scene(world.session().scene(), full_registry(), &saved));
-    expect_the_same(domains_of(world.state()), domains_of(loaded.state()), scene);
+    std::string text;
+    std::vector<std::shared_ptr<const Domain>> before;
+    {
+      World world = World::from_file(scene);
+      world.tick(3);
+      const SavedState saved = save(world.state());
+      for (const auto& [node, values] : saved.nodes)
+        for (const auto& [path, value] : values) EXPECT_FALSE(paths.contains(path)) << scene << " " << node;
+      text = write_scene(world.session().scene(), full_registry(), &saved);
+      before = domains_of(world.state());
+    }
+    World loaded = World::from_text(text);
+    expect_the_same(before, domains_of(loaded.state()), scene);
   }
 }
 
