@@ -73,7 +73,7 @@ struct Adjacency {
     const double reach = std::min(std::sqrt(in.area), 0.5 * in.area / (length * std::max(in.stiffness, 0.01)));
     // Others may cut into the facet, so that it takes a little less distance than two bodies alone would need: that at which
     // these would share twice the area.
-    const double nearest = touching_distance(ends.from_wanted, ends.to_wanted, 2 * in.area);
+    const double nearest = geometry::touching_distance(ends.from_wanted, ends.to_wanted, 2 * in.area);
     const double way = std::min(length - nearest, clear + reach * (missing / in.area));
     if (!(way > 0)) return Out{};
     const Vector3 direction = between / length;
@@ -108,7 +108,7 @@ struct Adjacency {
   static double room_for(double ahead, double volume) {
     // What has no body yet is free.
     if (!(volume > 0)) return std::numeric_limits<double>::infinity();
-    return kShareOfRoom * (kPressed * ball_radius(volume) - ahead);
+    return kShareOfRoom * (kPressed * geometry::ball_radius(volume) - ahead);
   }
 };
 

@@ -82,10 +82,10 @@ struct CongestionFeedback {
     // From the share that the limit leaves now; one tick answers to at most a halving or a doubling. Where most trips find no way
     // at all, the access is as bad as can be.
     if (ends.lost > ends.served || load > in.limit) tell(in, ends, load, tick);
-    const double room = ends.lost > ends.served ? 0.5 : std::max(0.5, answer_within(in.limit, load, in.tolerance));
+    const double room = ends.lost > ends.served ? 0.5 : std::max(0.5, demand::answer_within(in.limit, load, in.tolerance));
     const double answer = 1 + in.gain * (room - 1);
-    const double share = granted_share(ends.demand, ends.demand_limit) * answer;
-    return Out{limit_that_grants(ends.demand, std::max(share, in.least))};
+    const double share = demand::granted_share(ends.demand, ends.demand_limit) * answer;
+    return Out{demand::limit_that_grants(ends.demand, std::max(share, in.least))};
   }
 
  private:
@@ -96,11 +96,11 @@ struct CongestionFeedback {
     const std::vector<double> demands{ends.demand}, limits{ends.demand_limit}, wanted{ends.wanted}, volumes{ends.volume};
     const std::vector<bool> locked{ends.is_locked};
     const std::vector<std::size_t> it{0};
-    const LimitedVolumes held{ids, demands, limits, wanted, volumes, locked};
+    const demand::LimitedVolumes held{ids, demands, limits, wanted, volumes, locked};
     const bool is_lost = ends.lost > ends.served;
     const std::string found =
         is_lost ? "of the trips of `" + ends.id + "` " + fixed(100 * ends.lost / (ends.lost + ends.served), 0) + " % find no way"
-                : "the street at the access of `" + ends.id + "` carries " + found_of_allowed(load, in.limit, 2);
+                : "the street at the access of `" + ends.id + "` carries " + demand::found_of_allowed(load, in.limit, 2);
     if (is_exhausted(held, it, in.least))
       return remark(tick, LinkRemark::unmet,
                     {ErrorCode::infeasible, "limit",

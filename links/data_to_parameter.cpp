@@ -15,7 +15,7 @@ namespace {
 struct DataToParameter {
   struct In {
     PortChoice target{"smart_volume.demand"};
-    Sampling sampling = Sampling::inverse_distance;
+    geometry::Sampling sampling = geometry::Sampling::inverse_distance;
     double radius = 100;
     bool rescale = true;
     double in_min = 0, in_max = 100, out_min = 0, out_max = 1000;
@@ -38,10 +38,10 @@ struct DataToParameter {
             "rescaled from a range of the data to a range of the port.");
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::sampling, "sampling",
-            {{Sampling::nearest, "nearest", "The value of the nearest point."},
-             {Sampling::inverse_distance, "inverse_distance",
+            {{geometry::Sampling::nearest, "nearest", "The value of the nearest point."},
+             {geometry::Sampling::inverse_distance, "inverse_distance",
               "All points within the radius, weighted with one over the squared distance."},
-             {Sampling::mean, "mean", "The plain mean of all points within the radius."}})
+             {geometry::Sampling::mean, "mean", "The plain mean of all points within the radius."}})
         .doc("How the value between the points is found.");
     l.param(&In::radius, "radius").unit(Unit::metre).range(0.1, 1e6).soft(10, 1000).doc("How far from the node points count.");
     l.param(&In::needs_data, "needs_data")
@@ -85,7 +85,7 @@ struct DataToParameter {
   static std::optional<double> sample(const In& in, const Ends& ends) {
     const Table& table = *ends.values;
     const std::size_t x = table.column("x"), y = table.column("y"), value = table.column("value");
-    PointSampler sampler(in.sampling, ends.position.x, ends.position.y, in.radius);
+    geometry::PointSampler sampler(in.sampling, ends.position.x, ends.position.y, in.radius);
     for (const auto& row : table.rows) {
       if (x >= row.size() || y >= row.size() || value >= row.size()) continue;
       const double *at_x = std::get_if<double>(&row[x]), *at_y = std::get_if<double>(&row[y]),

@@ -81,7 +81,7 @@ struct Demand {
     for (std::size_t row = 0; row < rows.rows.size(); ++row) {
       if (rows.text(row, "use").empty()) continue;  // the programme itself says so
       Share& share = shares[rows.text(row, "use")];
-      const BriefSums sums = brief_sums(rows, row);
+      const demand::BriefSums sums = demand::brief_sums(rows, row);
       share.demand += sums.volume;
       share.minimum += sums.volume_min;
       share.maximum += sums.volume_max;

@@ -19,7 +19,7 @@ struct InsideBoundary {
     double margin = 0;
   };
   struct Ends {
-    std::shared_ptr<const Domain> domain;
+    std::shared_ptr<const geometry::Domain> domain;
     Point3 position;
   };
   struct Out {
@@ -47,7 +47,7 @@ struct InsideBoundary {
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     if (!ends.domain) return Out{};
     std::optional<Vector3> best;
-    for (const Domain::Piece& piece : ends.domain->pieces) {
+    for (const geometry::Domain::Piece& piece : ends.domain->pieces) {
       if (outside(piece, in.margin, ends.position) <= 1e-9) return Out{};
       const Point3 nearest = projected(piece, in.margin, ends.position);
       if (!(outside(piece, in.margin, nearest) <= 1e-3)) continue;
@@ -61,12 +61,12 @@ struct InsideBoundary {
 
  private:
   // Inside is where dot(normal, p) is at most this. The margin is kept from the surface, not from the faces between two pieces.
-  static double offset_of(const Domain::Piece& piece, std::size_t side, double margin) {
-    return piece.shape.planes[side].offset - (piece.sides[side] == Domain::kInner ? 0 : margin);
+  static double offset_of(const geometry::Domain::Piece& piece, std::size_t side, double margin) {
+    return piece.shape.planes[side].offset - (piece.sides[side] == geometry::Domain::kInner ? 0 : margin);
   }
 
   // How far the point is outside the side that it is furthest outside of.
-  static double outside(const Domain::Piece& piece, double margin, const Point3& point) {
+  static double outside(const geometry::Domain::Piece& piece, double margin, const Point3& point) {
     double largest = 0;
     for (std::size_t s = 0; s < piece.sides.size(); ++s)
       largest = std::max(largest, dot(piece.shape.planes[s].normal, point) - offset_of(piece, s, margin));
@@ -75,7 +75,7 @@ struct InsideBoundary {
 
   // The nearest point inside all sides: projections on one side after the other, each of which first takes back what it did
   // the round before (the algorithm of Dykstra). Where that is slow, plain projections still find some point inside.
-  static Point3 projected(const Domain::Piece& piece, double margin, Point3 point) {
+  static Point3 projected(const geometry::Domain::Piece& piece, double margin, Point3 point) {
     constexpr int kNearest = 500, kRounds = 1000;
     std::vector<double> pushed(piece.sides.size(), 0);
     for (int round = 0; round < kRounds; ++round) {

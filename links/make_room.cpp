@@ -59,7 +59,7 @@ struct MakeRoom {
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
     const Vector3 off = ends.centroid - ends.position;
-    const double length = norm(off), beyond = length - in.play * ball_radius(ends.volume);
+    const double length = norm(off), beyond = length - in.play * geometry::ball_radius(ends.volume);
     // Where the solver has given nobody room there are no bodies to follow.
     if (ends.count == 0 || !(ends.volume > 0) || !(beyond > 0)) return Out{};
     const Vector3 straight = off * (in.stiffness * beyond / length);
@@ -76,7 +76,7 @@ struct MakeRoom {
   // down again, for ever. It goes to nothing with the footing.
   static double share_aside(const Ends& ends) {
     if (ends.standing != "ground") return 0;
-    return std::clamp(1 + ends.drop / (kFooting * ball_radius(ends.volume)), 0.0, 1.0);
+    return std::clamp(1 + ends.drop / (kFooting * geometry::ball_radius(ends.volume)), 0.0, 1.0);
   }
 
   // Its name turns it a little: what is piled up in one plane, or straight above another one, would never leave that.

@@ -82,20 +82,20 @@ struct PlotRules {
     if (ends.polygon.size() < 3) return out;
     std::vector<std::size_t> on_plot;
     for (std::size_t i = 0; i < ends.demands.values.size(); ++i)
-      if (ring_contains(ends.polygon, ends.centroids.values[i])) on_plot.push_back(i);
-    const LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
-                              ends.wanted.values, ends.volumes.values, ends.locked.values};
+      if (geometry::ring_contains(ends.polygon, ends.centroids.values[i])) on_plot.push_back(i);
+    const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                                      ends.wanted.values, ends.volumes.values, ends.locked.values};
     const double share = share_granted(held, on_plot);
     double room = 2;
-    if (in.hold_fsi) room = std::min(room, answer_within(ends.fsi_max, ends.fsi, in.tolerance));
-    if (in.hold_gsi) room = std::min(room, answer_within(ends.gsi_max, ends.gsi, in.tolerance, kLittleGround));
+    if (in.hold_fsi) room = std::min(room, demand::answer_within(ends.fsi_max, ends.fsi, in.tolerance));
+    if (in.hold_gsi) room = std::min(room, demand::answer_within(ends.gsi_max, ends.gsi, in.tolerance, kLittleGround));
     for (const std::size_t i : on_plot) {
       // All volumes of the plot have the share of the least limited one, but for those that are too high.
       double limit = share * (1 + in.gain * (room - 1));
       if (in.hold_height)
-        limit =
-            std::min(limit, granted(ends, i) * (1 + in.gain * (answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
-      out.limits.values[i] = limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
+        limit = std::min(
+            limit, granted(ends, i) * (1 + in.gain * (demand::answer_within(ends.height_max, top(ends, i), in.tolerance) - 1)));
+      out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], std::max(in.least, limit));
     }
     tell(in, ends, held, on_plot, tick);
     return out;
@@ -106,7 +106,9 @@ struct PlotRules {
   // is there: small footprints come and go with the lowest part of a volume, faster than volumes can follow.
   static constexpr double kLittleGround = 0.1;
 
-  static double granted(const Ends& ends, std::size_t i) { return granted_share(ends.demands.values[i], ends.limits.values[i]); }
+  static double granted(const Ends& ends, std::size_t i) {
+    return demand::granted_share(ends.demands.values[i], ends.limits.values[i]);
+  }
   static double top(const Ends& ends, std::size_t i) { return ends.bottoms.values[i] + ends.heights.values[i] - ends.ground; }
 
   static constexpr std::size_t kMostHeights = 4;
@@ -129,7 +131,7 @@ struct PlotRules {
   }
 
   // What nobody can mend any more, and who holds it; what holds both is said once.
-  static std::string unmet(const LimitedVolumes& held, const Broken& all, const Broken& heights, double least) {
+  static std::string unmet(const demand::LimitedVolumes& held, const Broken& all, const Broken& heights, double least) {
     const std::string by = all.found.empty() ? "" : held_by(held, all.who, least);
     const std::string heights_by = heights.found.empty() ? "" : held_by(held, heights.who, least);
     if (by == heights_by || by.empty() || heights_by.empty())
@@ -138,15 +140,15 @@ struct PlotRules {
   }
 
   // Every rule that is broken: on its way, or held up by volumes that give way no further.
-  static void tell(const In& in, const Ends& ends, const LimitedVolumes& held, const std::vector<std::size_t>& on_plot,
+  static void tell(const In& in, const Ends& ends, const demand::LimitedVolumes& held, const std::vector<std::size_t>& on_plot,
                    const Tick& tick) {
     Broken all{{}, on_plot}, stuck, sinking;
-    if (in.hold_fsi && ends.fsi > ends.fsi_max) all.found.push_back("FSI " + found_of_allowed(ends.fsi, ends.fsi_max, 2));
-    if (in.hold_gsi && ends.gsi > ends.gsi_max) all.found.push_back("GSI " + found_of_allowed(ends.gsi, ends.gsi_max, 2));
+    if (in.hold_fsi && ends.fsi > ends.fsi_max) all.found.push_back("FSI " + demand::found_of_allowed(ends.fsi, ends.fsi_max, 2));
+    if (in.hold_gsi && ends.gsi > ends.gsi_max) all.found.push_back("GSI " + demand::found_of_allowed(ends.gsi, ends.gsi_max, 2));
     for (const std::size_t i : on_plot)
       if (in.hold_height && ends.volumes.values[i] > 0 && top(ends, i) > ends.height_max) {
         Broken& height = is_at_least(held, i, in.least) ? stuck : sinking;
-        height.found.push_back("height " + found_of_allowed(top(ends, i), ends.height_max, 1, " m") + " at `" +
+        height.found.push_back("height " + demand::found_of_allowed(top(ends, i), ends.height_max, 1, " m") + " at `" +
                                ends.ids.values[i] + "`");
         height.who.push_back(i);
       }

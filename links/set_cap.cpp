@@ -73,22 +73,22 @@ struct SetCap {
     Out out;
     out.limits.values.resize(ends.demands.values.size());
     if (!(ends.total > 0)) return out;
-    const double answer = 1 + in.gain * (answer_within(in.cap, ends.total, in.tolerance) - 1);
-    const LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
-                              ends.wanted.values, ends.volumes.values, ends.locked.values};
+    const double answer = 1 + in.gain * (demand::answer_within(in.cap, ends.total, in.tolerance) - 1);
+    const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                                      ends.wanted.values, ends.volumes.values, ends.locked.values};
     std::vector<std::size_t> all(ends.ids.values.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     const double share = std::max(in.least, share_granted(held, all) * answer);
     for (std::size_t i = 0; i < out.limits.values.size(); ++i)
-      out.limits.values[i] = limit_that_grants(ends.demands.values[i], share);
+      out.limits.values[i] = demand::limit_that_grants(ends.demands.values[i], share);
     if (ends.total > in.cap) tell(in, ends.total, held, all, tick);
     return out;
   }
 
  private:
-  static void tell(const In& in, double total, const LimitedVolumes& held, const std::vector<std::size_t>& all,
+  static void tell(const In& in, double total, const demand::LimitedVolumes& held, const std::vector<std::size_t>& all,
                    const Tick& tick) {
-    const std::string found = "a sum of " + found_of_allowed(total, in.cap, 0);
+    const std::string found = "a sum of " + demand::found_of_allowed(total, in.cap, 0);
     if (!is_exhausted(held, all, in.least)) return remark(tick, LinkRemark::at_work, {ErrorCode::infeasible, "cap", found});
     remark(tick, LinkRemark::unmet,
            {ErrorCode::infeasible, "cap",

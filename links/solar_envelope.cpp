@@ -96,18 +96,18 @@ struct SolarEnvelope {
   // The planes through each part of the edge, for volumes on its one side and on its other: the same for all volumes of a tick.
   struct Planes {
     std::optional<Shared<Table>> moments;
-    std::vector<std::array<std::vector<SunPlane>, 2>> parts;
+    std::vector<std::array<std::vector<sun::SunPlane>, 2>> parts;
 
     void make(const std::vector<Point3>& edge, const Shared<Table>& from) {
       if (moments && &**moments == &*from) return;
       moments = from;
       parts.assign(edge.size() - 1, {});
       std::vector<Vector3> suns;
-      for (const SunMoment& moment : moments_in(*from)) suns.push_back(moment.toward);
+      for (const sun::SunMoment& moment : sun::moments_in(*from)) suns.push_back(moment.toward);
       for (std::size_t i = 0; i < parts.size(); ++i)
         for (const int side : {0, 1})
           parts[i][static_cast<std::size_t>(side)] =
-              solar_envelope(edge[i], edge[i + 1], edge[i] + (side == 0 ? -1.0 : 1.0) * across(edge, i), suns);
+              sun::solar_envelope(edge[i], edge[i + 1], edge[i] + (side == 0 ? -1.0 : 1.0) * across(edge, i), suns);
     }
     // Level, at right angles to a part of the edge.
     static Vector3 across(const std::vector<Point3>& edge, std::size_t i) {
@@ -135,7 +135,7 @@ struct SolarEnvelope {
     for (std::size_t i = 0; i + 1 < in.edge.size(); ++i) {
       const double side = dot(Planes::across(in.edge, i), ends.position - in.edge[i]);
       if (side == 0) continue;
-      for (const SunPlane& plane : planes.parts[i][side > 0 ? 1 : 0]) {
+      for (const sun::SunPlane& plane : planes.parts[i][side > 0 ? 1 : 0]) {
         const double height = dot(plane.normal, ends.position);
         if (height + most - plane.offset <= worst) continue;
         const double excess = height + reach(ends, plane.normal) - plane.offset;
@@ -152,7 +152,8 @@ struct SolarEnvelope {
     const double room = std::min(0.5, std::max(0.0, -beyond - 0.5 * in.tolerance));
     const double excess = beyond > in.play * in.tolerance ? std::min(beyond, 0.5) : 0.0;
     const double answer = (1 - in.gain * excess) * (1 + in.gain * room);
-    return Out{{}, limit_that_grants(ends.demand, std::max(in.least, granted_share(ends.demand, ends.limit) * answer))};
+    return Out{
+        {}, demand::limit_that_grants(ends.demand, std::max(in.least, demand::granted_share(ends.demand, ends.limit) * answer))};
   }
 
  private:
@@ -160,7 +161,8 @@ struct SolarEnvelope {
   static void tell(const In& in, const Ends& ends, double through, const Tick& tick) {
     const std::string found = "`" + ends.id + "` reaches " + fixed(through * ends.radius, 2) + " m through the planes of the sun";
     const std::vector<bool> locked = {ends.is_limit_locked};
-    const LimitedVolumes held{{&ends.id, 1}, {&ends.demand, 1}, {&ends.limit, 1}, {&ends.wanted, 1}, {&ends.volume, 1}, locked};
+    const demand::LimitedVolumes held{{&ends.id, 1},     {&ends.demand, 1}, {&ends.limit, 1},
+                                      {&ends.wanted, 1}, {&ends.volume, 1}, locked};
     std::string held_up;
     if (in.mode == Mode::move && ends.is_position_locked)
       held_up = ", and its position is locked; unlock the position, or let it be shaved";

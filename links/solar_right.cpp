@@ -112,8 +112,8 @@ struct SolarRight {
 
   // Why those who take the sun cannot give way any further; empty while one of them can.
   static std::string why_held(const In& in, const Ends& ends, const std::vector<std::size_t>& who) {
-    const LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
-                              ends.wanted.values, ends.volumes.values, ends.are_limits_locked.values};
+    const demand::LimitedVolumes held{ends.ids.values,    ends.demands.values, ends.limits.values,
+                                      ends.wanted.values, ends.volumes.values, ends.are_limits_locked.values};
     const std::string advice = "; lower `required_sun`";
     if (who.empty()) return held_by(held, who, in.least) + advice + ", or lead the link to them";
     if (in.mode == Mode::shave && !is_exhausted(held, who, in.least)) return "";
@@ -143,7 +143,7 @@ struct SolarRight {
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     Out out;
     if (!(ends.required > 0)) return out;
-    const std::vector<double> shares = loss_shares(*ends.losses, ends.ids.values);
+    const std::vector<double> shares = sun::loss_shares(*ends.losses, ends.ids.values);
     out.moves.values.resize(shares.size());
     out.limits.values.resize(shares.size());
     const double missing = shortage(in, ends);
@@ -168,8 +168,9 @@ struct SolarRight {
   static std::optional<double> limit_of(const In& in, const Ends& ends, std::size_t i, double missing, double answer,
                                         double share) {
     const double room = std::max({0.0, -missing - 0.5 * in.tolerance, surplus(ends), 1 - share / kLittle});
-    const double kept = granted_share(ends.demands.values[i], ends.limits.values[i]) * (1 - answer) * (1 + in.gain * room);
-    return limit_that_grants(ends.demands.values[i], std::max(in.least, kept));
+    const double kept =
+        demand::granted_share(ends.demands.values[i], ends.limits.values[i]) * (1 - answer) * (1 + in.gain * room);
+    return demand::limit_that_grants(ends.demands.values[i], std::max(in.least, kept));
   }
 };
 

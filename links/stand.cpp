@@ -54,7 +54,7 @@ struct Stand {
   }
 
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick&) {
-    const double radius = ball_radius(ends.volume), way = ends.drop + (in.footing - in.play) * radius;
+    const double radius = geometry::ball_radius(ends.volume), way = ends.drop + (in.footing - in.play) * radius;
     if (ends.count == 0 || !(ends.volume > 0) || !(way > 0)) return Out{};
     // What falls by more than its own size in one tick would pass others on the way.
     return Out{Vector3{0, 0, -std::min(in.stiffness * way, 0.5 * radius)}};

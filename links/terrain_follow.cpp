@@ -65,7 +65,7 @@ struct TerrainFollow {
   static Result<Out> evaluate(const In& in, const Ends& ends, const Tick& tick) {
     Cache own;
     Cache& kept = tick.memo != nullptr ? tick.memo->of<Cache>() : own;
-    HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
+    geometry::HeightGrid grid{ends.west, ends.north, ends.cell, ends.lowest, ends.step, {}};
     find_rows(ends, kept);
     grid.rows.swap(kept.rows);  // lent for the question
     const auto ground = grid.sample(ends.position.x, ends.position.y);

@@ -56,9 +56,9 @@ struct Actuator {
     if (in.format.size() > kLongestFormat)
       return Error{ErrorCode::out_of_range, "format", "is longer than " + std::to_string(kLongestFormat) + " characters"};
     if (!in.address.empty()) {
-      const auto address = parse_live_address(in.address);
+      const auto address = address::parse_live_address(in.address);
       if (!address) return address.error().within("address");
-      if (address->scheme != LiveAddress::Scheme::mqtt && address->scheme != LiveAddress::Scheme::osc)
+      if (address->scheme != address::LiveAddress::Scheme::mqtt && address->scheme != address::LiveAddress::Scheme::osc)
         return Error{ErrorCode::conflict, "address", "messages are sent by `mqtt://` or `osc://` only"};
     }
     const std::size_t slot = in.format.find(kSlot);

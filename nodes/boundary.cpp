@@ -98,7 +98,7 @@ struct Boundary {
         .unit(Unit::square_metre)
         .doc("Area that the boundary covers in plan, seen from above.");
     t.out(&Out::shape, "shape").doc("The boundary as a triangle mesh, for the eye and for export.");
-    t.made("domain", {"planes"}, &shared_domain<Shared<Table>>).doc("What `planes` bound, for solvers and links.");
+    t.made("domain", {"planes"}, &geometry::shared_domain<Shared<Table>>).doc("What `planes` bound, for solvers and links.");
   }
 
   static PortBuilder<Table> ring_columns(PortBuilder<Table> port) {
@@ -117,9 +117,10 @@ struct Boundary {
     return {.id = id, .doc = which + " component of the normal, of any length."};
   }
 
-  static std::vector<PlanSolid> solids_of(const Table& table) {
-    std::vector<PlanSolid> solids;
-    for (NamedRing& ring : read_rings(table)) solids.push_back({std::move(ring.corners), ring.bottom, ring.top});
+  static std::vector<geometry::PlanSolid> solids_of(const Table& table) {
+    std::vector<geometry::PlanSolid> solids;
+    for (geometry::NamedRing& ring : geometry::read_rings(table))
+      solids.push_back({std::move(ring.corners), ring.bottom, ring.top});
     return solids;
   }
 
@@ -128,20 +129,20 @@ struct Boundary {
     for (const auto& [port, table] : {std::pair{"holes/", &in.holes}, {"steps/", &in.steps}, {"exclusions/", &in.exclusions}}) {
       if (!error.place.starts_with(port)) continue;
       const auto number = parse_number(std::string_view(error.place).substr(std::string_view(port).size()));
-      if (number) error.place = port + std::to_string(read_rings(*table)[static_cast<std::size_t>(*number)].first_row);
+      if (number) error.place = port + std::to_string(geometry::read_rings(*table)[static_cast<std::size_t>(*number)].first_row);
     }
     return error;
   }
 
-  static Result<Domain> whole(const In& in) {
+  static Result<geometry::Domain> whole(const In& in) {
     if (in.form == Form::hull) {
-      auto hull = convex_hull(in.points);
-      return hull ? Result<Domain>(Domain(std::move(*hull))) : hull.error().within("points");
+      auto hull = geometry::convex_hull(in.points);
+      return hull ? Result<geometry::Domain>(geometry::Domain(std::move(*hull))) : hull.error().within("points");
     }
     if (in.form == Form::plan) {
-      SitePlan site{in.plan, {}, in.bottom, in.bottom + in.height, solids_of(in.steps), solids_of(in.exclusions)};
-      for (NamedRing& hole : read_rings(in.holes)) site.holes.push_back(std::move(hole.corners));
-      for (PlanSolid& step : site.steps) step.bottom = in.bottom;
+      geometry::SitePlan site{in.plan, {}, in.bottom, in.bottom + in.height, solids_of(in.steps), solids_of(in.exclusions)};
+      for (geometry::NamedRing& hole : geometry::read_rings(in.holes)) site.holes.push_back(std::move(hole.corners));
+      for (geometry::PlanSolid& step : site.steps) step.bottom = in.bottom;
       return site_domain(site);
     }
     Mesh mesh{in.vertices, {}};
@@ -150,13 +151,13 @@ struct Boundary {
       for (std::size_t i = 0; i < 3; ++i)
         corners[i] = static_cast<std::uint32_t>(in.triangles.number(row, i == 0 ? "a" : i == 1 ? "b" : "c"));
     }
-    auto domain = from_closed_mesh(mesh);
-    return domain ? domain : Result<Domain>(domain.error().within("triangles"));
+    auto domain = geometry::from_closed_mesh(mesh);
+    return domain ? domain : Result<geometry::Domain>(domain.error().within("triangles"));
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) {
     auto domain = whole(in);
-    std::vector<Plane> setbacks;
+    std::vector<geometry::Plane> setbacks;
     for (std::size_t row = 0; row < in.setbacks.rows.size(); ++row) {
       const Vector3 normal{in.setbacks.number(row, "x"), in.setbacks.number(row, "y"), in.setbacks.number(row, "z")};
       setbacks.push_back({normal, in.setbacks.number(row, "offset") * norm(normal)});
@@ -165,7 +166,7 @@ struct Boundary {
     if (domain && in.form != Form::plan) domain = without_solids(*domain, solids_of(in.exclusions));
     if (domain && !setbacks.empty()) {
       auto cut = cut_domain(*domain, setbacks);
-      domain = cut ? cut : Result<Domain>(cut.error().within("setbacks"));
+      domain = cut ? cut : Result<geometry::Domain>(cut.error().within("setbacks"));
     }
     if (!domain) return at_row(domain.error(), in);
     Out out;

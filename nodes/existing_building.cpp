@@ -99,7 +99,7 @@ struct ExistingBuilding {
   static Result<void> check_ring(const std::vector<Point3>& ring, const std::string& place) {
     if (ring.size() < 3)
       return Error{ErrorCode::geometry, place, "a ring needs at least 3 corners; this one has " + std::to_string(ring.size())};
-    if (const auto crossing = find_self_crossing(ring))
+    if (const auto crossing = geometry::find_self_crossing(ring))
       return Error{
           ErrorCode::geometry, place,
           "the ring meets itself at (" + fixed(crossing->where.x, 3) + ", " + fixed(crossing->where.y, 3) + "): redraw it there"};
@@ -127,12 +127,12 @@ struct ExistingBuilding {
   static Result<Out> evaluate(const In& in, const Tick&) {
     if (auto sound = check_ring(in.outline, "outline"); !sound) return sound.error();
     Out out;
-    std::vector<Ring> holes;
-    out.footprint = std::abs(signed_area(in.outline));
-    for (const NamedRing& hole : read_rings(in.holes)) {
+    std::vector<geometry::Ring> holes;
+    out.footprint = std::abs(geometry::signed_area(in.outline));
+    for (const geometry::NamedRing& hole : geometry::read_rings(in.holes)) {
       if (auto sound = check_ring(hole.corners, "holes/" + std::to_string(hole.first_row)); !sound) return sound.error();
       holes.push_back(hole.corners);
-      out.footprint -= std::abs(signed_area(hole.corners));
+      out.footprint -= std::abs(geometry::signed_area(hole.corners));
     }
     if (!(out.footprint > 0)) return Error{ErrorCode::geometry, "outline", "the outline encloses no area outside its courts"};
     out.is_assumed = in.height_source == Source::neighbour || in.height_source == Source::assumed;
@@ -140,7 +140,7 @@ struct ExistingBuilding {
       out.top = in.base + in.height;
       out.volume = out.footprint * in.height;
       out.floor_area = out.footprint * std::max(1.0, std::floor(in.height / in.storey_height + 1e-9));
-      out.mesh = std::make_shared<const Mesh>(prism_mesh(in.outline, holes, in.base, out.top));
+      out.mesh = std::make_shared<const Mesh>(geometry::prism_mesh(in.outline, holes, in.base, out.top));
       return out;
     }
     auto mesh = given_mesh(in);

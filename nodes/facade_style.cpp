@@ -86,7 +86,7 @@ struct FacadeStyle {
     const auto number = [](const char* id, Unit unit, double by_default, double most, const char* doc) {
       return ColumnDefinition{.id = id, .unit = unit, .default_value = by_default, .minimum = 0, .maximum = most, .doc = doc};
     };
-    const FacadeRule rule;
+    const facade::FacadeRule rule;
     ColumnDefinition module = number("module", Unit::metre, rule.module, 100, "Width of one window with its pier.");
     module.minimum = 0.1;
     t.in(&In::rows, "rows")
@@ -134,10 +134,10 @@ struct FacadeStyle {
     return {"", std::move(message), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, Table{}, Table{}};
   }
 
-  static Reply reply_of(const In& in, const Member& member, const FacadeSurvey& survey, const FacadeRules& rules,
+  static Reply reply_of(const In& in, const Member& member, const facade::FacadeSurvey& survey, const facade::FacadeRules& rules,
                         std::string message) {
-    const Dressing dressing = dress(survey, rules, member.glazing, member.storey_height);
-    const DressedArea& all = dressing.all;
+    const facade::Dressing dressing = dress(survey, rules, member.glazing, member.storey_height);
+    const facade::DressedArea& all = dressing.all;
     add_missing_text(dressing, message);
     const double share = all.area() > 0 ? all.glazed / all.area() : 0;
     Reply reply{in.name, std::move(message), all.area(), all.glazed, all.opaque, survey.roof, survey.shared, share, all.cost,
@@ -147,7 +147,7 @@ struct FacadeStyle {
     return reply;
   }
 
-  static SurveyOptions options_of(const In& in, const Member& member, const FacadeRules& rules) {
+  static facade::SurveyOptions options_of(const In& in, const Member& member, const facade::FacadeRules& rules) {
     return {member.bottom, member.storey_height, member.ground, in.true_north, member.spherical_area, bands_of(rules, member.storey_height)};
   }
 
@@ -168,7 +168,7 @@ struct FacadeStyle {
     for (const Member& member : sets.members) own.insert(member.id);
     out.cleared.resize(sets.claimants.size());
     for (std::size_t c = 0; c < sets.claimants.size(); ++c) {
-      auto [dresser, message] = settle_claims(sets.claimants[c].style, names);
+      auto [dresser, message] = facade::settle_claims(sets.claimants[c].style, names);
       if (dresser.empty() && !names.empty() && names.front() == in.name) out.cleared[c] = bare(std::move(message));
       if (dresser != in.name || own.contains(sets.claimants[c].id)) continue;
       message += (message.empty() ? "`" : "; `") + in.name + "` is not allowed to dress it: add it to the `volumes` of that style";
@@ -178,7 +178,7 @@ struct FacadeStyle {
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
     if (in.name.empty()) return Error{ErrorCode::missing, "name", "the style needs a name, by which façades ask for it"};
-    if (auto sound = check_style_rows(in.rows); !sound) return sound.error();
+    if (auto sound = facade::check_style_rows(in.rows); !sound) return sound.error();
     if (auto single = check_names(in, sets.styles); !single) return single.error();
     std::map<std::string, MeshPointer> shapes;
     for (const Neighbour& volume : sets.surroundings) shapes[volume.id] = volume.mesh;
@@ -187,29 +187,30 @@ struct FacadeStyle {
     Out out;
     clear(in, sets, names, out);
     out.replies.resize(sets.members.size());
-    std::vector<SurveyCase> cases;
+    std::vector<facade::SurveyCase> cases;
     std::vector<std::size_t> dressed;
-    std::vector<FacadeRules> rules(sets.members.size());
+    std::vector<facade::FacadeRules> rules(sets.members.size());
     std::vector<std::string> messages(sets.members.size());
     for (std::size_t m = 0; m < sets.members.size(); ++m) {
       const Member& member = sets.members[m];
-      auto [dresser, message] = settle_claims(member.style, names);
+      auto [dresser, message] = facade::settle_claims(member.style, names);
       if (dresser != in.name) continue;
       messages[m] = std::move(message);
-      rules[m] = rules_of(in.rows, member.use, messages[m]);
+      rules[m] = facade::rules_of(in.rows, member.use, messages[m]);
       if (!member.mesh) {
         out.replies[m] = bare("it has no shape, so that there is no façade to measure");
         continue;
       }
-      SurveyCase& one = cases.emplace_back(SurveyCase{member.id, member.mesh, {}, options_of(in, member, rules[m])});
+      facade::SurveyCase& one =
+          cases.emplace_back(facade::SurveyCase{member.id, member.mesh, {}, options_of(in, member, rules[m])});
       for (std::size_t row = 0; row < member.neighbours->rows.size(); ++row)
         if (const auto other = shapes.find(member.neighbours->text(row, "node")); other != shapes.end() && other->second)
           one.neighbours.push_back(other->second);
       dressed.push_back(m);
     }
-    SurveyCache own;
-    SurveyCache& cache = tick.memo != nullptr ? tick.memo->of<SurveyCache>() : own;
-    const std::vector<const FacadeSurvey*> surveys = cache.of(cases, tick.pool);
+    facade::SurveyCache own;
+    facade::SurveyCache& cache = tick.memo != nullptr ? tick.memo->of<facade::SurveyCache>() : own;
+    const std::vector<const facade::FacadeSurvey*> surveys = cache.of(cases, tick.pool);
     for (std::size_t k = 0; k < dressed.size(); ++k) {
       const std::size_t m = dressed[k];
       Reply& reply = out.replies[m] = reply_of(in, sets.members[m], *surveys[k], rules[m], std::move(messages[m]));

@@ -47,7 +47,8 @@ struct MqttBroker {
     Out out;
     const auto add = [&out](const std::string& sentence) { out.message += (out.message.empty() ? "" : "; ") + sentence; };
     if (!in.password_from.empty())
-      if (const auto source = parse_password_source(in.password_from); !source) add("password_from: " + source.error().message);
+      if (const auto source = address::parse_password_source(in.password_from); !source)
+        add("password_from: " + source.error().message);
     if (in.user.empty() && !in.password_from.empty()) add("there is a password and no user");
     if (!in.ca_file.empty() && !in.is_encrypted) add("there is a `ca_file`, but the connection is not encrypted");
     return out;

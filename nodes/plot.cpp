@@ -127,15 +127,15 @@ struct Plot {
 
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick&) {
     if (in.polygon.size() < 3) return Error{ErrorCode::geometry, "polygon", "a plot needs at least 3 corners"};
-    if (const auto crossing = find_self_crossing(in.polygon))
+    if (const auto crossing = geometry::find_self_crossing(in.polygon))
       return Error{ErrorCode::geometry, "polygon",
                    "the polygon meets itself at (" + fixed(crossing->where.x, 3) + ", " + fixed(crossing->where.y, 3) +
                        "): redraw it there"};
     Out out;
-    out.area = std::abs(signed_area(in.polygon));
+    out.area = std::abs(geometry::signed_area(in.polygon));
     if (!(out.area > 0)) return Error{ErrorCode::geometry, "polygon", "the polygon encloses no area"};
     for (const Member& member : sets.volumes) {
-      if (!(member.volume > 0) || !ring_contains(in.polygon, member.centroid)) continue;
+      if (!(member.volume > 0) || !geometry::ring_contains(in.polygon, member.centroid)) continue;
       ++out.count;
       out.floor_area += member.floor_area;
       out.footprint += grounded(in, member) * member.footprint;
@@ -143,7 +143,7 @@ struct Plot {
       out.top = std::max(out.top, member.bottom + member.height - in.ground);
       const double radius = std::sqrt(member.footprint / 3.14159265358979323846);
       const Point3 flat{member.centroid.x, member.centroid.y, 0};
-      const Point3 side = nearest_on_ring(in.polygon, flat);
+      const Point3 side = geometry::nearest_on_ring(in.polygon, flat);
       out.setback_overshoot = std::max(out.setback_overshoot, in.setback - (distance({side.x, side.y, 0}, flat) - radius));
     }
     if (!(in.setback > 0)) out.setback_overshoot = 0;

@@ -127,7 +127,7 @@ struct Programme {
       if (!seen.insert(use).second)
         return Error{ErrorCode::duplicate, place + "use",
                      "the use `" + use + "` stands in an earlier row too: put both into one row, or name one otherwise"};
-      const BriefSums sums = brief_sums(rows, row);
+      const demand::BriefSums sums = demand::brief_sums(rows, row);
       out.total_floor_area += sums.area;
       out.total_floor_area_min += sums.area_min;
       out.total_volume += sums.volume;

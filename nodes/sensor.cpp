@@ -108,7 +108,7 @@ struct Sensor {
 
   static std::string problem_of(const In& in, double value) {
     if (!in.address.empty())
-      if (const auto address = parse_live_address(in.address); !address)
+      if (const auto address = address::parse_live_address(in.address); !address)
         return "the address cannot be used: " + address.error().message;
     if (!in.reading_problem.empty()) return in.reading_problem;
     if (in.reading_tick == kNever) return "";

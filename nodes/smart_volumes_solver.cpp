@@ -17,7 +17,7 @@ namespace bl {
 namespace {
 
 struct SmartVolumesSolver {
-  using Method = FitMethod;
+  using Method = geometry::FitMethod;
   // What the fit starts from in the next tick (FitState); the parts that belong to one member are kept there.
   struct Memory {
     double momentum = 1, residual = -1, share = 1, least_ratio = 0;
@@ -26,7 +26,7 @@ struct SmartVolumesSolver {
   struct In {
     Selection members{{}, "smart_volume", {}}, boundary{{}, "boundary", {}};
     Method method = Method::newton;
-    Metric metric = Metric::power;
+    geometry::Metric metric = geometry::Metric::power;
     double gain = 0, tolerance = 0.005;
     int steps = 4, tessellation_depth = 1, resolution = 64;
     Memory last;
@@ -39,7 +39,7 @@ struct SmartVolumesSolver {
   };
   struct Plot {
     std::string id;
-    std::shared_ptr<const Domain> domain;
+    std::shared_ptr<const geometry::Domain> domain;
   };
   struct Sets {
     std::vector<Member> members;
@@ -78,9 +78,10 @@ struct SmartVolumesSolver {
           {Method::newton, "newton", "All weights together follow the exact response of all volumes; a few steps at any fill."}})
         .doc("How the weights are adapted.");
     t.in(&In::metric, "metric",
-         {{Metric::power, "power", "Squared distance less squared radius: flat walls, measured exactly."},
-          {Metric::additive, "additive", "Distance less radius: walls are hyperboloids. Sampled, without meshes."},
-          {Metric::multiplicative, "multiplicative", "Distance over radius: walls are spheres. Sampled, without meshes."}})
+         {{geometry::Metric::power, "power", "Squared distance less squared radius: flat walls, measured exactly."},
+          {geometry::Metric::additive, "additive", "Distance less radius: walls are hyperboloids. Sampled, without meshes."},
+          {geometry::Metric::multiplicative, "multiplicative",
+           "Distance over radius: walls are spheres. Sampled, without meshes."}})
         .doc("The distance that divides the boundary. Other metrics than the power distance are sampled, and take Newton steps.");
     t.in(&In::resolution, "resolution")
         .range(8, 256)
@@ -167,7 +168,7 @@ struct SmartVolumesSolver {
     t.memory(&Out::memory, &In::last, member, id).doc(doc);
   }
 
-  static Result<std::shared_ptr<const Domain>> domain_of(const std::vector<Plot>& plots) {
+  static Result<std::shared_ptr<const geometry::Domain>> domain_of(const std::vector<Plot>& plots) {
     if (plots.empty())
       return Error{ErrorCode::missing, "boundary", "a boundary is needed and none was found: add one, or choose one here"};
     std::string found;
@@ -180,26 +181,27 @@ struct SmartVolumesSolver {
                  "the boundary " + found + " has no shape: see its own error, or make it simpler where it has none"};
   }
 
-  static Reply reply_of(const CellMeasure& cell, double wanted, double weight, std::span<const std::string> names) {
-    Reply reply{.wanted = wanted,
-                .weight = weight,
-                .radius = std::sqrt(std::max(0.0, weight)),
-                .volume = cell.volume,
-                .cell_volume = cell.cell_volume,
-                .floor_area = cell.floor_area,
-                .surface_area = cell.surface_area,
-                .footprint = cell.footprint,
-                .spherical_area = cell.spherical_area,
-                .height = cell.height,
-                .bottom = cell.bottom,
-                .error = wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0,
-                .state = std::string(name_of(cell.state)),
-                .reason = wanted > 0 ? with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
-                .neighbours = {{"node", "area"}, {}},
-                .centroid = cell.centroid,
-                .mesh = cell.mesh};
-    for (const FacetArea& facet : cell.facets)
-      if (facet.kind == FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
+  static Reply reply_of(const geometry::CellMeasure& cell, double wanted, double weight, std::span<const std::string> names) {
+    Reply reply{
+        .wanted = wanted,
+        .weight = weight,
+        .radius = std::sqrt(std::max(0.0, weight)),
+        .volume = cell.volume,
+        .cell_volume = cell.cell_volume,
+        .floor_area = cell.floor_area,
+        .surface_area = cell.surface_area,
+        .footprint = cell.footprint,
+        .spherical_area = cell.spherical_area,
+        .height = cell.height,
+        .bottom = cell.bottom,
+        .error = wanted > 0 ? std::abs(cell.volume - wanted) / wanted : 0.0,
+        .state = std::string(name_of(cell.state)),
+        .reason = wanted > 0 ? geometry::with_names(cell.reason, names) : "wants nothing: raise its demand to give it a volume",
+        .neighbours = {{"node", "area"}, {}},
+        .centroid = cell.centroid,
+        .mesh = cell.mesh};
+    for (const geometry::FacetArea& facet : cell.facets)
+      if (facet.kind == geometry::FacetArea::Kind::site) reply.neighbours.rows.push_back({names[facet.index], facet.area});
     return reply;
   }
 
@@ -210,31 +212,34 @@ struct SmartVolumesSolver {
   static void judge_limit(const Member& member, Reply& reply) {
     if (!(member.demand > 0) || reply.wanted > kNothing * member.demand) return;
     reply.error = 1;
-    reply.state = std::string(name_of(SiteState::starved));
+    reply.state = std::string(name_of(geometry::SiteState::starved));
     reply.reason = "its limit of " + fixed(member.limit, 1) + " m³ leaves it next to nothing of the " + fixed(member.demand, 0) +
                    " m³ that it asks for: raise what limits it, or lower its demand";
   }
 
-  static Standing rule_of(const std::string& standing) {
-    return standing == "ground" ? Standing::ground : standing == "bridge" ? Standing::bridge : Standing::stack;
+  static geometry::Standing rule_of(const std::string& standing) {
+    return standing == "ground"   ? geometry::Standing::ground
+           : standing == "bridge" ? geometry::Standing::bridge
+                                  : geometry::Standing::stack;
   }
 
-  static void write_stances(const Domain& domain, std::span<const PowerSite> sites, std::span<const CellMeasure> cells,
-                            const std::vector<Member>& members, std::vector<Reply>& replies) {
-    std::vector<Standing> rules;
+  static void write_stances(const geometry::Domain& domain, std::span<const geometry::PowerSite> sites,
+                            std::span<const geometry::CellMeasure> cells, const std::vector<Member>& members,
+                            std::vector<Reply>& replies) {
+    std::vector<geometry::Standing> rules;
     for (const Member& member : members) rules.push_back(rule_of(member.standing));
-    const std::vector<Stance> stances = stances_of(domain, sites, cells, rules);
+    const std::vector<geometry::Stance> stances = stances_of(domain, sites, cells, rules);
     for (std::size_t i = 0; i < stances.size(); ++i) {
       const std::int32_t on = stances[i].stands_on;
       replies[i].hang = stances[i].hang;
       replies[i].drop = stances[i].drop;
-      if (on != Stance::kNothing)
-        replies[i].stands_on = on == Stance::kGround ? "the ground" : members[static_cast<std::size_t>(on)].id;
+      if (on != geometry::Stance::kNothing)
+        replies[i].stands_on = on == geometry::Stance::kGround ? "the ground" : members[static_cast<std::size_t>(on)].id;
     }
   }
 
-  static FitState last_state(const In& in, const std::vector<Member>& members) {
-    FitState state;
+  static geometry::FitState last_state(const In& in, const std::vector<Member>& members) {
+    geometry::FitState state;
     state.momentum = std::max(1.0, in.last.momentum);
     state.problem = std::strtoull(in.last.problem.c_str(), nullptr, 16);
     state.residual = in.last.residual;
@@ -247,7 +252,7 @@ struct SmartVolumesSolver {
     return state;
   }
 
-  static Memory memory_of(const FitState& state) {
+  static Memory memory_of(const geometry::FitState& state) {
     return {.momentum = state.momentum,
             .residual = state.residual,
             .share = state.share,
@@ -258,11 +263,11 @@ struct SmartVolumesSolver {
   static Result<Out> evaluate(const In& in, const Sets& sets, const Tick& tick) {
     const auto found = domain_of(sets.plots);
     if (!found) return found.error();
-    const Domain& domain = **found;
+    const geometry::Domain& domain = **found;
     Out out;
     out.boundary_volume = domain.volume;
-    if (sets.members.empty() || (tick.is_recall && in.metric != Metric::power)) return out;
-    std::vector<PowerSite> sites;
+    if (sets.members.empty() || (tick.is_recall && in.metric != geometry::Metric::power)) return out;
+    std::vector<geometry::PowerSite> sites;
     std::vector<double> wanted, storey_heights;
     std::vector<std::string> names;
     for (const Member& member : sets.members) {
@@ -271,19 +276,19 @@ struct SmartVolumesSolver {
       storey_heights.push_back(member.storey_height);
       names.push_back(member.id);
     }
-    VolumeTick::Cache own;
-    VolumeTick::Cache& kept = tick.memo != nullptr ? tick.memo->of<VolumeTick::Cache>() : own;
-    const VolumeTick now{.metric = in.metric,
-                         .samples = in.resolution,
-                         .method = in.method,
-                         .gain = in.gain,
-                         .steps = tick.is_recall ? 0 : in.steps,
-                         .tolerance = in.tolerance,
-                         .tessellation_depth = in.tessellation_depth,
-                         .storey_heights = storey_heights,
-                         .pool = tick.pool};
+    geometry::VolumeTick::Cache own;
+    geometry::VolumeTick::Cache& kept = tick.memo != nullptr ? tick.memo->of<geometry::VolumeTick::Cache>() : own;
+    const geometry::VolumeTick now{.metric = in.metric,
+                                   .samples = in.resolution,
+                                   .method = in.method,
+                                   .gain = in.gain,
+                                   .steps = tick.is_recall ? 0 : in.steps,
+                                   .tolerance = in.tolerance,
+                                   .tessellation_depth = in.tessellation_depth,
+                                   .storey_heights = storey_heights,
+                                   .pool = tick.pool};
     const auto done = now.run(domain, sites, wanted, last_state(in, sets.members), kept);
-    if (!done) return Error{done.error().code, "members", with_names(done.error().message, names)};
+    if (!done) return Error{done.error().code, "members", geometry::with_names(done.error().message, names)};
     for (std::size_t i = 0; i < sites.size(); ++i) {
       Reply& reply = out.replies.emplace_back(reply_of(done->cells[i], wanted[i], sites[i].weight, names));
       judge_limit(sets.members[i], reply);
@@ -301,7 +306,7 @@ struct SmartVolumesSolver {
     out.fill = out.total_volume / out.boundary_volume;
     out.memory = memory_of(done->state);
     out.message = losses_text(done->losses, out.total_demand, names);
-    if (!done->note.empty()) out.message += (out.message.empty() ? "" : "; ") + with_names(done->note, names);
+    if (!done->note.empty()) out.message += (out.message.empty() ? "" : "; ") + geometry::with_names(done->note, names);
     return out;
   }
 };

@@ -13,7 +13,7 @@ namespace {
 struct SunAndSky {
   struct In {
     double latitude = 52, longitude = 4.36, elevation = 0, true_north = 0, utc_offset = 3600;
-    DaylightSaving daylight_saving = DaylightSaving::none;
+    sun::DaylightSaving daylight_saving = sun::DaylightSaving::none;
     std::string date = "2026-03-21";
     double days = 0, time = 43200;
     bool refraction = true;
@@ -58,10 +58,11 @@ struct SunAndSky {
         .range(-50400, 50400)
         .doc("By how much the zone's standard time is ahead of universal time.");
     t.in(&In::daylight_saving, "daylight_saving",
-         {{DaylightSaving::none, "none", "Standard time all the year."},
-          {DaylightSaving::europe, "europe", "From the last Sunday of March to the last Sunday of October, at 01:00 UTC."},
-          {DaylightSaving::north_america, "north_america", "From the second Sunday of March to the first of November, at 02:00."},
-          {DaylightSaving::australia, "australia",
+         {{sun::DaylightSaving::none, "none", "Standard time all the year."},
+          {sun::DaylightSaving::europe, "europe", "From the last Sunday of March to the last Sunday of October, at 01:00 UTC."},
+          {sun::DaylightSaving::north_america, "north_america",
+           "From the second Sunday of March to the first of November, at 02:00."},
+          {sun::DaylightSaving::australia, "australia",
            "From the first Sunday of October to the first of April, at 02:00 and 03:00."}})
         .doc("When clocks are an hour ahead of standard time; the rule of today for all years.");
   }
@@ -125,36 +126,36 @@ struct SunAndSky {
         .doc("The moments of the period at which studies look at the sun, day by day.");
   }
 
-  static SunPlace place_of(const In& in) {
+  static sun::SunPlace place_of(const In& in) {
     return {in.latitude,        in.longitude, in.elevation,  in.true_north, in.utc_offset,
             in.daylight_saving, in.delta_t,   in.refraction, in.pressure,   in.temperature};
   }
 
-  static Result<DayNumber> day_of(const std::string& text, const char* port) {
-    const auto day = parse_date(text);
-    return day ? day : Result<DayNumber>(day.error().within(port));
+  static Result<sun::DayNumber> day_of(const std::string& text, const char* port) {
+    const auto day = sun::parse_date(text);
+    return day ? day : Result<sun::DayNumber>(day.error().within(port));
   }
 
   static Result<Out> evaluate(const In& in, const Tick&) {
     const auto date = day_of(in.date, "date");
     if (!date) return date.error();
-    const DayNumber day = *date + static_cast<DayNumber>(std::floor(in.days));
-    if (const auto later = day_of(date_text(day), "days"); !later) return later.error();
-    const auto first = in.first_date.empty() ? Result<DayNumber>(day) : day_of(in.first_date, "first_date");
+    const sun::DayNumber day = *date + static_cast<sun::DayNumber>(std::floor(in.days));
+    if (const auto later = day_of(sun::date_text(day), "days"); !later) return later.error();
+    const auto first = in.first_date.empty() ? Result<sun::DayNumber>(day) : day_of(in.first_date, "first_date");
     if (!first) return first.error();
     const auto last = in.last_date.empty() ? first : day_of(in.last_date, "last_date");
     if (!last) return last.error();
-    const SunPlace place = place_of(in);
+    const sun::SunPlace place = place_of(in);
     const auto moments = sun_moments(place, {*first, *last, in.day_step, in.step, in.min_altitude, in.from_time, in.to_time});
     if (!moments) return moments.error();
     Out out;
-    out.day = date_text(day);
-    const SunPosition sun = sun_position(place, moment_of(place, day, in.time));
+    out.day = sun::date_text(day);
+    const sun::SunPosition sun = sun_position(place, moment_of(place, day, in.time));
     out.altitude = sun.altitude;
     out.geometric_altitude = sun.geometric_altitude;
     out.azimuth = sun.azimuth;
     out.direction = scene_direction(place, sun.azimuth, sun.altitude);
-    const SunDay today = sun_day(place, day);
+    const sun::SunDay today = sun_day(place, day);
     out.sunrise = today.sunrise.value_or(0);
     out.transit = today.transit.value_or(0);
     out.sunset = today.sunset.value_or(0);
@@ -167,7 +168,7 @@ struct SunAndSky {
                   "no sun of the period counts: it never stands as high as `min_altitude` between `from_time` and `to_time`";
     out.possible = possible_sun(*moments);
     out.moments.columns = {"x", "y", "z", "seconds"};
-    for (const SunMoment& moment : *moments)
+    for (const sun::SunMoment& moment : *moments)
       out.moments.rows.push_back({moment.toward.x, moment.toward.y, moment.toward.z, moment.seconds});
     return out;
   }

@@ -131,18 +131,18 @@ struct SunStudyNode {
     set.writes(&ReceiverReply::map, "shadow_receiver.map");
   }
 
-  static Result<std::vector<SunMoment>> moments_of(const std::vector<Sun>& suns) {
+  static Result<std::vector<sun::SunMoment>> moments_of(const std::vector<Sun>& suns) {
     if (suns.empty())
       return Error{ErrorCode::missing, "sun", "a sun is needed and none was found: add a node `sun_and_sky`, or choose one here"};
     if (suns.size() > 1)
       return Error{ErrorCode::conflict, "sun",
                    "`" + suns[0].id + "` and `" + suns[1].id + "` are both suns: choose the one that is studied here"};
-    return moments_in(*suns.front().moments);
+    return sun::moments_in(*suns.front().moments);
   }
 
   // All that casts, each node once: one may be a SmartVolume and an existing building, and casts with both shapes.
   struct Casters {
-    std::vector<SunCaster> list;  // as the volumes stand, then the buildings that are none of them
+    std::vector<sun::SunCaster> list;  // as the volumes stand, then the buildings that are none of them
     std::vector<std::size_t> of_buildings;
     std::map<std::string, std::size_t> index;
 
@@ -155,7 +155,7 @@ struct SunStudyNode {
       const auto [it, is_new] = index.emplace(caster.id, list.size());
       if (is_new) list.push_back({caster.id, nullptr});
       MeshPointer& mesh = list[it->second].mesh;
-      if (has_shape) mesh = mesh ? both(*mesh, *study_mesh(caster.mesh)) : study_mesh(caster.mesh);
+      if (has_shape) mesh = mesh ? both(*mesh, *geometry::study_mesh(caster.mesh)) : geometry::study_mesh(caster.mesh);
       return it->second;
     }
     static MeshPointer both(const Mesh& one, const Mesh& other) {
@@ -169,8 +169,8 @@ struct SunStudyNode {
     }
   };
 
-  static SunReceiver receiver_of(const Receiver& from, const Casters& casters, std::string& message) {
-    SunReceiver receiver;
+  static sun::SunReceiver receiver_of(const Receiver& from, const Casters& casters, std::string& message) {
+    sun::SunReceiver receiver;
     receiver.centre = from.position + Vector3{0, 0, from.raised};
     receiver.spacing = from.spacing;
     receiver.required = from.required;
@@ -186,7 +186,8 @@ struct SunStudyNode {
     return receiver;
   }
 
-  static ReceiverReply reply_of(const SunReceiver& receiver, const SunRecord& record, const std::vector<SunCaster>& casters) {
+  static ReceiverReply reply_of(const sun::SunReceiver& receiver, const sun::SunRecord& record,
+                                const std::vector<sun::SunCaster>& casters) {
     ReceiverReply reply{receiver.half_across,
                         receiver.half_up,
                         4 * norm(receiver.half_across) * norm(receiver.half_up),
@@ -201,7 +202,7 @@ struct SunStudyNode {
                         static_cast<std::int64_t>(record.grid.columns),
                         static_cast<std::int64_t>(record.grid.rows)};
     for (std::size_t k = 0; k < casters.size(); ++k)
-      if (const SunLoss& loss = record.hours.casters[k]; loss.shared > 0)
+      if (const sun::SunLoss& loss = record.hours.casters[k]; loss.shared > 0)
         reply.losses.rows.push_back({casters[k].name, loss.lost, loss.shared});
     for (std::size_t i = 0; i < record.grid.points.size(); ++i) {
       const Point3& place = record.grid.points[i].place;
@@ -211,8 +212,8 @@ struct SunStudyNode {
   }
 
   // What each caster takes, from all receivers; returns the largest single loss as a sentence.
-  static std::string deal_out(const std::vector<SunRecord>& records, const std::vector<Receiver>& receivers,
-                              const std::vector<SunCaster>& casters, Out& out, std::vector<CasterReply>& replies) {
+  static std::string deal_out(const std::vector<sun::SunRecord>& records, const std::vector<Receiver>& receivers,
+                              const std::vector<sun::SunCaster>& casters, Out& out, std::vector<CasterReply>& replies) {
     std::string sentence;
     double worst = 0;
     for (std::size_t k = 0; k < casters.size(); ++k) {
@@ -220,7 +221,7 @@ struct SunStudyNode {
       reply.taken->columns = {"receiver", "lost", "shared"};
       double most = 0;
       for (std::size_t r = 0; r < records.size(); ++r) {
-        const SunLoss& loss = records[r].hours.casters[k];
+        const sun::SunLoss& loss = records[r].hours.casters[k];
         if (!(loss.shared > 0)) continue;
         const double share = out.receivers[r].area / out.area;
         *reply.lost += loss.lost * share;
@@ -239,7 +240,7 @@ struct SunStudyNode {
   }
 
   // The algorithm names a caster by its index.
-  static Error named(Error error, const std::vector<SunCaster>& casters) {
+  static Error named(Error error, const std::vector<sun::SunCaster>& casters) {
     const auto index = parse_number(error.place);
     if (!index || !(*index < static_cast<double>(casters.size()))) return error;
     error.message = "`" + casters[static_cast<std::size_t>(*index)].name + "`: " + error.message;
@@ -254,19 +255,20 @@ struct SunStudyNode {
     if (moments->empty()) out.message = "no sun counts in the period of `" + sets.suns.front().id + "`, which says why; ";
     const Casters casters(sets);
     std::vector<CasterReply> replies;
-    for (const SunCaster& caster : casters.list) {
+    for (const sun::SunCaster& caster : casters.list) {
       out.caster_count += caster.mesh ? 1 : 0;
-      auto outline = caster.mesh ? shadow_outline(*caster.mesh, sets.suns.front().direction, in.ground) : std::vector<Point3>{};
+      auto outline =
+          caster.mesh ? sun::shadow_outline(*caster.mesh, sets.suns.front().direction, in.ground) : std::vector<Point3>{};
       replies.push_back({0.0, 0.0, "", Table{}, std::move(outline)});
     }
-    std::vector<SunCase> cases;
+    std::vector<sun::SunCase> cases;
     for (const Receiver& receiver : sets.receivers) cases.push_back({receiver.id, receiver_of(receiver, casters, out.message)});
-    SunStudyCache own;
-    SunStudyCache& cache = tick.memo != nullptr ? tick.memo->of<SunStudyCache>() : own;
+    sun::SunStudyCache own;
+    sun::SunStudyCache& cache = tick.memo != nullptr ? tick.memo->of<sun::SunStudyCache>() : own;
     const auto records = cache.of(casters.list, *moments, cases, tick.pool);
     if (!records) return named(records.error(), casters.list);
     for (std::size_t r = 0; r < cases.size(); ++r) {
-      const SunRecord& record = (*records)[r];
+      const sun::SunRecord& record = (*records)[r];
       const ReceiverReply& reply = out.receivers.emplace_back(reply_of(cases[r].receiver, record, casters.list));
       out.area += reply.area;
       out.sun_mean += reply.area * record.mean;

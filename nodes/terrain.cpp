@@ -62,14 +62,14 @@ struct Terrain {
     t.out(&Out::mesh, "mesh").doc("The ground as an open mesh, of at most some ten thousand cells, for the eye and for export.");
   }
 
-  static Result<HeightGrid> grid_of(const In& in) {
-    HeightGrid grid{in.west, in.north, in.cell, in.lowest, in.step, {}};
+  static Result<geometry::HeightGrid> grid_of(const In& in) {
+    geometry::HeightGrid grid{in.west, in.north, in.cell, in.lowest, in.step, {}};
     for (std::size_t row = 0; row < in.rows->rows.size(); ++row) {
       const std::string& text = in.rows->text(row, "heights");
       const std::string place = "rows/" + std::to_string(row) + "/heights";
       if (text.size() % 3 != 0 || text.size() != in.rows->text(0, "heights").size() || text.empty())
         return Error{ErrorCode::parse, place, "a row has three characters for each cell, and as many cells as the first row"};
-      if (const std::size_t wrong = first_wrong_character(text); wrong < text.size())
+      if (const std::size_t wrong = geometry::first_wrong_character(text); wrong < text.size())
         return Error{ErrorCode::parse, place,
                      "character " + std::to_string(wrong + 1) + " is no digit of base 64: import the grid again"};
       grid.rows.push_back(text);
@@ -78,7 +78,7 @@ struct Terrain {
   }
 
   // Every k-th cell, so that the mesh stays small; quads without all four heights are left open.
-  static Mesh mesh_of(const HeightGrid& grid) {
+  static Mesh mesh_of(const geometry::HeightGrid& grid) {
     constexpr std::size_t kMostAcross = 128;
     const std::size_t k = 1 + std::max(grid.columns(), grid.rows.size()) / (kMostAcross + 1);
     Mesh mesh;

@@ -20,7 +20,7 @@ struct TrafficNetworkNode {
   struct In {
     Selection streets{{}, "street", {}}, junctions{{}, "junction", {}}, zones{{}, "traffic_zone", {}};
     double alpha = 0.15, beta = 4, peak_share = 0.1, toll_factor = 180, distance_factor = 0, walking_speed = 1.34;
-    TripConstraint distribution = TripConstraint::origins;
+    traffic::TripConstraint distribution = traffic::TripConstraint::origins;
     double fade = 600, haste = 0.5, gap = 1e-4, isochrone_step = 300;
     int steps = 4, isochrone_bands = 3;
     Memory last;
@@ -38,9 +38,9 @@ struct TrafficNetworkNode {
   };
   struct Sets {
     std::vector<Street> streets;
-    std::vector<DistrictJunction> junctions;
+    std::vector<traffic::DistrictJunction> junctions;
     std::vector<Rules> rules;
-    std::vector<DistrictZone> zones;
+    std::vector<traffic::DistrictZone> zones;
   };
   struct ZoneReply {
     double served = 0, lost = 0, ending = 0, mean_time = 0, accessibility = 0;
@@ -54,9 +54,9 @@ struct TrafficNetworkNode {
     std::string message;
     Table loads{{"junction", "volume_over_capacity"}, {}}, arrivals{{"zone", "wanted", "missing", "reason"}, {}};
     Memory memory;
-    std::vector<DistrictResult::Street> streets;
-    std::vector<DistrictResult::Junction> junctions;
-    std::vector<DistrictResult::Rules> rules;
+    std::vector<traffic::DistrictResult::Street> streets;
+    std::vector<traffic::DistrictResult::Junction> junctions;
+    std::vector<traffic::DistrictResult::Rules> rules;
     std::vector<ZoneReply> zones;
   };
   using Builder = TypificationBuilder<TrafficNetworkNode>;
@@ -111,8 +111,9 @@ struct TrafficNetworkNode {
         .doc("Time from isochrone to isochrone.");
     t.in(&In::isochrone_bands, "isochrone_bands").range(1, 6).doc("Isochrones that are drawn around a chosen node.");
     t.in(&In::distribution, "distribution",
-         {{TripConstraint::origins, "singly", "What leaves each zone holds; what ends where follows attraction and time."},
-          {TripConstraint::both, "doubly",
+         {{traffic::TripConstraint::origins, "singly",
+           "What leaves each zone holds; what ends where follows attraction and time."},
+          {traffic::TripConstraint::both, "doubly",
            "What ends in each zone holds as well, in proportion; what cannot be met is told in `arrivals`."}})
         .doc("Which sums of trips hold.");
     t.in(&In::fade, "fade")
@@ -182,7 +183,7 @@ struct TrafficNetworkNode {
                  .default_value = Numbers(),
                  .doc = "Trips per hour to each zone, in the order of these rows."})
         .doc("Where the trips of each zone are, and how many go to each other zone: what the next tick starts from.");
-    t.made("trip_flows", {"links", "ways"}, &read_flows<Shared<Table>>)
+    t.made("trip_flows", {"links", "ways"}, &traffic::read_flows<Shared<Table>>)
         .doc("Where the trips of each zone are, for views and exporters.");
   }
 
@@ -195,22 +196,23 @@ struct TrafficNetworkNode {
         .reads(&Street::one_way, "street.one_way")
         .reads(&Street::for_cars, "street.for_cars")
         .reads(&Street::course, "street.course", Unit::metre);
-    using StreetReply = DistrictResult::Street;
+    using StreetReply = traffic::DistrictResult::Street;
     streets.writes(&StreetReply::flow_forth, "street.flow_forth").writes(&StreetReply::flow_back, "street.flow_back");
     streets.writes(&StreetReply::time_forth, "street.time_forth").writes(&StreetReply::time_back, "street.time_back");
     streets.writes(&StreetReply::delay, "street.delay").writes(&StreetReply::load, "street.volume_over_capacity");
     streets.writes(&StreetReply::length, "street.used_length").writes(&StreetReply::reason, "street.reason");
     auto junctions = t.set("junctions", &Sets::junctions, &Out::junctions);
-    junctions.reads(&DistrictJunction::id, "node.id").reads(&DistrictJunction::position, "node.position", Unit::metre);
-    using Crossing = DistrictResult::Junction;
-    junctions.reads(&DistrictJunction::delay, "junction.delay").writes(&Crossing::streets, "junction.streets");
+    junctions.reads(&traffic::DistrictJunction::id, "node.id")
+        .reads(&traffic::DistrictJunction::position, "node.position", Unit::metre);
+    using Crossing = traffic::DistrictResult::Junction;
+    junctions.reads(&traffic::DistrictJunction::delay, "junction.delay").writes(&Crossing::streets, "junction.streets");
     junctions.writes(&Crossing::flow, "junction.flow").writes(&Crossing::load, "junction.volume_over_capacity");
     auto rules = t.set("junctions", &Sets::rules, &Out::rules);  // those of the junctions that have any
     rules.reads(&Rules::id, "node.id").reads(&Rules::turns, "turn_rules.turns");
-    rules.writes(&DistrictResult::Rules::forbidden, "turn_rules.forbidden");
-    rules.writes(&DistrictResult::Rules::reason, "turn_rules.reason");
+    rules.writes(&traffic::DistrictResult::Rules::forbidden, "turn_rules.forbidden");
+    rules.writes(&traffic::DistrictResult::Rules::reason, "turn_rules.reason");
     auto zones = t.set("zones", &Sets::zones, &Out::zones);
-    using Zone = DistrictZone;
+    using Zone = traffic::DistrictZone;
     zones.reads(&Zone::id, "node.id").reads(&Zone::position, "node.position", Unit::metre);
     zones.reads(&Zone::leaving, "traffic_zone.trips_out").reads(&Zone::arriving, "traffic_zone.trips_in");
     zones.reads(&Zone::access, "traffic_zone.access").reads(&Zone::wants_reach, "traffic_zone.list_reach");
@@ -230,8 +232,8 @@ struct TrafficNetworkNode {
     return is_sound ? *numbers : std::vector<double>();
   }
 
-  static DistrictState recalled(const Memory& last) {
-    DistrictState state;
+  static traffic::DistrictState recalled(const Memory& last) {
+    traffic::DistrictState state;
     for (std::size_t r = 0; r < last.links->rows.size(); ++r) state.links.push_back(last.links->text(r, "link"));
     for (std::size_t r = 0; r < last.ways->rows.size(); ++r)
       state.zones.push_back({last.ways->text(r, "zone"), *last.ways->indices(r, "links"),
@@ -240,7 +242,7 @@ struct TrafficNetworkNode {
   }
 
   // The names of links are those of the last tick, unless streets have changed.
-  static Memory remembered(const DistrictState& state, const Memory& last, bool has_last_links) {
+  static Memory remembered(const traffic::DistrictState& state, const Memory& last, bool has_last_links) {
     Memory memory = last;
     if (!has_last_links) {
       Table links = *Memory().links;
@@ -248,14 +250,14 @@ struct TrafficNetworkNode {
       memory.links = std::move(links);
     }
     Table ways = *Memory().ways;
-    for (const DistrictState::Zone& zone : state.zones)
+    for (const traffic::DistrictState::Zone& zone : state.zones)
       ways.rows.push_back({zone.id, Indices(zone.used), Numbers(zone.flows), Numbers(zone.trips)});
     memory.ways = std::move(ways);
     return memory;
   }
 
-  static std::vector<DistrictRules> rules_of(const Sets& sets) {
-    std::vector<DistrictRules> all;
+  static std::vector<traffic::DistrictRules> rules_of(const Sets& sets) {
+    std::vector<traffic::DistrictRules> all;
     for (const Rules& rules : sets.rules) {
       all.push_back({rules.id, {}});
       for (std::size_t r = 0; r < rules.turns.rows.size(); ++r)
@@ -266,7 +268,7 @@ struct TrafficNetworkNode {
 
   // All that a step depends on.
   struct Step {
-    DistrictParts parts;
+    traffic::DistrictParts parts;
     Memory last;
     bool operator==(const Step&) const = default;
   };
@@ -275,19 +277,19 @@ struct TrafficNetworkNode {
     Step step;
     std::optional<Out> out;  // of that step, where it ended at rest
     Memory memory;           // the last one, and the same as numbers
-    DistrictState state;
-    DistrictMemo memo;
+    traffic::DistrictState state;
+    traffic::DistrictMemo memo;
   };
 
   static Step step_of(const In& in, const Sets& sets) {
-    std::vector<DistrictStreet> streets;
+    std::vector<traffic::DistrictStreet> streets;
     for (const Street& s : sets.streets) {
       const double capacity = s.lanes * s.capacity_per_lane * s.open;
       streets.push_back({s.id, one_of(s.start), one_of(s.end), s.length, s.speed, capacity, s.toll, s.one_way, capacity > 0,
                          s.for_cars, s.course});
     }
-    const DistrictSettings settings{in.alpha, in.beta,         in.toll_factor, in.distance_factor, in.walking_speed,
-                                    in.fade,  in.distribution, in.gap,         in.steps,           in.haste};
+    const traffic::DistrictSettings settings{in.alpha, in.beta,         in.toll_factor, in.distance_factor, in.walking_speed,
+                                             in.fade,  in.distribution, in.gap,         in.steps,           in.haste};
     return {{sets.junctions, std::move(streets), rules_of(sets), sets.zones, settings}, in.last};
   }
 
@@ -314,7 +316,7 @@ struct TrafficNetworkNode {
     out.trips = result->trips;
     out.trips_lost = result->lost;
     out.trips_missing = result->missing;
-    for (const DistrictResult::Arrival& row : result->arrivals)
+    for (const traffic::DistrictResult::Arrival& row : result->arrivals)
       out.arrivals.rows.push_back({sets.zones[row.zone].id, sets.zones[row.zone].arriving, row.missing, row.reason});
     out.mean_travel_time = result->trips > 0 ? result->total_time / result->trips : 0;
     out.total_time = result->total_time;
@@ -335,7 +337,7 @@ struct TrafficNetworkNode {
     out.memory = result->is_at_rest ? in.last : remembered(result->state, in.last, result->state.links == kept.state.links);
     kept.state = std::move(result->state);
     out.streets = std::move(result->streets);
-    for (const DistrictResult::Zone& zone : result->zones) {
+    for (const traffic::DistrictResult::Zone& zone : result->zones) {
       ZoneReply& reply = out.zones.emplace_back(ZoneReply{zone.served,
                                                           zone.lost,
                                                           zone.ending,
@@ -343,7 +345,8 @@ struct TrafficNetworkNode {
                                                           zone.accessibility,
                                                           zone.reason,
                                                           {{"junction", "driving", "walking"}, {}}});
-      for (const DistrictResult::Reach& row : zone.reach) reply.reach.rows.push_back({row.junction, row.driving, row.walking});
+      for (const traffic::DistrictResult::Reach& row : zone.reach)
+        reply.reach.rows.push_back({row.junction, row.driving, row.walking});
     }
     return out;
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace bl {
+namespace bl::address {
 
 namespace {
 
@@ -128,4 +128,4 @@ Result<LiveAddress> parse_live_address(std::string_view text) {
   return refused("begins with none of `mqtt://`, `osc://`, `http://`, `https://` and `replay:`");
 }
 
-}  // namespace bl
+}  // namespace bl::address

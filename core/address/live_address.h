@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::address {
 
 /// An address taken apart. What a scheme does not use stays empty.
 struct LiveAddress {
@@ -25,4 +25,4 @@ struct LiveAddress {
 /// `replay:FILE?COLUMN=TEXT&time=COLUMN#COLUMN`; else an error that says what is wrong.
 Result<LiveAddress> parse_live_address(std::string_view text);
 
-}  // namespace bl
+}  // namespace bl::address

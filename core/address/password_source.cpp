@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bl {
+namespace bl::address {
 
 Result<PasswordSource> parse_password_source(std::string_view text) {
   const auto refused = [](const std::string& message) { return Error{ErrorCode::parse, "", message}; };
@@ -26,4 +26,4 @@ Result<PasswordSource> parse_password_source(std::string_view text) {
   return refused("the password itself does not belong into a scene: write `env:BL_NAME` or `file:NAME.password`");
 }
 
-}  // namespace bl
+}  // namespace bl::address

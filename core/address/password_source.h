@@ -6,7 +6,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::address {
 
 struct PasswordSource {
   bool is_file = false;  ///< else a variable of the environment
@@ -17,4 +17,4 @@ struct PasswordSource {
 /// its choice: hence these names only.
 Result<PasswordSource> parse_password_source(std::string_view text);
 
-}  // namespace bl
+}  // namespace bl::address

@@ -12,7 +12,7 @@
 #include "core/base/stop_check.h"
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::csv {
 
 namespace {
 
@@ -203,4 +203,4 @@ Result<CsvText> read_csv(std::string_view text, std::optional<char> separator) {
   return csv;
 }
 
-}  // namespace bl
+}  // namespace bl::csv

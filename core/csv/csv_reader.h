@@ -9,7 +9,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::csv {
 
 /// One record; `line` is the line of the text where it starts, counted from 1.
 struct CsvRecord {
@@ -29,4 +29,4 @@ Result<CsvText> read_csv(std::string_view text, std::optional<char> separator = 
 /// Without the spaces, tabs and no-break spaces at both ends.
 std::string_view trimmed(std::string_view text);
 
-}  // namespace bl
+}  // namespace bl::csv

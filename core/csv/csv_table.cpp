@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace bl {
+namespace bl::csv {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::string write_csv(std::span<const std::string> header, std::span<const std::
   return out;
 }
 
-}  // namespace bl
+}  // namespace bl::csv

@@ -10,7 +10,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::csv {
 
 /// One field. Numbers become their shortest exact text, with a decimal point whatever the locale; all else is text that people or
 /// files of others wrote, and is written so that no spreadsheet takes it for a formula.
@@ -35,4 +35,4 @@ std::string harmless_text(std::string_view text);
 /// The text that `harmless_text` was made of, but for its control characters.
 std::string text_of_harmless(std::string_view text);
 
-}  // namespace bl
+}  // namespace bl::csv

@@ -3,7 +3,7 @@
 
 #include "core/define/value.h"
 
-namespace bl {
+namespace bl::demand {
 
 struct BriefSums {
   double area = 0, area_min = 0;                      ///< [m²]
@@ -25,4 +25,4 @@ inline BriefSums brief_sums(const Table& rows, std::size_t row) {
   return sums;
 }
 
-}  // namespace bl
+}  // namespace bl::demand

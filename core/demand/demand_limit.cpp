@@ -5,7 +5,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::demand {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string unlocking(const LimitedVolumes& held, const std::vector<std::size_t>
   return is_any ? " unlock the limits," : "";
 }
 
-}  // namespace bl
+}  // namespace bl::demand

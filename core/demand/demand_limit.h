@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace bl {
+namespace bl::demand {
 
 /// Never quite nothing is granted, so that a demand can grow again by shares of itself.
 inline constexpr double kLeastGranted = 1e-6;
@@ -64,4 +64,4 @@ std::string held_by(const LimitedVolumes& held, const std::vector<std::size_t>& 
 /// " unlock the limits," where a lock of people keeps one of `which` above the least share: a part of what to do about it.
 std::string unlocking(const LimitedVolumes& held, const std::vector<std::size_t>& which, double least);
 
-}  // namespace bl
+}  // namespace bl::demand

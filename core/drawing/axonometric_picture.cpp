@@ -12,7 +12,7 @@
 #include "core/drawing/surroundings_drawing.h"
 #include "core/reading/figures.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -38,22 +38,22 @@ Point3 shadow_of(const Point3& point, const Scenery& scenery) {
   return point - scenery.to_sun * (std::max(0.0, point.z - scenery.ground) / scenery.to_sun.z);
 }
 
-Scenery scenery_of(const ReportModel& model, const View& view) {
+Scenery scenery_of(const reading::ReportModel& model, const View& view) {
   Scenery scenery{{}, 0, sun_of(view)};
   bool is_first = true;
   const auto lower = [&](double z) {
     scenery.ground = is_first ? z : std::min(scenery.ground, z);
     is_first = false;
   };
-  for (const SiteRow& site : model.sites)
+  for (const reading::SiteRow& site : model.sites)
     if (site.shape) lower(site.bottom);
   if (is_first)
-    for (const VolumeRow& volume : model.volumes)
+    for (const reading::VolumeRow& volume : model.volumes)
       if (volume.mesh)
         for (const Point3& vertex : volume.mesh->vertices) lower(vertex.z);
-  for (const SiteRow& site : model.sites)
+  for (const reading::SiteRow& site : model.sites)
     if (site.shape) scenery.content.insert(scenery.content.end(), site.shape->vertices.begin(), site.shape->vertices.end());
-  for (const VolumeRow& volume : model.volumes)
+  for (const reading::VolumeRow& volume : model.volumes)
     if (volume.mesh)
       for (const Point3& vertex : volume.mesh->vertices) {
         scenery.content.push_back(vertex);
@@ -62,32 +62,32 @@ Scenery scenery_of(const ReportModel& model, const View& view) {
   return scenery;
 }
 
-std::vector<const VolumeRow*> back_to_front(const ReportModel& model, const View& view) {
+std::vector<const reading::VolumeRow*> back_to_front(const reading::ReportModel& model, const View& view) {
   std::map<std::size_t, std::pair<double, double>> groups;
-  for (const VolumeRow& volume : model.volumes) {
+  for (const reading::VolumeRow& volume : model.volumes) {
     auto& [sum, count] = groups[volume.group];
     sum += dot(volume.figures.position, view.toward);
     count += 1;
   }
-  std::vector<std::pair<std::array<double, 3>, const VolumeRow*>> order;
-  for (const VolumeRow& volume : model.volumes)
+  std::vector<std::pair<std::array<double, 3>, const reading::VolumeRow*>> order;
+  for (const reading::VolumeRow& volume : model.volumes)
     if (volume.mesh) {
       const auto& [sum, count] = groups[volume.group];
       order.push_back({{sum / count, static_cast<double>(volume.group), dot(volume.figures.position, view.toward)}, &volume});
     }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<const VolumeRow*> out;
+  std::vector<const reading::VolumeRow*> out;
   for (const auto& [key, volume] : order) out.push_back(volume);
   return out;
 }
 
 // The plot with a grid of round metres, so that the eye has a measure for depth too.
-double draw_ground(Markup& svg, const Sheet& sheet, const ReportModel& model, const std::string& id) {
+double draw_ground(Markup& svg, const Sheet& sheet, const reading::ReportModel& model, const std::string& id) {
   PathText ground;
   double low_x = 0, high_x = 0, low_y = 0, high_y = 0, z = 0;
   bool is_first = true;
-  for (const SiteRow& site : model.sites)
-    for (const Polyline& line : site.ground) {
+  for (const reading::SiteRow& site : model.sites)
+    for (const geometry::Polyline& line : site.ground) {
       ground.polyline(on_sheet(sheet, line), line.is_closed);
       for (const Point3& p : line.points) {
         low_x = is_first ? p.x : std::min(low_x, p.x);
@@ -112,9 +112,9 @@ double draw_ground(Markup& svg, const Sheet& sheet, const ReportModel& model, co
   return step;
 }
 
-void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, const Scenery& scenery) {
+void draw_shadows(Markup& svg, const Sheet& sheet, const reading::ReportModel& model, const Scenery& scenery) {
   PathText shadows;
-  for (const VolumeRow& volume : model.volumes) {
+  for (const reading::VolumeRow& volume : model.volumes) {
     if (!volume.mesh) continue;
     const auto add_shadow = [&](const std::vector<Point3>& points) {
       std::vector<Pixel> cast;
@@ -123,20 +123,20 @@ void draw_shadows(Markup& svg, const Sheet& sheet, const ReportModel& model, con
     };
     if (volume.exact.radius > 0) add_shadow(outline_of(volume.exact, scenery.to_sun));
     else
-      for (const Mesh& body : bodies_of(*volume.mesh)) add_shadow(body.vertices);
+      for (const Mesh& body : geometry::bodies_of(*volume.mesh)) add_shadow(body.vertices);
   }
   svg.path(shadows, {{"fill", hex(kShade)}, {"fill-opacity", ".16"}, {"fill-rule", "nonzero"}});
 }
 
 // Edges of the boundary: hidden ones go behind the volumes, near ones in front of them.
-void draw_envelope(Markup& svg, const Sheet& sheet, const ReportModel& model, bool near) {
+void draw_envelope(Markup& svg, const Sheet& sheet, const reading::ReportModel& model, bool near) {
   PathText path;
-  for (const SiteRow& site : model.sites) {
+  for (const reading::SiteRow& site : model.sites) {
     if (!site.shape) continue;
     const Mesh& mesh = *site.shape;
-    const std::vector<Vector3> normals = unit_normals(mesh);
+    const std::vector<Vector3> normals = geometry::unit_normals(mesh);
     const auto faces_eye = [&](std::uint32_t t) { return dot(normals[t], sheet.view().toward) > 1e-9; };
-    for (const MeshEdge& edge : mesh_edges(mesh)) {
+    for (const geometry::MeshEdge& edge : geometry::mesh_edges(mesh)) {
       const bool is_fold = dot(normals[edge.first], normals[edge.second]) < 0.985;
       if (is_fold && near == (faces_eye(edge.first) || faces_eye(edge.second)))
         path.polyline({sheet.at(mesh.vertices[edge.a]), sheet.at(mesh.vertices[edge.b])}, false);
@@ -149,12 +149,12 @@ void draw_envelope(Markup& svg, const Sheet& sheet, const ReportModel& model, bo
                   {"stroke-dasharray", near ? "7 3 1.5 3" : "2 3"}});
 }
 
-void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const Palette& palette, const Scenery& scenery,
-                 bool has_storeys, const std::string& id) {
+void draw_volume(Markup& svg, const Sheet& sheet, const reading::VolumeRow& volume, const Palette& palette,
+                 const Scenery& scenery, bool has_storeys, const std::string& id) {
   svg.open("g");
   svg.element("title", std::to_string(volume.number) + ". " + volume.name + (volume.use.empty() ? "" : ", " + volume.use) + ": " +
-                           quantity(volume.floor_area, Unit::square_metre) + " floor area, " +
-                           quantity(volume.volume, Unit::cubic_metre));
+                           reading::quantity(volume.floor_area, Unit::square_metre) + " floor area, " +
+                           reading::quantity(volume.volume, Unit::cubic_metre));
   const SolidStyle style{palette.colour(volume.use), scenery.to_sun, has_storeys ? volume.figures.storey_height : 0,
                          volume.figures.bottom, volume.figures.bottom + volume.figures.height};
   if (volume.exact.radius > 0)
@@ -167,13 +167,13 @@ void draw_volume(Markup& svg, const Sheet& sheet, const VolumeRow& volume, const
 // Where a label can stand on a volume: its roof, or else the middle of whatever of it is not hidden.
 class Anchors {
  public:
-  Anchors(const Sheet& sheet, const std::vector<const VolumeRow*>& order) : sheet_(sheet), order_(order) {
-    for (const VolumeRow* volume : order) outlines_.push_back(convex_outline(sheet, *volume));
+  Anchors(const Sheet& sheet, const std::vector<const reading::VolumeRow*>& order) : sheet_(sheet), order_(order) {
+    for (const reading::VolumeRow* volume : order) outlines_.push_back(convex_outline(sheet, *volume));
   }
 
   bool find(std::size_t rank, Pixel& anchor) const {
     const Mesh& mesh = *order_[rank]->mesh;
-    const std::vector<Vector3> normals = unit_normals(mesh);
+    const std::vector<Vector3> normals = geometry::unit_normals(mesh);
     Pixel roof{}, seen{};
     double roof_area = 0, seen_area = 0;
     std::vector<std::pair<Pixel, double>> visible;
@@ -209,21 +209,22 @@ class Anchors {
   }
 
   const Sheet& sheet_;
-  const std::vector<const VolumeRow*>& order_;
+  const std::vector<const reading::VolumeRow*>& order_;
   std::vector<std::vector<Pixel>> outlines_;
 };
 
 // Returns a sentence on what could not be labelled.
-std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<const VolumeRow*>& order, const Palette& palette) {
+std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<const reading::VolumeRow*>& order,
+                         const Palette& palette) {
   if (order.size() > kMostNumbers) return " Too many volumes for labels: pointing at one shows its number and name.";
   const Anchors anchors(sheet, order);
-  std::vector<std::pair<const VolumeRow*, Label>> found;
+  std::vector<std::pair<const reading::VolumeRow*, Label>> found;
   std::size_t hidden = 0;
   for (std::size_t rank = 0; rank < order.size(); ++rank) {
-    const VolumeRow& volume = *order[rank];
+    const reading::VolumeRow& volume = *order[rank];
     Label label{{},
                 volume.name,
-                palette.letter(volume.use) + " \xC2\xB7 " + quantity(volume.floor_area, Unit::square_metre),
+                palette.letter(volume.use) + " \xC2\xB7 " + reading::quantity(volume.floor_area, Unit::square_metre),
                 std::to_string(volume.number)};
     if (anchors.find(rank, label.anchor)) found.emplace_back(&volume, std::move(label));
     else ++hidden;
@@ -236,14 +237,14 @@ std::string write_labels(Markup& svg, const Sheet& sheet, const std::vector<cons
   const std::size_t crowded = placer.write(svg, labels, order.size() > kMostNames ? 0 : labels.size());
   if (hidden + crowded == 0) return "";
   std::string text = " Without a label: ";
-  if (hidden > 0) text += counted(hidden, "volume") + " hidden behind others";
-  if (crowded > 0) text += (hidden > 0 ? ", " : "") + counted(crowded, "volume") + " for want of room";
+  if (hidden > 0) text += reading::counted(hidden, "volume") + " hidden behind others";
+  if (crowded > 0) text += (hidden > 0 ? ", " : "") + reading::counted(crowded, "volume") + " for want of room";
   return text + ".";
 }
 
 }  // namespace
 
-Picture draw_axonometry(const ReportModel& model, const Palette& palette, const std::string& id) {
+Picture draw_axonometry(const reading::ReportModel& model, const Palette& palette, const std::string& id) {
   const View view = axonometric_view(kAzimuth, kElevation);
   const Scenery scenery = scenery_of(model, view);
   if (scenery.content.empty())
@@ -256,20 +257,20 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette, const 
     for (const double x : {frame[0].x, frame[1].x})
       for (const double y : {frame[0].y, frame[1].y}) content.push_back({x, y, scenery.ground});
   const Sheet sheet(view, content, kAxonometryWidth, kMostAxonometryHeight, {40, 34, 40, 52});
-  const std::vector<const VolumeRow*> order = back_to_front(model, view);
+  const std::vector<const reading::VolumeRow*> order = back_to_front(model, view);
   Markup svg;
   open_picture(svg, sheet.width(), sheet.height(), id, "Axonometry",
-               "The proposal seen from above and aside: " + counted(order.size(), "volume") +
+               "The proposal seen from above and aside: " + reading::counted(order.size(), "volume") +
                    " on the site, coloured and lettered by use.");
   draw_ground_aside(svg, sheet, model.surroundings, frame, scenery.ground, id);
   const double grid = draw_ground(svg, sheet, model, id);
   draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, false);
   draw_shadows(svg, sheet, model, scenery);
   draw_envelope(svg, sheet, model, false);
-  for (const UseAccount& use : model.accounts.uses)
+  for (const reading::UseAccount& use : model.accounts.uses)
     define_ball(svg, view, {palette.colour(use.use), scenery.to_sun, 0, 0, 0}, id + "-shade-" + palette.letter(use.use));
   const bool has_storeys = order.size() <= kMostStoreys;
-  for (const VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys, id);
+  for (const reading::VolumeRow* volume : order) draw_volume(svg, sheet, *volume, palette, scenery, has_storeys, id);
   draw_envelope(svg, sheet, model, true);
   draw_buildings_aside(svg, sheet, model.surroundings, frame, middle, scenery.to_sun, true);
   const std::string missing = write_labels(svg, sheet, order, palette);
@@ -289,4 +290,4 @@ Picture draw_axonometry(const ReportModel& model, const Palette& palette, const 
   return {svg.str(), caption + missing};
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -6,12 +6,12 @@
 
 #include "core/drawing/solid_drawing.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
-std::vector<Pixel> pixels_of(const Sheet& sheet, const Corners& corners, bool is_closed = true) {
-  return on_sheet(sheet, Polyline{corners, is_closed});
+std::vector<Pixel> pixels_of(const Sheet& sheet, const reading::Corners& corners, bool is_closed = true) {
+  return on_sheet(sheet, geometry::Polyline{corners, is_closed});
 }
 
 // The brightest place of a ball as the eye sees it, in radii from its middle; light is linear in the normal, up to its shaded
@@ -21,11 +21,12 @@ Pixel glint(const View& view, const Vector3& to_sun) {
   return {0.92 * dot(axis, view.right), -0.92 * dot(axis, view.up)};
 }
 
-void draw_storeys(Markup& svg, const Sheet& sheet, const ExactShape& shape, const SolidStyle& style, const std::string& ink) {
+void draw_storeys(Markup& svg, const Sheet& sheet, const reading::ExactShape& shape, const SolidStyle& style,
+                  const std::string& ink) {
   if (!(style.storey_height > 0) || style.storey_height * sheet.scale() < 2.5) return;
   PathText path;
   for (double z = style.bottom + style.storey_height; z < style.top - 0.1 * style.storey_height; z += style.storey_height) {
-    const Corners ring = section_of(shape, z);
+    const reading::Corners ring = section_of(shape, z);
     const std::size_t n = ring.size();
     std::vector<bool> is_seen;
     for (std::size_t i = 0; i < n; ++i)
@@ -37,7 +38,7 @@ void draw_storeys(Markup& svg, const Sheet& sheet, const ExactShape& shape, cons
     }
     // Runs of visible sides, each begun after a hidden one.
     const auto start = static_cast<std::size_t>(hidden - is_seen.begin());
-    Corners run;
+    reading::Corners run;
     for (std::size_t k = 1; k <= n; ++k) {
       const std::size_t i = (start + k) % n;
       if (is_seen[i]) {
@@ -75,8 +76,8 @@ std::string define_ball(Markup& svg, const View& view, const SolidStyle& style, 
   return id;
 }
 
-void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const SolidStyle& style, const std::string& stops,
-               const std::string& id) {
+void draw_ball(Markup& svg, const Sheet& sheet, const reading::ExactShape& shape, const SolidStyle& style,
+               const std::string& stops, const std::string& id) {
   const std::string ink = hex(mix(style.colour, kInk, 0.62));
   const Pixel centre = sheet.at(shape.centre), focus = glint(sheet.view(), style.to_sun);
   const double radius = shape.radius * sheet.scale();
@@ -112,4 +113,4 @@ void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const S
   svg.path(outline, {{"fill", "none"}, {"stroke", ink}, {"stroke-width", "1"}, {"stroke-linejoin", "round"}});
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -6,7 +6,7 @@
 #include "core/drawing/pictures.h"
 #include "core/reading/figures.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -15,7 +15,7 @@ constexpr std::size_t kMostPoints = 450;
 
 struct Series {
   std::string label, colour, dashes;
-  double ErrorSample::*value;
+  double reading::ErrorSample::*value;
 };
 
 struct TickAxes {
@@ -32,11 +32,11 @@ struct TickAxes {
 };
 
 // The largest sample of each stretch, so that no peak is lost where ticks are many.
-std::vector<ErrorSample> thinned(const std::vector<ErrorSample>& history) {
+std::vector<reading::ErrorSample> thinned(const std::vector<reading::ErrorSample>& history) {
   const std::size_t stride = history.size() / kMostPoints + 1;
-  std::vector<ErrorSample> out;
+  std::vector<reading::ErrorSample> out;
   for (std::size_t i = 0; i < history.size(); i += stride) {
-    ErrorSample most = history[i];
+    reading::ErrorSample most = history[i];
     for (std::size_t k = i; k < std::min(i + stride, history.size()); ++k) {
       most.worst_error = std::max(most.worst_error, history[k].worst_error);
       most.mean_error = std::max(most.mean_error, history[k].mean_error);
@@ -47,10 +47,10 @@ std::vector<ErrorSample> thinned(const std::vector<ErrorSample>& history) {
   return out;
 }
 
-TickAxes chart_of(const std::vector<ErrorSample>& samples, const std::vector<Series>& series, double limit, double top,
+TickAxes chart_of(const std::vector<reading::ErrorSample>& samples, const std::vector<Series>& series, double limit, double top,
                   double height) {
   double low = limit, high = limit;
-  for (const ErrorSample& sample : samples)
+  for (const reading::ErrorSample& sample : samples)
     for (const Series& line : series) {
       const double value = sample.*line.value;
       if (!std::isfinite(value) || value <= 0) continue;
@@ -68,7 +68,7 @@ void draw_axes(Markup& svg, const TickAxes& chart, const std::string& title, boo
     const double y = chart.y(std::pow(10.0, power)), value = std::pow(10.0, power + (is_share ? 2 : 0));
     rules.polyline({{kAxesLeft, y}, {kErrorChartWidth - kAxesRight, y}}, false);
     const std::string figure =
-        grouped(value, power + (is_share ? 2 : 0) >= 0 ? 0 : static_cast<int>(-power - (is_share ? 2 : 0))) +
+        reading::grouped(value, power + (is_share ? 2 : 0) >= 0 ? 0 : static_cast<int>(-power - (is_share ? 2 : 0))) +
         (is_share ? "\xC2\xA0%" : "\xC2\xA0m");
     svg.element("text", figure, {{"x", pixels(kAxesLeft - 8)}, {"y", pixels(y + 3.5)}, {"class", "figure end"}});
   }
@@ -76,7 +76,7 @@ void draw_axes(Markup& svg, const TickAxes& chart, const std::string& title, boo
   svg.element("text", title, {{"x", pixels(kAxesLeft)}, {"y", pixels(chart.top - 10)}, {"class", "name start"}});
   const double span = chart.last_tick - chart.first_tick, step = std::max(1.0, round_length(span / 5));
   for (double tick = std::ceil(chart.first_tick / step) * step; tick <= chart.last_tick; tick += step)
-    svg.element("text", grouped(tick),
+    svg.element("text", reading::grouped(tick),
                 {{"x", pixels(chart.x(tick))}, {"y", pixels(chart.top + chart.height + 15)}, {"class", "figure"}});
 }
 
@@ -89,12 +89,12 @@ void draw_limit(Markup& svg, const TickAxes& chart, double limit, const std::str
               {{"x", pixels(kErrorChartWidth - kAxesRight - 4)}, {"y", pixels(chart.y(limit) - 4)}, {"class", "figure end"}});
 }
 
-void draw_series(Markup& svg, const TickAxes& chart, const std::vector<ErrorSample>& samples, const std::vector<Series>& series,
-                 bool is_share) {
+void draw_series(Markup& svg, const TickAxes& chart, const std::vector<reading::ErrorSample>& samples,
+                 const std::vector<Series>& series, bool is_share) {
   double last_label = -1e9;
   for (const Series& line : series) {
     std::vector<Pixel> points;
-    for (const ErrorSample& sample : samples)
+    for (const reading::ErrorSample& sample : samples)
       if (std::isfinite(sample.*line.value))
         points.push_back({chart.x(static_cast<double>(sample.tick)), chart.y(sample.*line.value)});
     if (points.empty()) continue;
@@ -108,7 +108,7 @@ void draw_series(Markup& svg, const TickAxes& chart, const std::vector<ErrorSamp
     const Pixel end = points.back();
     svg.leaf("circle", {{"cx", pixels(end.x)}, {"cy", pixels(end.y)}, {"r", "2.6"}, {"fill", line.colour}});
     const double value = samples.back().*line.value, y = std::max(end.y + 3.5, last_label + 13);
-    svg.element("text", line.label + " " + (is_share ? percent(value) : quantity(value, Unit::metre)),
+    svg.element("text", line.label + " " + (is_share ? reading::percent(value) : reading::quantity(value, Unit::metre)),
                 {{"x", pixels(end.x + 8)}, {"y", pixels(y)}, {"class", "figure start"}});
     last_label = y;
   }
@@ -116,24 +116,25 @@ void draw_series(Markup& svg, const TickAxes& chart, const std::vector<ErrorSamp
 
 }  // namespace
 
-Picture draw_error_chart(const ReportModel& model, const std::vector<ErrorSample>& history) {
+Picture draw_error_chart(const reading::ReportModel& model, const std::vector<reading::ErrorSample>& history) {
   if (history.empty()) return {empty_picture("errors", "Error over the ticks", "No ticks were recorded."), ""};
-  const std::vector<ErrorSample> samples = thinned(history);
-  const std::vector<Series> errors = {{"worst", "#aa3311", "", &ErrorSample::worst_error},
-                                      {"mean", "#225599", "6 2.5", &ErrorSample::mean_error}};
-  const std::vector<Series> moves = {{"move", "#117733", "", &ErrorSample::largest_move}};
+  const std::vector<reading::ErrorSample> samples = thinned(history);
+  const std::vector<Series> errors = {{"worst", "#aa3311", "", &reading::ErrorSample::worst_error},
+                                      {"mean", "#225599", "6 2.5", &reading::ErrorSample::mean_error}};
+  const std::vector<Series> moves = {{"move", "#117733", "", &reading::ErrorSample::largest_move}};
   const double tolerance = std::max(model.tolerance, 1e-9);
   const double limit = model.move_limit > 0 ? model.move_limit : 0.01;
   const TickAxes upper = chart_of(samples, errors, tolerance, 38, 190), lower = chart_of(samples, moves, limit, 292, 110);
   Markup svg;
   open_picture(svg, kErrorChartWidth, 442, "errors", "Error over the ticks",
-               "Worst error " + percent(history.back().worst_error) + " and mean error " + percent(history.back().mean_error) +
-                   " at tick " + std::to_string(history.back().tick) + "; the tolerance is " + percent(model.tolerance) + ".");
+               "Worst error " + reading::percent(history.back().worst_error) + " and mean error " +
+                   reading::percent(history.back().mean_error) + " at tick " + std::to_string(history.back().tick) +
+                   "; the tolerance is " + reading::percent(model.tolerance) + ".");
   draw_axes(svg, upper, "Error of the volumes, share of the demand", true);
-  draw_limit(svg, upper, tolerance, "tolerance " + percent(model.tolerance));
+  draw_limit(svg, upper, tolerance, "tolerance " + reading::percent(model.tolerance));
   draw_series(svg, upper, samples, errors, true);
   draw_axes(svg, lower, "Largest move of a node in a tick", false);
-  draw_limit(svg, lower, model.move_limit, "limit of calm " + quantity(model.move_limit, Unit::metre));
+  draw_limit(svg, lower, model.move_limit, "limit of calm " + reading::quantity(model.move_limit, Unit::metre));
   draw_series(svg, lower, samples, moves, false);
   svg.element("text", "tick",
               {{"x", pixels(kErrorChartWidth - kAxesRight + 16)},
@@ -148,4 +149,4 @@ Picture draw_error_chart(const ReportModel& model, const std::vector<ErrorSample
   return {svg.str(), caption};
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -9,7 +9,7 @@
 #include "core/base/text.h"
 #include "core/drawing/palette.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -134,4 +134,4 @@ void draw_scale_bar(Markup& svg, double pixels_per_metre, Pixel at, double most_
   svg.close();
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

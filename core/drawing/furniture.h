@@ -7,7 +7,7 @@
 #include "core/drawing/markup.h"
 #include "core/drawing/projection.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 /// Estimated width of a text [px]; fonts differ, so it is on the wide side.
 double text_width(const std::string& text, double size);
@@ -41,4 +41,4 @@ void draw_scale_bar(Markup& svg, double pixels_per_metre, Pixel at, double most_
 /// 1, 2 or 5 times a power of ten, not above `most`.
 double round_length(double most);
 
-}  // namespace bl::report
+}  // namespace bl::drawing

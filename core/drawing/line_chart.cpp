@@ -9,14 +9,11 @@
 #include "core/drawing/pictures.h"
 #include "core/reading/figures.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
-using report::Markup;
-using report::PathText;
-using report::Pixel;
-using report::pixels;
+using drawing::pixels;
 
 // One panel alone is wider, as its legend has to find room.
 constexpr double kPanelWidth = 400, kOnePanelWidth = 640;
@@ -32,7 +29,7 @@ struct Axis {
 };
 
 // The next number of 1, 2 and 5 times powers of ten, down or up.
-double round_down(double value) { return report::round_length(value * (1 + 1e-9)); }
+double round_down(double value) { return drawing::round_length(value * (1 + 1e-9)); }
 double round_up(double value) {
   const double below = round_down(value);
   if (below >= value * (1 - 1e-9)) return below;
@@ -73,7 +70,7 @@ Axis axis_of(std::span<const ChartPanel> panels, Pick pick, double also) {
 }
 
 std::string mark_text(double value) {
-  if (value >= 0.0099) return report::grouped(value, value >= 0.99 ? 0 : value >= 0.099 ? 1 : 2);
+  if (value >= 0.0099) return reading::grouped(value, value >= 0.99 ? 0 : value >= 0.099 ? 1 : 2);
   static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   const double power = std::floor(std::log10(value) + 1e-9), leading = std::round(value / std::pow(10.0, power));
   std::string text = (leading == 1 ? "" : std::to_string(static_cast<int>(leading)) + "·") + "10⁻";
@@ -123,7 +120,7 @@ class PanelDrawing {
     const double y = place({x_.low, panel_.limit}).y;
     PathText line;
     line.polyline({{left_, y}, {right_, y}}, false);
-    svg_.path(line, {{"fill", "none"}, {"stroke", report::hex(report::kInk)}, {"stroke-dasharray", "2 3"}});
+    svg_.path(line, {{"fill", "none"}, {"stroke", drawing::hex(drawing::kInk)}, {"stroke-dasharray", "2 3"}});
     svg_.element("text", panel_.limit_label, {{"x", pixels(right_)}, {"y", pixels(y - 4)}, {"class", "figure end"}});
   }
 
@@ -158,7 +155,7 @@ void draw_legend(Markup& svg, const std::vector<ChartLine>& lines) {
     sample.polyline({{x, 24}, {x + 24, 24}}, false);
     svg.path(sample, {{"fill", "none"}, {"stroke", line.colour}, {"stroke-width", "2.2"}, {"stroke-dasharray", line.dashes}});
     svg.element("text", line.label, {{"x", pixels(x + 30)}, {"y", "27.5"}, {"class", "figure start"}});
-    x += 30 + report::text_width(line.label, 10) + 16;
+    x += 30 + drawing::text_width(line.label, 10) + 16;
   }
 }
 
@@ -167,7 +164,7 @@ void draw_legend(Markup& svg, const std::vector<ChartLine>& lines) {
 std::string draw_chart(const Chart& chart) {
   Markup svg;
   const double width = chart.panels.size() == 1 ? kOnePanelWidth : kPanelWidth;
-  report::open_picture(svg, width * static_cast<double>(chart.panels.size()), kHeight, chart.id, chart.title, chart.description);
+  drawing::open_picture(svg, width * static_cast<double>(chart.panels.size()), kHeight, chart.id, chart.title, chart.description);
   if (!chart.panels.empty()) draw_legend(svg, chart.panels.front().lines);
   // Side by side, the panels are read across.
   const Axis x = axis_of(chart.panels, &ChartLine::Point::x, 0);
@@ -180,4 +177,4 @@ std::string draw_chart(const Chart& chart) {
   return svg.str() + "\n";
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

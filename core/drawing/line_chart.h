@@ -6,7 +6,7 @@
 
 #include "core/drawing/markup.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 struct ChartLine {
   std::string label, colour, dashes;
@@ -32,4 +32,4 @@ struct Chart {
 /// One SVG file.
 std::string draw_chart(const Chart& chart);
 
-}  // namespace bl::report
+}  // namespace bl::drawing

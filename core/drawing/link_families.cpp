@@ -8,7 +8,7 @@
 
 #include "core/reading/views/volume.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -75,4 +75,4 @@ DrawnLinks links_to_draw(const State& state) {
   return drawn;
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -7,7 +7,7 @@
 
 #include "core/graph/state.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 /// How a drawing shows one family.
 struct FamilyInk {
@@ -32,4 +32,4 @@ struct DrawnLinks {
 };
 DrawnLinks links_to_draw(const State& state);
 
-}  // namespace bl::report
+}  // namespace bl::drawing

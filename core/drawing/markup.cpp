@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -147,4 +147,4 @@ Markup& Markup::path(const PathText& path, Attributes attributes) {
   return *this;
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace bl::report {
+namespace bl::drawing {
 
 /// Safe as text and as attribute; characters that XML does not allow and broken UTF-8 become U+FFFD.
 std::string escape_xml(std::string_view text);
@@ -63,4 +63,4 @@ class Markup {
   std::vector<std::string> open_;
 };
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::string Palette::letter(const std::string& use) const {
   return out;
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace bl::report {
+namespace bl::drawing {
 
 struct Colour {
   double red = 0, green = 0, blue = 0;  ///< 0 to 1, sRGB
@@ -34,4 +34,4 @@ class Palette {
   std::map<std::string, std::size_t> order_;
 };
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -4,7 +4,7 @@
 #include "core/drawing/markup.h"
 #include "core/drawing/pictures.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -37,11 +37,12 @@ std::string empty_picture(const std::string& id, const std::string& title, const
   return svg.str();
 }
 
-std::vector<const VolumeRow*> by_size(const ReportModel& model) {
-  std::vector<const VolumeRow*> rows;
-  for (const VolumeRow& volume : model.volumes) rows.push_back(&volume);
-  std::stable_sort(rows.begin(), rows.end(), [](const VolumeRow* a, const VolumeRow* b) { return a->volume > b->volume; });
+std::vector<const reading::VolumeRow*> by_size(const reading::ReportModel& model) {
+  std::vector<const reading::VolumeRow*> rows;
+  for (const reading::VolumeRow& volume : model.volumes) rows.push_back(&volume);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const reading::VolumeRow* a, const reading::VolumeRow* b) { return a->volume > b->volume; });
   return rows;
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

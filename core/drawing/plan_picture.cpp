@@ -14,7 +14,7 @@
 #include "core/reading/figures.h"
 #include "core/reading/views/node.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -22,28 +22,28 @@ constexpr double kPlanWidth = 1000, kMostHeight = 900, kFrame = 44;
 constexpr double kEyeHeight = 1.2;  // [m] above the ground
 constexpr double kLegendRow = 17;
 
-std::vector<Point3> content_of(const ReportModel& model) {
+std::vector<Point3> content_of(const reading::ReportModel& model) {
   std::vector<Point3> content;
-  for (const SiteRow& site : model.sites)
+  for (const reading::SiteRow& site : model.sites)
     if (site.shape) content.insert(content.end(), site.shape->vertices.begin(), site.shape->vertices.end());
-  for (const VolumeRow& volume : model.volumes) {
+  for (const reading::VolumeRow& volume : model.volumes) {
     if (volume.mesh) content.insert(content.end(), volume.mesh->vertices.begin(), volume.mesh->vertices.end());
     else content.push_back(volume.figures.position);
   }
   return content;
 }
 
-double ground_of(const ReportModel& model) {
+double ground_of(const reading::ReportModel& model) {
   double ground = 0;
   bool is_first = true;
   const auto lower = [&](double z) {
     ground = is_first ? z : std::min(ground, z);
     is_first = false;
   };
-  for (const SiteRow& site : model.sites)
+  for (const reading::SiteRow& site : model.sites)
     if (site.shape) lower(site.bottom);
   if (is_first)
-    for (const VolumeRow& volume : model.volumes)
+    for (const reading::VolumeRow& volume : model.volumes)
       if (volume.mesh) lower(volume.figures.bottom);
   return ground;
 }
@@ -75,11 +75,11 @@ double draw_grid(Markup& svg, const Sheet& sheet, double bottom) {
   return step;
 }
 
-void draw_sites(Markup& svg, const Sheet& sheet, const ReportModel& model) {
+void draw_sites(Markup& svg, const Sheet& sheet, const reading::ReportModel& model) {
   PathText ground, plan;
-  for (const SiteRow& site : model.sites) {
-    for (const Polyline& line : site.ground) ground.polyline(on_sheet(sheet, line), line.is_closed);
-    for (const Polyline& line : site.plan) plan.polyline(on_sheet(sheet, line), line.is_closed);
+  for (const reading::SiteRow& site : model.sites) {
+    for (const geometry::Polyline& line : site.ground) ground.polyline(on_sheet(sheet, line), line.is_closed);
+    for (const geometry::Polyline& line : site.plan) plan.polyline(on_sheet(sheet, line), line.is_closed);
   }
   svg.path(ground, {{"fill", hex(mix(kPaper, {0.78, 0.76, 0.70}, 0.3))}, {"fill-rule", "evenodd"}});
   svg.path(plan, {{"fill", "none"}, {"stroke", hex(kInk)}, {"stroke-width", "1.6"}, {"stroke-dasharray", "9 3 1.5 3"}});
@@ -87,7 +87,7 @@ void draw_sites(Markup& svg, const Sheet& sheet, const ReportModel& model) {
 
 // A volume with what is drawn of it: its exact form, or a mesh so fine that its corners do not show.
 struct DrawnVolume {
-  const VolumeRow* row;
+  const reading::VolumeRow* row;
   MeshPointer fine;  // none where the exact form is known
 };
 
@@ -95,7 +95,7 @@ PathText cut_of(const Sheet& sheet, const DrawnVolume& volume, double z) {
   PathText path;
   if (!volume.fine) path.polyline(on_sheet(sheet, {section_of(volume.row->exact, z), true}), true);
   else
-    for (const Polyline& line : section(*volume.fine, z, [](std::size_t) { return true; }))
+    for (const geometry::Polyline& line : geometry::section(*volume.fine, z, [](std::size_t) { return true; }))
       path.polyline(on_sheet(sheet, line), line.is_closed);
   return path;
 }
@@ -117,7 +117,7 @@ std::vector<std::vector<Point3>> pieces_of(const DrawnVolume& volume) {
   std::vector<std::vector<Point3>> pieces;
   const MeshPointer& coarse = volume.row->mesh->coarse;
   if (!coarse || !coarse->wrap || volume.fine == volume.row->mesh) {
-    for (const Mesh& body : bodies_of(*volume.fine)) pieces.push_back(body.vertices);
+    for (const Mesh& body : geometry::bodies_of(*volume.fine)) pieces.push_back(body.vertices);
     return pieces;
   }
   const std::size_t share = volume.fine->triangles.size() / std::max<std::size_t>(1, coarse->triangles.size());
@@ -150,16 +150,18 @@ PathText shadow_of(const Sheet& sheet, const DrawnVolume& volume) {
   if (area <= (1 + kMostOverlap) * footprint) {
     for (const auto& line : common_outline(pieces)) path.polyline(simplified(line, true), true);
   } else {
-    for (const Polyline& line : seen_from_above(*volume.fine)) path.polyline(on_sheet(sheet, line), line.is_closed);
+    for (const geometry::Polyline& line : geometry::seen_from_above(*volume.fine))
+      path.polyline(on_sheet(sheet, line), line.is_closed);
   }
   return path;
 }
 
-void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, const Palette& palette, double cut) {
+void draw_volumes(Markup& svg, const Sheet& sheet, const reading::ReportModel& model, const Palette& palette, double cut) {
   std::vector<DrawnVolume> order;
-  for (const VolumeRow& volume : model.volumes)
+  for (const reading::VolumeRow& volume : model.volumes)
     if (volume.mesh)
-      order.push_back({&volume, volume.exact.radius > 0 ? nullptr : mesh_of_depth(volume.mesh, kDeepestTessellation)});
+      order.push_back(
+          {&volume, volume.exact.radius > 0 ? nullptr : geometry::mesh_of_depth(volume.mesh, geometry::kDeepestTessellation)});
   const auto top_of = [](const DrawnVolume& volume) { return volume.row->figures.bottom + volume.row->figures.height; };
   std::stable_sort(order.begin(), order.end(), [&](const DrawnVolume& a, const DrawnVolume& b) { return top_of(a) < top_of(b); });
   std::vector<PathText> cuts;
@@ -170,8 +172,8 @@ void draw_volumes(Markup& svg, const Sheet& sheet, const ReportModel& model, con
   for (const DrawnVolume& volume : order) {
     const Colour colour = palette.colour(volume.row->use);
     svg.open("g").element("title", std::to_string(volume.row->number) + ". " + volume.row->name + ": " +
-                                       quantity(volume.row->figures.bottom, Unit::metre) + " to " +
-                                       quantity(top_of(volume), Unit::metre) + " above the origin");
+                                       reading::quantity(volume.row->figures.bottom, Unit::metre) + " to " +
+                                       reading::quantity(top_of(volume), Unit::metre) + " above the origin");
     svg.path(shadow_of(sheet, volume),
              {{"fill", hex(colour)}, {"fill-opacity", ".3"}, {"stroke", hex(mix(colour, kInk, 0.55))}, {"stroke-width", ".9"}});
     svg.close();
@@ -199,13 +201,15 @@ void draw_links(Markup& svg, const State& state, const Sheet& sheet, const Drawn
   }
 }
 
-void draw_positions(Markup& svg, const State& state, const Sheet& sheet, const ReportModel& model, const DrawnLinks& links) {
+void draw_positions(Markup& svg, const State& state, const Sheet& sheet, const reading::ReportModel& model,
+                    const DrawnLinks& links) {
   std::set<std::uint32_t> nodes;
   for (const DrawnLink& link : links.lines) nodes.insert({link.from, link.to});
-  for (const VolumeRow& volume : model.volumes) nodes.insert(volume.node);
+  for (const reading::VolumeRow& volume : model.volumes) nodes.insert(volume.node);
   for (const std::uint32_t node : nodes) {
     const Pixel at = sheet.at(reading::read<&reading::NodePlace::position>(state, node));
-    const auto row = std::find_if(model.volumes.begin(), model.volumes.end(), [&](const VolumeRow& v) { return v.node == node; });
+    const auto row =
+        std::find_if(model.volumes.begin(), model.volumes.end(), [&](const reading::VolumeRow& v) { return v.node == node; });
     const bool has_shape = row != model.volumes.end() && row->mesh != nullptr;
     // Hollow: nothing stands there.
     svg.leaf("circle", {{"cx", pixels(at.x)},
@@ -238,13 +242,13 @@ void draw_legend(Markup& svg, const Sheet& sheet, const DrawnLinks& links, Pixel
   }
 }
 
-std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model, const Surroundings& surroundings,
-                       const Palette& palette, double bottom) {
+std::string label_plan(Markup& svg, const Sheet& sheet, const reading::ReportModel& model,
+                       const reading::Surroundings& surroundings, const Palette& palette, double bottom) {
   if (model.volumes.size() > kMostNumbers) return " Too many volumes for labels: pointing at one shows its number and name.";
   std::vector<Label> labels;
-  for (const VolumeRow* volume : by_size(model)) {
+  for (const reading::VolumeRow* volume : by_size(model)) {
     Label label{sheet.at(volume->figures.position), volume->name, palette.letter(volume->use), std::to_string(volume->number)};
-    label.second += volume->mesh ? " \xC2\xB7 " + quantity(volume->figures.height, Unit::metre) + " high"
+    label.second += volume->mesh ? " \xC2\xB7 " + reading::quantity(volume->figures.height, Unit::metre) + " high"
                                  : " \xC2\xB7 " + volume->figures.state;
     // Below the dot of the position, not on it.
     label.anchor.y += model.volumes.size() > kMostNames ? 8 : 17;
@@ -255,14 +259,14 @@ std::string label_plan(Markup& svg, const Sheet& sheet, const ReportModel& model
   // Where room is left: what stands around.
   const std::vector<Label> around = surroundings_labels(sheet, surroundings, {kFrame, 30, sheet.width() - kFrame, bottom});
   placer.write(svg, around, around.size());
-  return without == 0 ? "" : " " + counted(without, "volume") + " without a label for want of room.";
+  return without == 0 ? "" : " " + reading::counted(without, "volume") + " without a label for want of room.";
 }
 
-std::string caption_of(const ReportModel& model, const DrawnLinks& links, double step, double cut) {
+std::string caption_of(const reading::ReportModel& model, const DrawnLinks& links, double step, double cut) {
   std::string caption = "Plan: tinted, each volume seen from above, the highest on top; strong tint with heavy lines, the cut " +
-                        readable(kEyeHeight) + " m above the ground (height " + readable(cut) + " m). Dots are positions, grid " +
-                        figure_of(step) + " m.";
-  if (std::any_of(model.volumes.begin(), model.volumes.end(), [](const VolumeRow& v) { return !v.mesh; }))
+                        reading::readable(kEyeHeight) + " m above the ground (height " + reading::readable(cut) +
+                        " m). Dots are positions, grid " + figure_of(step) + " m.";
+  if (std::any_of(model.volumes.begin(), model.volumes.end(), [](const reading::VolumeRow& v) { return !v.mesh; }))
     caption += " Hollow dots are volumes without a shape.";
   if (!links.families.empty()) caption += " Links of demand are not drawn.";
   if (!links.beside.empty()) {
@@ -281,8 +285,8 @@ std::string caption_of(const ReportModel& model, const DrawnLinks& links, double
 
 }  // namespace
 
-Picture draw_plan(const State& state, const ReportModel& model, const Palette& palette) {
-  const Surroundings& surroundings = model.surroundings;
+Picture draw_plan(const State& state, const reading::ReportModel& model, const Palette& palette) {
+  const reading::Surroundings& surroundings = model.surroundings;
   const std::vector<Point3> content = framed(content_of(model), surroundings);
   if (content.empty()) return {empty_picture("plan", "Plan", "Nothing to draw: there is no boundary and no volume."), ""};
   const DrawnLinks links = links_to_draw(state);
@@ -319,4 +323,4 @@ Picture draw_plan(const State& state, const ReportModel& model, const Palette& p
   return {svg.str(), caption_of(model, links, step, cut) + surroundings_caption(surroundings) + missing};
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace bl::report {
+namespace bl::drawing {
 
 View axonometric_view(double azimuth, double elevation) {
   const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
@@ -40,4 +40,4 @@ Pixel Sheet::at(const Point3& point) const {
   return {left_ + dot(point, view_.right) * scale_, top_ - dot(point, view_.up) * scale_};
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

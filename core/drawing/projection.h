@@ -6,7 +6,7 @@
 #include "core/base/vector.h"
 #include "core/drawing/markup.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 /// Three unit vectors at right angles; `toward` points from the drawing to the eye.
 struct View {
@@ -48,4 +48,4 @@ class Sheet {
   double width_ = 0, height_ = 0, scale_ = 1, left_ = 0, top_ = 0;
 };
 
-}  // namespace bl::report
+}  // namespace bl::drawing

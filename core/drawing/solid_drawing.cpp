@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -34,7 +34,7 @@ std::string shade_colour(const Colour& colour, int shade) { return shaded(colour
 // One mesh under one view: what faces the eye, and what of it overlaps.
 class Solid {
  public:
-  Solid(const Sheet& sheet, const Mesh& mesh) : sheet_(sheet), mesh_(mesh), normals_(unit_normals(mesh)) {
+  Solid(const Sheet& sheet, const Mesh& mesh) : sheet_(sheet), mesh_(mesh), normals_(geometry::unit_normals(mesh)) {
     for (const Point3& vertex : mesh.vertices) pixels_.push_back(sheet.at(vertex));
   }
   bool faces_eye(std::size_t triangle) const { return dot(normals_[triangle], sheet_.view().toward) > 1e-9; }
@@ -66,14 +66,14 @@ class Solid {
     if (storey_height * sheet_.scale() < 2.5) return;
     PathText path;
     for (double z = low + storey_height; z < high - 0.1 * storey_height; z += storey_height)
-      for (const Polyline& line : section(mesh_, z, [&](std::size_t t) { return faces_eye(t); }))
+      for (const geometry::Polyline& line : geometry::section(mesh_, z, [&](std::size_t t) { return faces_eye(t); }))
         path.polyline(on_sheet(sheet_, line), line.is_closed);
     svg.path(path, {{"fill", "none"}, {"stroke", ink}, {"stroke-width", ".5"}, {"stroke-opacity", ".5"}});
   }
 
   void draw_edges(Markup& svg, const std::string& ink) const {
     std::vector<std::pair<std::uint64_t, std::uint64_t>> creases, silhouette;
-    for (const MeshEdge& edge : mesh_edges(mesh_)) {
+    for (const geometry::MeshEdge& edge : geometry::mesh_edges(mesh_)) {
       const bool first = faces_eye(edge.first), second = faces_eye(edge.second);
       if (first != second || (edge.first == edge.second && first)) silhouette.emplace_back(edge.a, edge.b);
       else if (first && dot(normals_[edge.first], normals_[edge.second]) < kCreaseCosine) creases.emplace_back(edge.a, edge.b);
@@ -85,8 +85,8 @@ class Solid {
  private:
   PathText lines_of(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& edges) const {
     PathText path;
-    for (const Chain& chain : chain_edges(edges)) {
-      Polyline line{{}, chain.is_closed};
+    for (const geometry::Chain& chain : geometry::chain_edges(edges)) {
+      geometry::Polyline line{{}, chain.is_closed};
       for (const std::uint64_t v : chain.points) line.points.push_back(mesh_.vertices[v]);
       path.polyline(on_sheet(sheet_, line), line.is_closed);
     }
@@ -150,7 +150,7 @@ std::string shaded(const Colour& colour, double light) {
   return hex(mix(colour, kShade, (0.7 - light) * 0.85));
 }
 
-std::vector<Pixel> on_sheet(const Sheet& sheet, const Polyline& line) {
+std::vector<Pixel> on_sheet(const Sheet& sheet, const geometry::Polyline& line) {
   std::vector<Pixel> all;
   for (const Point3& point : line.points) all.push_back(sheet.at(point));
   return simplified(all, line.is_closed);
@@ -227,7 +227,7 @@ std::vector<std::vector<Pixel>> common_outline(const std::vector<std::vector<Pix
   for (const auto& [edge, count] : edges)
     if (count % 2 == 1) border.push_back(edge);
   std::vector<std::vector<Pixel>> outlines;
-  for (const Chain& chain : chain_edges(border)) {
+  for (const geometry::Chain& chain : geometry::chain_edges(border)) {
     std::vector<Pixel>& line = outlines.emplace_back();
     for (const std::uint64_t place : chain.points) line.push_back(places[place]);
   }
@@ -240,7 +240,7 @@ std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh) {
   return convex_outline(std::move(places));
 }
 
-std::vector<Pixel> convex_outline(const Sheet& sheet, const VolumeRow& volume) {
+std::vector<Pixel> convex_outline(const Sheet& sheet, const reading::VolumeRow& volume) {
   if (!(volume.exact.radius > 0)) return convex_outline(sheet, *volume.mesh);
   std::vector<Pixel> places;
   for (const Point3& point : outline_of(volume.exact, sheet.view().toward)) places.push_back(sheet.at(point));
@@ -253,4 +253,4 @@ bool is_inside(const std::vector<Pixel>& outline, Pixel place) {
   return outline.size() > 2;
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

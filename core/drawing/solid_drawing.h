@@ -12,10 +12,10 @@
 #include "core/reading/exact_shape.h"
 #include "core/reading/report_model.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 /// Points of a line on the sheet, simplified.
-std::vector<Pixel> on_sheet(const Sheet& sheet, const Polyline& line);
+std::vector<Pixel> on_sheet(const Sheet& sheet, const geometry::Polyline& line);
 
 struct SolidStyle {
   Colour colour;
@@ -34,8 +34,8 @@ std::string shaded(const Colour& colour, double light);
 /// The shades of a ball of one colour, to be referred to by `draw_ball`.
 std::string define_ball(Markup& svg, const View& view, const SolidStyle& style, const std::string& id);
 /// A ball cut by planes, smooth at any size. `stops`: id of the shades; `id`: a name of its own.
-void draw_ball(Markup& svg, const Sheet& sheet, const ExactShape& shape, const SolidStyle& style, const std::string& stops,
-               const std::string& id);
+void draw_ball(Markup& svg, const Sheet& sheet, const reading::ExactShape& shape, const SolidStyle& style,
+               const std::string& stops, const std::string& id);
 
 /// Into a group that the caller has opened. Meant for bodies that are nearly convex; others are drawn face by face.
 void draw_solid(Markup& svg, const Sheet& sheet, const Mesh& mesh, const SolidStyle& style);
@@ -49,8 +49,8 @@ std::vector<std::vector<Pixel>> common_outline(const std::vector<std::vector<Pix
 /// Convex outline of a mesh on the sheet.
 std::vector<Pixel> convex_outline(const Sheet& sheet, const Mesh& mesh);
 /// The same of a volume, from its exact shape where that is known.
-std::vector<Pixel> convex_outline(const Sheet& sheet, const VolumeRow& volume);
+std::vector<Pixel> convex_outline(const Sheet& sheet, const reading::VolumeRow& volume);
 /// Is the place inside a convex outline?
 bool is_inside(const std::vector<Pixel>& outline, Pixel place);
 
-}  // namespace bl::report
+}  // namespace bl::drawing

@@ -10,7 +10,7 @@
 #include "core/reading/figures.h"
 #include "core/traffic/street_line.h"
 
-namespace bl::report {
+namespace bl::drawing {
 
 namespace {
 
@@ -50,7 +50,7 @@ PathText ring_path(const Sheet& sheet, const std::vector<std::vector<Point3>>& r
 }
 
 // The heights at which lines are drawn: about ten over all grounds, at round numbers.
-double contour_step(const Surroundings& surroundings, double& low, double& high) {
+double contour_step(const reading::Surroundings& surroundings, double& low, double& high) {
   bool is_first = true;
   for (const MeshPointer& mesh : surroundings.grounds)
     for (const Point3& vertex : mesh->vertices) {
@@ -61,19 +61,19 @@ double contour_step(const Surroundings& surroundings, double& low, double& high)
   return high - low > 0.05 ? round_length((high - low) / 6) : 0;
 }
 
-void draw_contours(Markup& svg, const Sheet& sheet, const Surroundings& surroundings) {
+void draw_contours(Markup& svg, const Sheet& sheet, const reading::Surroundings& surroundings) {
   double low = 0, high = 0;
   const double step = contour_step(surroundings, low, high);
   if (!(step > 0)) return;
   PathText lines;
   for (const MeshPointer& mesh : surroundings.grounds)
     for (double k = std::floor(low / step) + 1; k * step < high; k += 1)
-      for (const Polyline& line : section(*mesh, k * step, [](std::size_t) { return true; }))
+      for (const geometry::Polyline& line : geometry::section(*mesh, k * step, [](std::size_t) { return true; }))
         lines.polyline(on_sheet(sheet, line), line.is_closed);
   svg.path(lines, {{"fill", "none"}, {"stroke", hex(kContour)}, {"stroke-width", ".8"}});
 }
 
-void draw_data(Markup& svg, const Sheet& sheet, const DataField& field) {
+void draw_data(Markup& svg, const Sheet& sheet, const reading::DataField& field) {
   const double span = field.high > field.low ? field.high - field.low : 1;
   for (const auto& [point, value] : field.points) {
     const Pixel at = sheet.at(point);
@@ -83,11 +83,11 @@ void draw_data(Markup& svg, const Sheet& sheet, const DataField& field) {
                         {"r", pixels(2 + 3 * std::clamp(share, 0.0, 1.0))},
                         {"fill", hex(between(kLeastData, kMostData, share))},
                         {"fill-opacity", ".75"}});
-    svg.element("title", field.name + ": " + readable(value) + (field.unit.empty() ? "" : " " + field.unit)).close();
+    svg.element("title", field.name + ": " + reading::readable(value) + (field.unit.empty() ? "" : " " + field.unit)).close();
   }
 }
 
-void draw_sun(Markup& svg, const Sheet& sheet, const SunField& field, double most) {
+void draw_sun(Markup& svg, const Sheet& sheet, const reading::SunField& field, double most) {
   constexpr int kSteps = 8;
   std::array<PathText, kSteps + 1> squares;
   for (const auto& [point, sun] : field.points) {
@@ -100,8 +100,9 @@ void draw_sun(Markup& svg, const Sheet& sheet, const SunField& field, double mos
       corners.push_back(sheet.at(point + a * field.half_across + b * up));
     squares[step].polyline(corners, true);
   }
-  svg.open("g").element("title", field.name + ": " + quantity(field.mean, Unit::second) + " of sun per day in the mean, of " +
-                                     quantity(field.possible, Unit::second) + " without casters");
+  svg.open("g").element("title", field.name + ": " + reading::quantity(field.mean, Unit::second) +
+                                     " of sun per day in the mean, of " + reading::quantity(field.possible, Unit::second) +
+                                     " without casters");
   for (std::size_t step = 0; step <= kSteps; ++step) {
     const std::string colour = hex(between(kLeastSun, kMostSun, static_cast<double>(step) / kSteps));
     svg.path(squares[step], {{"fill", colour}, {"stroke", colour}, {"stroke-width", field.is_upright ? "4" : ".4"}});
@@ -109,7 +110,7 @@ void draw_sun(Markup& svg, const Sheet& sheet, const SunField& field, double mos
   svg.close();
 }
 
-void draw_street(Markup& svg, const Sheet& sheet, const StreetLine& street) {
+void draw_street(Markup& svg, const Sheet& sheet, const reading::StreetLine& street) {
   PathText path;
   std::vector<Pixel> places;
   for (const Point3& point : street.line) places.push_back(sheet.at(point));
@@ -122,16 +123,17 @@ void draw_street(Markup& svg, const Sheet& sheet, const StreetLine& street) {
                   {"stroke-linecap", "round"}});
 }
 
-void draw_load(Markup& svg, const Sheet& sheet, const StreetLine& street) {
+void draw_load(Markup& svg, const Sheet& sheet, const reading::StreetLine& street) {
   if (!street.has_traffic && street.is_open) return;
   PathText path;
   std::vector<Pixel> places;
   for (const Point3& point : street.line) places.push_back(sheet.at(point));
   path.polyline(places, false);
   const LoadClass& load = kLoads[load_class(street.load)];
-  svg.open("g").element("title", street.name + ": " +
-                                     (street.is_open ? grouped(street.flow) + " vehicles per hour, load " + percent(street.load)
-                                                     : std::string("closed")));
+  svg.open("g").element(
+      "title", street.name + ": " +
+                   (street.is_open ? reading::grouped(street.flow) + " vehicles per hour, load " + reading::percent(street.load)
+                                   : std::string("closed")));
   svg.path(path, {{"fill", "none"},
                   {"stroke", street.is_open ? std::string(load.colour) : hex(kInk)},
                   {"stroke-width", pixels(street.is_open ? load.width : 1.2)},
@@ -150,7 +152,7 @@ bool middle_in(const Sheet& sheet, const std::vector<Point3>& line, const Box& f
   constexpr int kParts = 64;
   std::vector<Pixel> inside;
   for (int k = 0; k <= kParts; ++k) {
-    const Pixel at = sheet.at(point_on_line(line, static_cast<double>(k) / kParts));
+    const Pixel at = sheet.at(traffic::point_on_line(line, static_cast<double>(k) / kParts));
     if (is_within(frame, at)) inside.push_back(at);
   }
   if (inside.empty()) return false;
@@ -215,17 +217,17 @@ class SampleRow {
 
 }  // namespace
 
-void draw_ground_layers(Markup& svg, const Sheet& sheet, const Surroundings& surroundings) {
+void draw_ground_layers(Markup& svg, const Sheet& sheet, const reading::Surroundings& surroundings) {
   draw_contours(svg, sheet, surroundings);
-  for (const SunField& field : surroundings.sun) draw_sun(svg, sheet, field, surroundings.most_sun);
+  for (const reading::SunField& field : surroundings.sun) draw_sun(svg, sheet, field, surroundings.most_sun);
 }
 
-void draw_streets_and_buildings(Markup& svg, const Sheet& sheet, const Surroundings& surroundings) {
-  for (const StreetLine& street : surroundings.streets) draw_street(svg, sheet, street);
-  for (const StreetLine& street : surroundings.streets) draw_load(svg, sheet, street);
-  for (const BuildingShape& building : surroundings.buildings) {
+void draw_streets_and_buildings(Markup& svg, const Sheet& sheet, const reading::Surroundings& surroundings) {
+  for (const reading::StreetLine& street : surroundings.streets) draw_street(svg, sheet, street);
+  for (const reading::StreetLine& street : surroundings.streets) draw_load(svg, sheet, street);
+  for (const reading::BuildingShape& building : surroundings.buildings) {
     svg.open("g").element("title", building.name + (building.use.empty() ? "" : ", " + building.use) + ": " +
-                                       quantity(building.height, Unit::metre) + " high" +
+                                       reading::quantity(building.height, Unit::metre) + " high" +
                                        (building.is_assumed ? ", assumed" : ""));
     svg.path(ring_path(sheet, building.rings), {{"fill", hex(kBodyTone)},
                                                 {"fill-rule", "evenodd"},
@@ -238,7 +240,7 @@ void draw_streets_and_buildings(Markup& svg, const Sheet& sheet, const Surroundi
   if (!surroundings.data.empty()) draw_data(svg, sheet, surroundings.data.front());
 }
 
-void draw_plots(Markup& svg, const Sheet& sheet, const Surroundings& surroundings) {
+void draw_plots(Markup& svg, const Sheet& sheet, const reading::Surroundings& surroundings) {
   for (const auto& [name, ring] : surroundings.plots) {
     svg.open("g").element("title", "Plot " + name);
     svg.path(ring_path(sheet, {ring}),
@@ -247,54 +249,56 @@ void draw_plots(Markup& svg, const Sheet& sheet, const Surroundings& surrounding
   }
 }
 
-std::vector<Label> surroundings_labels(const Sheet& sheet, const Surroundings& surroundings, const Box& frame) {
+std::vector<Label> surroundings_labels(const Sheet& sheet, const reading::Surroundings& surroundings, const Box& frame) {
   constexpr std::size_t kMost = 40;
   std::vector<Label> labels;
   if (surroundings.streets.size() <= kMost)
-    for (const StreetLine& street : surroundings.streets)
+    for (const reading::StreetLine& street : surroundings.streets)
       if (Pixel at; street.has_traffic && street.line.size() >= 2 && middle_in(sheet, street.line, frame, at))
-        labels.push_back({at, street.name, "load " + percent(street.load), percent(street.load)});
+        labels.push_back({at, street.name, "load " + reading::percent(street.load), reading::percent(street.load)});
   if (surroundings.buildings.size() <= kMost)
-    for (const BuildingShape& building : surroundings.buildings) {
+    for (const reading::BuildingShape& building : surroundings.buildings) {
       Point3 middle;
       for (const Point3& corner : building.rings.front()) middle += corner / static_cast<double>(building.rings.front().size());
       // What is cut away at the frame is not on the sheet.
       if (!is_within(frame, sheet.at(middle))) continue;
       labels.push_back({sheet.at(middle), building.name,
-                        quantity(building.height, Unit::metre) + (building.is_assumed ? ", assumed" : ""),
-                        readable(building.height)});
+                        reading::quantity(building.height, Unit::metre) + (building.is_assumed ? ", assumed" : ""),
+                        reading::readable(building.height)});
     }
-  for (const SunField& field : surroundings.sun) {
+  for (const reading::SunField& field : surroundings.sun) {
     Point3 middle;
     for (const auto& [point, sun] : field.points) middle += point / static_cast<double>(field.points.size());
     if (!is_within(frame, sheet.at(middle))) continue;
-    labels.push_back(
-        {sheet.at(middle), field.name, "sun " + quantity(field.mean, Unit::second), quantity(field.mean, Unit::second)});
+    labels.push_back({sheet.at(middle), field.name, "sun " + reading::quantity(field.mean, Unit::second),
+                      reading::quantity(field.mean, Unit::second)});
   }
   return labels;
 }
 
-double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundings& surroundings, Pixel at) {
+double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const reading::Surroundings& surroundings, Pixel at) {
   SampleRow row(svg, sheet, at);
   const auto any_street = [&](auto has) { return std::any_of(surroundings.streets.begin(), surroundings.streets.end(), has); };
-  if (any_street([](const StreetLine& s) { return !s.has_traffic; })) row.line(row.next("street"), hex(kRoadTone), 6, "");
+  if (any_street([](const reading::StreetLine& s) { return !s.has_traffic; }))
+    row.line(row.next("street"), hex(kRoadTone), 6, "");
   for (std::size_t k = 0; k < kLoads.size(); ++k)
-    if (any_street([&](const StreetLine& s) { return s.has_traffic && s.is_open && load_class(s.load) == k; }))
+    if (any_street([&](const reading::StreetLine& s) { return s.has_traffic && s.is_open && load_class(s.load) == k; }))
       row.line(row.next("street, " + std::string(kLoads[k].words)), std::string(kLoads[k].colour), kLoads[k].width, "");
-  if (any_street([](const StreetLine& s) { return !s.is_open; })) row.line(row.next("street, closed"), hex(kInk), 1.2, "2 4");
+  if (any_street([](const reading::StreetLine& s) { return !s.is_open; }))
+    row.line(row.next("street, closed"), hex(kInk), 1.2, "2 4");
   const std::string edge = hex(mix(kBodyTone, kInk, 0.5));
   const auto any_building = [&](bool is_assumed) {
     return std::any_of(surroundings.buildings.begin(), surroundings.buildings.end(),
-                       [&](const BuildingShape& b) { return b.is_assumed == is_assumed; });
+                       [&](const reading::BuildingShape& b) { return b.is_assumed == is_assumed; });
   };
   if (any_building(false)) row.box(row.next("existing building"), hex(kBodyTone), edge, "");
   if (any_building(true)) row.box(row.next("existing, height assumed"), hex(kBodyTone), edge, "4 2.5");
   if (!surroundings.plots.empty()) row.line(row.next("plot"), hex(kInk), 1, "1.5 3");
   if (!surroundings.sun.empty())
-    row.ramp(row.next("sun per day, 0 to " + quantity(surroundings.most_sun, Unit::second)), kLeastSun, kMostSun);
+    row.ramp(row.next("sun per day, 0 to " + reading::quantity(surroundings.most_sun, Unit::second)), kLeastSun, kMostSun);
   if (!surroundings.data.empty()) {
-    const DataField& field = surroundings.data.front();
-    row.ramp(row.next(field.name + ", " + readable(field.low) + " to " + readable(field.high) +
+    const reading::DataField& field = surroundings.data.front();
+    row.ramp(row.next(field.name + ", " + reading::readable(field.low) + " to " + reading::readable(field.high) +
                       (field.unit.empty() ? "" : " " + field.unit)),
              kLeastData, kMostData);
   }
@@ -304,8 +308,8 @@ double draw_surroundings_legend(Markup* svg, const Sheet& sheet, const Surroundi
   return row.height();
 }
 
-void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
-                       double ground, const std::string& id) {
+void draw_ground_aside(Markup& svg, const Sheet& sheet, const reading::Surroundings& surroundings,
+                       const std::vector<Point3>& frame, double ground, const std::string& id) {
   if (frame.size() != 2 || surroundings.is_empty()) return;
   PathText edge;
   edge.polyline({sheet.at({frame[0].x, frame[0].y, ground}), sheet.at({frame[1].x, frame[0].y, ground}),
@@ -313,19 +317,19 @@ void draw_ground_aside(Markup& svg, const Sheet& sheet, const Surroundings& surr
                 true);
   svg.open("clipPath", {{"id", id + "-around"}}).path(edge, {}).close();
   svg.open("g", {{"clip-path", "url(#" + id + "-around)"}});
-  for (const SunField& field : surroundings.sun)
+  for (const reading::SunField& field : surroundings.sun)
     if (!field.is_upright) draw_sun(svg, sheet, field, surroundings.most_sun);
-  for (const StreetLine& street : surroundings.streets) draw_street(svg, sheet, street);
-  for (const StreetLine& street : surroundings.streets) draw_load(svg, sheet, street);
+  for (const reading::StreetLine& street : surroundings.streets) draw_street(svg, sheet, street);
+  for (const reading::StreetLine& street : surroundings.streets) draw_load(svg, sheet, street);
   svg.close();
 }
 
-void draw_buildings_aside(Markup& svg, const Sheet& sheet, const Surroundings& surroundings, const std::vector<Point3>& frame,
-                          const Point3& middle, const Vector3& to_sun, bool before) {
+void draw_buildings_aside(Markup& svg, const Sheet& sheet, const reading::Surroundings& surroundings,
+                          const std::vector<Point3>& frame, const Point3& middle, const Vector3& to_sun, bool before) {
   if (frame.size() != 2) return;
-  std::vector<std::pair<double, const BuildingShape*>> order;
+  std::vector<std::pair<double, const reading::BuildingShape*>> order;
   const double depth_of_middle = sheet.depth({middle.x, middle.y, 0});
-  for (const BuildingShape& building : surroundings.buildings) {
+  for (const reading::BuildingShape& building : surroundings.buildings) {
     if (!building.mesh || building.mesh->triangles.empty()) continue;
     Point3 centre;
     bool is_near = false;
@@ -339,18 +343,19 @@ void draw_buildings_aside(Markup& svg, const Sheet& sheet, const Surroundings& s
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [depth, building] : order) {
     svg.open("g", {{"opacity", before ? ".45" : "1"}});
-    svg.element("title", building->name + ": " + quantity(building->height, Unit::metre) + " high" +
+    svg.element("title", building->name + ": " + reading::quantity(building->height, Unit::metre) + " high" +
                              (building->is_assumed ? ", assumed" : ""));
     draw_solid(svg, sheet, *building->mesh, {kBodyTone, to_sun, 0, 0, 0});
     svg.close();
   }
 }
 
-std::string surroundings_caption(const Surroundings& surroundings) {
+std::string surroundings_caption(const reading::Surroundings& surroundings) {
   if (surroundings.is_empty()) return "";
   std::string caption = " Around the site, as far as the frame reaches: what stands and runs there; the tables have all of it.";
-  if (surroundings.data.size() > 1) caption += " Of " + counted(surroundings.data.size(), "data layer") + " the first is drawn.";
+  if (surroundings.data.size() > 1)
+    caption += " Of " + reading::counted(surroundings.data.size(), "data layer") + " the first is drawn.";
   return caption;
 }
 
-}  // namespace bl::report
+}  // namespace bl::drawing

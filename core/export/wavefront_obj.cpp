@@ -8,7 +8,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::exporting {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::string write_obj(std::span<const NamedMesh> meshes, const std::string& note
   return out;
 }
 
-}  // namespace bl
+}  // namespace bl::exporting

@@ -6,7 +6,7 @@
 
 #include "core/base/mesh.h"
 
-namespace bl {
+namespace bl::exporting {
 
 struct NamedMesh {
   std::string name;
@@ -17,4 +17,4 @@ struct NamedMesh {
 /// `note`: a sentence for the header, none where empty.
 std::string write_obj(std::span<const NamedMesh> meshes, const std::string& note = {});
 
-}  // namespace bl
+}  // namespace bl::exporting

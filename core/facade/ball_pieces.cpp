@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace bl {
+namespace bl::facade {
 
 namespace {
 
@@ -134,4 +134,4 @@ BallPieces ball_pieces(const Mesh& mesh) {
   return out;
 }
 
-}  // namespace bl
+}  // namespace bl::facade

@@ -8,7 +8,7 @@
 
 #include "core/base/mesh.h"
 
-namespace bl {
+namespace bl::facade {
 
 /// A convex polygon that is nearly flat.
 struct BallPiece {
@@ -48,4 +48,4 @@ inline double doubled_area(std::span<const Point3> polygon, const Vector3& norma
 /// Each triangle of the coarse `mesh` in 36 parts; what of these reaches beyond the ball is moved onto it. `mesh.wrap` is there.
 BallPieces ball_pieces(const Mesh& mesh);
 
-}  // namespace bl
+}  // namespace bl::facade

@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::facade {
 
 WindowBand band_of(const FacadeRule& rule, double storey_height) {
   const double sill = std::clamp(rule.sill, 0.0, storey_height);
@@ -63,4 +63,4 @@ void add_missing_text(const Dressing& dressing, std::string& message) {
              " m² of the glazing that is asked for find no room between sills and bands";
 }
 
-}  // namespace bl
+}  // namespace bl::facade

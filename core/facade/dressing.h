@@ -7,13 +7,13 @@
 
 #include "core/facade/facade_survey.h"
 
-namespace bl {
+namespace bl::facade {
 
 /// What a style says of one orientation of one use.
 struct FacadeRule {
-  double glazing = 0.4;          ///< glazed share of a storey's façade
-  double module = 3;             ///< width of one window with its pier [m]
-  double sill = 0.9, band = 0.4; ///< closed heights above the floor, and under the next one [m]
+  double glazing = 0.4;                         ///< glazed share of a storey's façade
+  double module = 3;                            ///< width of one window with its pier [m]
+  double sill = 0.9, band = 0.4;                ///< closed heights above the floor, and under the next one [m]
   double cost_glazed = 900, cost_opaque = 450;  ///< [€/m²]
   bool operator==(const FacadeRule&) const = default;
 };
@@ -52,4 +52,4 @@ Dressing dress(const FacadeSurvey& survey, const FacadeRules& rules, double fact
 /// Adds a sentence where glazing is missing.
 void add_missing_text(const Dressing& dressing, std::string& message);
 
-}  // namespace bl
+}  // namespace bl::facade

@@ -1,12 +1,12 @@
-// Dressed areas as rows of tables: how they travel to panels, exports and the 3D view. Works with any table that holds numbers and
-// texts by row and column.
+// Dressed areas as rows of tables: how they travel to panels, exports and the 3D view. Works with any table that holds numbers
+// and texts by row and column.
 #pragma once
 
 #include <string>
 
 #include "core/facade/dressing.h"
 
-namespace bl {
+namespace bl::facade {
 
 /// One row for each orientation, clockwise from north, with the windows that stand there.
 template <class Table>
@@ -31,4 +31,4 @@ void write_storeys(const Dressing& dressing, Table& table) {
       table.rows.push_back({static_cast<double>(k), part.area(), part.glazed, part.opaque, part.cost});
 }
 
-}  // namespace bl
+}  // namespace bl::facade

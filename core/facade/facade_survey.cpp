@@ -8,7 +8,7 @@
 #include "core/base/mathematics.h"
 #include "core/facade/ball_pieces.h"
 
-namespace bl {
+namespace bl::facade {
 
 namespace {
 
@@ -40,7 +40,8 @@ Part below(Corners polygon, double height) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point3 &a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
     if (a.z <= height) out.push_back(a);
-    if ((a.z < height && b.z > height) || (a.z > height && b.z < height)) out.push_back(a + ((height - a.z) / (b.z - a.z)) * (b - a));
+    if ((a.z < height && b.z > height) || (a.z > height && b.z < height))
+      out.push_back(a + ((height - a.z) / (b.z - a.z)) * (b - a));
   }
   return out;
 }
@@ -134,7 +135,9 @@ class Surveyor {
     // The area below each height; what lies between two heights is the difference, so that all of them add up to the whole.
     double done = 0;
     const auto up_to = [&](double height) {
-      const double reached = height >= high ? whole : height <= low ? 0 : std::min(whole, scale * area(below<Part>(polygon, height)));
+      const double reached = height >= high  ? whole
+                             : height <= low ? 0
+                                             : std::min(whole, scale * area(below<Part>(polygon, height)));
       return std::max(0.0, reached - std::exchange(done, std::max(done, reached)));
     };
     out_.ground += up_to(options_.ground);
@@ -231,4 +234,4 @@ FacadeSurvey survey_facade(const Mesh& mesh, std::span<const ShapeFace> faces, c
   return surveyor.take();
 }
 
-}  // namespace bl
+}  // namespace bl::facade

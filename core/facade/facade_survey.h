@@ -8,7 +8,7 @@
 #include "core/facade/orientation.h"
 #include "core/facade/shape_faces.h"
 
-namespace bl {
+namespace bl::facade {
 
 /// Where each storey's windows begin and end, above its floor [m].
 struct WindowBand {
@@ -51,4 +51,4 @@ FacadeSurvey survey_facade(const Mesh& mesh, std::span<const ShapeFace> faces, c
 /// the sector that it spans with the origin. Corners as pairs, counter-clockwise.
 double polygon_disc_area(std::span<const std::array<double, 2>> corners, double squared);
 
-}  // namespace bl
+}  // namespace bl::facade

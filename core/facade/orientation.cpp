@@ -7,7 +7,7 @@
 
 #include "core/base/mathematics.h"
 
-namespace bl {
+namespace bl::facade {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::optional<Orientation> Compass::of_about(const Vector3& normal) const {
   return east > 0 ? Orientation::south_east : Orientation::south_west;
 }
 
-}  // namespace bl
+}  // namespace bl::facade

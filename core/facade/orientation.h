@@ -8,7 +8,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::facade {
 
 /// Sectors of 45 degrees around the points of the compass, clockwise from true north.
 enum class Orientation : std::uint8_t { north, north_east, east, south_east, south, south_west, west, north_west };
@@ -35,4 +35,4 @@ class Compass {
   double true_north_, sine_, cosine_;
 };
 
-}  // namespace bl
+}  // namespace bl::facade

@@ -1,7 +1,7 @@
 // Groups triangles into faces and compares faces by plane and middle.
 #include "core/facade/shape_faces.h"
 
-namespace bl {
+namespace bl::facade {
 
 namespace {
 
@@ -41,4 +41,4 @@ void mark_shared(std::span<ShapeFace> own, std::span<const ShapeFace> other, dou
       face.is_shared = dot(face.normal, other[k].normal) < kOpposite && distance(face.middle, other[k].middle) < near;
 }
 
-}  // namespace bl
+}  // namespace bl::facade

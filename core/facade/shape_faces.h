@@ -7,7 +7,7 @@
 
 #include "core/base/mesh.h"
 
-namespace bl {
+namespace bl::facade {
 
 /// One flat face of a mesh: the triangles that share their first corner in a coarse mesh, or one triangle of any other.
 struct ShapeFace {
@@ -26,4 +26,4 @@ std::vector<ShapeFace> faces_of(const Mesh& mesh);
 /// of them covers of it, the other covers too. `size` [m]: of the shapes, for the tolerance.
 void mark_shared(std::span<ShapeFace> own, std::span<const ShapeFace> other, double size);
 
-}  // namespace bl
+}  // namespace bl::facade

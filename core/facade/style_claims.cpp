@@ -5,7 +5,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::facade {
 
 StyleClaim settle_claims(std::span<const std::string> claims, std::span<const std::string> known) {
   StyleClaim out;
@@ -23,8 +23,9 @@ StyleClaim settle_claims(std::span<const std::string> claims, std::span<const st
   }
   if (!others.empty())
     out.message = "claimed by " + others + " as well; `" + out.dresser + "` holds, because it comes first by name";
-  if (!unknown.empty()) out.message += (out.message.empty() ? "" : "; ") + std::string("there is no style named ") + unknown + guess;
+  if (!unknown.empty())
+    out.message += (out.message.empty() ? "" : "; ") + std::string("there is no style named ") + unknown + guess;
   return out;
 }
 
-}  // namespace bl
+}  // namespace bl::facade

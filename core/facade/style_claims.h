@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-namespace bl {
+namespace bl::facade {
 
 struct StyleClaim {
   std::string dresser;  ///< empty: nobody
@@ -14,4 +14,4 @@ struct StyleClaim {
 /// `claims`: names that the façade has, ascending; the first that is among `known` dresses it.
 StyleClaim settle_claims(std::span<const std::string> claims, std::span<const std::string> known);
 
-}  // namespace bl
+}  // namespace bl::facade

@@ -1,5 +1,5 @@
-// A style as rows of a table: which rule holds for a use and an orientation. Works with any table that hands out numbers and texts
-// by row and column, so that the algorithms need not know the declarative layer.
+// A style as rows of a table: which rule holds for a use and an orientation. Works with any table that hands out numbers and
+// texts by row and column, so that the algorithms need not know the declarative layer.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 #include "core/base/text.h"
 #include "core/facade/dressing.h"
 
-namespace bl {
+namespace bl::facade {
 
 /// The rules of a use: for each orientation the first row that fits. Empty fields of `use` and `orientation` fit all. Without any
 /// rows a plain façade; where rows exist and none fits, a closed wall, and a sentence about it is added to `message`.
@@ -52,4 +52,4 @@ Result<void> check_style_rows(const Table& table) {
   return {};
 }
 
-}  // namespace bl
+}  // namespace bl::facade

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bl {
+namespace bl::facade {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::vector<const FacadeSurvey*> SurveyCache::of(const std::vector<SurveyCase>& 
   return surveys;
 }
 
-}  // namespace bl
+}  // namespace bl::facade

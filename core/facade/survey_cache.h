@@ -9,7 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/facade/facade_survey.h"
 
-namespace bl {
+namespace bl::facade {
 
 /// One shape with the shapes that may cover it.
 struct SurveyCase {
@@ -37,4 +37,4 @@ class SurveyCache {
   std::size_t made_ = 0;
 };
 
-}  // namespace bl
+}  // namespace bl::facade

@@ -9,7 +9,7 @@
 #include "core/geometry/inside/complex_body.h"
 #include "core/geometry/inside/complex_update.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -185,4 +185,4 @@ Result<void> CellComplex::update(const PowerDiagram& diagram, std::span<const Po
   return Error{ErrorCode::internal, "", std::string("the cell complex failed: ") + problem.what()};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

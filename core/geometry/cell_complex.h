@@ -13,7 +13,7 @@
 #include "core/geometry/element_name.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 enum class ElementKind : std::uint8_t { cell, facet, edge, vertex };
 std::string_view name_of(ElementKind kind);
@@ -89,4 +89,4 @@ class CellComplex {
   std::unique_ptr<Body> body_;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -11,7 +11,7 @@
 #include "core/geometry/inside/none.h"
 #include "core/geometry/tessellate.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -170,4 +170,4 @@ MeshPointer mesh_of_depth(const MeshPointer& mesh, int depth) {
   return std::make_shared<const Mesh>(std::move(whole));
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

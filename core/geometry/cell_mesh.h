@@ -9,7 +9,7 @@
 #include "core/geometry/inside/shape_measure.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Is the point in the ball, and behind all faces by at least `margin` [m]? Relative to the site, as the part is.
 bool holds(const Polyhedron& part, double squared_radius, const Point3& point, double margin);
@@ -36,4 +36,4 @@ MeshPointer mesh_of_depth(const MeshPointer& mesh, int depth);
 /// The mesh of a cell as studies see it, however finely it is shown.
 inline MeshPointer study_mesh(const MeshPointer& mesh) { return mesh_of_depth(mesh, kStudyDepth); }
 
-}  // namespace bl
+}  // namespace bl::geometry

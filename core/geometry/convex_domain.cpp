@@ -14,7 +14,7 @@
 #include "core/geometry/inside/none.h"
 #include "core/geometry/inside/polyhedron.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -197,4 +197,4 @@ Result<ConvexDomain> from_mesh(const Mesh& mesh) {
   return domain;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

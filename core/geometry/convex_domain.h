@@ -9,7 +9,7 @@
 #include "core/base/result.h"
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// The half-space normal·x <= offset [m]; `normal` is a unit vector that points out of the domain.
 struct Plane {
@@ -58,4 +58,4 @@ Result<ConvexDomain> from_mesh(const Mesh& mesh);
 /// The boundary as a closed triangle mesh, oriented outward.
 Mesh to_mesh(const ConvexDomain& domain);
 
-}  // namespace bl
+}  // namespace bl::geometry

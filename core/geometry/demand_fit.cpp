@@ -12,7 +12,7 @@
 #include "core/geometry/inside/ray_start.h"
 #include "core/geometry/inside/weight_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -214,4 +214,4 @@ Result<FitReport> adapt_weights(const Domain& domain, const FitProblem& problem,
   return WeightFit(domain, problem.sites, FitTargets(problem), state, options).run();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

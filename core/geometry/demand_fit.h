@@ -11,7 +11,7 @@
 #include "core/geometry/fit_problem.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// How weights follow the errors.
 enum class FitMethod : std::uint8_t {
@@ -81,4 +81,4 @@ Result<FitReport> adapt_weights(const Domain& domain, std::span<const PowerSite>
 Result<FitReport> adapt_weights(const Domain& domain, const FitProblem& problem, const FitState& state,
                                 const FitOptions& options);
 
-}  // namespace bl
+}  // namespace bl::geometry

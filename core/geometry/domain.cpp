@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -81,4 +81,4 @@ Result<Domain> join_pieces(std::vector<Domain::Piece> pieces) {
   return domain;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -7,7 +7,7 @@
 
 #include "core/geometry/convex_domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A solid as convex pieces whose interiors are disjoint. Makers split pieces where needed, so that the face of each plane of
 /// a piece lies either wholly on the surface of the solid or wholly between two pieces. One convex domain is one piece whose
@@ -49,4 +49,4 @@ struct Domain {
 /// Pieces put together: volume, centroid, box and side count follow from them. Fails where there is no piece.
 Result<Domain> join_pieces(std::vector<Domain::Piece> pieces);
 
-}  // namespace bl
+}  // namespace bl::geometry

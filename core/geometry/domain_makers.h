@@ -6,7 +6,7 @@
 
 #include "core/geometry/domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A plan polygon with holes between two heights [m]: convex or not, either orientation, closing duplicate and collinear
 /// corners allowed. Sides: 0 the bottom, 1 the top, then one wall per side of the outer ring (counter-clockwise, from the first
@@ -39,4 +39,4 @@ double area_in_plan(const Domain& domain);
 /// where an edge of one piece ends within an edge of another its triangles do not share all corners.
 Mesh to_mesh(const Domain& domain);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -10,7 +10,7 @@
 
 #include "core/geometry/domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// In the column `side`: the face lies between two pieces.
 inline constexpr double kInnerSide = -1;
@@ -80,4 +80,4 @@ std::vector<NamedRing> read_rings(const Table& table) {
   return rings;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

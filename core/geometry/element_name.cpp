@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -106,4 +106,4 @@ Result<ElementName> ElementName::parse(std::string_view text) {
   return name;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

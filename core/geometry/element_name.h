@@ -12,7 +12,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A site, by the number that its owner gave it, or a boundary side `#k`. Sites come before sides.
 struct ElementLabel {
@@ -67,4 +67,4 @@ class ElementName {
   std::vector<ElementLabel> rest_;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

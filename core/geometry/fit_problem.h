@@ -6,7 +6,7 @@
 
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// What one site, or several sites together (a stand, a building with wings), are to have.
 struct VolumeDemand {
@@ -23,4 +23,4 @@ struct FitProblem {
   std::vector<VolumeDemand> demands;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

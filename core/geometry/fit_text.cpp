@@ -5,7 +5,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::geometry {
 
 std::string with_names(std::string sentence, std::span<const std::string> names) {
   const std::size_t at = sentence.find("site "), begin = at + 5;
@@ -55,4 +55,4 @@ std::string with_losses(std::string sentence, std::span<const DemandLoss> losses
   return sentence.replace(at, end - at, who.empty() ? "" : std::string(kShortOfIt) + who);
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

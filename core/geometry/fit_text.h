@@ -6,7 +6,7 @@
 
 #include "core/geometry/demand_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// "site 3" in a sentence of this folder replaced by the name of site 3 in backquotes.
 std::string with_names(std::string sentence, std::span<const std::string> names);
@@ -18,4 +18,4 @@ std::string losses_text(std::span<const DemandLoss> losses, double total_demand,
 /// differ, and people read the one beside the other.
 std::string with_losses(std::string sentence, std::span<const DemandLoss> losses, std::span<const std::string> names);
 
-}  // namespace bl
+}  // namespace bl::geometry

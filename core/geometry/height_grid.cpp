@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::size_t first_wrong_character(std::string_view row) {
   return row.size();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

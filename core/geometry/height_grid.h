@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace bl {
+namespace bl::geometry {
 
 /// Rows of text, the northernmost first; each height is a number of steps above the lowest one, in three characters.
 struct HeightGrid {
@@ -33,4 +33,4 @@ std::string height_row(std::span<const double> heights, double lowest, double st
 /// The index of the first character of a row that is none of ours, or its length.
 std::size_t first_wrong_character(std::string_view row);
 
-}  // namespace bl
+}  // namespace bl::geometry

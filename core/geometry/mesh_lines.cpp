@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -214,4 +214,4 @@ std::vector<Polyline> seen_from_above(const Mesh& mesh) {
   return outline(whole, [&](std::size_t t) { return normals[t].z > 1e-6; });
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -9,7 +9,7 @@
 
 #include "core/base/mesh.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Points joined by lines.
 struct Polyline {
@@ -51,4 +51,4 @@ std::vector<Polyline> outline(const Mesh& mesh, const TriangleFilter& counts);
 /// been put side by side there is no line between them.
 std::vector<Polyline> seen_from_above(const Mesh& mesh);
 
-}  // namespace bl
+}  // namespace bl::geometry

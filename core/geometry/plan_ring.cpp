@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -253,4 +253,4 @@ double depth_below_hull(std::span<const Point3> ring, std::span<const Point3> hu
   return deepest;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

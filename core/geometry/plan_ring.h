@@ -8,7 +8,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A closed polygon line in metres; the first point is not repeated at the end. Only x and y count.
 using Ring = std::vector<Point3>;
@@ -44,4 +44,4 @@ Ring hull_of_plan(std::span<const Point3> points);
 /// The largest distance of a point from the nearest side of the hull [m]: 0 for a convex polygon.
 double depth_below_hull(std::span<const Point3> ring, std::span<const Point3> hull);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-namespace bl {
+namespace bl::geometry {
 
 enum class Sampling {
   nearest,           ///< the value of the nearest point
@@ -49,4 +49,4 @@ class PointSampler {
   std::size_t used_ = 0;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

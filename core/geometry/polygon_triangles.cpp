@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -178,4 +178,4 @@ Mesh prism_mesh(const Ring& outer, std::span<const Ring> holes, double bottom, d
   return mesh;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

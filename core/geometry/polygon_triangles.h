@@ -10,7 +10,7 @@
 #include "core/base/vector.h"
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Triangles over the corners of all rings, numbered through: the first ring is the outer one, the others are holes, of either
 /// orientation. Only x and y count; triangles run counter-clockwise. Ears are clipped (Meisters 1975), holes joined by bridges.
@@ -21,4 +21,4 @@ std::vector<std::array<std::uint32_t, 3>> polygon_triangles(std::span<const Ring
 /// The closed mesh between two heights over a polygon with holes, oriented outward; rings may turn either way.
 Mesh prism_mesh(const Ring& outer, std::span<const Ring> holes, double bottom, double top);
 
-}  // namespace bl
+}  // namespace bl::geometry

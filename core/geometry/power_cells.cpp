@@ -10,7 +10,7 @@
 #include "core/geometry/inside/cell_workshop.h"
 #include "core/geometry/tessellate.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -255,4 +255,4 @@ CellTotals totals_of(std::span<const CellMeasure> cells) {
   return totals;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

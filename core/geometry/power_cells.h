@@ -14,7 +14,7 @@
 #include "core/geometry/domain.h"
 #include "core/geometry/inside/polyhedron.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A site of the power diagram: power distance |x - position|² - weight, shrink-wrap radius sqrt(weight).
 struct PowerSite {
@@ -122,4 +122,4 @@ struct CellTotals {
 };
 CellTotals totals_of(std::span<const CellMeasure> cells);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -84,4 +84,4 @@ Result<void> find_power_neighbours(std::span<const PowerSite> sites, std::span<c
   return Error{ErrorCode::internal, "", std::string("the power diagram failed: ") + problem.what()};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

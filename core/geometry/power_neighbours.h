@@ -8,7 +8,7 @@
 #include "core/base/result.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Neighbour lists of all sites in one array. Lists are sorted by index: nothing depends on the order of the triangulation.
 struct PowerNeighbours {
@@ -27,4 +27,4 @@ struct PowerNeighbours {
 Result<void> find_power_neighbours(std::span<const PowerSite> sites, std::span<const std::uint32_t> participants,
                                    PowerNeighbours& out);
 
-}  // namespace bl
+}  // namespace bl::geometry

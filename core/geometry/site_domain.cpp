@@ -12,7 +12,7 @@
 #include "core/geometry/inside/plan_pieces.h"
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -195,4 +195,4 @@ Result<Domain> without_solids(const Domain& domain, const std::vector<PlanSolid>
   return left ? left : Result<Domain>(left.error().within("exclusions"));
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -5,7 +5,7 @@
 
 #include "core/geometry/domain_makers.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A plan polygon, convex or not, between two heights [m].
 struct PlanSolid {
@@ -30,4 +30,4 @@ Result<Domain> site_domain(const SitePlan& site);
 /// `exclude` for solids that are given as plans. Places of errors: `exclusions/k`.
 Result<Domain> without_solids(const Domain& domain, const std::vector<PlanSolid>& exclusions);
 
-}  // namespace bl
+}  // namespace bl::geometry

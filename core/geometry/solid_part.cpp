@@ -8,7 +8,7 @@
 #include "core/geometry/inside/domain_parts.h"
 #include "core/geometry/inside/none.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -213,4 +213,4 @@ double common_area(const Polygon& a, const Polygon& b, const Vector3& normal) {
   return kept.size() > 2 ? std::abs(dot(area_vector(kept), normal)) : 0;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

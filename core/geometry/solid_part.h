@@ -8,7 +8,7 @@
 
 #include "core/geometry/domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A convex polygon in space, counter-clockwise seen from where its plane's normal points to.
 using Polygon = std::vector<Point3>;
@@ -58,4 +58,4 @@ double common_area(const Polygon& a, const Polygon& b, const Vector3& normal);
 /// The upright plane on edge i of a polygon, pointing out of it.
 Plane edge_plane(const Polygon& polygon, std::size_t edge, const Vector3& normal);
 
-}  // namespace bl
+}  // namespace bl::geometry

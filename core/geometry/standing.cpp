@@ -10,7 +10,7 @@
 #include "core/geometry/inside/plan_buckets.h"
 #include "core/geometry/touching_balls.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -205,4 +205,4 @@ std::vector<Stance> stances_of(const Domain& domain, std::span<const PowerSite> 
   return StanceFinder(domain, sites, cells, rules).run();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

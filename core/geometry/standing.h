@@ -7,7 +7,7 @@
 
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// What a volume may stand on.
 enum class Standing : std::uint8_t {
@@ -40,4 +40,4 @@ double ground_under(const Domain& domain, const Point3& point);
 std::vector<Stance> stances_of(const Domain& domain, std::span<const PowerSite> sites, std::span<const CellMeasure> cells,
                                std::span<const Standing> rules);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -151,4 +151,4 @@ Mesh tessellate(std::span<const Point3> corners, std::span<const FaceLoop> faces
   return mesh;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

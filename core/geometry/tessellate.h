@@ -9,7 +9,7 @@
 #include "core/base/mesh.h"
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Depth beyond which a mesh would have more triangles than any screen has pixels.
 inline constexpr int kDeepestTessellation = 4;
@@ -38,4 +38,4 @@ Point3 place_on_ball(double squared_radius, const Point3& inside, const Point3& 
 Mesh tessellate(std::span<const Point3> corners, std::span<const FaceLoop> faces, int depth, double radius,
                 const WrapTargets& targets, const Vector3& offset = {}, std::vector<std::uint32_t>* border = nullptr);
 
-}  // namespace bl
+}  // namespace bl::geometry

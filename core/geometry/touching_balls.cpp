@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -62,4 +62,4 @@ double touching_distance(double volume, double other_volume, double area) {
   return distance_to_facet(volume, facet) + distance_to_facet(other_volume, facet);
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

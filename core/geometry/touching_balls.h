@@ -1,7 +1,7 @@
 // How near two rounded volumes come to each other when they share a facet of a wanted size and nothing else cuts them.
 #pragma once
 
-namespace bl {
+namespace bl::geometry {
 
 /// Radius [m] of the ball of this volume [m³]; 0 for a volume that is not positive. Made of basic operations only, so that it is
 /// the same on every machine.
@@ -13,4 +13,4 @@ double ball_radius(double volume);
 /// radius is left.
 double touching_distance(double volume, double other_volume, double area);
 
-}  // namespace bl
+}  // namespace bl::geometry

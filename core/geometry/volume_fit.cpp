@@ -14,7 +14,7 @@
 #include "core/geometry/inside/fit_outcome.h"
 #include "core/geometry/inside/fit_targets.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -358,4 +358,4 @@ Result<VolumeFit> fit_volumes(const Domain& domain, const FitProblem& problem, c
   return Error{ErrorCode::internal, "", std::string("the fit failed: ") + trouble.what()};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -13,7 +13,7 @@
 #include "core/geometry/domain.h"
 #include "core/geometry/fit_problem.h"
 
-namespace bl {
+namespace bl::geometry {
 
 enum class FitStatus : std::uint8_t { met, infeasible, step_limit, cancelled };
 /// "met", "infeasible", "step limit", "cancelled".
@@ -51,4 +51,4 @@ struct VolumeFit {
 /// (non-finite numbers, an index that is not there, a site in two demands); demands that cannot be met are a status.
 Result<VolumeFit> fit_volumes(const Domain& domain, const FitProblem& problem, const VolumeFitOptions& options = {});
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -12,7 +12,7 @@
 #include "core/geometry/inside/fit_numbers.h"
 #include "core/geometry/inside/local_response.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -356,4 +356,4 @@ std::span<const PowerSite> VolumeSolver::sites() const { return workspace_->site
 std::span<const double> VolumeSolver::volumes() const { return workspace_->volume; }
 std::span<const double> VolumeSolver::demands() const { return workspace_->demand; }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -10,7 +10,7 @@
 #include "core/geometry/domain.h"
 #include "core/geometry/volume_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 struct SolveOptions {
   double tolerance = 1e-3;  ///< of the largest relative error
@@ -59,4 +59,4 @@ class VolumeSolver {
   std::unique_ptr<Workspace> workspace_;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -65,4 +65,4 @@ Result<VolumeTick::Outcome> VolumeTick::run_sampled(const Domain& domain, std::v
   return Outcome{std::move(fit->report.state), std::move(fit->report.losses), std::move(fit->resolution), kept.sampled.cells};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include "core/geometry/demand_fit.h"
 #include "core/geometry/inside/sampled_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 struct VolumeTick {
   Metric metric = Metric::power;
@@ -47,4 +47,4 @@ struct VolumeTick {
                               const FitState& state, Cache& kept) const;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace bl {
+namespace bl::geometry {
 
 std::size_t plain_triangulation(std::span<const PowerSite> sites) {
   using Predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -19,4 +19,4 @@ std::size_t plain_triangulation(std::span<const PowerSite> sites) {
   return triangulation.number_of_vertices();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

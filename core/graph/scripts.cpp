@@ -11,7 +11,7 @@ Scripts Scripts::read(std::map<std::string, std::string> texts, const Registry& 
   auto content = std::make_shared<Content>();
   content->types = program;
   for (const auto& [name, text] : texts) {
-    auto kind = read_link_script(name, text, content->types);
+    auto kind = script::read_link_script(name, text, content->types);
     if (!kind) {
       content->errors.emplace(name, kind.error());
       continue;

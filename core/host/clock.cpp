@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-namespace bl {
+namespace bl::host {
 
 namespace {
 
@@ -37,4 +37,4 @@ void Pace::wait(double seconds, const std::function<bool()>& is_over) {
   while (!is_over() && clock_->now() < due_) clock_->sleep(std::min(due_ - clock_->now(), kSlice));
 }
 
-}  // namespace bl
+}  // namespace bl::host

@@ -5,7 +5,7 @@
 #include <functional>
 #include <mutex>
 
-namespace bl {
+namespace bl::host {
 
 class Clock {
  public:
@@ -32,4 +32,4 @@ class Pace {
   double due_;
 };
 
-}  // namespace bl
+}  // namespace bl::host

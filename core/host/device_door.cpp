@@ -6,7 +6,7 @@
 
 #include "core/reading/views/stream.h"
 
-namespace bl {
+namespace bl::host {
 
 namespace {
 
@@ -38,7 +38,7 @@ bool DeviceDoor::follow(const Scene& scene, std::int64_t last_seq) {
 
 std::vector<Error> DeviceDoor::bring(std::int64_t tick, const std::function<Result<void>(Submission)>& submit) {
   std::vector<Error> refused;
-  for (Report& report : connections_.collect(tick)) {
+  for (live::Report& report : connections_.collect(tick)) {
     const std::string address = report.author.id;
     auto done = submit({std::move(report.command), std::move(report.author), 0, {"connection"}, {}});
     if (!done) refused.push_back(done.error().within(address));
@@ -46,4 +46,4 @@ std::vector<Error> DeviceDoor::bring(std::int64_t tick, const std::function<Resu
   return refused;
 }
 
-}  // namespace bl
+}  // namespace bl::host

@@ -8,7 +8,7 @@
 #include "core/live/connections.h"
 #include "core/session/ledger.h"
 
-namespace bl {
+namespace bl::host {
 
 /// The shortest tick that a sensor of the scene stands for [s]; a twentieth of a second where there is none.
 double tick_length(const Scene& scene, const Registry& registry);
@@ -17,7 +17,7 @@ bool has_recordings(const Scene& scene, const Registry& registry);
 
 class DeviceDoor {
  public:
-  explicit DeviceDoor(LiveOptions options) : connections_(std::move(options)) {}
+  explicit DeviceDoor(live::LiveOptions options) : connections_(std::move(options)) {}
 
   /// Starts, changes and ends connections where entries have come since the last call. Whether that was so.
   bool follow(const Scene& scene, std::int64_t last_seq);
@@ -26,13 +26,13 @@ class DeviceDoor {
   /// Sends what has changed since the last time.
   void send(const State& state) { connections_.send(state); }
 
-  std::vector<ConnectionStatus> status() const { return connections_.status(); }
+  std::vector<live::ConnectionStatus> status() const { return connections_.status(); }
   bool is_empty() const { return connections_.is_empty(); }
   bool has_recordings() const { return connections_.has_recordings(); }
 
  private:
-  Connections connections_;
+  live::Connections connections_;
   std::optional<std::int64_t> followed_;  // the last entry
 };
 
-}  // namespace bl
+}  // namespace bl::host

@@ -5,7 +5,7 @@
 
 #include "core/host/step_labels.h"
 
-namespace bl {
+namespace bl::host {
 
 void History::take(const LogEntry& entry, const Scene& scene) {
   if (entry.author != author_ || entry.rewinds_to) return;
@@ -38,4 +38,4 @@ void History::take_back(const LogEntry& entry) {
   step->gesture = entry.gesture;
 }
 
-}  // namespace bl
+}  // namespace bl::host

@@ -9,7 +9,7 @@
 #include "core/graph/scene.h"
 #include "core/session/log.h"
 
-namespace bl {
+namespace bl::host {
 
 /// All commands of one gesture.
 struct HistoryStep {
@@ -41,4 +41,4 @@ class History {
   std::int64_t last_step_ = 0;
 };
 
-}  // namespace bl
+}  // namespace bl::host

@@ -4,7 +4,7 @@
 #include "core/base/text.h"
 #include "core/file/scene_file.h"
 
-namespace bl {
+namespace bl::host {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::string Host::log_text() const {
   return text + log_line(LogCheck{.tick = state.tick, .hash = hex_digits(state.hash), .is_end = true});
 }
 
-}  // namespace bl
+}  // namespace bl::host

@@ -9,7 +9,7 @@
 #include "core/host/journal.h"
 #include "core/host/live_session.h"
 
-namespace bl {
+namespace bl::host {
 
 class Host {
  public:
@@ -49,4 +49,4 @@ class Host {
   std::unique_ptr<LiveSession> session_;
 };
 
-}  // namespace bl
+}  // namespace bl::host

@@ -13,7 +13,7 @@
 
 #include "core/file/file_io.h"
 
-namespace bl {
+namespace bl::host {
 
 namespace {
 
@@ -168,4 +168,4 @@ std::vector<Journal::UnsavedJournal> Journal::find(const Registry& registry, std
 
 void Journal::discard(const UnsavedJournal& remains) { remove_both(remains.path); }
 
-}  // namespace bl
+}  // namespace bl::host

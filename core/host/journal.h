@@ -10,7 +10,7 @@
 #include "core/session/gestures.h"
 #include "core/session/log.h"
 
-namespace bl {
+namespace bl::host {
 
 class Journal {
  public:
@@ -49,4 +49,4 @@ class Journal {
 /// The person's folder for journals, settings and pictures, made where it is missing: XDG_STATE_HOME or ~/.local/state.
 std::string person_folder();
 
-}  // namespace bl
+}  // namespace bl::host

@@ -15,7 +15,7 @@
 #include <thread>
 #include <utility>
 
-namespace bl {
+namespace bl::host {
 
 namespace {
 
@@ -434,4 +434,4 @@ void LiveSession::settle() {
   shared_->wait_between_ticks(lock);
 }
 
-}  // namespace bl
+}  // namespace bl::host

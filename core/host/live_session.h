@@ -12,7 +12,7 @@
 #include "core/host/clock.h"
 #include "core/session/open_gestures.h"
 
-namespace bl {
+namespace bl::host {
 
 /// What the ticking thread has published last. Everything in it stays as it is for as long as somebody holds it.
 struct Moment {
@@ -113,4 +113,4 @@ class LiveSession {
   std::unique_ptr<Shared> shared_;
 };
 
-}  // namespace bl
+}  // namespace bl::host

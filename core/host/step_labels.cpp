@@ -8,7 +8,7 @@
 
 #include "core/file/scene_file.h"
 
-namespace bl {
+namespace bl::host {
 
 namespace {
 
@@ -179,4 +179,4 @@ std::string label_of_step(const Registry& registry, const Command& command, cons
   return label + (subject.empty() ? "" : " · " + subject) + what;
 }
 
-}  // namespace bl
+}  // namespace bl::host

@@ -7,9 +7,9 @@
 #include "core/graph/scene.h"
 #include "core/session/commands.h"
 
-namespace bl {
+namespace bl::host {
 
 /// "Set value · Library, position", "Add Hotel", "Move 3 boxes". `scene`: as it is now, for names.
 std::string label_of_step(const Registry& registry, const Command& command, const Scene& scene);
 
-}  // namespace bl
+}  // namespace bl::host

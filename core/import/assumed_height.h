@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace bl {
+namespace bl::importing {
 
 inline constexpr std::string_view kHeightOfNeighbours = "height taken from its neighbours",
                                   kHeightAssumed = "height not known, assumed";
 
-}  // namespace bl
+}  // namespace bl::importing

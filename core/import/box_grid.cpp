@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::vector<std::size_t> BoxGrid::meeting(const PlanBox& box) const {
   return found;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

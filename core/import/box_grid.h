@@ -7,7 +7,7 @@
 
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// An upright box in plan [m].
 struct PlanBox {
@@ -60,4 +60,4 @@ BoxGrid BoxGrid::of(const Shapes& shapes, const Outer& outer) {
   return grid;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -10,7 +10,7 @@
 
 #include "core/geometry/polygon_triangles.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -36,7 +36,7 @@ Point3 seen_along(const Point3& p, const Vector3& normal) {
 
 void add_triangles(const std::vector<Point3>& vertices, const CitySurface& surface, Mesh& mesh) {
   std::vector<std::uint32_t> corners;
-  std::vector<Ring> rings;
+  std::vector<geometry::Ring> rings;
   const Vector3 normal = normal_of(vertices, surface.rings.front());
   for (const auto& ring : surface.rings) {
     if (ring.size() < 3) continue;
@@ -47,11 +47,11 @@ void add_triangles(const std::vector<Point3>& vertices, const CitySurface& surfa
     }
   }
   if (rings.empty()) return;
-  if (rings.size() == 1 && !(signed_area(rings[0]) > 0)) {  // of no area: any triangles that keep its edges
+  if (rings.size() == 1 && !(geometry::signed_area(rings[0]) > 0)) {  // of no area: any triangles that keep its edges
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) mesh.triangles.push_back({corners[0], corners[i], corners[i + 1]});
     return;
   }
-  for (const auto& [a, b, c] : polygon_triangles(rings)) mesh.triangles.push_back({corners[a], corners[b], corners[c]});
+  for (const auto& [a, b, c] : geometry::polygon_triangles(rings)) mesh.triangles.push_back({corners[a], corners[b], corners[c]});
 }
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -234,7 +234,7 @@ CitySolid city_solid(const std::vector<Point3>& vertices, const std::vector<City
   return solid;
 }
 
-std::vector<Ring> city_outlines(const std::vector<Point3>& vertices, const std::vector<CitySurface>& surfaces) {
+std::vector<geometry::Ring> city_outlines(const std::vector<Point3>& vertices, const std::vector<CitySurface>& surfaces) {
   std::vector<Point3> kept;
   const std::vector<CitySurface> sound = welded(vertices, surfaces, kept);
   std::map<std::array<double, 2>, std::uint32_t> known;
@@ -259,12 +259,12 @@ std::vector<Ring> city_outlines(const std::vector<Point3>& vertices, const std::
   for (const auto& [edge, sum] : sums)
     for (int i = 0; i < std::abs(sum); ++i)
       ways[sum > 0 ? edge.first : edge.second].push_back(sum > 0 ? edge.second : edge.first);
-  std::vector<Ring> rings;
+  std::vector<geometry::Ring> rings;
   for (const auto& chain : chained(std::move(ways))) {
-    Ring& ring = rings.emplace_back();
+    geometry::Ring& ring = rings.emplace_back();
     for (const std::uint32_t index : chain) ring.push_back(places[index]);
   }
   return rings;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -9,7 +9,7 @@
 #include "core/base/mesh.h"
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// One flat face: its outer ring, then its holes, as indices of vertices; what it is called ("GroundSurface"), or nothing.
 struct CitySurface {
@@ -35,6 +35,6 @@ double triangles_effort(const std::vector<CitySurface>& surfaces);
 
 /// The outlines of the surfaces in plan: counter-clockwise outer rings and clockwise holes, as chained, unjudged. Of a solid the
 /// ground counts: surfaces called so, else those that look down, else those that look up.
-std::vector<Ring> city_outlines(const std::vector<Point3>& vertices, const std::vector<CitySurface>& surfaces);
+std::vector<geometry::Ring> city_outlines(const std::vector<Point3>& vertices, const std::vector<CitySurface>& surfaces);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -14,7 +14,7 @@
 #include "core/import/context_shape.h"
 #include "core/import/osm_tags.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -119,8 +119,8 @@ class CityImporter {
   }
 
   struct Outline {
-    Ring outer;
-    std::vector<Ring> holes;
+    geometry::Ring outer;
+    std::vector<geometry::Ring> holes;
     std::string mended, fault;
   };
 
@@ -138,10 +138,10 @@ class CityImporter {
   std::vector<Outline> simple_outlines(const CityObject& object, const CityGeometry& geometry,
                                        const std::vector<Point3>& points) const {
     std::vector<Outline> outers;
-    std::vector<Ring> holes;
+    std::vector<geometry::Ring> holes;
     std::string fault;
-    for (const Ring& ring : city_outlines(vertices_[object.vertices], geometry.surfaces)) {
-      const bool is_hole = signed_area(ring) < 0;
+    for (const geometry::Ring& ring : city_outlines(vertices_[object.vertices], geometry.surfaces)) {
+      const bool is_hole = geometry::signed_area(ring) < 0;
       SoundRing sound = sound_ring(ring, !is_hole);
       if (!sound.fault.empty()) {
         fault = sound.fault;
@@ -151,18 +151,18 @@ class CityImporter {
       else outers.push_back({std::move(sound.ring), {}, sound.mended, ""});
     }
     if (outers.empty()) {
-      SoundRing hull = sound_ring(hull_of_plan(points), true);
+      SoundRing hull = sound_ring(geometry::hull_of_plan(points), true);
       outers.push_back(
           {std::move(hull.ring), {}, hull.fault.empty() ? "its outline is the hull of its corners" : "", hull.fault});
       return outers;
     }
     if (!fault.empty()) note_of_building(outers.front().mended, "a ring left out: " + fault);
     std::sort(outers.begin(), outers.end(),
-              [](const Outline& a, const Outline& b) { return signed_area(a.outer) > signed_area(b.outer); });
-    const BoxGrid grid = BoxGrid::of(outers, [](const Outline& outline) -> const Ring& { return outline.outer; });
-    for (Ring& hole : holes)
+              [](const Outline& a, const Outline& b) { return geometry::signed_area(a.outer) > geometry::signed_area(b.outer); });
+    const BoxGrid grid = BoxGrid::of(outers, [](const Outline& outline) -> const geometry::Ring& { return outline.outer; });
+    for (geometry::Ring& hole : holes)
       for (const std::size_t home : grid.meeting(plan_box(std::span(&hole.front(), 1))))
-        if (ring_contains(outers[home].outer, hole.front())) {
+        if (geometry::ring_contains(outers[home].outer, hole.front())) {
           outers[home].holes.push_back(std::move(hole));
           break;
         }
@@ -313,4 +313,4 @@ Result<Context> read_cityjson_context(std::string_view bytes, const ContextOptio
   return context;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

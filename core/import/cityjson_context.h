@@ -6,9 +6,9 @@
 #include "core/base/result.h"
 #include "core/import/context.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// CityJSON 1.x and 2.0 and sequences of features, plain or packed with gzip. Heights are those of the file.
 Result<Context> read_cityjson_context(std::string_view bytes, const ContextOptions& options = {});
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -14,7 +14,7 @@
 #include "core/import/inflate.h"
 #include "core/import/local_frame.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -268,4 +268,4 @@ Result<CityModel> read_cityjson(std::string_view bytes) {
   }
 }
 
-}  // namespace bl
+}  // namespace bl::importing

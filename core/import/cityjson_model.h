@@ -9,7 +9,7 @@
 #include "core/base/result.h"
 #include "core/import/city_surfaces.h"
 
-namespace bl {
+namespace bl::importing {
 
 struct CityGeometry {
   std::string type;  ///< "Solid", "MultiSurface", ...
@@ -37,4 +37,4 @@ struct CityModel {
 /// CityJSON 1.x and 2.0, and sequences of features (CityJSONSeq); plain or packed with gzip.
 Result<CityModel> read_cityjson(std::string_view bytes);
 
-}  // namespace bl
+}  // namespace bl::importing

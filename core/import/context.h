@@ -16,7 +16,7 @@
 #include "core/import/import_watch.h"
 #include "core/import/local_frame.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// Where the height of a building comes from; the last two are assumed.
 enum class HeightSource {
@@ -34,10 +34,10 @@ inline constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
 /// All lengths in local metres.
 struct ContextBuilding {
   std::string id, name, use;
-  Ring outer;               ///< counter-clockwise, z = 0
-  std::vector<Ring> holes;  ///< clockwise
-  double base = 0;          ///< height of the underside [m]
-  double height = 0;        ///< from the underside to the top [m]
+  geometry::Ring outer;               ///< counter-clockwise, z = 0
+  std::vector<geometry::Ring> holes;  ///< clockwise
+  double base = 0;                    ///< height of the underside [m]
+  double height = 0;                  ///< from the underside to the top [m]
   HeightSource height_source = HeightSource::assumed;
   double storey_height = 0;   ///< [m] of this building; 0: not known
   bool is_part = false;       ///< a part of a building that is drawn by its parts
@@ -76,8 +76,8 @@ struct ContextRestriction {
 /// Land use, green and water: what the ground is.
 struct ContextArea {
   std::string id, name, use;  ///< use: "landuse=grass", "natural=water"
-  Ring outer;
-  std::vector<Ring> holes;
+  geometry::Ring outer;
+  std::vector<geometry::Ring> holes;
   bool is_plot = false;      ///< a parcel of land
   std::size_t row = kNoRow;  ///< of the report
 };
@@ -115,4 +115,4 @@ struct ContextOptions {
 /// No element may lie farther from the origin [m]: over such lengths no flat frame is exact.
 inline constexpr double kContextExtent = 100000;
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -10,7 +10,7 @@
 #include "core/import/assumed_height.h"
 #include "core/import/box_grid.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr std::size_t kMostCorners = 100000, kFewestNeighbours = 3;
 
 std::string point_text(const Point3& p) { return "(" + fixed(p.x, 3) + ", " + fixed(p.y, 3) + ")"; }
 
-Point3 centre_of(const Ring& ring) {
+Point3 centre_of(const geometry::Ring& ring) {
   Point3 sum;
   for (const Point3& p : ring) sum += p;
   return sum / static_cast<double>(std::max<std::size_t>(1, ring.size()));
@@ -74,10 +74,10 @@ double context_height_unit(const ContextOptions& options, double file_unit, cons
   return unit;
 }
 
-RingCleaning clean_corners(Ring& ring) {
+RingCleaning clean_corners(geometry::Ring& ring) {
   RingCleaning done;
   const std::size_t given = ring.size();
-  Ring kept;
+  geometry::Ring kept;
   for (const Point3& point : ring)
     if (kept.empty() || !(distance(kept.back(), point) < kSamePoint)) kept.push_back(point);
   while (kept.size() > 1 && distance(kept.front(), kept.back()) < kSamePoint) kept.pop_back();
@@ -125,12 +125,12 @@ SoundRing sound_ring(std::vector<Point3> points, bool counter_clockwise) {
     result.fault = "its outline has fewer than 3 different corners";
     return result;
   }
-  if (const auto crossing = find_self_crossing(points)) {
+  if (const auto crossing = geometry::find_self_crossing(points)) {
     result.fault = "its outline crosses or touches itself";
     result.mended = "at " + point_text(crossing->where) + " in local metres";
     return result;
   }
-  const double area = signed_area(points);
+  const double area = geometry::signed_area(points);
   if (std::abs(area) < kSmallestShape) {
     result.fault = "its outline encloses no area";
     return result;
@@ -152,17 +152,17 @@ std::string out_of_reach(const ContextOptions& options, const std::vector<Point3
   return {};
 }
 
-void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& dropped) {
-  std::vector<Ring> kept;
+void sort_holes(const geometry::Ring& outer, std::vector<geometry::Ring>& holes, std::string& dropped) {
+  std::vector<geometry::Ring> kept;
   std::size_t bad = 0;
   BoxGrid grid(plan_box(outer), holes.size());
-  for (Ring& hole : holes) {
-    bool is_sound = !find_crossing(outer, hole) && ring_contains(outer, hole[0]);
+  for (geometry::Ring& hole : holes) {
+    bool is_sound = !geometry::find_crossing(outer, hole) && geometry::ring_contains(outer, hole[0]);
     const PlanBox box = plan_box(hole);
     if (is_sound)
       for (const std::size_t other : grid.meeting(box))
-        is_sound = is_sound && !find_crossing(kept[other], hole) && !ring_contains(kept[other], hole[0]) &&
-                   !ring_contains(hole, kept[other][0]);
+        is_sound = is_sound && !geometry::find_crossing(kept[other], hole) && !geometry::ring_contains(kept[other], hole[0]) &&
+                   !geometry::ring_contains(hole, kept[other][0]);
     if (is_sound) grid.add(box), kept.push_back(std::move(hole));
     else ++bad;
   }
@@ -172,11 +172,11 @@ void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& droppe
              std::to_string(bad) + ")";
 }
 
-std::string limit_corners(const Ring& outer, std::vector<Ring>& holes, std::string& dropped) {
+std::string limit_corners(const geometry::Ring& outer, std::vector<geometry::Ring>& holes, std::string& dropped) {
   const std::string most = "more than " + std::to_string(kMostBodyCorners) + " corners";
   if (outer.size() > kMostBodyCorners) return "it has " + most;
   std::size_t corners = outer.size();
-  for (const Ring& hole : holes) corners += hole.size();
+  for (const geometry::Ring& hole : holes) corners += hole.size();
   if (corners <= kMostBodyCorners) return {};
   dropped += (dropped.empty() ? "its " : ", its ") + how_many(holes.size(), "hole") + " left out: with them it has " + most;
   holes.clear();
@@ -257,4 +257,4 @@ std::optional<std::array<double, 2>> middle_of(std::vector<std::array<double, 2>
   return middle;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -7,7 +7,7 @@
 
 #include "core/import/context.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// The frame of the options: of the scene where that has one, else about the origin of the options or `middle`.
 /// `file_crs` empty: the file does not say; then the options have to.
@@ -22,7 +22,7 @@ double context_height_unit(const ContextOptions& options, double file_unit, cons
 
 /// A ring made sound: closing and repeated points dropped, spikes cut off, turned as wanted.
 struct SoundRing {
-  Ring ring;
+  geometry::Ring ring;
   std::string mended;  ///< what was done that changes the corners: "3 repeated points"; empty: nothing
   std::string fault;   ///< why it cannot be taken; empty: it can
 };
@@ -31,18 +31,18 @@ SoundRing sound_ring(std::vector<Point3> points, bool counter_clockwise);
 struct RingCleaning {
   std::size_t repeated = 0, spikes = 0;
 };
-RingCleaning clean_corners(Ring& ring);
+RingCleaning clean_corners(geometry::Ring& ring);
 
 /// Is any corner within the radius of the options, and all of them within kContextExtent? Else the reason why not.
 std::string out_of_reach(const ContextOptions& options, const std::vector<Point3>& points);
 
 /// An outer ring with its holes: holes that cross it, lie outside it or in each other are reported in `dropped`.
-void sort_holes(const Ring& outer, std::vector<Ring>& holes, std::string& dropped);
+void sort_holes(const geometry::Ring& outer, std::vector<geometry::Ring>& holes, std::string& dropped);
 
 /// What is made a body of (a building, a plot) is triangulated, which is quadratic in its corners.
 inline constexpr std::size_t kMostBodyCorners = 10000;
 /// Why a body cannot be made of the outer ring, or nothing; holes that are too many are left out, which `dropped` then says.
-std::string limit_corners(const Ring& outer, std::vector<Ring>& holes, std::string& dropped);
+std::string limit_corners(const geometry::Ring& outer, std::vector<geometry::Ring>& holes, std::string& dropped);
 
 /// Why a body cannot stand between these heights [m], or nothing.
 inline constexpr double kLowestBase = -10000, kHighestTop = 100000;
@@ -61,4 +61,4 @@ Error stopped_error();
 /// The middle (median of x and of y) of points; nothing where there are none.
 std::optional<std::array<double, 2>> middle_of(std::vector<std::array<double, 2>> points);
 
-}  // namespace bl
+}  // namespace bl::importing

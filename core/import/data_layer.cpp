@@ -15,7 +15,7 @@
 #include "core/import/number_column.h"
 #include "core/import/programme_columns.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -67,10 +67,10 @@ struct LayerColumn {
 
 class TableReader {
  public:
-  TableReader(const CsvText& csv, const std::string& value) : csv_(csv), wanted_(value) {}
+  TableReader(const csv::CsvText& csv, const std::string& value) : csv_(csv), wanted_(value) {}
 
   Result<void> match() {
-    const CsvRecord& header = csv_.records.front();
+    const csv::CsvRecord& header = csv_.records.front();
     for (std::size_t i = 0; i < header.fields.size(); ++i) {
       const std::string name = normal_header(header.fields[i]).name;
       const auto is = [&name](std::initializer_list<std::string_view> names) {
@@ -97,7 +97,7 @@ class TableReader {
     }
     std::vector<RawPoint> points;
     for (std::size_t r = 1; r < csv_.records.size(); ++r) {
-      const CsvRecord& record = csv_.records[r];
+      const csv::CsvRecord& record = csv_.records[r];
       RawPoint point;
       point.place = "line " + std::to_string(record.line);
       const auto x = number(record, columns[0]), y = number(record, columns[1]), value = number(record, columns[2]);
@@ -117,11 +117,11 @@ class TableReader {
   bool is_degrees = false;
 
  private:
-  static std::string text(const CsvRecord& record, std::size_t index) {
+  static std::string text(const csv::CsvRecord& record, std::size_t index) {
     return index < record.fields.size() ? record.fields[index] : std::string();
   }
 
-  static std::optional<double> number(const CsvRecord& record, const LayerColumn& column) {
+  static std::optional<double> number(const csv::CsvRecord& record, const LayerColumn& column) {
     const std::string field = text(record, column.index);
     if (field.empty()) return std::nullopt;
     std::string plain = field;
@@ -148,7 +148,7 @@ class TableReader {
     return numbers > 0 && others <= numbers / 10;
   }
 
-  Result<void> choose_value(const CsvRecord& header, const std::string& line) {
+  Result<void> choose_value(const csv::CsvRecord& header, const std::string& line) {
     std::vector<std::size_t> numeric;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < header.fields.size(); ++i) {
@@ -175,7 +175,7 @@ class TableReader {
                                  : "Several columns hold numbers (" + list + "): say which one is the value."};
   }
 
-  const CsvText& csv_;
+  const csv::CsvText& csv_;
   std::string wanted_;
   std::optional<std::size_t> x_, y_;
   std::size_t value_ = 0;
@@ -217,7 +217,7 @@ std::optional<std::array<double, 2>> first_position(const GeoFeature& feature) {
 Result<DataLayer> read_layer_csv(std::string_view bytes, const ContextOptions& options, const std::string& value) {
   auto text = unpacked(bytes);
   if (!text) return text.error();
-  auto csv = read_csv(*text);
+  auto csv = csv::read_csv(*text);
   if (!csv) return csv.error();
   if (csv->records.empty())
     return Error{ErrorCode::missing, "line 1",
@@ -300,4 +300,4 @@ Result<DataLayer> layer_of_grid(const TerrainGrid& grid, const ContextOptions& o
   return layer;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -10,7 +10,7 @@
 #include "core/import/context.h"
 #include "core/import/terrain_grid.h"
 
-namespace bl {
+namespace bl::importing {
 
 struct LayerPoint {
   double x = 0, y = 0;  ///< local [m]
@@ -37,4 +37,4 @@ Result<DataLayer> read_layer_geojson(std::string_view bytes, const ContextOption
 /// The cells of a raster that have a value; the most of them as in `local_terrain`.
 Result<DataLayer> layer_of_grid(const TerrainGrid& grid, const ContextOptions& options, std::size_t most_cells = 100000);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -14,7 +14,7 @@
 #include "core/import/inflate.h"
 #include "core/import/osm_tags.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -155,7 +155,7 @@ class GeoImporter {
     SoundRing outer = sound_ring(outline, true);
     mended = outer.mended;
     if (!outer.fault.empty()) return outer.fault;
-    std::vector<Ring> holes;
+    std::vector<geometry::Ring> holes;
     for (std::size_t r = 1; r < polygon.rings.size(); ++r) {
       SoundRing hole = sound_ring(local(polygon.rings[r]), false);
       if (!hole.fault.empty()) note_of_feature(mended, "a hole left out: " + hole.fault);
@@ -356,4 +356,4 @@ Result<Context> read_geojson_context(std::string_view bytes, const ContextOption
   return context;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

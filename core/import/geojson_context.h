@@ -6,7 +6,7 @@
 #include "core/base/result.h"
 #include "core/import/context.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// What the properties of a feature can say, by our names: the left sides of ContextOptions::properties.
 std::vector<std::string> context_property_names();
@@ -14,4 +14,4 @@ std::vector<std::string> context_property_names();
 /// Plain or packed with gzip. `feature_kind` of the options says what polygons are; else their properties do, see README.
 Result<Context> read_geojson_context(std::string_view bytes, const ContextOptions& options = {});
 
-}  // namespace bl
+}  // namespace bl::importing

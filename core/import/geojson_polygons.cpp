@@ -14,7 +14,7 @@
 #include "core/import/context_shape.h"
 #include "core/import/local_frame.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -273,4 +273,4 @@ Result<GeoDocument> read_geojson_polygons(std::string_view text, bool has_crs) {
   }
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -10,7 +10,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// One polygon as written: rings[0] is the outer one, the others are holes; x (longitude) first, in units of the CRS.
 struct GeoPolygon {
@@ -54,4 +54,4 @@ struct GeoDocument {
 /// Whoever knows the CRS (`has_crs`) does not ask the text, whatever that says of it.
 Result<GeoDocument> read_geojson_polygons(std::string_view text, bool has_crs = false);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -14,7 +14,7 @@
 #include "core/base/text.h"
 #include "core/define/json_text.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -253,4 +253,4 @@ Result<ImageFacts> read_image_facts(std::string_view bytes) {
   return facts;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

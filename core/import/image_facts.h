@@ -8,7 +8,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::importing {
 
 struct ImageFacts {
   int width = 0, height = 0;                  ///< pixels as they are stored, before they are turned
@@ -30,4 +30,4 @@ struct ImageFacts {
 /// Of the bytes of a JPEG or PNG file.
 Result<ImageFacts> read_image_facts(std::string_view bytes);
 
-}  // namespace bl
+}  // namespace bl::importing

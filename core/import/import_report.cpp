@@ -10,7 +10,7 @@
 #include "core/csv/csv_reader.h"
 #include "core/csv/csv_table.h"
 
-namespace bl {
+namespace bl::importing {
 
 std::string_view name_of(ImportOutcome outcome) {
   switch (outcome) {
@@ -100,7 +100,7 @@ const std::vector<std::string>& csv_header() {
 }
 
 // Millimetres are finer than anybody looks.
-CsvCell metres(double number) { return std::round(number * 1000) / 1000 + 0.0; }
+csv::CsvCell metres(double number) { return std::round(number * 1000) / 1000 + 0.0; }
 
 std::vector<std::string> words(std::string_view text) {
   std::vector<std::string> list;
@@ -112,43 +112,44 @@ std::vector<std::string> words(std::string_view text) {
   return list;
 }
 
-std::optional<ImportRow> row_of(const CsvRecord& record) {
+std::optional<ImportRow> row_of(const csv::CsvRecord& record) {
   if (record.fields.size() != csv_header().size()) return std::nullopt;
   ImportRow row;
   const std::string& outcome = record.fields[1];
   if (outcome == "repaired") row.outcome = ImportOutcome::repaired;
   else if (outcome == "skipped") row.outcome = ImportOutcome::skipped;
   else if (outcome != "taken") return std::nullopt;
-  row.kind = text_of_harmless(record.fields[2]);
-  row.id = text_of_harmless(record.fields[3]);
-  row.reason = text_of_harmless(record.fields[4]);
-  row.detail = text_of_harmless(record.fields[5]);
+  row.kind = csv::text_of_harmless(record.fields[2]);
+  row.id = csv::text_of_harmless(record.fields[3]);
+  row.reason = csv::text_of_harmless(record.fields[4]);
+  row.detail = csv::text_of_harmless(record.fields[5]);
   const std::string& count = record.fields[6];
   const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), row.count);
   if (problem != std::errc() || end != count.data() + count.size()) return std::nullopt;
   const auto x = parse_number(record.fields[7]), y = parse_number(record.fields[8]);
   if (x && y) row.place = {*x, *y};
   else if (!record.fields[7].empty() || !record.fields[8].empty()) return std::nullopt;
-  row.made = words(text_of_harmless(record.fields[9]));
+  row.made = words(csv::text_of_harmless(record.fields[9]));
   return row;
 }
 
 }  // namespace
 
 std::string import_csv(const ImportReports& reports) {
-  std::vector<std::vector<CsvCell>> cells;
+  std::vector<std::vector<csv::CsvCell>> cells;
   for (const auto& [file, report] : reports)
     for (const ImportRow& row : report.rows()) {
       std::string made;
       for (const std::string& id : row.made) made += (made.empty() ? "" : " ") + id;
       cells.push_back({file, name_of(row.outcome), row.kind, row.id, row.reason, row.detail, row.count,
-                       row.place ? metres((*row.place)[0]) : CsvCell(), row.place ? metres((*row.place)[1]) : CsvCell(), made});
+                       row.place ? metres((*row.place)[0]) : csv::CsvCell(), row.place ? metres((*row.place)[1]) : csv::CsvCell(),
+                       made});
     }
   return write_csv(csv_header(), cells);
 }
 
 Result<ImportReports> read_import_csv(std::string_view text) {
-  auto csv = read_csv(text, ',');
+  auto csv = csv::read_csv(text, ',');
   if (!csv) return csv.error();
   if (csv->records.empty() || csv->records.front().fields != csv_header())
     return Error{ErrorCode::parse, "line 1", "This is no import report: its header is not that of one."};
@@ -157,16 +158,16 @@ Result<ImportReports> read_import_csv(std::string_view text) {
                  "The report ends within this line: is it complete?"};
   ImportReports reports;
   for (std::size_t r = 1; r < csv->records.size(); ++r) {
-    const CsvRecord& record = csv->records[r];
+    const csv::CsvRecord& record = csv->records[r];
     auto row = row_of(record);
     if (!row)
       return Error{ErrorCode::parse, "line " + std::to_string(record.line),
                    "This is no row of an import report: it was changed."};
-    std::string file = text_of_harmless(record.fields[0]);
+    std::string file = csv::text_of_harmless(record.fields[0]);
     if (reports.empty() || reports.back().first != file) reports.emplace_back(std::move(file), ImportReport());
     reports.back().second.add(std::move(*row));
   }
   return reports;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

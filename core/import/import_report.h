@@ -14,7 +14,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::importing {
 
 enum class ImportOutcome { taken, repaired, skipped };
 std::string_view name_of(ImportOutcome outcome);
@@ -90,4 +90,4 @@ std::string import_csv(const ImportReports& reports);
 /// Reads that again.
 Result<ImportReports> read_import_csv(std::string_view text);
 
-}  // namespace bl
+}  // namespace bl::importing

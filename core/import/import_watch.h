@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cstddef>
 
-namespace bl {
+namespace bl::importing {
 
 /// Read and written by two threads at once. What is told is for the eye only: no result depends on it.
 struct ImportWatch {
@@ -23,4 +23,4 @@ inline bool goes_on(ImportWatch* watch, const char* step, std::size_t done, std:
   return !watch->is_stopped;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -9,7 +9,7 @@
 #include "core/base/stop_check.h"
 #include "core/import/context_shape.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -75,4 +75,4 @@ Result<std::string> unpacked(std::string_view bytes, std::size_t limit) {
   return text;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// Files unpack to no more than this.
 inline constexpr std::size_t kMostUnpacked = std::size_t{1} << 29;
@@ -19,4 +19,4 @@ Error too_large_unpacked(std::size_t limit);
 /// (bzip2, xz, zstd, zip, 7z, rar) is refused.
 Result<std::string> unpacked(std::string_view bytes, std::size_t limit = kMostUnpacked);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -11,7 +11,7 @@
 #include "core/base/mathematics.h"
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -324,4 +324,4 @@ std::string horizontal_crs(const std::string& crs, const std::string& database) 
 
 bool is_longitude_latitude(std::string_view crs) { return crs == "OGC:CRS84"; }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -9,7 +9,7 @@
 #include "core/base/result.h"
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// Where a local frame lies. A local point (x, y) is (origin_x + x, origin_y + y) in `crs`.
 struct GeoReference {
@@ -75,4 +75,4 @@ class LocalFrame {
   std::unique_ptr<Transforms> transforms_;
 };
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/csv/csv_reader.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -79,7 +79,7 @@ std::optional<std::string> plain_number(const std::string& part, char decimal) {
 
 DecimalEvidence decimal_evidence(std::string_view text) {
   std::string_view rest;
-  const std::string part = number_part(trimmed(text), rest);
+  const std::string part = number_part(csv::trimmed(text), rest);
   const std::size_t points = count_of(part, '.'), commas = count_of(part, ',');
   if (points + commas == 0) return DecimalEvidence::none;
   if (points > 0 && commas > 0) return part.rfind('.') > part.rfind(',') ? DecimalEvidence::point : DecimalEvidence::comma;
@@ -109,7 +109,7 @@ Result<char> column_decimal(std::span<const NumberField> fields, const std::stri
 
 std::optional<double> parse_table_number(std::string_view text, char decimal, Unit expected, std::string_view unit_symbol) {
   std::string_view rest;
-  const std::string part = number_part(trimmed(text), rest);
+  const std::string part = number_part(csv::trimmed(text), rest);
   const auto plain = plain_number(part, decimal == ',' ? ',' : '.');
   if (!plain || plain->empty()) return std::nullopt;
   std::string quantity = *plain + std::string(rest);
@@ -118,4 +118,4 @@ std::optional<double> parse_table_number(std::string_view text, char decimal, Un
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -11,7 +11,7 @@
 #include "core/base/result.h"
 #include "core/base/unit.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// A field of a column of numbers, and where it stands.
 struct NumberField {
@@ -37,4 +37,4 @@ Result<char> column_decimal(std::span<const NumberField> fields, const std::stri
 /// An empty answer means "no number of that kind".
 std::optional<double> parse_table_number(std::string_view text, char decimal, Unit expected, std::string_view unit_symbol);
 
-}  // namespace bl
+}  // namespace bl::importing

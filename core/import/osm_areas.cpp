@@ -13,7 +13,7 @@
 #include "core/import/osm_tags.h"
 #include "core/import/plan_cover.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -22,8 +22,8 @@ constexpr double kSameAreaHeight = 0.01;  // [m]
 
 // An outline with its holes, and where its row stands.
 struct Shape {
-  Ring outer;
-  std::vector<Ring> holes;
+  geometry::Ring outer;
+  std::vector<geometry::Ring> holes;
   ImportRow* row = nullptr;
   std::string id, mended;
   const OsmTags* tags = nullptr;
@@ -85,8 +85,8 @@ Joined join(std::vector<const OsmWay*> ways) {
 }
 
 double ground_area(const ContextBuilding& building) {
-  double area = signed_area(building.outer);
-  for (const Ring& hole : building.holes) area += signed_area(hole);
+  double area = geometry::signed_area(building.outer);
+  for (const geometry::Ring& hole : building.holes) area += geometry::signed_area(hole);
   return area;
 }
 
@@ -114,7 +114,8 @@ class Areas {
   }
 
   // The ring of a chain of nodes, or an empty one with the reason in `fault`.
-  Ring ring_of(const std::vector<std::int64_t>& nodes, bool counter_clockwise, std::string& mended, std::string& fault) const {
+  geometry::Ring ring_of(const std::vector<std::int64_t>& nodes, bool counter_clockwise, std::string& mended,
+                         std::string& fault) const {
     std::size_t missing = 0;
     const std::vector<Point3> places = in_.places(nodes, missing);
     if (missing > 0) {
@@ -196,8 +197,8 @@ class Areas {
     std::vector<Shape> shapes;
     for (const auto& nodes : outlines.rings) {
       std::string trouble, why;
-      Ring ring = ring_of(nodes, true, trouble, why);
-      if (std::vector<Ring> none; is_body && why.empty()) why = limit_corners(ring, none, trouble);
+      geometry::Ring ring = ring_of(nodes, true, trouble, why);
+      if (std::vector<geometry::Ring> none; is_body && why.empty()) why = limit_corners(ring, none, trouble);
       note(mended, trouble);
       if (why.empty()) {
         shapes.emplace_back().outer = std::move(ring);
@@ -211,10 +212,10 @@ class Areas {
 
   // Each inner ring belongs to the outline that it lies in.
   void deal_courts(const Joined& courts, std::vector<Shape>& shapes, bool is_body, std::string& mended) const {
-    const BoxGrid grid = BoxGrid::of(shapes, [](const Shape& shape) -> const Ring& { return shape.outer; });
+    const BoxGrid grid = BoxGrid::of(shapes, [](const Shape& shape) -> const geometry::Ring& { return shape.outer; });
     for (const auto& nodes : courts.rings) {
       std::string trouble, why;
-      Ring hole = ring_of(nodes, false, trouble, why);
+      geometry::Ring hole = ring_of(nodes, false, trouble, why);
       note(mended, trouble);
       if (!why.empty()) {
         note(mended, "an inner ring left out: " + why);
@@ -223,7 +224,7 @@ class Areas {
       const Point3 inside = place_inside(hole);
       const std::vector<std::size_t> near = grid.meeting(plan_box(std::span(&inside, 1)));
       const auto home =
-          std::find_if(near.begin(), near.end(), [&](std::size_t s) { return ring_contains(shapes[s].outer, inside); });
+          std::find_if(near.begin(), near.end(), [&](std::size_t s) { return geometry::ring_contains(shapes[s].outer, inside); });
       if (home == near.end()) note(mended, "an inner ring outside of all outer ones left out");
       else shapes[*home].holes.push_back(std::move(hole));
     }
@@ -288,12 +289,13 @@ class Areas {
   // Parts that cover their building take its place; parts of others rise from it.
   void replace_by_parts() {
     std::map<std::size_t, std::vector<std::size_t>> parts_of;
-    const BoxGrid grid = BoxGrid::of(wholes_, [](const Candidate& whole) -> const Ring& { return whole.building.outer; });
+    const BoxGrid grid =
+        BoxGrid::of(wholes_, [](const Candidate& whole) -> const geometry::Ring& { return whole.building.outer; });
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       const Point3 inside = place_inside(parts_[p].building.outer);
       std::optional<std::size_t> home;
       for (const std::size_t w : grid.meeting(plan_box(std::span(&inside, 1))))
-        if (ring_contains(wholes_[w].building.outer, inside) &&
+        if (geometry::ring_contains(wholes_[w].building.outer, inside) &&
             (!home || ground_area(wholes_[w].building) < ground_area(wholes_[*home].building)))
           home = w;
       if (home) parts_of[*home].push_back(p);
@@ -308,7 +310,7 @@ class Areas {
         if (parts_[p].building.base < kSameAreaHeight) {
           on_ground += ground_area(parts_[p].building);
           grounded.push_back({&parts_[p].building.outer});
-          for (const Ring& hole : parts_[p].building.holes) grounded.back().push_back(&hole);
+          for (const geometry::Ring& hole : parts_[p].building.holes) grounded.back().push_back(&hole);
         }
         if (parts_[p].building.use.empty()) parts_[p].building.use = whole.building.use;
         if (parts_[p].building.name.empty()) parts_[p].building.name = whole.building.name;
@@ -354,4 +356,4 @@ class Areas {
 
 void read_osm_areas(OsmImport& import) { Areas(import).run(); }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -9,7 +9,7 @@
 #include "core/import/osm_import.h"
 #include "core/import/osm_tags.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -181,4 +181,4 @@ Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& o
   return context;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

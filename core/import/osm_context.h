@@ -6,9 +6,9 @@
 #include "core/base/result.h"
 #include "core/import/context.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// OSM XML (plain or packed with gzip) or PBF.
 Result<Context> read_osm_context(std::string_view bytes, const ContextOptions& options = {});
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -8,7 +8,7 @@
 #include "core/import/context_shape.h"
 #include "core/import/osm_store.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// One file on its way to a Context. The rows stand beside the ways and relations of the store, one for each; an empty reason
 /// means that nobody has decided yet.
@@ -25,7 +25,7 @@ struct OsmImport {
   std::size_t index_of(const ImportRow& row) const;
   /// Have people lost patience? `done` of `total` elements are through.
   bool goes_on(const char* step, std::size_t done, std::size_t total) const {
-    return done % 256 != 0 || bl::goes_on(options->watch, step, done, total);
+    return done % 256 != 0 || bl::importing::goes_on(options->watch, step, done, total);
   }
   /// The nodes' places in local metres; `missing` counts those that the file does not hold.
   std::vector<Point3> places(const std::vector<std::int64_t>& nodes, std::size_t& missing) const;
@@ -42,4 +42,4 @@ void read_osm_areas(OsmImport& import);
 /// Streets between junctions, and turn restrictions.
 void read_osm_streets(OsmImport& import);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -17,7 +17,7 @@
 #include "core/import/osm_store.h"
 #include "core/import/pbf_blocks.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -225,4 +225,4 @@ Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch) {
   }
 }
 
-}  // namespace bl
+}  // namespace bl::importing

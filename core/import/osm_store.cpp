@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -24,4 +24,4 @@ const std::string& tag_of(const OsmTags& tags, std::string_view key) {
 const OsmNode* OsmStore::node(std::int64_t id) const { return find_in(nodes, id); }
 const OsmWay* OsmStore::way(std::int64_t id) const { return find_in(ways, id); }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -11,7 +11,7 @@
 #include "core/base/result.h"
 #include "core/import/import_watch.h"
 
-namespace bl {
+namespace bl::importing {
 
 using OsmTags = std::map<std::string, std::string, std::less<>>;
 
@@ -63,4 +63,4 @@ inline constexpr std::size_t kMostOsmElements = 20000000;
 /// Of osm_reading.cpp. .osm, .osm.gz and .osm.pbf, told apart by their first bytes; read by libosmium.
 Result<OsmStore> read_osm(std::string_view bytes, ImportWatch* watch = nullptr);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -6,7 +6,7 @@
 #include "core/import/osm_import.h"
 #include "core/import/osm_tags.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -196,4 +196,4 @@ class Streets {
 
 void read_osm_streets(OsmImport& import) { Streets(import).run(); }
 
-}  // namespace bl
+}  // namespace bl::importing

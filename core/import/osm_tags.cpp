@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/csv/csv_reader.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -23,7 +23,7 @@ std::optional<double> leading_number(std::string_view text, std::string_view& re
     if (!is_sign && !(c >= '0' && c <= '9') && c != '.' && c != ',') break;
     if (c != '+') digits += c == ',' ? '.' : c;
   }
-  rest = trimmed(text.substr(i));
+  rest = csv::trimmed(text.substr(i));
   if (digits.starts_with(".")) digits.insert(0, "0");
   if (digits.ends_with(".")) digits.pop_back();
   return parse_number(digits);
@@ -97,7 +97,7 @@ void read_direction(const OsmTags& tags, OsmRoad& road) {
 }  // namespace
 
 std::optional<double> osm_length(std::string_view text) {
-  text = trimmed(text);
+  text = csv::trimmed(text);
   std::string_view rest;
   const auto number = leading_number(text, rest);
   if (!number) return std::nullopt;
@@ -106,7 +106,7 @@ std::optional<double> osm_length(std::string_view text) {
   if (rest == "km") return *number * 1000;
   if (rest == "ft" || rest == "feet" || rest == "foot") return *number * kFoot;
   if (rest.starts_with("'") || rest.starts_with("\xE2\x80\xB2")) {
-    std::string_view inches = trimmed(rest.substr(rest.starts_with("'") ? 1 : 3));
+    std::string_view inches = csv::trimmed(rest.substr(rest.starts_with("'") ? 1 : 3));
     if (inches.empty()) return *number * kFoot;
     std::string_view mark;
     const auto more = leading_number(inches, mark);
@@ -117,7 +117,7 @@ std::optional<double> osm_length(std::string_view text) {
 }
 
 std::optional<double> osm_speed(std::string_view text) {
-  text = trimmed(text);
+  text = csv::trimmed(text);
   if (text == "walk") return 5 / 3.6;
   std::string_view rest;
   const auto number = leading_number(text, rest);
@@ -130,7 +130,7 @@ std::optional<double> osm_speed(std::string_view text) {
 
 std::optional<double> osm_number(std::string_view text) {
   std::string_view rest;
-  const auto number = leading_number(trimmed(text), rest);
+  const auto number = leading_number(csv::trimmed(text), rest);
   return rest.empty() ? number : std::nullopt;
 }
 
@@ -228,4 +228,4 @@ bool is_osm_part(const OsmTags& tags) {
   return !value.empty() && value != "no";
 }
 
-}  // namespace bl
+}  // namespace bl::importing

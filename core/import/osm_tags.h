@@ -7,7 +7,7 @@
 
 #include "core/import/osm_store.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// "12", "12 m", "12,5", "40'", "5'10\"", "40 ft", "1200 cm" in metres; nothing where it is not understood.
 std::optional<double> osm_length(std::string_view text);
@@ -44,4 +44,4 @@ std::string osm_ground(const OsmTags& tags);
 bool is_osm_building(const OsmTags& tags);
 bool is_osm_part(const OsmTags& tags);
 
-}  // namespace bl
+}  // namespace bl::importing

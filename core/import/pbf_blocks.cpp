@@ -7,7 +7,7 @@
 
 #include "core/import/inflate.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -92,4 +92,4 @@ Result<void> check_pbf_blocks(std::string_view bytes) {
   return {};
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -5,10 +5,10 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// Nothing, or why it is not worth opening the first block: the file ends within one, or they unpack to more than anybody reads.
 /// What is no block at all is left to the reader.
 Result<void> check_pbf_blocks(std::string_view bytes);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -12,7 +12,7 @@
 #include "core/import/context_shape.h"
 #include "core/import/geojson_polygons.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -30,9 +30,9 @@ std::string point_text(double x, double y) {
 
 // Comparable size of a polygon in units of its CRS; degrees of longitude shrink towards the poles.
 double raw_area(const GeoPolygon& polygon, bool degrees) {
-  Ring ring;
+  geometry::Ring ring;
   for (const auto& p : polygon.rings[0]) ring.push_back({p[0], p[1], 0});
-  const double area = std::abs(signed_area(ring));
+  const double area = std::abs(geometry::signed_area(ring));
   return degrees && !ring.empty() ? area * std::abs(mathematics::cosine(ring[0].y * 0.017453292519943295)) : area;
 }
 
@@ -163,9 +163,9 @@ std::string meeting_place(const LocalFrame& frame, const std::string& crs, const
 }
 
 // Local points without the closing point and without repeated ones, in the wanted direction.
-Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, const std::string& crs, bool counter_clockwise,
-                        const std::string& place, std::vector<std::string>& notes) {
-  Ring ring;
+Result<geometry::Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, const std::string& crs, bool counter_clockwise,
+                                  const std::string& place, std::vector<std::string>& notes) {
+  geometry::Ring ring;
   const bool closed = raw.size() > 1 && raw.front() == raw.back();
   if (!closed) notes.push_back("The ring " + place + " does not end where it starts; it was closed.");
   for (std::size_t i = 0; i + (closed ? 1 : 0) < raw.size(); ++i) {
@@ -185,7 +185,7 @@ Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, const std::
   if (ring.size() < 3)
     return Error{ErrorCode::geometry, place,
                  "A ring needs at least 3 different points; this one has " + std::to_string(ring.size()) + "."};
-  if (const auto crossing = find_self_crossing(ring)) {
+  if (const auto crossing = geometry::find_self_crossing(ring)) {
     const auto edge = [&](std::size_t i) {
       const Point3 &a = ring[i], &b = ring[(i + 1) % ring.size()];
       return "edge " + std::to_string(i) + " from " + point_text(a.x, a.y) + " to " + point_text(b.x, b.y);
@@ -194,7 +194,7 @@ Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, const std::
                  "The ring meets itself at " + meeting_place(frame, crs, crossing->where) + ": " + edge(crossing->first_edge) +
                      " and " + edge(crossing->second_edge) + ". Redraw it without crossing or touching itself."};
   }
-  const double area = signed_area(ring);
+  const double area = geometry::signed_area(ring);
   if (std::abs(area) < kSmallestArea)
     return Error{
         ErrorCode::geometry, place,
@@ -203,13 +203,13 @@ Result<Ring> clean_ring(const RawRing& raw, const LocalFrame& frame, const std::
   return ring;
 }
 
-Result<void> check_hole(const PlanBoundary& plan, const LocalFrame& frame, const Ring& hole, const std::string& place) {
-  auto crossing = find_crossing(plan.outer, hole);
+Result<void> check_hole(const PlanBoundary& plan, const LocalFrame& frame, const geometry::Ring& hole, const std::string& place) {
+  auto crossing = geometry::find_crossing(plan.outer, hole);
   std::string other = "the outer ring";
   for (std::size_t i = 0; i < plan.holes.size() && !crossing; ++i) {
-    crossing = find_crossing(plan.holes[i], hole);
+    crossing = geometry::find_crossing(plan.holes[i], hole);
     other = "hole " + std::to_string(i + 1);
-    if (!crossing && (ring_contains(plan.holes[i], hole[0]) || ring_contains(hole, plan.holes[i][0])))
+    if (!crossing && (geometry::ring_contains(plan.holes[i], hole[0]) || geometry::ring_contains(hole, plan.holes[i][0])))
       return Error{ErrorCode::geometry, place,
                    "This hole and hole " + std::to_string(i + 1) + " lie inside one another. Keep the outer one of the two."};
   }
@@ -217,7 +217,7 @@ Result<void> check_hole(const PlanBoundary& plan, const LocalFrame& frame, const
     return Error{ErrorCode::geometry, place,
                  "The hole meets " + other + " at " + meeting_place(frame, plan.source_crs, crossing->where) +
                      ". Cut it out of the outer ring, or draw it apart."};
-  if (!ring_contains(plan.outer, hole[0]))
+  if (!geometry::ring_contains(plan.outer, hole[0]))
     return Error{ErrorCode::geometry, place, "The hole lies outside the outer ring. Remove it, or make it a polygon of its own."};
   return {};
 }
@@ -234,16 +234,16 @@ Result<void> read_rings(const GeoPolygon& polygon, const LocalFrame& frame, Plan
     if (auto sound = check_hole(plan, frame, *ring, place); !sound) return sound;
     plan.holes.push_back(std::move(*ring));
   }
-  plan.outer_area = plan.area = signed_area(plan.outer);
-  for (const Ring& hole : plan.holes) plan.area += signed_area(hole);
+  plan.outer_area = plan.area = geometry::signed_area(plan.outer);
+  for (const geometry::Ring& hole : plan.holes) plan.area += geometry::signed_area(hole);
   if (!plan.holes.empty())
     plan.notes.push_back(
         std::to_string(plan.holes.size()) + (plan.holes.size() == 1 ? " hole with " : " holes with ") +
         area_text(plan.outer_area - plan.area) +
         (plan.holes.size() == 1 ? " stays open: nothing is built there." : " stay open: nothing is built there."));
-  plan.hull = hull_of_plan(plan.outer);
-  plan.hull_area = signed_area(plan.hull);
-  plan.is_convex = plan.holes.empty() && depth_below_hull(plan.outer, plan.hull) <= kConvexDepth;
+  plan.hull = geometry::hull_of_plan(plan.outer);
+  plan.hull_area = geometry::signed_area(plan.hull);
+  plan.is_convex = plan.holes.empty() && geometry::depth_below_hull(plan.outer, plan.hull) <= kConvexDepth;
   return {};
 }
 
@@ -302,4 +302,4 @@ Result<PlanBoundary> read_plan_boundary(std::string_view geojson_text, const Pla
 
 ConvexPlan convex_hull_plan(const PlanBoundary& plan) { return {plan.hull, plan.hull_area, plan.hull_area - plan.area}; }
 
-}  // namespace bl
+}  // namespace bl::importing

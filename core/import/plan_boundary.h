@@ -10,7 +10,7 @@
 #include "core/geometry/plan_ring.h"
 #include "core/import/local_frame.h"
 
-namespace bl {
+namespace bl::importing {
 
 struct PlanOptions {
   std::string feature;        ///< which feature: its index from 0 ("3"), or "property=value"; empty: the only or largest one
@@ -23,21 +23,21 @@ struct PlanBoundary {
   std::string place;       ///< the feature that was taken, such as "features/3"; empty for a bare one
   std::string source_crs;  ///< the CRS of the file's coordinates
   GeoReference reference;
-  Ring outer;                      ///< counter-clockwise, starts at the file's first point
-  std::vector<Ring> holes;         ///< clockwise
-  double area = 0;                 ///< of the outer ring less the holes [m²]
-  double outer_area = 0;           ///< of the outer ring alone [m²]
-  bool is_convex = false;          ///< no holes, and no point more than a millimetre inside the hull
-  Ring hull;                       ///< convex hull of the outer ring, counter-clockwise
-  double hull_area = 0;            ///< [m²]
-  std::vector<std::string> notes;  ///< what was assumed, mended or left out, one sentence each
+  geometry::Ring outer;               ///< counter-clockwise, starts at the file's first point
+  std::vector<geometry::Ring> holes;  ///< clockwise
+  double area = 0;                    ///< of the outer ring less the holes [m²]
+  double outer_area = 0;              ///< of the outer ring alone [m²]
+  bool is_convex = false;             ///< no holes, and no point more than a millimetre inside the hull
+  geometry::Ring hull;                ///< convex hull of the outer ring, counter-clockwise
+  double hull_area = 0;               ///< [m²]
+  std::vector<std::string> notes;     ///< what was assumed, mended or left out, one sentence each
 };
 
 Result<PlanBoundary> read_plan_boundary(std::string_view geojson_text, const PlanOptions& options = {});
 
 /// A convex plan in place of one that is not.
 struct ConvexPlan {
-  Ring ring;              ///< counter-clockwise
+  geometry::Ring ring;    ///< counter-clockwise
   double area = 0;        ///< [m²]
   double added_area = 0;  ///< what the hull covers beyond the plan, its holes among it [m²]
 };
@@ -45,4 +45,4 @@ struct ConvexPlan {
 /// The convex hull, for those who want a convex site. Whether the added area is bearable is the caller's decision.
 ConvexPlan convex_hull_plan(const PlanBoundary& plan);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -8,14 +8,14 @@
 #include "core/geometry/polygon_triangles.h"
 #include "core/import/box_grid.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
 // Where a line from west to east at height y lies inside of the rings, by the even-odd rule.
 std::vector<std::pair<double, double>> stretches_at(const PlanShape& rings, double y) {
   std::vector<double> crossings;
-  for (const Ring* ring : rings)
+  for (const geometry::Ring* ring : rings)
     for (std::size_t i = 0; i < ring->size(); ++i) {
       const Point3 &a = (*ring)[i], &b = (*ring)[(i + 1) % ring->size()];
       if ((a.y > y) != (b.y > y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
@@ -27,22 +27,22 @@ std::vector<std::pair<double, double>> stretches_at(const PlanShape& rings, doub
 }
 
 // The triangles of a shape, counter-clockwise.
-std::vector<Ring> triangles_of(const PlanShape& shape) {
-  std::vector<Ring> rings;
-  Ring corners;
-  for (const Ring* ring : shape) {
+std::vector<geometry::Ring> triangles_of(const PlanShape& shape) {
+  std::vector<geometry::Ring> rings;
+  geometry::Ring corners;
+  for (const geometry::Ring* ring : shape) {
     rings.push_back(*ring);
     corners.insert(corners.end(), ring->begin(), ring->end());
   }
-  std::vector<Ring> triangles;
-  for (const auto& [i, j, k] : polygon_triangles(rings)) triangles.push_back({corners[i], corners[j], corners[k]});
+  std::vector<geometry::Ring> triangles;
+  for (const auto& [i, j, k] : geometry::polygon_triangles(rings)) triangles.push_back({corners[i], corners[j], corners[k]});
   return triangles;
 }
 
 // What of a convex ring lies to the left of the line from a to b (Sutherland and Hodgman 1974).
-Ring left_of(const Ring& ring, const Point3& a, const Point3& b) {
+geometry::Ring left_of(const geometry::Ring& ring, const Point3& a, const Point3& b) {
   const auto side = [&](const Point3& p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); };
-  Ring kept;
+  geometry::Ring kept;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point3 &here = ring[i], &next = ring[(i + 1) % ring.size()];
     const double at = side(here), after = side(next);
@@ -55,20 +55,20 @@ Ring left_of(const Ring& ring, const Point3& a, const Point3& b) {
 }  // namespace
 
 double common_area(const PlanShape& a, const PlanShape& b) {
-  const std::vector<Ring> first = triangles_of(a), second = triangles_of(b);
-  const BoxGrid grid = BoxGrid::of(second, [](const Ring& triangle) -> const Ring& { return triangle; });
+  const std::vector<geometry::Ring> first = triangles_of(a), second = triangles_of(b);
+  const BoxGrid grid = BoxGrid::of(second, [](const geometry::Ring& triangle) -> const geometry::Ring& { return triangle; });
   double area = 0;
-  for (const Ring& triangle : first)
+  for (const geometry::Ring& triangle : first)
     for (const std::size_t other : grid.meeting(plan_box(triangle))) {
-      Ring common = triangle;
+      geometry::Ring common = triangle;
       for (std::size_t i = 0; i < 3 && common.size() >= 3; ++i)
         common = left_of(common, second[other][i], second[other][(i + 1) % 3]);
-      if (common.size() >= 3) area += std::abs(signed_area(common));
+      if (common.size() >= 3) area += std::abs(geometry::signed_area(common));
     }
   return area;
 }
 
-Point3 place_inside(const Ring& ring) {
+Point3 place_inside(const geometry::Ring& ring) {
   constexpr std::size_t kMany = 2000;
   Point3 best = ring.front();
   if (ring.size() > kMany) {
@@ -80,7 +80,7 @@ Point3 place_inside(const Ring& ring) {
     return best;
   }
   double largest = -1;
-  for (const auto& [a, b, c] : polygon_triangles(std::span(&ring, 1))) {
+  for (const auto& [a, b, c] : geometry::polygon_triangles(std::span(&ring, 1))) {
     const double area = std::abs(cross(ring[b] - ring[a], ring[c] - ring[a]).z);
     if (area > largest) largest = area, best = (ring[a] + ring[b] + ring[c]) / 3;
   }
@@ -89,9 +89,9 @@ Point3 place_inside(const Ring& ring) {
 
 double covered_area(const std::vector<PlanShape>& shapes) {
   constexpr int kLines = 512;
-  Ring corners;
+  geometry::Ring corners;
   for (const PlanShape& shape : shapes)
-    for (const Ring* ring : shape) corners.insert(corners.end(), ring->begin(), ring->end());
+    for (const geometry::Ring* ring : shape) corners.insert(corners.end(), ring->begin(), ring->end());
   const PlanBox box = plan_box(corners);
   const double step = (box.north - box.south) / kLines;
   double length = 0;
@@ -111,4 +111,4 @@ double covered_area(const std::vector<PlanShape>& shapes) {
   return length * step;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -52,7 +52,7 @@ std::string folded(std::string_view text) {
   return out;
 }
 
-std::string place_of(const CsvRecord& record, std::size_t index) {
+std::string place_of(const csv::CsvRecord& record, std::size_t index) {
   return "line " + std::to_string(record.line) + ", column " + std::to_string(index + 1);
 }
 
@@ -79,7 +79,7 @@ const ProgrammeColumnInfo* column_called(std::string_view name) {
 
 class Matcher {
  public:
-  explicit Matcher(const CsvRecord& record) : record_(record), taken_(record.fields.size(), false) {}
+  explicit Matcher(const csv::CsvRecord& record) : record_(record), taken_(record.fields.size(), false) {}
   Result<void> take_chosen(const std::map<std::string, std::string>& chosen);
   Result<void> take_aliases();
   Result<ProgrammeHeader> finish();
@@ -88,7 +88,7 @@ class Matcher {
   Result<void> take(const ProgrammeColumnInfo& info, std::size_t index);
   Error missing(const std::string& what, const std::vector<ProgrammeColumn>& accepted) const;
 
-  const CsvRecord& record_;
+  const csv::CsvRecord& record_;
   std::vector<bool> taken_;
   ProgrammeHeader header_;
 };
@@ -252,11 +252,11 @@ NormalHeader normal_header(std::string_view header) {
   return normal;
 }
 
-Result<ProgrammeHeader> match_programme_header(const CsvRecord& record, const std::map<std::string, std::string>& chosen) {
+Result<ProgrammeHeader> match_programme_header(const csv::CsvRecord& record, const std::map<std::string, std::string>& chosen) {
   Matcher matcher(record);
   if (auto done = matcher.take_chosen(chosen); !done) return done.error();
   if (auto done = matcher.take_aliases(); !done) return done.error();
   return matcher.finish();
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -13,7 +13,7 @@
 #include "core/base/unit.h"
 #include "core/csv/csv_reader.h"
 
-namespace bl {
+namespace bl::importing {
 
 enum class ProgrammeColumn {
   use,
@@ -60,6 +60,6 @@ struct ProgrammeHeader {
 };
 
 /// `chosen` maps our names to headers of the file and goes before the aliases.
-Result<ProgrammeHeader> match_programme_header(const CsvRecord& record, const std::map<std::string, std::string>& chosen);
+Result<ProgrammeHeader> match_programme_header(const csv::CsvRecord& record, const std::map<std::string, std::string>& chosen);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -12,7 +12,7 @@
 #include "core/import/number_column.h"
 #include "core/import/programme_columns.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -26,7 +26,7 @@ std::vector<std::string> split_list(std::string_view text, std::string_view sepa
   std::vector<std::string> parts;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find_first_of(separators), text.size());
-    const std::string_view part = trimmed(text.substr(0, end));
+    const std::string_view part = csv::trimmed(text.substr(0, end));
     if (!part.empty()) parts.emplace_back(part);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
@@ -39,31 +39,31 @@ class ProgrammeImporter {
   Result<ProgrammeImport> read(std::string_view text);
 
  private:
-  std::string field(const CsvRecord& record, ProgrammeColumn column) const;
-  std::string place(const CsvRecord& record, ProgrammeColumn column) const;
+  std::string field(const csv::CsvRecord& record, ProgrammeColumn column) const;
+  std::string place(const csv::CsvRecord& record, ProgrammeColumn column) const;
   Result<void> decide_decimals();
-  Result<std::optional<double>> number(const CsvRecord& record, ProgrammeColumn column) const;
-  Result<void> check_width(const CsvRecord& record) const;
-  Result<ProgrammeRow> read_row(const CsvRecord& record);
-  Result<void> settle_area(const CsvRecord& record, ProgrammeRow& row);
-  Result<void> read_standing(const CsvRecord& record, ProgrammeRow& row) const;
+  Result<std::optional<double>> number(const csv::CsvRecord& record, ProgrammeColumn column) const;
+  Result<void> check_width(const csv::CsvRecord& record) const;
+  Result<ProgrammeRow> read_row(const csv::CsvRecord& record);
+  Result<void> settle_area(const csv::CsvRecord& record, ProgrammeRow& row);
+  Result<void> read_standing(const csv::CsvRecord& record, ProgrammeRow& row) const;
   void make_unique();
   Result<void> join_neighbours();
 
   const ProgrammeOptions& options_;
-  CsvText csv_;
+  csv::CsvText csv_;
   ProgrammeHeader header_;
   std::array<char, kProgrammeColumns> decimals_{};
   std::vector<std::string> written_uses_;  // per row, before they were made unique
   ProgrammeImport import_;
 };
 
-std::string ProgrammeImporter::field(const CsvRecord& record, ProgrammeColumn column) const {
+std::string ProgrammeImporter::field(const csv::CsvRecord& record, ProgrammeColumn column) const {
   const auto& found = header_.at(column);
   return found && found->index < record.fields.size() ? record.fields[found->index] : std::string();
 }
 
-std::string ProgrammeImporter::place(const CsvRecord& record, ProgrammeColumn column) const {
+std::string ProgrammeImporter::place(const csv::CsvRecord& record, ProgrammeColumn column) const {
   const auto& found = header_.at(column);
   const std::string line = "line " + std::to_string(record.line);
   return found ? line + ", column " + std::to_string(found->index + 1) + " `" + found->header + "`" : line;
@@ -96,7 +96,7 @@ Result<void> ProgrammeImporter::decide_decimals() {
   return {};
 }
 
-Result<std::optional<double>> ProgrammeImporter::number(const CsvRecord& record, ProgrammeColumn column) const {
+Result<std::optional<double>> ProgrammeImporter::number(const csv::CsvRecord& record, ProgrammeColumn column) const {
   const std::string text = field(record, column);
   if (text.empty()) return std::optional<double>();
   const auto index = static_cast<std::size_t>(column);
@@ -114,7 +114,7 @@ Result<std::optional<double>> ProgrammeImporter::number(const CsvRecord& record,
   return Error{ErrorCode::parse, place(record, column), "`" + text + "` is not understood. Write " + units + "."};
 }
 
-Result<void> ProgrammeImporter::check_width(const CsvRecord& record) const {
+Result<void> ProgrammeImporter::check_width(const csv::CsvRecord& record) const {
   const std::size_t columns = csv_.records.front().fields.size();
   for (std::size_t i = columns; i < record.fields.size(); ++i)
     if (!record.fields[i].empty())
@@ -129,7 +129,7 @@ Result<void> ProgrammeImporter::check_width(const CsvRecord& record) const {
 }
 
 // Area and its bounds: the target may be missing where both bounds are given.
-Result<void> ProgrammeImporter::settle_area(const CsvRecord& record, ProgrammeRow& row) {
+Result<void> ProgrammeImporter::settle_area(const csv::CsvRecord& record, ProgrammeRow& row) {
   std::array<std::optional<double>, 3> areas;
   const std::array columns = {ProgrammeColumn::floor_area, ProgrammeColumn::floor_area_min, ProgrammeColumn::floor_area_max};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -160,7 +160,7 @@ Result<void> ProgrammeImporter::settle_area(const CsvRecord& record, ProgrammeRo
 }
 
 // Empty fields leave what rows without this column have.
-Result<void> ProgrammeImporter::read_standing(const CsvRecord& record, ProgrammeRow& row) const {
+Result<void> ProgrammeImporter::read_standing(const csv::CsvRecord& record, ProgrammeRow& row) const {
   const std::string written = field(record, ProgrammeColumn::standing), word = lower_case(written);
   if (word.empty()) return {};
   const std::vector<std::string> words = {"ground", "stack", "bridge"};
@@ -173,7 +173,7 @@ Result<void> ProgrammeImporter::read_standing(const CsvRecord& record, Programme
   return {};
 }
 
-Result<ProgrammeRow> ProgrammeImporter::read_row(const CsvRecord& record) {
+Result<ProgrammeRow> ProgrammeImporter::read_row(const csv::CsvRecord& record) {
   if (auto fits = check_width(record); !fits) return fits.error();
   ProgrammeRow row;
   row.line = record.line;
@@ -254,7 +254,7 @@ Result<void> ProgrammeImporter::join_neighbours() {
 }
 
 Result<ProgrammeImport> ProgrammeImporter::read(std::string_view text) {
-  auto csv = read_csv(text, options_.separator);
+  auto csv = csv::read_csv(text, options_.separator);
   if (!csv) return csv.error();
   csv_ = *std::move(csv);
   import_.separator = csv_.separator;
@@ -288,4 +288,4 @@ Result<ProgrammeImport> read_programme_csv(std::string_view text, const Programm
   return ProgrammeImporter(options).read(text);
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -10,7 +10,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::importing {
 
 struct ProgrammeOptions {
   /// Our column → the header in the file, where that is called otherwise: {"use", "Room Name"}. Columns: use, name,
@@ -48,4 +48,4 @@ struct ProgrammeImport {
 
 Result<ProgrammeImport> read_programme_csv(std::string_view text, const ProgrammeOptions& options = {});
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -10,7 +10,7 @@
 #include "core/import/number_column.h"
 #include "core/import/programme_columns.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -61,16 +61,16 @@ class SiteImporter {
   Result<void> match_header();
   Result<void> take(std::size_t column, std::size_t index);
   Result<void> decide_decimals();
-  Result<std::optional<double>> number(const CsvRecord& record, std::size_t column) const;
-  Result<SiteRow> read_row(const CsvRecord& record) const;
-  std::string place(const CsvRecord& record, std::size_t column) const;
+  Result<std::optional<double>> number(const csv::CsvRecord& record, std::size_t column) const;
+  Result<SiteRow> read_row(const csv::CsvRecord& record) const;
+  std::string place(const csv::CsvRecord& record, std::size_t column) const;
 
-  CsvText csv_;
+  csv::CsvText csv_;
   std::array<std::optional<FoundColumn>, kColumns> found_;
   std::array<char, kColumns> decimals_{};
 };
 
-std::string SiteImporter::place(const CsvRecord& record, std::size_t column) const {
+std::string SiteImporter::place(const csv::CsvRecord& record, std::size_t column) const {
   const std::string line = "line " + std::to_string(record.line);
   return found_[column] ? line + ", column " + std::to_string(found_[column]->index + 1) + " `" + found_[column]->header + "`"
                         : line;
@@ -97,7 +97,7 @@ Result<void> SiteImporter::take(std::size_t column, std::size_t index) {
 }
 
 Result<void> SiteImporter::match_header() {
-  const CsvRecord& header = csv_.records.front();
+  const csv::CsvRecord& header = csv_.records.front();
   const std::string line = "line " + std::to_string(header.line);
   const auto is_number = [](const std::string& field) { return parse_table_number(field, 0, Unit::none, "").has_value(); };
   if (std::any_of(header.fields.begin(), header.fields.end(), is_number))
@@ -153,7 +153,7 @@ Result<void> SiteImporter::decide_decimals() {
   return {};
 }
 
-Result<std::optional<double>> SiteImporter::number(const CsvRecord& record, std::size_t column) const {
+Result<std::optional<double>> SiteImporter::number(const csv::CsvRecord& record, std::size_t column) const {
   if (!found_[column] || found_[column]->index >= record.fields.size()) return std::optional<double>();
   const std::string& text = record.fields[found_[column]->index];
   if (text.empty()) return std::optional<double>();
@@ -167,7 +167,7 @@ Result<std::optional<double>> SiteImporter::number(const CsvRecord& record, std:
   return value;
 }
 
-Result<SiteRow> SiteImporter::read_row(const CsvRecord& record) const {
+Result<SiteRow> SiteImporter::read_row(const csv::CsvRecord& record) const {
   const std::vector<std::string>& header = csv_.records.front().fields;
   for (std::size_t i = 0; i < record.fields.size(); ++i)
     if (!record.fields[i].empty() && (i >= header.size() || header[i].empty()))
@@ -199,7 +199,7 @@ Result<SiteRow> SiteImporter::read_row(const CsvRecord& record) const {
 }
 
 Result<SiteTable> SiteImporter::read(std::string_view text) {
-  auto csv = read_csv(text);
+  auto csv = csv::read_csv(text);
   if (!csv) return csv.error();
   csv_ = std::move(*csv);
   if (csv_.records.empty())
@@ -231,4 +231,4 @@ std::string site_table_columns() {
 
 Result<SiteTable> read_site_table(std::string_view text) { return SiteImporter().read(text); }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -10,7 +10,7 @@
 #include "core/base/result.h"
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// One row; an empty field is nothing.
 struct SiteRow {
@@ -36,4 +36,4 @@ Result<SiteTable> read_site_table(std::string_view text);
 /// "x, y, z, weight, ...": the names that a header may have, for sentences.
 std::string site_table_columns();
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -17,7 +17,7 @@
 #include "core/import/local_frame.h"
 #include "core/import/terrain_grid.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -280,4 +280,4 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes) {
   return grid;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -15,7 +15,7 @@
 #include "core/import/context_shape.h"
 #include "core/import/inflate.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -300,4 +300,4 @@ Result<LocalTerrain> local_terrain(const TerrainGrid& grid, const ContextOptions
   return local;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

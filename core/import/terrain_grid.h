@@ -11,7 +11,7 @@
 #include "core/base/result.h"
 #include "core/import/context.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// As the file has it: rows from north to south, in the units of its CRS; cells without a value are not finite.
 struct TerrainGrid {
@@ -56,4 +56,4 @@ Result<TerrainGrid> read_geotiff(std::string_view bytes);
 /// Fills in what follows from the values.
 void summarise(TerrainGrid& grid);
 
-}  // namespace bl
+}  // namespace bl::importing

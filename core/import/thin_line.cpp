@@ -5,7 +5,7 @@
 #include <queue>
 #include <set>
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -53,4 +53,4 @@ ThinLine thin_line(const std::vector<Point3>& line, std::size_t most) {
   return thin;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

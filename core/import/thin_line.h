@@ -6,7 +6,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::importing {
 
 struct ThinLine {
   std::vector<Point3> points;  ///< the first and the last one, and those in between that count most
@@ -17,4 +17,4 @@ struct ThinLine {
 /// Douglas and Peucker 1973), one by one, until the rest lie within a centimetre or there are `most` of them.
 ThinLine thin_line(const std::vector<Point3>& line, std::size_t most);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -11,7 +11,7 @@
 #include "core/base/text.h"
 #include "core/import/tntp_lines.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -96,13 +96,14 @@ const std::array<TntpColumn, 9> kLinkColumns = {
     TntpColumn{"type", {"linktype", "type"}, 9, 0.0},
 };
 
-Result<TrafficLink> link_of(const TntpLine& line, std::span<const std::size_t> places, std::map<std::string, int>& twins) {
+Result<traffic::TrafficLink> link_of(const TntpLine& line, std::span<const std::size_t> places,
+                                     std::map<std::string, int>& twins) {
   const auto row = row_of(line, kLinkColumns, places);
   if (!row) return row.error();
   const auto from = node_name((*row)[0], line.number), to = node_name((*row)[1], line.number);
   if (!from) return from.error();
   if (!to) return to.error();
-  TrafficLink link{"", *from, *to, (*row)[4], (*row)[2], (*row)[5], (*row)[6], (*row)[3], (*row)[7], true};
+  traffic::TrafficLink link{"", *from, *to, (*row)[4], (*row)[2], (*row)[5], (*row)[6], (*row)[3], (*row)[7], true};
   link.id = link.from + "-" + link.to;
   if (const int count = ++twins[link.id]; count > 1) link.id += "#" + std::to_string(count);
   for (const double number : {link.free_time, link.capacity, link.alpha, link.power, link.length})
@@ -289,4 +290,4 @@ Result<TntpPlaces> read_tntp_places(std::string_view text) {
   return out;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -9,14 +9,14 @@
 #include "core/base/result.h"
 #include "core/traffic/network.h"
 
-namespace bl {
+namespace bl::importing {
 
 /// Nodes are named by their numbers; a link is named "1-2", and others between the same nodes "1-2#2" and so on.
 struct TntpNetwork {
-  std::vector<TrafficNode> nodes;
-  std::vector<TrafficLink> links;
+  std::vector<traffic::TrafficNode> nodes;
+  std::vector<traffic::TrafficLink> links;
   std::int64_t zones = 0;          ///< nodes 1 to `zones` are zones
-  CostFactors factors;             ///< 0 where the file says nothing
+  traffic::CostFactors factors;    ///< 0 where the file says nothing
   std::vector<std::string> notes;  ///< what was assumed, mended or left out, one sentence each
 };
 
@@ -56,4 +56,4 @@ Result<TntpTrips> read_tntp_trips(std::string_view text);
 Result<TntpFlows> read_tntp_flows(std::string_view text);
 Result<TntpPlaces> read_tntp_places(std::string_view text);
 
-}  // namespace bl
+}  // namespace bl::importing

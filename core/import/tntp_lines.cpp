@@ -7,7 +7,7 @@
 #include "core/base/packed_kind.h"
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::importing {
 
 namespace {
 
@@ -127,4 +127,4 @@ Result<double> tntp_metadata_number(const TntpText& text, const std::string& nam
   return *number;
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -8,7 +8,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::importing {
 
 struct TntpLine {
   int number = 0;
@@ -30,4 +30,4 @@ Result<TntpText> split_tntp(std::string_view text);
 Result<double> tntp_metadata_number(const TntpText& text, const std::string& name, double missing);
 std::string tntp_line_place(int number);
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -8,7 +8,7 @@
 #include "core/file/file_io.h"
 #include "core/reading/views/stream.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr std::uintmax_t kLongestPassword = 65535;          // [bytes] the proto
 
 Result<std::string> Access::password() const {
   if (password_from.empty()) return std::string();
-  const auto source = parse_password_source(password_from);
+  const auto source = address::parse_password_source(password_from);
   if (!source) return source.error();
   if (!source->is_file) {
     const char* const held = std::getenv(source->name.c_str());
@@ -58,4 +58,4 @@ std::map<std::string, Access> accesses_of(const Scene& scene, const std::string&
   return accesses;
 }
 
-}  // namespace bl
+}  // namespace bl::live

@@ -7,7 +7,7 @@
 #include "core/base/result.h"
 #include "core/graph/scene.h"
 
-namespace bl {
+namespace bl::live {
 
 /// What a node of the type `mqtt_broker` says. Without such a node all is empty.
 struct Access {
@@ -26,4 +26,4 @@ struct Access {
 /// By "host:port"; of several nodes the first id counts.
 std::map<std::string, Access> accesses_of(const Scene& scene, const std::string& folder);
 
-}  // namespace bl
+}  // namespace bl::live

@@ -14,9 +14,8 @@
 #include "core/base/text.h"
 #include "core/file/file_io.h"
 #include "core/live/recording.h"
-#include "core/reading/views/stream.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -36,7 +35,7 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
   return end == top.end() || (end->empty() && std::next(end) == top.end());
 }
 
-Result<Recording> read_table(const LiveOptions& options, const LiveAddress& address) {
+Result<Recording> read_table(const LiveOptions& options, const address::LiveAddress& address) {
   const std::filesystem::path path = std::filesystem::path(options.folder) / address.path;
   if (!options.reads_anywhere && !is_below(options.folder, path))
     return Error{
@@ -48,10 +47,10 @@ Result<Recording> read_table(const LiveOptions& options, const LiveAddress& addr
 }
 
 // Outputs of one address are one endpoint's, and so are inputs; MQTT has both on one connection.
-std::string key_of(const LiveAddress& address, const std::string& node, bool is_sensor) {
+std::string key_of(const address::LiveAddress& address, const std::string& node, bool is_sensor) {
   const std::string place = address.host + ":" + std::to_string(address.port);
-  if (address.scheme == LiveAddress::Scheme::mqtt) return "mqtt " + place;
-  if (address.scheme == LiveAddress::Scheme::osc) return (is_sensor ? "osc from " : "osc to ") + place;
+  if (address.scheme == address::LiveAddress::Scheme::mqtt) return "mqtt " + place;
+  if (address.scheme == address::LiveAddress::Scheme::osc) return (is_sensor ? "osc from " : "osc to ") + place;
   return "http " + node;
 }
 
@@ -61,7 +60,7 @@ struct Connections::Sensor {
   std::string address;                 // another one is another connection
   double period = 0, tick_length = 0;  // [s]
 
-  LiveAddress parsed;
+  address::LiveAddress parsed;
   std::shared_ptr<Station> station;
   std::string known_line;  // as the scene has it
   Recording recording;
@@ -77,7 +76,7 @@ struct RecordedArrival {
 
 struct Connections::Actuator {
   std::string address;
-  LiveAddress parsed;
+  address::LiveAddress parsed;
   std::shared_ptr<Station> station;
   double interval = 0, change = 0;
   bool is_on = false, is_plain = false;
@@ -101,8 +100,8 @@ void Connections::begin_recording(Sensor& sensor) {
 bool Connections::follow_sensor(const std::string& id, const reading::SensorFigures& wanted) {
   const std::string &address = wanted.address, &known_line = wanted.connection;
   // What is wrong with an address, the sensor itself says.
-  const auto parsed = parse_live_address(address);
-  const bool is_wanted = parsed && (options_.opens_network || parsed->scheme == LiveAddress::Scheme::replay);
+  const auto parsed = address::parse_live_address(address);
+  const bool is_wanted = parsed && (options_.opens_network || parsed->scheme == address::LiveAddress::Scheme::replay);
   if (!is_wanted) {
     // What a scene was saved with is of a connection that is no more.
     if (!known_line.empty()) forgotten_[id] = address;
@@ -115,7 +114,7 @@ bool Connections::follow_sensor(const std::string& id, const reading::SensorFigu
     slot->address = address;
     slot->parsed = *parsed;
     slot->station = std::make_shared<Station>("");
-    if (parsed->scheme == LiveAddress::Scheme::replay) begin_recording(*slot);
+    if (parsed->scheme == address::LiveAddress::Scheme::replay) begin_recording(*slot);
   }
   // What changes below leaves the connection alone.
   slot->station->set_field(wanted.field);
@@ -130,9 +129,10 @@ bool Connections::follow_sensor(const std::string& id, const reading::SensorFigu
 
 bool Connections::follow_actuator(const std::string& id, const reading::ActuatorFigures& wanted) {
   const std::string& address = wanted.address;
-  const auto parsed = parse_live_address(address);
-  const bool is_wanted = options_.opens_network && parsed &&
-                         (parsed->scheme == LiveAddress::Scheme::mqtt || parsed->scheme == LiveAddress::Scheme::osc);
+  const auto parsed = address::parse_live_address(address);
+  const bool is_wanted =
+      options_.opens_network && parsed &&
+      (parsed->scheme == address::LiveAddress::Scheme::mqtt || parsed->scheme == address::LiveAddress::Scheme::osc);
   if (!is_wanted) return actuators_.erase(id) > 0;
   auto& slot = actuators_[id];
   const bool is_new = !slot || slot->address != address;
@@ -173,26 +173,26 @@ void Connections::follow(const Scene& scene) {
 void Connections::follow_endpoints() {
   struct Wanted {
     Endpoint::Body body = nullptr;
-    LiveAddress address;
+    address::LiveAddress address;
     std::vector<Subscriber> subscribers;
     Access access;
   };
   std::map<std::string, Wanted> wanted;
   for (const auto& [id, sensor] : sensors_) {
-    const LiveAddress& address = sensor->parsed;
-    if (address.scheme == LiveAddress::Scheme::replay) continue;
+    const address::LiveAddress& address = sensor->parsed;
+    if (address.scheme == address::LiveAddress::Scheme::replay) continue;
     Wanted& endpoint = wanted[key_of(address, id, true)];
     endpoint.address = address;
-    endpoint.body = address.scheme == LiveAddress::Scheme::mqtt  ? run_mqtt
-                    : address.scheme == LiveAddress::Scheme::osc ? run_osc_input
-                                                                 : run_http;
+    endpoint.body = address.scheme == address::LiveAddress::Scheme::mqtt  ? run_mqtt
+                    : address.scheme == address::LiveAddress::Scheme::osc ? run_osc_input
+                                                                          : run_http;
     endpoint.subscribers.push_back({address.path, sensor->period, sensor->station});
   }
   for (const auto& [id, actuator] : actuators_) {
-    const LiveAddress& address = actuator->parsed;
+    const address::LiveAddress& address = actuator->parsed;
     Wanted& endpoint = wanted[key_of(address, id, false)];
     endpoint.address = address;
-    endpoint.body = address.scheme == LiveAddress::Scheme::mqtt ? run_mqtt : run_osc_output;
+    endpoint.body = address.scheme == address::LiveAddress::Scheme::mqtt ? run_mqtt : run_osc_output;
   }
   for (auto& [key, endpoint] : wanted)
     if (endpoint.body == run_mqtt)
@@ -313,11 +313,11 @@ std::vector<ConnectionStatus> Connections::status() const {
   std::vector<ConnectionStatus> all;
   for (const auto& [id, sensor] : sensors_)
     all.push_back({id, sensor->address, true, sensor->station->line(), sensor->station->traffic(),
-                   sensor->parsed.scheme == LiveAddress::Scheme::replay, sensor->recording.readings.size(), sensor->next,
+                   sensor->parsed.scheme == address::LiveAddress::Scheme::replay, sensor->recording.readings.size(), sensor->next,
                    sensor->recording.empty, sensor->recording.filtered});
   for (const auto& [id, actuator] : actuators_)
     all.push_back({id, actuator->address, false, actuator->station->line(), actuator->station->traffic(), false, 0, 0, 0, 0});
   return all;
 }
 
-}  // namespace bl
+}  // namespace bl::live

@@ -10,15 +10,11 @@
 #include "core/graph/scene.h"
 #include "core/graph/state.h"
 #include "core/live/endpoint.h"
+#include "core/reading/views/stream.h"
 #include "core/session/author.h"
 #include "core/session/commands.h"
 
-namespace bl::reading {
-struct ActuatorFigures;
-struct SensorFigures;
-}  // namespace bl::reading
-
-namespace bl {
+namespace bl::live {
 
 struct LiveOptions {
   std::string folder;         ///< recordings with relative paths stand here; empty: where the program was started
@@ -87,4 +83,4 @@ class Connections {
   std::map<std::string, std::unique_ptr<Endpoint>> endpoints_;  // by what they connect to
 };
 
-}  // namespace bl
+}  // namespace bl::live

@@ -6,7 +6,7 @@
 #include <exception>
 #include <utility>
 
-namespace bl {
+namespace bl::live {
 
 Endpoint::Endpoint(Body body, std::string host, int port, std::vector<Subscriber> subscribers, Pauses pauses, Access access)
     : host_(std::move(host)),
@@ -122,4 +122,4 @@ void Endpoint::succeed() {
   say("");
 }
 
-}  // namespace bl
+}  // namespace bl::live

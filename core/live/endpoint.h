@@ -13,7 +13,7 @@
 #include "core/live/access.h"
 #include "core/live/station.h"
 
-namespace bl {
+namespace bl::live {
 
 /// A sensor that an endpoint serves.
 struct Subscriber {
@@ -96,4 +96,4 @@ void run_osc_input(Endpoint& endpoint);
 void run_osc_output(Endpoint& endpoint);
 void run_http(Endpoint& endpoint);
 
-}  // namespace bl
+}  // namespace bl::live

@@ -8,7 +8,7 @@
 #include "core/live/endpoint.h"
 #include "core/live/message.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -109,4 +109,4 @@ void run_http(Endpoint& endpoint) {
   }
 }
 
-}  // namespace bl
+}  // namespace bl::live

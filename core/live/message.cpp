@@ -10,7 +10,7 @@
 #include "core/csv/csv_reader.h"
 #include "core/define/json_text.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -26,8 +26,8 @@ bool is_binary(std::string_view text) {
 }
 
 Result<double> number_of_text(std::string_view text) {
-  text = trimmed(text);
-  while (text.ends_with('\n') || text.ends_with('\r')) text = trimmed(text.substr(0, text.size() - 1));
+  text = csv::trimmed(text);
+  while (text.ends_with('\n') || text.ends_with('\r')) text = csv::trimmed(text.substr(0, text.size() - 1));
   if (text == "true") return 1.0;
   if (text == "false") return 0.0;
   if (const auto number = parse_number(text)) return *number;
@@ -102,4 +102,4 @@ Result<double> number_in(std::string_view payload, std::string_view field) {
   return number_at(*whole, field);
 }
 
-}  // namespace bl
+}  // namespace bl::live

@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::live {
 
 /// Longer messages are refused: what a number needs is far less, and whoever sends more may mean harm [bytes].
 inline constexpr std::size_t kLongestPayload = 65536;
@@ -19,4 +19,4 @@ Result<double> number_in(std::string_view payload, std::string_view field);
 /// A text from outside as it may stand in a sentence: printable, short, between back ticks.
 std::string in_quotes(std::string_view text);
 
-}  // namespace bl
+}  // namespace bl::live

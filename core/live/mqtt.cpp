@@ -10,7 +10,7 @@
 #include "core/live/message.h"
 #include "core/live/socket.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -171,4 +171,4 @@ void run_mqtt(Endpoint& endpoint) {
     if (const std::string problem = Broker(endpoint).run(); !problem.empty()) endpoint.fail(problem);
 }
 
-}  // namespace bl
+}  // namespace bl::live

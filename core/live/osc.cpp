@@ -15,7 +15,7 @@
 #include "core/live/message.h"
 #include "core/live/socket.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -150,4 +150,4 @@ void run_osc_output(Endpoint& endpoint) {
   }
 }
 
-}  // namespace bl
+}  // namespace bl::live

@@ -9,7 +9,7 @@
 #include "core/live/message.h"
 #include "core/live/time_text.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -20,26 +20,26 @@ struct Columns {
   std::vector<std::pair<std::size_t, std::string>> filters;  // column, what has to stand there
 };
 
-const std::string& field_of(const CsvRecord& record, std::size_t column) {
+const std::string& field_of(const csv::CsvRecord& record, std::size_t column) {
   static const std::string kNothing;
   return column < record.fields.size() ? record.fields[column] : kNothing;
 }
 
-Result<std::size_t> column_of(const CsvRecord& header, const std::string& name) {
+Result<std::size_t> column_of(const csv::CsvRecord& header, const std::string& name) {
   const auto found = std::find(header.fields.begin(), header.fields.end(), name);
   if (found != header.fields.end()) return static_cast<std::size_t>(found - header.fields.begin());
   return Error{ErrorCode::not_found, "line " + std::to_string(header.line),
                "the table has no column " + in_quotes(name) + did_you_mean(name, header.fields)};
 }
 
-bool is_counted(const CsvRecord& record, const Columns& columns) {
+bool is_counted(const csv::CsvRecord& record, const Columns& columns) {
   return std::all_of(columns.filters.begin(), columns.filters.end(),
                      [&](const auto& filter) { return field_of(record, filter.first) == filter.second; });
 }
 
 // The first column that holds dates; else one that is called as columns of times are.
-Result<std::size_t> time_column(const CsvText& csv) {
-  const CsvRecord& header = csv.records.front();
+Result<std::size_t> time_column(const csv::CsvText& csv) {
+  const csv::CsvRecord& header = csv.records.front();
   if (csv.records.size() > 1)
     for (std::size_t c = 0; c < header.fields.size(); ++c) {
       const std::string& first = field_of(csv.records[1], c);
@@ -52,8 +52,8 @@ Result<std::size_t> time_column(const CsvText& csv) {
                "no column holds times such as `2003-01-31T12:00:00Z`: name it, as in `replay:table.csv?time=column#readings`"};
 }
 
-Result<Columns> columns_of(const CsvText& csv, const LiveAddress& address) {
-  const CsvRecord& header = csv.records.front();
+Result<Columns> columns_of(const csv::CsvText& csv, const address::LiveAddress& address) {
+  const csv::CsvRecord& header = csv.records.front();
   Columns columns;
   const auto value = column_of(header, address.column);
   if (!value) return value.error();
@@ -76,7 +76,7 @@ Result<Columns> columns_of(const CsvText& csv, const LiveAddress& address) {
 }
 
 // One row of digits may be a day or a number; a column in which every row is a day holds days.
-bool are_days_digits(const CsvText& csv, const Columns& columns) {
+bool are_days_digits(const csv::CsvText& csv, const Columns& columns) {
   bool has_any = false;
   for (std::size_t r = 1; r < csv.records.size(); ++r) {
     if (!is_counted(csv.records[r], columns)) continue;
@@ -86,7 +86,7 @@ bool are_days_digits(const CsvText& csv, const Columns& columns) {
   return has_any;
 }
 
-Result<double> time_of(const CsvRecord& record, const Columns& columns) {
+Result<double> time_of(const csv::CsvRecord& record, const Columns& columns) {
   const std::string& text = field_of(record, columns.time);
   auto seconds = columns.are_days_digits ? seconds_of_digits(text) : seconds_of_time(text);
   if (seconds && columns.day_time && !columns.are_days_digits && parse_number(text))
@@ -110,8 +110,8 @@ Result<double> time_of(const CsvRecord& record, const Columns& columns) {
 
 }  // namespace
 
-Result<Recording> read_recording(std::string_view text, const LiveAddress& address) {
-  const auto csv = read_csv(text);
+Result<Recording> read_recording(std::string_view text, const address::LiveAddress& address) {
+  const auto csv = csv::read_csv(text);
   if (!csv) return csv.error();
   if (csv->records.empty()) return Error{ErrorCode::missing, "line 1", "the table is empty"};
   auto columns = columns_of(*csv, address);
@@ -119,7 +119,7 @@ Result<Recording> read_recording(std::string_view text, const LiveAddress& addre
   columns->are_days_digits = are_days_digits(*csv, *columns);
   Recording recording;
   for (std::size_t r = 1; r < csv->records.size(); ++r) {
-    const CsvRecord& record = csv->records[r];
+    const csv::CsvRecord& record = csv->records[r];
     if (!is_counted(record, *columns)) {
       ++recording.filtered;
       continue;
@@ -156,4 +156,4 @@ std::int64_t tick_of(const Recording& recording, const RecordedReading& reading,
   return 1 + static_cast<std::int64_t>(std::min(ticks, kLast));
 }
 
-}  // namespace bl
+}  // namespace bl::live

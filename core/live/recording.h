@@ -9,7 +9,7 @@
 #include "core/address/live_address.h"
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::live {
 
 struct RecordedReading {
   double seconds = 0;  ///< since 1970, or since whatever the table counts from
@@ -26,9 +26,9 @@ struct Recording {
 };
 
 /// The column of `address` out of a CSV text. Rows whose time cannot be read are errors with their line.
-Result<Recording> read_recording(std::string_view text, const LiveAddress& address);
+Result<Recording> read_recording(std::string_view text, const address::LiveAddress& address);
 
 /// The tick that a reading belongs to: the first one belongs to tick 1, and the others to the tick nearest to their time.
 std::int64_t tick_of(const Recording& recording, const RecordedReading& reading, double tick_length);
 
-}  // namespace bl
+}  // namespace bl::live

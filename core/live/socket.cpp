@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <memory>
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -93,4 +93,4 @@ Result<Socket> listen_udp(const Endpoint& endpoint) {
   return failure(endpoint, problem);
 }
 
-}  // namespace bl
+}  // namespace bl::live

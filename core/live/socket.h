@@ -6,7 +6,7 @@
 #include "core/base/result.h"
 #include "core/live/endpoint.h"
 
-namespace bl {
+namespace bl::live {
 
 class Socket {
  public:
@@ -25,4 +25,4 @@ Result<void> knock(const Endpoint& endpoint);
 /// A socket that hears what is sent to the endpoint's host and port by UDP.
 Result<Socket> listen_udp(const Endpoint& endpoint);
 
-}  // namespace bl
+}  // namespace bl::live

@@ -6,7 +6,7 @@
 
 #include "core/live/message.h"
 
-namespace bl {
+namespace bl::live {
 
 void Station::put(Arrival arrival) {
   arrival.time = utc_now();
@@ -74,4 +74,4 @@ std::string utc_now() {
   return std::string(text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts));
 }
 
-}  // namespace bl
+}  // namespace bl::live

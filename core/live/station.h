@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace bl {
+namespace bl::live {
 
 /// What a message said: a number, or the sentence why it holds none.
 struct Arrival {
@@ -65,4 +65,4 @@ class Station {
 /// The wall clock's time in UTC as `2026-01-31T12:00:00Z`, for people.
 std::string utc_now();
 
-}  // namespace bl
+}  // namespace bl::live

@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/csv/csv_reader.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -83,7 +83,7 @@ std::optional<double> rest_of(double day, std::string_view text) {
   if (text.empty()) return 86400 * day;
   if (!take(text, 'T') && !take(text, ' ')) return std::nullopt;
   const auto time = clock(text);
-  const auto offset = time ? zone(trimmed(text)) : std::nullopt;
+  const auto offset = time ? zone(csv::trimmed(text)) : std::nullopt;
   if (!offset) return std::nullopt;
   return 86400 * day + *time - *offset;
 }
@@ -109,7 +109,7 @@ std::optional<double> named_month(std::string_view text) {
 }  // namespace
 
 std::optional<double> seconds_of_time(std::string_view text) {
-  text = trimmed(text);
+  text = csv::trimmed(text);
   if (const auto number = parse_number(text)) return number;
   if (const auto found = named_month(text)) return found;
   const auto year = digits(text, 4);
@@ -122,7 +122,7 @@ std::optional<double> seconds_of_time(std::string_view text) {
 }
 
 std::optional<double> seconds_of_digits(std::string_view text) {
-  text = trimmed(text);
+  text = csv::trimmed(text);
   if (text.size() < 8 || text.size() > 14 || text.size() % 2 != 0) return std::nullopt;
   const auto year = digits(text, 4), month = digits(text, 2), day = digits(text, 2);
   if (!year || !month || !day || *year < 1900 || *year > 2199) return std::nullopt;
@@ -134,10 +134,10 @@ std::optional<double> seconds_of_digits(std::string_view text) {
 }
 
 std::optional<double> seconds_of_day(std::string_view text) {
-  text = trimmed(text);
+  text = csv::trimmed(text);
   if (const auto hours = parse_number(text)) return 3600 * *hours;
   const auto time = clock(text);
   return time && text.empty() ? time : std::nullopt;
 }
 
-}  // namespace bl
+}  // namespace bl::live

@@ -88,7 +88,7 @@ class Import {
         (void)goes_on(context_.watch, "reading", 0, 0);
         read(o_.files[i]);
       }
-    if (is_stopped() && result_.errors.empty()) fail("", stopped_error());
+    if (is_stopped() && result_.errors.empty()) fail("", importing::stopped_error());
     if (result_.errors.empty()) check_properties();
     for (const auto& [site, rows] : sites_.exclusions()) nodes_.set_port(site, "boundary.exclusions", Shared<Table>(rows));
     for (const std::string& note : sites_.notes()) result_.notes.push_back(note);
@@ -118,7 +118,7 @@ class Import {
   bool is_stopped() const { return context_.watch != nullptr && context_.watch->is_stopped; }
   void fail(const std::string& file, Error error) {
     if (!file.empty() && std::find(o_.files.begin(), o_.files.end(), file) != o_.files.end())
-      result_.reports.emplace_back(file, ImportReport()).second.skip("file", "", "it cannot be read", error.text());
+      result_.reports.emplace_back(file, importing::ImportReport()).second.skip("file", "", "it cannot be read", error.text());
     result_.errors.emplace_back(file, std::move(error));
   }
   void refuse(const std::string& place, const std::string& sentence) { fail("", {ErrorCode::out_of_range, place, sentence}); }
@@ -132,7 +132,7 @@ class Import {
     if (!(context_.radius >= 0) || !(context_.neighbour_distance >= 0)) refuse("--radius", "distances must be 0 m or more");
     for (const std::string& property : o_.properties) {
       const std::size_t equals = property.find('=');
-      const std::vector<std::string> known = context_property_names();
+      const std::vector<std::string> known = importing::context_property_names();
       const std::string ours = property.substr(0, equals);
       if (equals == std::string::npos || equals == 0 || equals + 1 == property.size()) {
         refuse("--property", "expects OURS=THEIRS such as height=H_MAX, found `" + property + "`");
@@ -146,10 +146,11 @@ class Import {
     if (o_.kind == "building" || o_.kind == "street" || o_.kind == "plot" || o_.kind == "area") context_.feature_kind = o_.kind;
     const Settings settings = settings_of(scene_);
     if (!settings.coordinate_system.empty())
-      context_.target = GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
-                                     settings.latitude,          settings.longitude, settings.true_north};
+      context_.target = importing::GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
+                                                settings.latitude,          settings.longitude, settings.true_north};
     // What was drawn without a place on Earth is drawn in the metres of the model.
-    if (o_.origin.empty() && !context_.target && !scene_.nodes.empty() && tidy_crs_name(context_.crs) == kLocalCrs)
+    if (o_.origin.empty() && !context_.target && !scene_.nodes.empty() &&
+        importing::tidy_crs_name(context_.crs) == importing::kLocalCrs)
       context_.origin = {0, 0};
     if (o_.origin.empty()) return;
     const std::size_t comma = o_.origin.find(',');
@@ -188,9 +189,9 @@ class Import {
   }
 
   // The first file decides where the scene lies; all others follow it.
-  void settle(const GeoReference& reference) {
+  void settle(const importing::GeoReference& reference) {
     if (context_.target) return;
-    if (!scene_.nodes.empty() && reference.crs != kLocalCrs)
+    if (!scene_.nodes.empty() && reference.crs != importing::kLocalCrs)
       result_.notes.push_back(
           "The scene had no place on Earth: it has that of the first file now, and what was in it is about its origin.");
     nodes_.place(reference);
@@ -208,11 +209,12 @@ class Import {
     return questions + "--report FILE lists every element with its reason";
   }
 
-  void take(const std::string& file, const ImportReport& report, const std::vector<std::string>& notes,
-            const GeoReference& reference) {
+  void take(const std::string& file, const importing::ImportReport& report, const std::vector<std::string>& notes,
+            const importing::GeoReference& reference) {
     result_.reports.emplace_back(file, report);
     for (const std::string& note : notes) result_.notes.push_back(file + ": " + note);
-    if (report.total() > 0 && report.count(ImportOutcome::taken) + report.count(ImportOutcome::repaired) == 0)
+    if (report.total() > 0 &&
+        report.count(importing::ImportOutcome::taken) + report.count(importing::ImportOutcome::repaired) == 0)
       result_.notes.push_back(file + ": nothing of this file was taken; " + why_nothing());
     settle(reference);
   }
@@ -239,7 +241,7 @@ class Import {
   void read(const std::string& file) {
     auto bytes = read_file(file);
     if (!bytes) return fail(file, bytes.error());
-    auto text = unpacked(*bytes);
+    auto text = importing::unpacked(*bytes);
     if (!text) return fail(file, text.error());
     const std::string name = file.substr(file.rfind('/') == std::string::npos ? 0 : file.rfind('/') + 1);
     making_ = {o_.source.empty() ? name : o_.source, o_.licence, o_.unit, o_.is_extruded, o_.takes_all_streets, context_.watch};
@@ -252,17 +254,17 @@ class Import {
     if (format == Format::table || o_.kind == "layer") return read_layer(file, *text, format);
     if (o_.kind == "terrain")
       return fail(file, {ErrorCode::wrong_kind, "--as", "a terrain is read from an ASCII grid or a GeoTIFF"});
-    auto context =
-        format == Format::osm        ? read_osm_context(*text, context_)
-        : format == Format::cityjson ? read_cityjson_context(*text, context_)
-        : format == Format::geojson
-            ? read_geojson_context(*text, context_)
-            : Result<Context>(Error{ErrorCode::parse, "",
-                                    "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
+    auto context = format == Format::osm        ? read_osm_context(*text, context_)
+                   : format == Format::cityjson ? read_cityjson_context(*text, context_)
+                   : format == Format::geojson
+                       ? read_geojson_context(*text, context_)
+                       : Result<importing::Context>(
+                             Error{ErrorCode::parse, "",
+                                   "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
     if (!told(file, context)) return;
     if (!o_.kind.empty() && format != Format::geojson)
       result_.notes.push_back(file + ": --as " + o_.kind + " was not needed: the file says what its elements are");
-    for (const ContextBuilding& building : context->buildings) from_ground_ += building.is_above_sea ? 0 : 1;
+    for (const importing::ContextBuilding& building : context->buildings) from_ground_ += building.is_above_sea ? 0 : 1;
     from_ground_ += context->streets.size();
     properties_.insert(context->properties.begin(), context->properties.end());
     sites_.judge(*context);
@@ -271,7 +273,7 @@ class Import {
   }
 
   void read_grid(const std::string& file, const std::string& text) {
-    const auto grid = read_terrain_grid(text);
+    const auto grid = importing::read_terrain_grid(text);
     if (!told(file, grid)) return;
     if (o_.kind == "layer") return read_layer(file, text, Format::grid);
     const auto terrain = local_terrain(*grid, context_);
@@ -283,9 +285,9 @@ class Import {
   }
 
   void read_layer(const std::string& file, const std::string& text, Format format) {
-    const auto from_grid = [&]() -> Result<DataLayer> {
-      const auto grid = read_terrain_grid(text);
-      return grid ? layer_of_grid(*grid, context_) : Result<DataLayer>(grid.error());
+    const auto from_grid = [&]() -> Result<importing::DataLayer> {
+      const auto grid = importing::read_terrain_grid(text);
+      return grid ? layer_of_grid(*grid, context_) : Result<importing::DataLayer>(grid.error());
     };
     const auto layer = format == Format::grid      ? from_grid()
                        : format == Format::geojson ? read_layer_geojson(text, context_, o_.value)
@@ -299,7 +301,7 @@ class Import {
   const Scene& scene_;
   const ImportOptions& o_;
   const Registry& registry_;
-  ContextOptions context_;
+  importing::ContextOptions context_;
   ContextNodes nodes_;
   SiteBuildings sites_;
   std::set<std::string> properties_;  // of all features
@@ -331,7 +333,7 @@ const std::vector<std::string>& context_endings() {
 
 ImportedScene import_context(const Scene& scene, const ImportOptions& options, const Registry& registry) {
   // Parsers deep down learn of a stop as well.
-  const ImportWatch* watch = options.context.watch;
+  const importing::ImportWatch* watch = options.context.watch;
   const StopScope scope([watch] { return watch != nullptr && watch->is_stopped; });
   return Import(scene, options, registry).run();
 }

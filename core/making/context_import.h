@@ -21,7 +21,7 @@ struct ImportOptions {
   std::string origin;  ///< "X,Y"; empty: the middle of the first file
   std::vector<std::string> properties;
   std::string value, unit, source, licence;
-  ContextOptions context;
+  importing::ContextOptions context;
   InsideChoice inside = InsideChoice::unsaid;  ///< of buildings that stand inside a site of the scene
   AskToClear ask_to_clear;                     ///< who is asked where that is unsaid; empty: they are kept, and a note says so
   bool keeps = false, clears = false;          ///< as the command line has it; `inside` is what counts
@@ -33,7 +33,7 @@ struct ImportedScene {
   std::optional<Scene> scene;
   Command command;  ///< leads from the scene that was added to to that one, as one step; without an id where both are the same
   std::pair<Point3, Point3> bounds;          ///< around all that was added [m]; the first is above the second where nothing was
-  ImportReports reports;                     ///< of a file that could not be read: one row that says so
+  importing::ImportReports reports;          ///< of a file that could not be read: one row that says so
   std::map<std::string, std::size_t> nodes;  ///< how many were made, by typification
   std::vector<std::string> notes;
   std::vector<std::pair<std::string, Error>> errors;

@@ -48,9 +48,9 @@ double length_of(const std::vector<Point3>& line) {
 }
 
 // All that was taken became the same node.
-void name_all(ImportReport& report, const std::string& id) {
+void name_all(importing::ImportReport& report, const std::string& id) {
   for (std::size_t row = 0; row < report.rows().size(); ++row)
-    if (report.rows()[row].outcome != ImportOutcome::skipped) report.made(row, id);
+    if (report.rows()[row].outcome != importing::ImportOutcome::skipped) report.made(row, id);
 }
 
 // Values for ports that this program's typification really has, in the kind that it wants.
@@ -97,7 +97,7 @@ std::string ContextNodes::fresh_id(const std::string& wanted) {
   return id;
 }
 
-void ContextNodes::place(const GeoReference& reference) {
+void ContextNodes::place(const importing::GeoReference& reference) {
   const auto set = [this](const std::string& id, const Json& value) {
     commands_.push_back(command<SetSetting>({id, JsonValue::of(value)}));
   };
@@ -130,18 +130,19 @@ void ContextNodes::set_port(const std::string& node, const std::string& path, co
   commands_.push_back(command<SetPort>({node, {path}, JsonValue::of(value_to_json(value, **port))}));
 }
 
-void ContextNodes::add(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report) {
+void ContextNodes::add(const importing::Context& context, const NodeMaking& making, SiteBuildings& sites,
+                       importing::ImportReport& report) {
   Unused unused;
   add_buildings(context, making, sites, report, unused);
   std::size_t ground = 0;
-  for (const ContextArea& area : context.areas) {
+  for (const importing::ContextArea& area : context.areas) {
     if (!area.is_plot) {
       ++ground;
-      if (area.row != kNoRow) unused[area.row] = "there is no typification for it";
+      if (area.row != importing::kNoRow) unused[area.row] = "there is no typification for it";
       continue;
     }
     const std::string id = add_plot(area);
-    if (area.row != kNoRow) report.made(area.row, id);
+    if (area.row != importing::kNoRow) report.made(area.row, id);
   }
   if (ground > 0)
     notes_.push_back(how_many(ground, "area") + " of ground (land use, green, water) became " +
@@ -150,22 +151,22 @@ void ContextNodes::add(const Context& context, const NodeMaking& making, SiteBui
   report.drop(unused);
 }
 
-void ContextNodes::add_buildings(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report,
-                                 Unused& unused) {
+void ContextNodes::add_buildings(const importing::Context& context, const NodeMaking& making, SiteBuildings& sites,
+                                 importing::ImportReport& report, Unused& unused) {
   // Of buildings that are drawn by their parts: what the parts became.
   std::map<std::string, std::vector<std::string>> of_parts;
   std::set<std::string> cleared;  // buildings of which parts were left out
   for (std::size_t b = 0; b < context.buildings.size(); ++b) {
     if (is_stop_wished()) return;  // what is half made is dropped by who wished it
     if (b % 256 == 0) (void)goes_on(making.watch, "buildings", b, context.buildings.size());
-    const ContextBuilding& building = context.buildings[b];
+    const importing::ContextBuilding& building = context.buildings[b];
     if (sites.is_cleared(b)) {
-      if (building.row != kNoRow) unused[building.row] = SiteBuildings::kClearedReason;
+      if (building.row != importing::kNoRow) unused[building.row] = SiteBuildings::kClearedReason;
       cleared.insert(building.whole);
       continue;
     }
     const std::string id = add_building(building, making);
-    if (building.row != kNoRow) report.made(building.row, id);
+    if (building.row != importing::kNoRow) report.made(building.row, id);
     sites.keep(b, building, id, report);
     // An outline of several has the number of the outline behind the id of its element.
     if (!building.whole.empty()) of_parts[building.whole].push_back(id);
@@ -173,8 +174,8 @@ void ContextNodes::add_buildings(const Context& context, const NodeMaking& makin
       of_parts[building.whole.substr(0, slash)].push_back(id);
   }
   for (std::size_t row = 0; row < report.rows().size(); ++row) {
-    const ImportRow& one = report.rows()[row];
-    if (one.id.empty() || one.outcome == ImportOutcome::skipped || !one.made.empty()) continue;
+    const importing::ImportRow& one = report.rows()[row];
+    if (one.id.empty() || one.outcome == importing::ImportOutcome::skipped || !one.made.empty()) continue;
     const auto parts = of_parts.find(one.id);
     if (parts != of_parts.end())
       for (const std::string& id : parts->second) report.made(row, id);
@@ -182,7 +183,7 @@ void ContextNodes::add_buildings(const Context& context, const NodeMaking& makin
   }
 }
 
-std::string ContextNodes::add_building(const ContextBuilding& building, const NodeMaking& making) {
+std::string ContextNodes::add_building(const importing::ContextBuilding& building, const NodeMaking& making) {
   Json ports = {{"outline", points_json(building.outer, false)}};
   for (std::size_t h = 0; h < building.holes.size(); ++h)
     for (const Point3& corner : building.holes[h])
@@ -214,7 +215,7 @@ std::string ContextNodes::add_building(const ContextBuilding& building, const No
   return id;
 }
 
-std::string ContextNodes::add_plot(const ContextArea& area) {
+std::string ContextNodes::add_plot(const importing::ContextArea& area) {
   const Json ports = {{"polygon", points_json(area.outer, false)}};
   Json node = {{"name", area.name.empty() ? area.id : area.name},
                {"position", position_json(middle(area.outer))},
@@ -227,7 +228,8 @@ std::string ContextNodes::add_plot(const ContextArea& area) {
   return id;
 }
 
-void ContextNodes::add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused) {
+void ContextNodes::add_streets(const importing::Context& context, const NodeMaking& making, importing::ImportReport& report,
+                               Unused& unused) {
   if (registry_->typification("junction") == nullptr || registry_->typification("street") == nullptr) {
     notes_.push_back(how_many(context.streets.size(), "piece") +
                      " of street became no nodes: this program has no typifications `junction` and `street`.");
@@ -238,10 +240,10 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
   std::size_t without_cars = 0, loops = 0, without_walkers = 0;
   for (std::size_t s = 0; s < context.streets.size() && !is_stop_wished(); ++s) {
     if (s % 256 == 0) (void)goes_on(making.watch, "streets", s, context.streets.size());
-    const ContextStreet& piece = context.streets[s];
+    const importing::ContextStreet& piece = context.streets[s];
     const auto leave = [&](std::size_t& count, const char* reason) {
       ++count;
-      if (piece.row != kNoRow) unused[piece.row] = reason;
+      if (piece.row != importing::kNoRow) unused[piece.row] = reason;
     };
     if (!piece.for_cars && !making.takes_all_streets) {
       leave(without_cars, "without cars; it is taken where all streets are asked for");
@@ -264,12 +266,12 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
     if (street_ids[s].empty()) continue;
     const std::string &start = junction_at(context.streets[s].start), &end = junction_at(context.streets[s].end);
     add_street(street_ids[s], context.streets[s], start, end, report);
-    if (context.streets[s].row != kNoRow) report.made(context.streets[s].row, street_ids[s]);
+    if (context.streets[s].row != importing::kNoRow) report.made(context.streets[s].row, street_ids[s]);
   }
   // A rule lies at its junction, which is there by now.
-  for (const ContextRestriction& turn : context.restrictions) {
+  for (const importing::ContextRestriction& turn : context.restrictions) {
     const bool holds = !street_ids[turn.from].empty() && !street_ids[turn.to].empty();
-    if (turn.row == kNoRow || !holds) continue;
+    if (turn.row == importing::kNoRow || !holds) continue;
     const auto& made = report.rows()[turn.row].made;
     if (std::find(made.begin(), made.end(), junction_ids[turn.via]) == made.end()) report.made(turn.row, junction_ids[turn.via]);
   }
@@ -287,7 +289,7 @@ void ContextNodes::add_streets(const Context& context, const NodeMaking& making,
                      by_number(loops, "no node.", "no nodes."));
 }
 
-std::string ContextNodes::add_junction(const ContextJunction& junction, const Json& turns) {
+std::string ContextNodes::add_junction(const importing::ContextJunction& junction, const Json& turns) {
   const std::string id = fresh_id("junction_" + junction.id);
   Json types = {{"junction", Json::object()}};
   if (!turns.empty()) types["turn_rules"] = {{"turns", turns}};
@@ -297,11 +299,11 @@ std::string ContextNodes::add_junction(const ContextJunction& junction, const Js
   return id;
 }
 
-void ContextNodes::add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
-                              ImportReport& report) {
-  const ThinLine thin = thin_line(piece.line, kMostBends);
+void ContextNodes::add_street(const std::string& id, const importing::ContextStreet& piece, const std::string& start,
+                              const std::string& end, importing::ImportReport& report) {
+  const importing::ThinLine thin = importing::thin_line(piece.line, kMostBends);
   const bool is_thinned = thin.points.size() < piece.line.size();
-  if (is_thinned && piece.row != kNoRow)
+  if (is_thinned && piece.row != importing::kNoRow)
     report.mend(piece.row, std::to_string(thin.points.size() - 2) + " of the " + std::to_string(piece.line.size() - 2) +
                                " bends of " + piece.id + " were taken, the others lie within " +
                                fixed(std::max(0.01, std::ceil(thin.aside * 100) / 100), 2) + " m of its line");
@@ -325,15 +327,16 @@ void ContextNodes::add_street(const std::string& id, const ContextStreet& piece,
 }
 
 // Rows of turn rules by junction. A restriction holds only where both of its streets became nodes.
-std::map<std::size_t, Json> ContextNodes::turn_rules(const Context& context, const std::vector<std::string>& street_ids,
-                                                     ImportReport& report, Unused& unused) {
+std::map<std::size_t, Json> ContextNodes::turn_rules(const importing::Context& context,
+                                                     const std::vector<std::string>& street_ids, importing::ImportReport& report,
+                                                     Unused& unused) {
   std::map<std::size_t, Json> rules;
-  for (const ContextRestriction& turn : context.restrictions) {
+  for (const importing::ContextRestriction& turn : context.restrictions) {
     const std::string &from = street_ids[turn.from], &to = street_ids[turn.to];
     if (from.empty() || to.empty()) {
       const std::string& street = context.streets[from.empty() ? turn.from : turn.to].id;
       notes_.push_back("Turn restriction `" + turn.id + "` (" + turn.rule + ") became nothing: `" + street + "` became no node.");
-      if (turn.row != kNoRow) {
+      if (turn.row != importing::kNoRow) {
         report.remark(turn.row, "`" + street + "` became no node");
         unused[turn.row] = "one of its streets became no node";
       }
@@ -347,7 +350,7 @@ std::map<std::size_t, Json> ContextNodes::turn_rules(const Context& context, con
   return rules;
 }
 
-void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making, ImportReport& report) {
+void ContextNodes::add(const importing::LocalTerrain& terrain, const NodeMaking& making, importing::ImportReport& report) {
   double lowest = INFINITY, highest = -INFINITY;
   for (const double value : terrain.values)
     if (std::isfinite(value)) lowest = std::min(lowest, value), highest = std::max(highest, value);
@@ -355,11 +358,11 @@ void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making, Im
   lowest = std::floor(lowest * 100) / 100;
   // Centimetres, as long as the range of heights fits into three digits.
   double step = 0.01;
-  while ((highest - lowest) / step > HeightGrid::kMostSteps) step *= 10;
+  while ((highest - lowest) / step > geometry::HeightGrid::kMostSteps) step *= 10;
   Json rows = Json::array();
   for (std::size_t row = 0; row < terrain.rows; ++row)
-    rows.push_back(
-        {{"heights", height_row(std::span(terrain.values).subspan(row * terrain.columns, terrain.columns), lowest, step)}});
+    rows.push_back({{"heights", geometry::height_row(std::span(terrain.values).subspan(row * terrain.columns, terrain.columns),
+                                                     lowest, step)}});
   const Json ports = {{"rows", rows},
                       {"west", tidy(terrain.west)},
                       {"north", tidy(terrain.north)},
@@ -378,10 +381,10 @@ void ContextNodes::add(const LocalTerrain& terrain, const NodeMaking& making, Im
   ++made_["terrain"];
 }
 
-void ContextNodes::add(const DataLayer& layer, const NodeMaking& making, ImportReport& report) {
+void ContextNodes::add(const importing::DataLayer& layer, const NodeMaking& making, importing::ImportReport& report) {
   Json rows = Json::array();
   std::vector<Point3> places;
-  for (const LayerPoint& point : layer.points) {
+  for (const importing::LayerPoint& point : layer.points) {
     rows.push_back({{"x", tidy(point.x)}, {"y", tidy(point.y)}, {"value", point.value}});
     places.push_back({point.x, point.y, 0});
   }

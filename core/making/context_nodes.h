@@ -19,9 +19,9 @@ namespace bl::making {
 /// Where nodes come from, and how they are made.
 struct NodeMaking {
   std::string source, licence, unit;
-  bool is_extruded = false;        ///< buildings from outline and height, even where there is a solid
-  bool takes_all_streets = false;  ///< footpaths and the like, too
-  ImportWatch* watch = nullptr;    ///< who waits for it; may be null
+  bool is_extruded = false;                 ///< buildings from outline and height, even where there is a solid
+  bool takes_all_streets = false;           ///< footpaths and the like, too
+  importing::ImportWatch* watch = nullptr;  ///< who waits for it; may be null
 };
 
 /// Collects commands that add nodes; ids are new to the scene and tell what they are and where they come from.
@@ -30,11 +30,11 @@ class ContextNodes {
   ContextNodes(const Scene& scene, const Registry& registry);
 
   /// Sets where the scene lies.
-  void place(const GeoReference& reference);
+  void place(const importing::GeoReference& reference);
   // Each says in `report`, which is that of the elements, what was made of them.
-  void add(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report);
-  void add(const LocalTerrain& terrain, const NodeMaking& making, ImportReport& report);
-  void add(const DataLayer& layer, const NodeMaking& making, ImportReport& report);
+  void add(const importing::Context& context, const NodeMaking& making, SiteBuildings& sites, importing::ImportReport& report);
+  void add(const importing::LocalTerrain& terrain, const NodeMaking& making, importing::ImportReport& report);
+  void add(const importing::DataLayer& layer, const NodeMaking& making, importing::ImportReport& report);
 
   /// Sets a port of a node that is there already.
   void set_port(const std::string& node, const std::string& path, const Value& value);
@@ -54,16 +54,16 @@ class ContextNodes {
   /// By row of the report: why an element became no node.
   using Unused = std::map<std::size_t, std::string>;
   std::string fresh_id(const std::string& wanted);
-  void add_buildings(const Context& context, const NodeMaking& making, SiteBuildings& sites, ImportReport& report,
-                     Unused& unused);
-  std::string add_building(const ContextBuilding& building, const NodeMaking& making);
-  void add_streets(const Context& context, const NodeMaking& making, ImportReport& report, Unused& unused);
-  std::string add_junction(const ContextJunction& junction, const Json& turns);
-  void add_street(const std::string& id, const ContextStreet& piece, const std::string& start, const std::string& end,
-                  ImportReport& report);
-  std::map<std::size_t, Json> turn_rules(const Context& context, const std::vector<std::string>& street_ids, ImportReport& report,
-                                         Unused& unused);
-  std::string add_plot(const ContextArea& area);
+  void add_buildings(const importing::Context& context, const NodeMaking& making, SiteBuildings& sites,
+                     importing::ImportReport& report, Unused& unused);
+  std::string add_building(const importing::ContextBuilding& building, const NodeMaking& making);
+  void add_streets(const importing::Context& context, const NodeMaking& making, importing::ImportReport& report, Unused& unused);
+  std::string add_junction(const importing::ContextJunction& junction, const Json& turns);
+  void add_street(const std::string& id, const importing::ContextStreet& piece, const std::string& start, const std::string& end,
+                  importing::ImportReport& report);
+  std::map<std::size_t, Json> turn_rules(const importing::Context& context, const std::vector<std::string>& street_ids,
+                                         importing::ImportReport& report, Unused& unused);
+  std::string add_plot(const importing::ContextArea& area);
   void add_node(const std::string& id, Json&& node);
   void reach(const Point3& point);
 

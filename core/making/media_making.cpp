@@ -61,7 +61,7 @@ std::optional<double> height_of_zero(const Scene& scene) {
 
 // The height of the camera in the scene [m]: as its GPS says where the scene tells how high it lies itself, else of people's
 // eyes.
-double height_of(const ImageFacts& facts, const Scene& scene, std::vector<std::string>& notes) {
+double height_of(const importing::ImageFacts& facts, const Scene& scene, std::vector<std::string>& notes) {
   if (!facts.altitude) return kEyeHeight;
   const std::string told = "the picture was taken " + fixed(*facts.altitude, 1) + " m above the sea";
   const auto zero = height_of_zero(scene);
@@ -75,7 +75,7 @@ double height_of(const ImageFacts& facts, const Scene& scene, std::vector<std::s
   return *facts.altitude - *zero;
 }
 
-Vector3 position_of(const ImageFacts& facts, const Scene& scene, std::vector<std::string>& notes) {
+Vector3 position_of(const importing::ImageFacts& facts, const Scene& scene, std::vector<std::string>& notes) {
   const Settings settings = settings_of(scene);
   if (!facts.latitude) {
     notes.emplace_back("the picture does not say where it was taken: it stands at the origin, move it to its place");
@@ -95,7 +95,7 @@ Vector3 position_of(const ImageFacts& facts, const Scene& scene, std::vector<std
 }
 
 // What is proposed is said, because it decides what may be done with the picture.
-void tell_of_rights(const ImageFacts& facts, const MediaOptions& options, std::vector<std::string>& notes) {
+void tell_of_rights(const importing::ImageFacts& facts, const MediaOptions& options, std::vector<std::string>& notes) {
   std::string said;
   const auto tell = [&said](const char* what, const std::string& text, const std::string& given) {
     if (!text.empty() && given.empty()) said += (said.empty() ? "its " : ", its ") + std::string(what) + " is `" + text + "`";
@@ -124,7 +124,7 @@ bool is_picture_name(const std::string& file) {
 Result<MadeMedia> make_media(const std::string& file, const Scene& scene, const MediaOptions& options) {
   const auto bytes = read_file(file);
   if (!bytes) return bytes.error();
-  const auto facts = read_image_facts(*bytes);
+  const auto facts = importing::read_image_facts(*bytes);
   if (!facts) return facts.error();
   const Settings settings = settings_of(scene);
   MadeMedia made{fresh_id(file, scene), {}, facts->notes};

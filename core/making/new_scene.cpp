@@ -48,7 +48,7 @@ class Builder {
   Command batch() const { return command<Batch>({commands_}); }
 
   void settings() {
-    const GeoReference& reference = parts_.reference;
+    const importing::GeoReference& reference = parts_.reference;
     setting("title", parts_.title);
     setting("coordinate_system", reference.crs);
     setting("origin_x", reference.origin_x);
@@ -69,7 +69,7 @@ class Builder {
         boundary["holes"].push_back({{"name", "hole " + std::to_string(h + 1)}, {"x", corner.x}, {"y", corner.y}});
     node(kSite, {{"name", "Site"}, {"types", {{"boundary", boundary}}}});
     Json rows = Json::array();
-    for (const ProgrammeRow& row : parts_.programme.rows)
+    for (const importing::ProgrammeRow& row : parts_.programme.rows)
       rows.push_back({{"use", row.use},
                       {"floor_area", row.floor_area},
                       {"floor_area_min", row.floor_area_min.value_or(0)},
@@ -84,7 +84,7 @@ class Builder {
   }
 
   void volume(const NewVolume& volume) {
-    const ProgrammeRow& row = parts_.programme.rows[volume.row];
+    const importing::ProgrammeRow& row = parts_.programme.rows[volume.row];
     Json tags = Json::array({row.use});
     for (const std::string& tag : row.tags)
       if (tag != row.use) tags.push_back(tag);
@@ -138,11 +138,11 @@ class Builder {
 
 }  // namespace
 
-std::vector<NewVolume> volumes_of(const ProgrammeImport& programme) {
+std::vector<NewVolume> volumes_of(const importing::ProgrammeImport& programme) {
   std::set<std::string> taken{kSite, kProgramme, kSolver, kTotal};
   std::vector<NewVolume> volumes;
   for (std::size_t r = 0; r < programme.rows.size(); ++r) {
-    const ProgrammeRow& row = programme.rows[r];
+    const importing::ProgrammeRow& row = programme.rows[r];
     const auto count = static_cast<std::size_t>(row.count);
     for (std::size_t i = 1; i <= count; ++i) {
       const std::string suffix = count > 1 ? "_" + numbered(i, count) : "", number = count > 1 ? " " + std::to_string(i) : "";
@@ -156,7 +156,7 @@ std::vector<NewVolume> volumes_of(const ProgrammeImport& programme) {
   return volumes;
 }
 
-std::vector<WantedContact> contacts_of(const ProgrammeImport& programme, const std::vector<NewVolume>& volumes) {
+std::vector<WantedContact> contacts_of(const importing::ProgrammeImport& programme, const std::vector<NewVolume>& volumes) {
   std::map<std::string, std::size_t> row_of;
   for (std::size_t r = 0; r < programme.rows.size(); ++r) row_of[programme.rows[r].use] = r;
   std::vector<std::vector<std::size_t>> items(programme.rows.size());

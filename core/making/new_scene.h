@@ -17,11 +17,11 @@ inline constexpr const char* kInsideLink = "inside";
 /// What a new scene is made of.
 struct SceneParts {
   std::string title;
-  GeoReference reference;
-  Ring plan;                      ///< counter-clockwise
-  std::vector<Ring> holes;        ///< clockwise
-  double height = 0, margin = 0;  ///< [m]
-  ProgrammeImport programme;
+  importing::GeoReference reference;
+  geometry::Ring plan;                ///< counter-clockwise
+  std::vector<geometry::Ring> holes;  ///< clockwise
+  double height = 0, margin = 0;      ///< [m]
+  importing::ProgrammeImport programme;
   std::uint64_t seed = 1;
 };
 
@@ -40,10 +40,10 @@ struct WantedContact {
 };
 
 /// The items of all rows with ids of their own, positions not yet given.
-std::vector<NewVolume> volumes_of(const ProgrammeImport& programme);
+std::vector<NewVolume> volumes_of(const importing::ProgrammeImport& programme);
 /// Who shall touch whom, from the column adjacent_to: the items of the more numerous use are dealt out evenly to those of the
 /// other.
-std::vector<WantedContact> contacts_of(const ProgrammeImport& programme, const std::vector<NewVolume>& volumes);
+std::vector<WantedContact> contacts_of(const importing::ProgrammeImport& programme, const std::vector<NewVolume>& volumes);
 /// The scene as one command, positions spread by the seed.
 Result<Command> new_scene_command(const SceneParts& parts, const Registry& registry);
 

@@ -18,13 +18,13 @@ struct Trapezoid {
 
 double x_at(const Point3& a, const Point3& b, double y) { return a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x); }
 
-std::vector<Trapezoid> trapezoids(std::span<const Ring> rings) {
+std::vector<Trapezoid> trapezoids(std::span<const geometry::Ring> rings) {
   struct Side {
     Point3 low, high;
   };
   std::vector<Side> sides;
   std::vector<double> heights;
-  for (const Ring& ring : rings) {
+  for (const geometry::Ring& ring : rings) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Point3 &a = ring[i], &b = ring[(i + 1) % ring.size()];
       heights.push_back(a.y);
@@ -68,7 +68,8 @@ double inner(double share) { return 1e-6 + (1 - 2e-6) * share; }
 
 }  // namespace
 
-std::vector<Point3> prism_samples(std::span<const Ring> rings, double bottom, double top, std::size_t count, std::uint64_t seed) {
+std::vector<Point3> prism_samples(std::span<const geometry::Ring> rings, double bottom, double top, std::size_t count,
+                                  std::uint64_t seed) {
   const std::vector<Trapezoid> parts = trapezoids(rings);
   if (parts.empty()) return {};
   std::vector<double> below{0};

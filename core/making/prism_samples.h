@@ -14,6 +14,7 @@ namespace bl::making {
 
 /// `count` points strictly inside the prism over the rings (a polygon, then its holes), evenly spread: a fixed low-discrepancy
 /// sequence shifted by the seed.
-std::vector<Point3> prism_samples(std::span<const Ring> rings, double bottom, double top, std::size_t count, std::uint64_t seed);
+std::vector<Point3> prism_samples(std::span<const geometry::Ring> rings, double bottom, double top, std::size_t count,
+                                  std::uint64_t seed);
 
 }  // namespace bl::making

@@ -26,7 +26,7 @@ class Maker {
     if (!made_.errors.empty()) return;
     SceneParts& parts = made_.parts;
     const bool takes_hull = o_.use_hull && !made_.plan->is_convex;
-    const ConvexPlan hull = convex_hull_plan(*made_.plan);
+    const importing::ConvexPlan hull = convex_hull_plan(*made_.plan);
     parts.title = o_.title.empty() ? file_stem(o_.programme) : o_.title;
     parts.reference = made_.plan->reference;
     parts.plan = takes_hull ? hull.ring : made_.plan->outer;
@@ -97,7 +97,7 @@ class Maker {
   void load_plan() {
     const auto text = text_of(o_.boundary);
     if (!text) return;
-    PlanOptions options;
+    importing::PlanOptions options;
     options.feature = o_.feature;
     options.crs = o_.crs;
     auto plan = read_plan_boundary(*text, options);
@@ -106,10 +106,10 @@ class Maker {
     made_.plan = std::move(*plan);
   }
 
-  std::optional<ProgrammeImport> load_programme() {
+  std::optional<importing::ProgrammeImport> load_programme() {
     const auto text = text_of(o_.programme);
     if (!text) return std::nullopt;
-    ProgrammeOptions options;
+    importing::ProgrammeOptions options;
     options.storey_height = o_.storey_height;
     for (const std::string& column : o_.columns) {
       const std::size_t equals = column.find('=');

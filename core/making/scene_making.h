@@ -24,7 +24,7 @@ struct NewOptions {
 /// What came of it. Without a scene there are errors; all that can be said about the input is said at once.
 struct MadeScene {
   std::optional<Scene> scene;
-  std::optional<PlanBoundary> plan;
+  std::optional<importing::PlanBoundary> plan;
   SceneParts parts;
   double plan_area = 0;  ///< [m²] of the plan that was taken
   double demand = 0;     ///< [m³] of all volumes

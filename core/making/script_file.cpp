@@ -15,7 +15,7 @@ Result<Command> script_command(const std::string& file) {
   auto text = read_file(file);
   if (!text) return text.error();
   // What is wrong with a script is told by its name with the ending .lua, which is not the name of this file.
-  if (!file.ends_with(".lua") && !read_link_script(script_name(file), *text, full_registry()))
+  if (!file.ends_with(".lua") && !script::read_link_script(script_name(file), *text, full_registry()))
     return Error{ErrorCode::wrong_kind, file, "is no link script; these are texts in Lua, and their names end in .lua"};
   return command<SetScript>({script_name(file), std::move(*text), false});
 }

@@ -31,26 +31,26 @@ std::vector<Point3> points_in(const Value& value) {
   return points == nullptr ? std::vector<Point3>() : **points;
 }
 
-std::vector<NamedRing> rings_in(const Value& value) {
+std::vector<geometry::NamedRing> rings_in(const Value& value) {
   const auto* table = std::get_if<Shared<Table>>(&value);
-  return table == nullptr ? std::vector<NamedRing>() : read_rings(**table);
+  return table == nullptr ? std::vector<geometry::NamedRing>() : geometry::read_rings(**table);
 }
 
-PlanShape shape_of(const std::vector<Ring>& rings) {
-  PlanShape shape;
-  for (const Ring& ring : rings) shape.push_back(&ring);
+importing::PlanShape shape_of(const std::vector<geometry::Ring>& rings) {
+  importing::PlanShape shape;
+  for (const geometry::Ring& ring : rings) shape.push_back(&ring);
   return shape;
 }
 
-PlanShape shape_of(const ContextBuilding& building) {
-  PlanShape shape{&building.outer};
-  for (const Ring& hole : building.holes) shape.push_back(&hole);
+importing::PlanShape shape_of(const importing::ContextBuilding& building) {
+  importing::PlanShape shape{&building.outer};
+  for (const geometry::Ring& hole : building.holes) shape.push_back(&hole);
   return shape;
 }
 
-double footprint_of(const ContextBuilding& building) {
-  double area = std::abs(signed_area(building.outer));
-  for (const Ring& hole : building.holes) area -= std::abs(signed_area(hole));
+double footprint_of(const importing::ContextBuilding& building) {
+  double area = std::abs(geometry::signed_area(building.outer));
+  for (const geometry::Ring& hole : building.holes) area -= std::abs(geometry::signed_area(hole));
   return area;
 }
 
@@ -77,12 +77,12 @@ SiteBuildings::SiteBuildings(const Scene& scene, const Registry& registry, Insid
     std::vector<Point3> corners = points_in(value(form == "plan" ? "plan" : form == "hull" ? "points" : "vertices"));
     if (corners.size() < 3) continue;
     if (form == "plan") {
-      std::vector<Ring> rings{corners};
-      for (NamedRing& hole : rings_in(value("holes"))) rings.push_back(std::move(hole.corners));
+      std::vector<geometry::Ring> rings{corners};
+      for (geometry::NamedRing& hole : rings_in(value("holes"))) rings.push_back(std::move(hole.corners));
       site.grounds.push_back(std::move(rings));
       site.bottom = as_number(value("bottom"));
       site.top = site.bottom + as_number(value("height"));
-      for (NamedRing& step : rings_in(value("steps"))) {
+      for (geometry::NamedRing& step : rings_in(value("steps"))) {
         site.top = std::max(site.top, step.top);
         site.grounds.push_back({std::move(step.corners)});
       }
@@ -90,22 +90,22 @@ SiteBuildings::SiteBuildings(const Scene& scene, const Registry& registry, Insid
       // Of a hull or a mesh all that lies under it: its corners' hull in plan.
       site.bottom = site.top = corners.front().z;
       for (const Point3& corner : corners) site.bottom = std::min(site.bottom, corner.z), site.top = std::max(site.top, corner.z);
-      site.grounds.push_back({hull_of_plan(corners)});
+      site.grounds.push_back({geometry::hull_of_plan(corners)});
     }
-    std::erase_if(site.grounds, [](const std::vector<Ring>& rings) { return rings.front().size() < 3; });
+    std::erase_if(site.grounds, [](const std::vector<geometry::Ring>& rings) { return rings.front().size() < 3; });
     sites_.push_back(std::move(site));
   }
 }
 
 // What of a building lies inside of a site [m²], where it stands in its heights at all.
-double SiteBuildings::inside(const Site& site, const ContextBuilding& building) const {
+double SiteBuildings::inside(const Site& site, const importing::ContextBuilding& building) const {
   if (building.base >= site.top || building.base + building.height <= site.bottom) return 0;
-  const PlanBox box = plan_box(building.outer);
+  const importing::PlanBox box = importing::plan_box(building.outer);
   double area = 0;
-  for (const std::vector<Ring>& ground : site.grounds) {
-    const PlanBox other = plan_box(ground.front());
+  for (const std::vector<geometry::Ring>& ground : site.grounds) {
+    const importing::PlanBox other = importing::plan_box(ground.front());
     if (box.west >= other.east || box.east <= other.west || box.south >= other.north || box.north <= other.south) continue;
-    area = std::max(area, common_area(shape_of(building), shape_of(ground)));
+    area = std::max(area, importing::common_area(shape_of(building), shape_of(ground)));
   }
   return area;
 }
@@ -118,7 +118,7 @@ bool SiteBuildings::clears(std::size_t buildings, const std::string& site) {
   return choice_ == InsideChoice::clear;
 }
 
-void SiteBuildings::judge(const Context& context) {
+void SiteBuildings::judge(const importing::Context& context) {
   stays_.clear();
   for (std::size_t s = 0; s < sites_.size(); ++s) {
     // Parts share the fate of their building.
@@ -129,7 +129,7 @@ void SiteBuildings::judge(const Context& context) {
     std::map<std::string, Whole> wholes;
     std::map<std::size_t, double> areas;
     for (std::size_t b = 0; b < context.buildings.size(); ++b) {
-      const ContextBuilding& building = context.buildings[b];
+      const importing::ContextBuilding& building = context.buildings[b];
       const double area = inside(sites_[s], building);
       if (area > 0) areas[b] = area;
       if (area <= 0 && building.whole.empty()) continue;
@@ -166,12 +166,13 @@ bool SiteBuildings::has_cleared() const {
   return std::any_of(sites_.begin(), sites_.end(), [](const Site& site) { return site.cleared > 0; });
 }
 
-void SiteBuildings::keep(std::size_t building, const ContextBuilding& made, const std::string& node, ImportReport& report) {
+void SiteBuildings::keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node,
+                         importing::ImportReport& report) {
   const auto stays = stays_.find(building);
   if (stays == stays_.end()) return;
   for (const Stay& stay : stays->second) {
     Site& site = sites_[stay.site];
-    if (made.row != kNoRow)
+    if (made.row != importing::kNoRow)
       report.remark(made.row, share_text(stay.share) + " of it inside the site `" + site.id + "`, which leaves its ground out");
     // From the underside of the site: nothing is built below a building that stays.
     const double bottom = tidy_length(std::min(made.base, site.bottom)), top = tidy_length(made.base + made.height);

@@ -29,11 +29,12 @@ class SiteBuildings {
   SiteBuildings(const Scene& scene, const Registry& registry, InsideChoice choice, AskToClear ask);
 
   /// Of all buildings of a file, before they are made nodes.
-  void judge(const Context& context);
+  void judge(const importing::Context& context);
   /// Is that building of the file left out?
   bool is_cleared(std::size_t building) const;
   /// Says in its row what is special about a building that stays, and has its site leave out its ground.
-  void keep(std::size_t building, const ContextBuilding& made, const std::string& node, ImportReport& report);
+  void keep(std::size_t building, const importing::ContextBuilding& made, const std::string& node,
+            importing::ImportReport& report);
   static constexpr const char* kClearedReason = "it stands inside the site, which is cleared";
 
   /// Was any building left out?
@@ -46,7 +47,7 @@ class SiteBuildings {
  private:
   struct Site {
     std::string id;
-    std::vector<std::vector<Ring>> grounds;  // each an outline with its holes
+    std::vector<std::vector<geometry::Ring>> grounds;  // each an outline with its holes
     double bottom = 0, top = 0;
     Table rows;                            // its exclusions
     std::set<std::size_t> kept, reaching;  // whole buildings that stay, by their number in `judged_`
@@ -60,7 +61,7 @@ class SiteBuildings {
     bool is_cleared = false;
   };
 
-  double inside(const Site& site, const ContextBuilding& building) const;
+  double inside(const Site& site, const importing::ContextBuilding& building) const;
   bool clears(std::size_t buildings, const std::string& site);
 
   std::vector<Site> sites_;

@@ -36,7 +36,7 @@ double cube_root(double number) {
 
 class Spreader {
  public:
-  Spreader(std::vector<Ring> rings, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
+  Spreader(std::vector<geometry::Ring> rings, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
            std::span<const std::pair<std::size_t, std::size_t>> pairs, std::span<const std::uint8_t> on_ground);
   std::vector<Point3> run();
 
@@ -56,7 +56,7 @@ class Spreader {
   bool is_inside(const Point3& point) const;
   Point3 nearest_side(const Point3& point) const;
 
-  std::vector<Ring> rings_;  // the plan, then its holes
+  std::vector<geometry::Ring> rings_;  // the plan, then its holes
   double bottom_, top_, spacing_ = 0;
   std::span<const std::pair<std::size_t, std::size_t>> pairs_;
   std::span<const std::uint8_t> on_ground_;
@@ -68,8 +68,9 @@ class Spreader {
   std::vector<std::size_t> counts_;    // samples per site
 };
 
-Spreader::Spreader(std::vector<Ring> rings, double bottom, double top, std::span<const double> volumes, std::uint64_t seed,
-                   std::span<const std::pair<std::size_t, std::size_t>> pairs, std::span<const std::uint8_t> on_ground)
+Spreader::Spreader(std::vector<geometry::Ring> rings, double bottom, double top, std::span<const double> volumes,
+                   std::uint64_t seed, std::span<const std::pair<std::size_t, std::size_t>> pairs,
+                   std::span<const std::uint8_t> on_ground)
     : rings_(std::move(rings)),
       bottom_(bottom),
       top_(top),
@@ -79,7 +80,7 @@ Spreader::Spreader(std::vector<Ring> rings, double bottom, double top, std::span
       sites_(volumes.size()),
       neighbours_(volumes.size()) {
   double area = 0;
-  for (std::size_t r = 0; r < rings_.size(); ++r) area += (r == 0 ? 1 : -1) * std::abs(signed_area(rings_[r]));
+  for (std::size_t r = 0; r < rings_.size(); ++r) area += (r == 0 ? 1 : -1) * std::abs(geometry::signed_area(rings_[r]));
   const double prism = area * (top - bottom);
   const double demand = std::accumulate(volumes.begin(), volumes.end(), 0.0);
   const double share = std::min(1.0, kFill * prism / demand);
@@ -96,15 +97,15 @@ Spreader::Spreader(std::vector<Ring> rings, double bottom, double top, std::span
 // By the even-odd rule over all rings, the holes among them.
 bool Spreader::is_inside(const Point3& point) const {
   bool inside = false;
-  for (const Ring& ring : rings_) inside = inside != ring_contains(ring, point);
+  for (const geometry::Ring& ring : rings_) inside = inside != geometry::ring_contains(ring, point);
   return inside;
 }
 
 Point3 Spreader::nearest_side(const Point3& point) const {
   const auto away = [&](const Point3& p) { return (p.x - point.x) * (p.x - point.x) + (p.y - point.y) * (p.y - point.y); };
-  Point3 best = nearest_on_ring(rings_.front(), point);
-  for (const Ring& ring : rings_) {
-    const Point3 other = nearest_on_ring(ring, point);
+  Point3 best = geometry::nearest_on_ring(rings_.front(), point);
+  for (const geometry::Ring& ring : rings_) {
+    const Point3 other = geometry::nearest_on_ring(ring, point);
     if (away(other) < away(best)) best = other;
   }
   return best;
@@ -293,7 +294,7 @@ void Spreader::separate() {
 Result<void> check(std::span<const Point3> plan, double bottom, double top, std::span<const double> volumes,
                    std::span<const std::pair<std::size_t, std::size_t>> pairs) {
   const bool finite = std::all_of(plan.begin(), plan.end(), [](const Point3& p) { return is_finite(p); });
-  if (plan.size() < 3 || !finite || find_self_crossing(plan) || !(std::abs(signed_area(plan)) > 0))
+  if (plan.size() < 3 || !finite || geometry::find_self_crossing(plan) || !(std::abs(geometry::signed_area(plan)) > 0))
     return Error{ErrorCode::geometry, "plan", "The plan must be a simple polygon of at least 3 finite points with an area."};
   if (!(top > bottom) || !std::isfinite(top - bottom))
     return Error{ErrorCode::out_of_range, "plan",
@@ -315,21 +316,22 @@ Result<void> check(std::span<const Point3> plan, double bottom, double top, std:
 Result<std::vector<Point3>> spread_points(std::span<const Point3> plan, double bottom, double top,
                                           std::span<const double> volumes, std::uint64_t seed,
                                           std::span<const std::pair<std::size_t, std::size_t>> neighbours,
-                                          std::span<const Ring> holes, std::span<const std::uint8_t> on_ground) {
+                                          std::span<const geometry::Ring> holes, std::span<const std::uint8_t> on_ground) {
   if (auto sound = check(plan, bottom, top, volumes, neighbours); !sound) return sound.error();
   if (!on_ground.empty() && on_ground.size() != volumes.size())
     return Error{ErrorCode::out_of_range, "on_ground",
                  "There are " + std::to_string(on_ground.size()) + " words on standing for " + std::to_string(volumes.size()) +
                      " points. Give one for each point, or none."};
-  std::vector<Ring> rings{Ring(plan.begin(), plan.end())};
+  std::vector<geometry::Ring> rings{geometry::Ring(plan.begin(), plan.end())};
   for (std::size_t h = 0; h < holes.size(); ++h) {
     const std::string place = "holes/" + std::to_string(h);
-    if (holes[h].size() < 3 || find_self_crossing(holes[h]))
+    if (holes[h].size() < 3 || geometry::find_self_crossing(holes[h]))
       return Error{ErrorCode::geometry, place, "A hole must be a simple polygon of at least 3 points."};
-    for (const Ring& ring : rings)
-      if (find_crossing(ring, holes[h]))
+    for (const geometry::Ring& ring : rings)
+      if (geometry::find_crossing(ring, holes[h]))
         return Error{ErrorCode::geometry, place, "The hole must lie inside the plan and must not meet another hole."};
-    if (!ring_contains(plan, holes[h].front())) return Error{ErrorCode::geometry, place, "The hole must lie inside the plan."};
+    if (!geometry::ring_contains(plan, holes[h].front()))
+      return Error{ErrorCode::geometry, place, "The hole must lie inside the plan."};
     rings.push_back(holes[h]);
   }
   if (volumes.empty()) return std::vector<Point3>();

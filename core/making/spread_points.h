@@ -24,6 +24,7 @@ constexpr double kSpreadSeparation = 0.15;
 Result<std::vector<Point3>> spread_points(std::span<const Point3> plan, double bottom, double top,
                                           std::span<const double> volumes, std::uint64_t seed,
                                           std::span<const std::pair<std::size_t, std::size_t>> neighbours = {},
-                                          std::span<const Ring> holes = {}, std::span<const std::uint8_t> on_ground = {});
+                                          std::span<const geometry::Ring> holes = {},
+                                          std::span<const std::uint8_t> on_ground = {});
 
 }  // namespace bl::making

@@ -10,7 +10,7 @@
 #include "core/reading/views/plot.h"
 #include "core/reading/views/programme.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 namespace {
 
@@ -152,7 +152,7 @@ std::vector<std::pair<std::string, BriefRow>> brief_of(const State& state) {
       const auto [found, is_new] = index.emplace(table.text(r, "use"), brief.size());
       if (is_new) brief.emplace_back(found->first, BriefRow{});
       BriefRow& row = brief[found->second].second;
-      const BriefSums sums = brief_sums(table, r);
+      const demand::BriefSums sums = demand::brief_sums(table, r);
       row.area += sums.area;
       row.volume += sums.volume;
     }
@@ -267,4 +267,4 @@ std::string why_short(const State& state, const Accounts& accounts, const UseAcc
   return causes_of(use, limiters, accounts.tolerance);
 }
 
-}  // namespace bl::report
+}  // namespace bl::reading

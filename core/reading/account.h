@@ -9,7 +9,7 @@
 #include "core/graph/state.h"
 #include "core/reading/views/volume.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 /// Of a volume, a use, or everything together. List, colours, statistics, tables, comparison and page read this and nothing else,
 /// so that none of them can call met what another one calls short.
@@ -83,4 +83,4 @@ std::vector<std::string> who_limits(const State& state, const VolumeAccount& vol
 std::string why_short(const State& state, const Accounts& accounts, const VolumeAccount& volume);
 std::string why_short(const State& state, const Accounts& accounts, const UseAccount& use);
 
-}  // namespace bl::report
+}  // namespace bl::reading

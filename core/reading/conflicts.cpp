@@ -13,7 +13,7 @@
 #include "core/reading/report_model.h"
 #include "core/reading/views/solver.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 namespace {
 
@@ -179,4 +179,4 @@ void read_problems(const State& state, ReportModel& model) {
          true});
 }
 
-}  // namespace bl::report
+}  // namespace bl::reading

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace bl {
+namespace bl::reading {
 
 /// What one tick was like; collected by whoever runs the scene.
 struct ErrorSample {
@@ -13,4 +13,4 @@ struct ErrorSample {
   double largest_move = 0;  ///< [m]
 };
 
-}  // namespace bl
+}  // namespace bl::reading

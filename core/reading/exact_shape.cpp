@@ -9,7 +9,7 @@
 #include "core/geometry/solid_part.h"
 #include "core/reading/views/solver.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 namespace {
 
@@ -142,4 +142,4 @@ ExactShape exact_shape(const State& state, std::uint32_t node, const reading::Vo
   return agrees(volume, shape) ? shape : ExactShape{};
 }
 
-}  // namespace bl::report
+}  // namespace bl::reading

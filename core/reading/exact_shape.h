@@ -7,10 +7,10 @@
 #include "core/graph/state.h"
 #include "core/reading/views/volume.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 /// The half-space normal·x <= offset [m]; `normal` is a unit vector.
-using Cut = Plane;
+using Cut = geometry::Plane;
 
 /// What is inside the ball and all of its cuts.
 struct ExactShape {
@@ -36,4 +36,4 @@ Corners outline_of(const ExactShape& shape, const Vector3& toward);
 /// counts.
 ExactShape exact_shape(const State& state, std::uint32_t node, const reading::VolumeFigures& volume);
 
-}  // namespace bl::report
+}  // namespace bl::reading

@@ -5,7 +5,7 @@
 
 #include "core/base/text.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::string counted(std::size_t count, const std::string& noun) {
   return grouped(static_cast<double>(count)) + "\xC2\xA0" + noun + (count == 1 ? "" : "s");
 }
 
-}  // namespace bl::report
+}  // namespace bl::reading

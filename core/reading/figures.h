@@ -5,7 +5,7 @@
 
 #include "core/base/unit.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 /// "12 480": grouped by narrow spaces that do not break. Not finite: a dash.
 std::string grouped(double value, int decimals = 0);
@@ -26,4 +26,4 @@ std::string difference_of(double reached, double wanted);
 /// "1 volume", "3 volumes".
 std::string counted(std::size_t count, const std::string& noun);
 
-}  // namespace bl::report
+}  // namespace bl::reading

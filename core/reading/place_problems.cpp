@@ -10,7 +10,7 @@
 #include "core/reading/views/node.h"
 #include "core/reading/views/volume.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 namespace {
 
@@ -32,7 +32,7 @@ struct PlacedVolume {
 std::vector<PlacedVolume> placed_volumes(const State& state) {
   std::vector<PlacedVolume> volumes;
   for (const auto& [node, volume] : reading::rows<VolumeFigures>(state))
-    volumes.push_back({node, volume.position, ball_radius(volume.wanted)});
+    volumes.push_back({node, volume.position, geometry::ball_radius(volume.wanted)});
   return volumes;
 }
 
@@ -188,4 +188,4 @@ std::vector<PlaceProblem> place_problems(const State& state) {
   return problems;
 }
 
-}  // namespace bl::report
+}  // namespace bl::reading

@@ -6,7 +6,7 @@
 
 #include "core/graph/state.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 /// A problem of one or several volumes, in words. `subject` and `text` can stand beside each other, `sentence()` alone.
 struct PlaceProblem {
@@ -30,4 +30,4 @@ std::vector<PlaceProblem> collapsed_volumes(const State& state);
 /// Both: first what has collapsed.
 std::vector<PlaceProblem> place_problems(const State& state);
 
-}  // namespace bl::report
+}  // namespace bl::reading

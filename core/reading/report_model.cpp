@@ -8,7 +8,7 @@
 #include "core/base/hash.h"
 #include "core/reading/views/solver.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 namespace {
 
@@ -45,10 +45,10 @@ SiteRow site_of(const State& state, const reading::Row<reading::BoundaryFigures>
     return site;
   }
   // A boundary that is not convex comes in pieces: where they meet there is no edge.
-  site.shape = std::make_shared<const Mesh>(joined(*site.shape));
-  const std::vector<Vector3> normals = unit_normals(*site.shape);
-  site.ground = outline(*site.shape, [&](std::size_t t) { return normals[t].z < -1e-6; });
-  site.plan = outline(*site.shape, [&](std::size_t t) { return normals[t].z > 1e-6; });
+  site.shape = std::make_shared<const Mesh>(geometry::joined(*site.shape));
+  const std::vector<Vector3> normals = geometry::unit_normals(*site.shape);
+  site.ground = geometry::outline(*site.shape, [&](std::size_t t) { return normals[t].z < -1e-6; });
+  site.plan = geometry::outline(*site.shape, [&](std::size_t t) { return normals[t].z > 1e-6; });
   site.bottom = site.shape->vertices.front().z;
   for (const Point3& vertex : site.shape->vertices) site.bottom = std::min(site.bottom, vertex.z);
   return site;
@@ -125,4 +125,4 @@ void read_model(const State& state, ReportModel& model) {
   read_problems(state, model);
 }
 
-}  // namespace bl::report
+}  // namespace bl::reading

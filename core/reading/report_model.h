@@ -11,7 +11,7 @@
 #include "core/reading/exact_shape.h"
 #include "core/reading/surroundings.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 /// A SmartVolume, also one that has no shape, with what was asked for and what there is.
 struct VolumeRow : VolumeAccount {
@@ -31,7 +31,7 @@ struct SiteRow {
   double volume = 0, ground_area = 0;  ///< [m³], [m²]
   double bottom = 0;                   ///< [m]
   MeshPointer shape;
-  std::vector<Polyline> ground, plan;  ///< outline of its underside, and of all of it seen from above
+  std::vector<geometry::Polyline> ground, plan;  ///< outline of its underside, and of all of it seen from above
 };
 
 /// A port on which proposals disagree, and how much.
@@ -113,4 +113,4 @@ std::string voice_text(const State& state, const Voice& voice);
 /// Index of a link in the plan, or plan.links.size().
 std::size_t link_index(const Plan& plan, std::string_view id);
 
-}  // namespace bl::report
+}  // namespace bl::reading

@@ -13,7 +13,7 @@
 #include "core/reading/views/traffic.h"
 #include "core/traffic/street_line.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 namespace {
 
@@ -33,7 +33,7 @@ void add_street(const State& state, std::uint32_t node, const reading::StreetFig
   if (!start || !end) return;
   StreetLine street;
   street.name = state.plan->nodes[node].name;
-  street.line = street_line(*start, read.course, *end);
+  street.line = traffic::street_line(*start, read.course, *end);
   street.lanes = read.lanes * (read.one_way ? 1 : 2);
   street.flow = read.flow_forth + read.flow_back;
   street.load = read.volume_over_capacity;
@@ -151,4 +151,4 @@ std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& 
            std::max(inner.high_y, std::min(outer.high_y, inner.high_y + reach)), 0}};
 }
 
-}  // namespace bl::report
+}  // namespace bl::reading

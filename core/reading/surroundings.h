@@ -8,7 +8,7 @@
 #include "core/geometry/mesh_lines.h"
 #include "core/graph/state.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 struct StreetLine {
   std::string name;
@@ -60,4 +60,4 @@ Surroundings read_surroundings(const State& state);
 /// `around` times the larger side of the core. Far streets are cut at its edge. The core itself where there are no surroundings.
 std::vector<Point3> framed(const std::vector<Point3>& core, const Surroundings& surroundings, double around = 0.6);
 
-}  // namespace bl::report
+}  // namespace bl::reading

@@ -9,7 +9,7 @@
 #include "core/reading/place_problems.h"
 #include "core/reading/report_model.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 namespace {
 
@@ -66,7 +66,7 @@ bool takes_care_of(const Plan& plan, std::uint32_t solver, std::uint32_t volume)
 
 // What a solver says, with the shortages of the table: two accounts of one thing would be one too many.
 std::string told_by(const State& state, const ReportModel& model, const reading::Row<reading::SolverFigures>& solver) {
-  std::vector<DemandLoss> losses;
+  std::vector<geometry::DemandLoss> losses;
   std::vector<std::string> names;
   for (const VolumeRow& volume : model.volumes) {
     if (!takes_care_of(*state.plan, solver.node, volume.node)) continue;
@@ -128,4 +128,4 @@ Survey survey_of(const State& state) {
   return survey;
 }
 
-}  // namespace bl::report
+}  // namespace bl::reading

@@ -11,7 +11,7 @@
 #include "core/reading/report_model.h"
 #include "core/reading/views/solver.h"
 
-namespace bl::report {
+namespace bl::reading {
 
 /// One use: what is asked for, and what its volumes have.
 struct UseRow {
@@ -64,4 +64,4 @@ std::string solver_message(const State& state);
 /// Errors of nodes and links.
 std::vector<Error> problems_of(const State& state);
 
-}  // namespace bl::report
+}  // namespace bl::reading

@@ -57,7 +57,7 @@ std::string subject_of(const State& state, PortRef ref) {
 }
 
 // "0", "0.000": figures without a digit that says anything.
-bool reads_as_zero(double value) { return readable(value).find_first_of("123456789") == std::string::npos; }
+bool reads_as_zero(double value) { return reading::readable(value).find_first_of("123456789") == std::string::npos; }
 
 struct Sum {
   Unit unit = Unit::none;
@@ -109,7 +109,7 @@ class Walk {
           if (is_indicator(type.ports[p])) take(state, {n, t, p}, is_after);
       }
     // What is missing of what was asked for is no port: it follows from several, by the account that all displays share.
-    for (const VolumeAccount& volume : accounts_of(state).volumes) {
+    for (const reading::VolumeAccount& volume : reading::accounts_of(state).volumes) {
       const NodePlan& node = plan.nodes[volume.node];
       take_figure(node, "account.missing", "SmartVolume: missing of the volume asked for", Unit::cubic_metre, volume.missing(),
                   is_after);
@@ -273,13 +273,13 @@ double IndicatorRow::share() const {
 }
 
 std::string IndicatorRow::figure(double value) const {
-  return is_share ? percent(value) : quantity(value, unit == Unit::ratio ? Unit::none : unit);
+  return is_share ? reading::percent(value) : reading::quantity(value, unit == Unit::ratio ? Unit::none : unit);
 }
 
 std::string IndicatorRow::difference() const {
   // A percentage of what people read as zero says nothing, nor does one of dust beside what there is now.
   const bool is_nothing = reads_as_zero(before) || std::abs(before) < 1e-3 * std::abs(after);
-  return is_nothing ? figure(after - before) : signed_percent((after - before) / std::abs(before));
+  return is_nothing ? figure(after - before) : reading::signed_percent((after - before) / std::abs(before));
 }
 
 bool IndicatorRow::is_seen(double least_share) const {

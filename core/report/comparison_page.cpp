@@ -20,8 +20,8 @@ std::string who(const IndicatorRow& row) { return row.node.empty() ? "All" : row
 // Who and what, cut at a letter where there is no room for all of it.
 std::string fitting(const IndicatorRow& row) {
   std::string label = who(row) + " \xC2\xB7 " + row.label;
-  if (text_width(label, kBarTextSize) <= kLabels - 16) return label;
-  while (!label.empty() && text_width(label + "...", kBarTextSize) > kLabels - 16) {
+  if (drawing::text_width(label, kBarTextSize) <= kLabels - 16) return label;
+  while (!label.empty() && drawing::text_width(label + "...", kBarTextSize) > kLabels - 16) {
     while (label.size() > 1 && (static_cast<unsigned char>(label.back()) & 0xC0u) == 0x80u) label.pop_back();
     label.pop_back();
   }
@@ -34,37 +34,41 @@ std::string bars(const std::vector<IndicatorRow>& rows, const std::string& id, c
   const std::size_t count = std::min(rows.size(), kMostBars);
   const double height = 30 + kLine * static_cast<double>(count);
   const double left = kLabels, right = kPageWidth - kFigures, middle = 0.5 * (left + right), half = 0.5 * (right - left) - 4;
-  Markup svg;
+  drawing::Markup svg;
   open_picture(svg, kPageWidth, height, id, title, "Bars to the right: more in the second proposal; to the left: less.");
-  svg.leaf("line",
-           {{"class", "leader"}, {"x1", pixels(middle)}, {"x2", pixels(middle)}, {"y1", "18"}, {"y2", pixels(height - 6)}});
-  svg.element("text", "less", {{"x", pixels(left)}, {"y", "12"}, {"class", "figure start"}});
-  svg.element("text", "more", {{"x", pixels(right)}, {"y", "12"}, {"class", "figure end"}});
+  svg.leaf("line", {{"class", "leader"},
+                    {"x1", drawing::pixels(middle)},
+                    {"x2", drawing::pixels(middle)},
+                    {"y1", "18"},
+                    {"y2", drawing::pixels(height - 6)}});
+  svg.element("text", "less", {{"x", drawing::pixels(left)}, {"y", "12"}, {"class", "figure start"}});
+  svg.element("text", "more", {{"x", drawing::pixels(right)}, {"y", "12"}, {"class", "figure end"}});
   for (std::size_t k = 0; k < count; ++k) {
     const IndicatorRow& row = rows[k];
     const double y = 22 + kLine * static_cast<double>(k), length = half * std::min(1.0, row.share());
     const bool is_more = row.after > row.before;
-    svg.element("text", fitting(row), {{"x", pixels(left - 8)}, {"y", pixels(y + 14)}, {"class", "figure end"}});
-    svg.leaf("rect", {{"x", pixels(is_more ? middle : middle - length)},
-                      {"y", pixels(y + 3)},
-                      {"width", pixels(std::max(1.0, length))},
-                      {"height", pixels(kLine - 6)},
+    svg.element("text", fitting(row),
+                {{"x", drawing::pixels(left - 8)}, {"y", drawing::pixels(y + 14)}, {"class", "figure end"}});
+    svg.leaf("rect", {{"x", drawing::pixels(is_more ? middle : middle - length)},
+                      {"y", drawing::pixels(y + 3)},
+                      {"width", drawing::pixels(std::max(1.0, length))},
+                      {"height", drawing::pixels(kLine - 6)},
                       {"fill", is_more ? "#0072b2" : "#d55e00"}});
     svg.element("text", row.figure(row.before) + " \xE2\x86\x92 " + row.figure(row.after),
-                {{"x", pixels(right + 8)}, {"y", pixels(y + 14)}, {"class", "figure start"}});
+                {{"x", drawing::pixels(right + 8)}, {"y", drawing::pixels(y + 14)}, {"class", "figure start"}});
   }
   svg.close();
   return svg.str();
 }
 
-void list(Markup& page, const std::string& heading, const std::vector<std::string>& sentences) {
+void list(drawing::Markup& page, const std::string& heading, const std::vector<std::string>& sentences) {
   if (sentences.empty()) return;
   page.element("h2", heading).open("ul");
   for (const std::string& sentence : sentences) page.element("li", sentence);
   page.close();
 }
 
-void table(Markup& page, const std::vector<IndicatorRow>& rows, const std::string& first, const std::string& second) {
+void table(drawing::Markup& page, const std::vector<IndicatorRow>& rows, const std::string& first, const std::string& second) {
   page.open("div", {{"class", "wide"}}).open("table").open("thead").open("tr");
   for (const std::string& head : {std::string("Node"), std::string("Indicator")}) page.element("th", head, {{"scope", "col"}});
   for (const std::string& head : {first, second, std::string("Difference")})
@@ -80,17 +84,17 @@ void table(Markup& page, const std::vector<IndicatorRow>& rows, const std::strin
 }
 
 // `id`: two drawings of one page must not mean each other's parts.
-void drawing(Markup& page, const State& state, const std::string& name, const std::string& id) {
-  ReportModel model;
+void drawing(drawing::Markup& page, const State& state, const std::string& name, const std::string& id) {
+  reading::ReportModel model;
   read_model(state, model);
-  page.element("h3", name).open("figure").raw(draw_axonometry(model, Palette(model.use_names()), id).svg).close();
+  page.element("h3", name).open("figure").raw(draw_axonometry(model, drawing::Palette(model.use_names()), id).svg).close();
 }
 
 }  // namespace
 
 std::string comparison_page(const State& before, const State& after, const Comparison& comparison, const std::string& name_before,
                             const std::string& name_after) {
-  Markup page;
+  drawing::Markup page;
   const std::string title = name_before + " against " + name_after;
   page.raw("<!DOCTYPE html>\n");
   page.open("html", {{"xmlns", "http://www.w3.org/1999/xhtml"}, {"lang", "en"}}).open("head");
@@ -113,7 +117,7 @@ std::string comparison_page(const State& before, const State& after, const Compa
   page.element("h2", "Node by node");
   if (!comparison.nodes.empty()) page.open("figure").raw(bars(comparison.nodes, "nodes", "What differs most")).close();
   table(page, comparison.nodes, name_before, name_after);
-  page.element("p", counted(comparison.same, "number") + " of nodes in both are the same.");
+  page.element("p", reading::counted(comparison.same, "number") + " of nodes in both are the same.");
   page.close().close().close();
   return page.str();
 }

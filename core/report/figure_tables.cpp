@@ -25,15 +25,15 @@ const PortDefinition* port_of(const State& state, std::uint32_t node, std::strin
 }
 
 // Numbers are cells of numbers; what people chose or wrote is text.
-CsvCell cell_of(const Value& value) {
+csv::CsvCell cell_of(const Value& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;
   const double number = as_number(value);
-  return std::isfinite(number) ? CsvCell(number) : CsvCell();
+  return std::isfinite(number) ? csv::CsvCell(number) : csv::CsvCell();
 }
 
-CsvCell cell_of(const Scalar& field) {
+csv::CsvCell cell_of(const Scalar& field) {
   if (const auto* text = std::get_if<std::string>(&field)) return *text;
   if (const double* number = std::get_if<double>(&field)) return *number;
   return {};  // lists have no place in a cell
@@ -46,7 +46,7 @@ std::string csv_heading(std::string_view id, Unit unit) {
 
 CsvFile nodes_file(const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
   std::vector<std::string> header{"id", "name"};
-  std::vector<std::vector<CsvCell>> rows;
+  std::vector<std::vector<csv::CsvCell>> rows;
   for (const std::uint32_t node : nodes) rows.push_back({state.plan->nodes[node].id, state.plan->nodes[node].name});
   for (const FigureColumn& column : table.columns) {
     if (column.shown == Shown::json) continue;
@@ -55,7 +55,7 @@ CsvFile nodes_file(const State& state, const FigureTable& table, const std::vect
       const Value* value = nullptr;
       const PortDefinition* port = port_of(state, nodes[r], table.type, column.port, value);
       if (port != nullptr && port->unit_from.empty()) unit = port->unit;
-      rows[r].push_back(port == nullptr ? CsvCell() : cell_of(*value));
+      rows[r].push_back(port == nullptr ? csv::CsvCell() : cell_of(*value));
     }
     header.push_back(csv_heading(column.port, unit));
   }
@@ -64,7 +64,7 @@ CsvFile nodes_file(const State& state, const FigureTable& table, const std::vect
 
 CsvFile part_file(const State& state, const FigureTable& table, const FigurePart& part, const std::vector<std::uint32_t>& nodes) {
   std::vector<std::string> header{"node"};
-  std::vector<std::vector<CsvCell>> rows;
+  std::vector<std::vector<csv::CsvCell>> rows;
   for (const std::uint32_t node : nodes) {
     const Value* value = nullptr;
     const PortDefinition* port = port_of(state, node, table.type, part.port, value);
@@ -73,7 +73,7 @@ CsvFile part_file(const State& state, const FigureTable& table, const FigurePart
     if (header.size() == 1)
       for (const ColumnDefinition& column : port->columns) header.push_back(csv_heading(column.id, column.unit));
     for (const std::vector<Scalar>& fields : (*content)->rows) {
-      std::vector<CsvCell>& row = rows.emplace_back();
+      std::vector<csv::CsvCell>& row = rows.emplace_back();
       row.emplace_back(state.plan->nodes[node].id);
       for (const Scalar& field : fields) row.push_back(cell_of(field));
     }
@@ -108,7 +108,7 @@ std::vector<const FigureColumn*> page_columns(const State& state, const FigureTa
   return columns;
 }
 
-void write_one(Markup& page, const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
+void write_one(drawing::Markup& page, const State& state, const FigureTable& table, const std::vector<std::uint32_t>& nodes) {
   constexpr std::size_t kMostRows = 300;
   const std::vector<const FigureColumn*> columns = page_columns(state, table, nodes);
   if (columns.empty()) return;
@@ -159,13 +159,13 @@ std::string figure_text(const Value& value, const PortDefinition& port, bool is_
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "yes" : "no";
   const double number = as_number(value);
   if (!std::isfinite(number) || is_no_limit(number, port)) return "\xE2\x80\x93";
-  if (port.unit == Unit::count && number == std::floor(number)) return grouped(number);
-  if (!port.unit_from.empty()) return readable(number);
-  if (is_share) return percent(number);
-  return port.unit == Unit::ratio ? grouped(number, 2) : quantity(number, port.unit);
+  if (port.unit == Unit::count && number == std::floor(number)) return reading::grouped(number);
+  if (!port.unit_from.empty()) return reading::readable(number);
+  if (is_share) return reading::percent(number);
+  return port.unit == Unit::ratio ? reading::grouped(number, 2) : reading::quantity(number, port.unit);
 }
 
-void write_figure_tables(Markup& page, const State& state) {
+void write_figure_tables(drawing::Markup& page, const State& state) {
   for (const FigureTable& table : figure_tables())
     if (const auto nodes = rows_of(state, table); !nodes.empty()) write_one(page, state, table, nodes);
 }

@@ -46,7 +46,7 @@ std::vector<std::uint32_t> rows_of(const State& state, const FigureTable& table)
 std::string figure_text(const Value& value, const PortDefinition& port, bool is_share);
 
 /// All tables that have rows, for the page.
-void write_figure_tables(Markup& page, const State& state);
+void write_figure_tables(drawing::Markup& page, const State& state);
 
 struct CsvFile {
   std::string name, text;

@@ -10,45 +10,46 @@ namespace bl::report {
 
 namespace {
 
-std::string title_of(const ReportModel& model, const ReportData& data) {
+std::string title_of(const reading::ReportModel& model, const ReportData& data) {
   if (!model.title.empty()) return model.title;
   const std::size_t slash = data.scene_path.find_last_of("/\\");
   const std::string name = slash == std::string::npos ? data.scene_path : data.scene_path.substr(slash + 1);
   return name.empty() ? "Untitled scene" : name;
 }
 
-void key(Markup& page, const std::string& label, const std::string& figure, const std::string& note) {
+void key(drawing::Markup& page, const std::string& label, const std::string& figure, const std::string& note) {
   page.open("div").element("dt", label).open("dd").text(figure).element("small", note).close().close();
 }
 
-void write_keys(Markup& page, const ReportModel& model) {
+void write_keys(drawing::Markup& page, const reading::ReportModel& model) {
   const bool has_site = model.plan_area > 0;
-  const UseAccount& all = model.accounts.all;
+  const reading::UseAccount& all = model.accounts.all;
   page.open("dl", {{"class", "keys"}});
-  key(page, "Plan area", has_site ? quantity(model.plan_area, Unit::square_metre) : "\xE2\x80\x93",
+  key(page, "Plan area", has_site ? reading::quantity(model.plan_area, Unit::square_metre) : "\xE2\x80\x93",
       has_site ? "inside the boundary" : "no boundary");
-  key(page, "Floor area asked for", quantity(all.asked_area, Unit::square_metre),
+  key(page, "Floor area asked for", reading::quantity(all.asked_area, Unit::square_metre),
       all.is_in_programme ? "by the programme and by people" : "what the volumes asked for make");
-  key(page, "Floor area reached", quantity(all.floor_area, Unit::square_metre),
-      share_of(all.floor_area, all.asked_area) + " of what is asked for");
-  key(page, "Floor space index", has_site ? grouped(all.floor_area / model.plan_area, 2) : "\xE2\x80\x93",
+  key(page, "Floor area reached", reading::quantity(all.floor_area, Unit::square_metre),
+      reading::share_of(all.floor_area, all.asked_area) + " of what is asked for");
+  key(page, "Floor space index", has_site ? reading::grouped(all.floor_area / model.plan_area, 2) : "\xE2\x80\x93",
       "floor area to plan area");
-  key(page, "Volume", quantity(all.volume, Unit::cubic_metre), share_of(all.volume, all.asked) + " of what is asked for");
-  key(page, "Fill", share_of(all.volume, model.site_volume), "of the space inside the boundary");
-  key(page, "Volumes", grouped(static_cast<double>(model.volumes.size())),
+  key(page, "Volume", reading::quantity(all.volume, Unit::cubic_metre),
+      reading::share_of(all.volume, all.asked) + " of what is asked for");
+  key(page, "Fill", reading::share_of(all.volume, model.site_volume), "of the space inside the boundary");
+  key(page, "Volumes", reading::grouped(static_cast<double>(model.volumes.size())),
       model.shapes == model.volumes.size() ? "all have a shape"
                                            : std::to_string(model.volumes.size() - model.shapes) + " without a shape");
   const bool is_short = model.accounts.worst_short > model.accounts.tolerance;
-  key(page, "Short", is_short ? percent(model.accounts.worst_short) : "nobody",
+  key(page, "Short", is_short ? reading::percent(model.accounts.worst_short) : "nobody",
       is_short ? model.accounts.worst + ", the worst" : "all have what is asked for");
   // An error against an aim of nothing is no percentage.
   const bool has_error = model.worst != nullptr && model.worst->limited > 1e-3;
-  key(page, "Worst error", has_error ? percent(std::abs(model.worst->error())) : "\xE2\x80\x93",
+  key(page, "Worst error", has_error ? reading::percent(std::abs(model.worst->error())) : "\xE2\x80\x93",
       model.worst ? model.worst->name : "no volumes");
   page.close();
 }
 
-void write_header(Markup& page, const ReportModel& model, const ReportData& data) {
+void write_header(drawing::Markup& page, const reading::ReportModel& model, const ReportData& data) {
   page.open("header").element("h1", title_of(model, data));
   if (!model.about.empty()) page.element("p", model.about, {{"class", "about"}});
   page.open("div", {{"class", "outcome"}});
@@ -59,11 +60,12 @@ void write_header(Markup& page, const ReportModel& model, const ReportData& data
   page.close();
 }
 
-void write_figure(Markup& page, const Picture& picture, const ReportModel& model, const Palette* legend) {
+void write_figure(drawing::Markup& page, const drawing::Picture& picture, const reading::ReportModel& model,
+                  const drawing::Palette* legend) {
   page.open("figure").raw(picture.svg);
   if (legend != nullptr && !model.accounts.uses.empty()) {
     page.open("ul", {{"class", "uses"}, {"aria-label", "Colours and letters of the uses"}});
-    for (const UseAccount& use : model.accounts.uses) {
+    for (const reading::UseAccount& use : model.accounts.uses) {
       page.open("li");
       write_use(page, use.use, *legend);
       page.close();
@@ -74,10 +76,10 @@ void write_figure(Markup& page, const Picture& picture, const ReportModel& model
   page.close();
 }
 
-void write_notes(Markup& page, const ReportModel& model, const Palette& palette) {
+void write_notes(drawing::Markup& page, const reading::ReportModel& model, const drawing::Palette& palette) {
   page.element("h2", "Legend and how figures are measured", {{"id", "notes"}});
   page.open("ul", {{"class", "uses"}});
-  for (const UseAccount& use : model.accounts.uses) {
+  for (const reading::UseAccount& use : model.accounts.uses) {
     page.open("li");
     write_use(page, use.use, palette);
     page.close();
@@ -100,12 +102,13 @@ void write_notes(Markup& page, const ReportModel& model, const Palette& palette)
       "Footprint is what a volume covers seen from above, whether it stands on the ground or not; volumes above each other both "
       "count theirs. Surface is the "
       "whole outer surface with the parts shared with neighbours. Height is measured from the lowest to the highest point.");
-  note("States: met, short and over compare with what was asked for, within the tolerance of " + percent(model.tolerance) +
+  note("States: met, short and over compare with what was asked for, within the tolerance of " +
+       reading::percent(model.tolerance) +
        "; hidden, outside, coincident and starved volumes have no shape, and the reason says why.");
   note("The shapes are massing studies: room for a building, not a building. All lengths are in metres.");
 }
 
-void write_footer(Markup& page, const ReportModel& model, const ReportData& data) {
+void write_footer(drawing::Markup& page, const reading::ReportModel& model, const ReportData& data) {
   page.open("footer").open("dl");
   const auto row = [&](const std::string& label, const std::string& text) { page.element("dt", label).element("dd", text); };
   row("Scene", data.scene_path.empty() ? "not from a file" : data.scene_path);
@@ -121,8 +124,8 @@ void write_footer(Markup& page, const ReportModel& model, const ReportData& data
 
 }  // namespace
 
-std::string write_page(const ReportModel& model, const ReportData& data, const Palette& palette) {
-  Markup page;
+std::string write_page(const reading::ReportModel& model, const ReportData& data, const drawing::Palette& palette) {
+  drawing::Markup page;
   page.raw("<!DOCTYPE html>\n");
   page.open("html", {{"xmlns", "http://www.w3.org/1999/xhtml"}, {"lang", "en"}}).open("head");
   page.leaf("meta", {{"charset", "utf-8"}})
@@ -143,7 +146,7 @@ std::string write_page(const ReportModel& model, const ReportData& data, const P
   write_figure(page, draw_axonometry(model, palette), model, &palette);
   write_figure(page, draw_plan(*data.state, model, palette), model, &palette);
   page.element("h2", "The negotiation");
-  write_figure(page, draw_error_chart(model, data.history), model, nullptr);
+  write_figure(page, drawing::draw_error_chart(model, data.history), model, nullptr);
   write_programme(page, model, *data.state, palette);
   write_volumes(page, model, *data.state, palette);
   write_facades(page, model, *data.state);

@@ -21,18 +21,19 @@ struct Glazing {
   double area = 0, glazed = 0, cost = 0;
 };
 
-void row_of(Markup& page, const std::string& name, const std::string& style, const Glazing& part) {
+void row_of(drawing::Markup& page, const std::string& name, const std::string& style, const Glazing& part) {
   page.open("tr").element("th", name, {{"scope", "row"}}).element("td", style);
   const auto cell = [&](const std::string& text) { page.element("td", text, {{"class", "n"}}); };
-  cell(readable(part.area));
-  cell(readable(part.glazed));
-  cell(readable(part.area - part.glazed));
-  cell(part.area > 0 ? percent(part.glazed / part.area) : "\xE2\x80\x93");
-  cell(readable(part.cost));
+  cell(reading::readable(part.area));
+  cell(reading::readable(part.glazed));
+  cell(reading::readable(part.area - part.glazed));
+  cell(part.area > 0 ? reading::percent(part.glazed / part.area) : "\xE2\x80\x93");
+  cell(reading::readable(part.cost));
   page.close();
 }
 
-void open_table(Markup& page, const std::string& id, const std::string& caption, std::initializer_list<const char*> heads) {
+void open_table(drawing::Markup& page, const std::string& id, const std::string& caption,
+                std::initializer_list<const char*> heads) {
   const std::string heading = id == "facades" ? "Fa\xC3\xA7"
                                                 "ades"
                                               : "Pictures";
@@ -48,12 +49,12 @@ void open_table(Markup& page, const std::string& id, const std::string& caption,
 
 }  // namespace
 
-void write_facades(Markup& page, const ReportModel& model, const State& state) {
+void write_facades(drawing::Markup& page, const reading::ReportModel& model, const State& state) {
   std::map<std::size_t, Glazing> sides;
   std::vector<std::string> names;
   Glazing all;
   bool is_open = false;
-  for (const VolumeRow& volume : model.volumes) {
+  for (const reading::VolumeRow& volume : model.volumes) {
     const auto facade = reading::row_of<reading::FacadeFigures>(state, volume.node);
     if (!facade || facade->style_in_force.empty()) continue;
     if (!is_open)
@@ -85,7 +86,7 @@ void write_facades(Markup& page, const ReportModel& model, const State& state) {
   page.close().close().close();
 }
 
-void write_pictures(Markup& page, const State& state) {
+void write_pictures(drawing::Markup& page, const State& state) {
   std::size_t veiled = 0;
   bool is_open = false;
   for (const auto& [node, media] : reading::rows<reading::MediaFigures>(state)) {

@@ -11,28 +11,28 @@ namespace {
 
 constexpr std::size_t kMostConflicts = 60;
 
-void head(Markup& page, std::string_view label, std::string_view unit = "", bool is_number = true) {
+void head(drawing::Markup& page, std::string_view label, std::string_view unit = "", bool is_number = true) {
   page.open("th", {{"scope", "col"}, {"class", is_number ? "n" : "t"}}).text(label);
   if (!unit.empty()) page.element("small", unit);
   page.close();
 }
 
-void number_cell(Markup& page, const std::string& text, const std::string& more = "") {
+void number_cell(drawing::Markup& page, const std::string& text, const std::string& more = "") {
   page.element("td", text, {{"class", more.empty() ? "n" : "n " + more}});
 }
 
-void open_table(Markup& page, const std::string& label, const std::string& caption) {
+void open_table(drawing::Markup& page, const std::string& label, const std::string& caption) {
   page.open("div", {{"class", "wide"}, {"role", "region"}, {"aria-label", label}, {"tabindex", "0"}}).open("table");
   page.element("caption", caption);
 }
 
 // As a bar and in words; more than all fills the bar, the words say how much.
-void met_cell(Markup& page, const Account& account) {
-  const std::string words = share_of(account.volume, account.asked);
+void met_cell(drawing::Markup& page, const reading::Account& account) {
+  const std::string words = reading::share_of(account.volume, account.asked);
   page.open("td");
   if (account.asked > 0 && words.find('%') != std::string::npos) {
     page.open("span", {{"class", "bar"}, {"aria-hidden", "true"}});
-    page.open("span", {{"style", "width:" + pixels(std::clamp(account.volume / account.asked, 0.0, 1.0) * 100) + "%"}})
+    page.open("span", {{"style", "width:" + drawing::pixels(std::clamp(account.volume / account.asked, 0.0, 1.0) * 100) + "%"}})
         .close()
         .close();
   }
@@ -40,18 +40,19 @@ void met_cell(Markup& page, const Account& account) {
 }
 
 // What is missing by the measure in which more of it is missing.
-std::string short_text(const Account& account, double tolerance) {
-  return account.is_short(tolerance) ? percent(account.short_share()) : "\xE2\x80\x93";
+std::string short_text(const reading::Account& account, double tolerance) {
+  return account.is_short(tolerance) ? reading::percent(account.short_share()) : "\xE2\x80\x93";
 }
 
 // Caps and other limits lower demands before the solver sees them.
-std::string held_back(const Account& all) {
+std::string held_back(const reading::Account& all) {
   return all.withheld() > 0.001 * all.asked
-             ? " Limits hold " + quantity(all.withheld(), Unit::cubic_metre) + " of the demand back."
+             ? " Limits hold " + reading::quantity(all.withheld(), Unit::cubic_metre) + " of the demand back."
              : "";
 }
 
-void volume_row(Markup& page, const State& state, const ReportModel& model, const VolumeRow& volume, const Palette& palette) {
+void volume_row(drawing::Markup& page, const State& state, const reading::ReportModel& model, const reading::VolumeRow& volume,
+                const drawing::Palette& palette) {
   const double tolerance = model.accounts.tolerance;
   const std::string standing = standing_of(volume, tolerance);
   const bool is_good = standing == "met";
@@ -61,16 +62,16 @@ void volume_row(Markup& page, const State& state, const ReportModel& model, cons
   page.open("td");
   write_use(page, volume.use, palette);
   page.close();
-  number_cell(page, readable(volume.asked));
-  number_cell(page, readable(volume.limited));
-  number_cell(page, readable(volume.volume));
-  number_cell(page, difference_of(volume.volume, volume.asked), is_good ? "" : "bad");
-  number_cell(page, readable(volume.floor_area));
-  number_cell(page, volume.is_by_area ? difference_of(volume.floor_area, volume.asked_area) : "\xE2\x80\x93",
+  number_cell(page, reading::readable(volume.asked));
+  number_cell(page, reading::readable(volume.limited));
+  number_cell(page, reading::readable(volume.volume));
+  number_cell(page, reading::difference_of(volume.volume, volume.asked), is_good ? "" : "bad");
+  number_cell(page, reading::readable(volume.floor_area));
+  number_cell(page, volume.is_by_area ? reading::difference_of(volume.floor_area, volume.asked_area) : "\xE2\x80\x93",
               is_good ? "" : "bad");
-  number_cell(page, readable(volume.figures.surface_area));
-  number_cell(page, readable(volume.figures.footprint));
-  number_cell(page, readable(volume.figures.height));
+  number_cell(page, reading::readable(volume.figures.surface_area));
+  number_cell(page, reading::readable(volume.figures.footprint));
+  number_cell(page, reading::readable(volume.figures.height));
   page.element("td", standing, {{"class", is_good ? "good" : "bad"}});
   const std::string why = volume.figures.state == "alive" ? why_short(state, model.accounts, volume) : "";
   page.element("td", volume.figures.reason + (volume.figures.reason.empty() || why.empty() ? "" : "; ") + why,
@@ -78,16 +79,17 @@ void volume_row(Markup& page, const State& state, const ReportModel& model, cons
       .close();
 }
 
-void use_row(Markup& page, const State& state, const ReportModel& model, const UseAccount& use, const Palette& palette) {
+void use_row(drawing::Markup& page, const State& state, const reading::ReportModel& model, const reading::UseAccount& use,
+             const drawing::Palette& palette) {
   const double tolerance = model.accounts.tolerance;
   page.open("tr").open("th", {{"scope", "row"}});
   write_use(page, use.use, palette);
   if (!use.is_in_programme) page.text(" *");
   page.close();
-  number_cell(page, readable(use.asked_area));
-  number_cell(page, readable(use.limited_area));
-  number_cell(page, readable(use.floor_area));
-  number_cell(page, difference_of(use.floor_area, use.asked_area));
+  number_cell(page, reading::readable(use.asked_area));
+  number_cell(page, reading::readable(use.limited_area));
+  number_cell(page, reading::readable(use.floor_area));
+  number_cell(page, reading::difference_of(use.floor_area, use.asked_area));
   number_cell(page, std::to_string(use.volumes), use.volumes == 0 ? "bad" : "");
   met_cell(page, use);
   number_cell(page, short_text(use, tolerance), use.is_short(tolerance) ? "bad" : "");
@@ -96,26 +98,27 @@ void use_row(Markup& page, const State& state, const ReportModel& model, const U
 
 }  // namespace
 
-std::string standing_of(const VolumeRow& volume, double tolerance) {
+std::string standing_of(const reading::VolumeRow& volume, double tolerance) {
   if (volume.figures.state != "alive") return volume.figures.state.empty() ? "unknown" : volume.figures.state;
   return volume.is_short(tolerance) ? "short" : volume.difference() > tolerance ? "over" : "met";
 }
 
-void write_use(Markup& page, const std::string& use, const Palette& palette) {
+void write_use(drawing::Markup& page, const std::string& use, const drawing::Palette& palette) {
   page.open("span", {{"class", "use"}});
   page.element("span", palette.letter(use), {{"class", "swatch"}, {"style", "background:" + hex(palette.colour(use))}});
   page.text(use.empty() ? "no use given" : use).close();
 }
 
-void write_programme(Markup& page, const ReportModel& model, const State& state, const Palette& palette) {
-  const Accounts& accounts = model.accounts;
+void write_programme(drawing::Markup& page, const reading::ReportModel& model, const State& state,
+                     const drawing::Palette& palette) {
+  const reading::Accounts& accounts = model.accounts;
   page.element("h2", "Programme", {{"id", "programme"}});
   if (accounts.uses.empty()) {
     page.element("p", "The scene has no programme and no volumes.");
     return;
   }
-  const bool has_own =
-      std::any_of(accounts.uses.begin(), accounts.uses.end(), [](const UseAccount& use) { return !use.is_in_programme; });
+  const bool has_own = std::any_of(accounts.uses.begin(), accounts.uses.end(),
+                                   [](const reading::UseAccount& use) { return !use.is_in_programme; });
   open_table(
       page, "Programme",
       "Floor area by use. The bar shows how much of the volume asked for there is." + held_back(accounts.all) +
@@ -131,26 +134,27 @@ void write_programme(Markup& page, const ReportModel& model, const State& state,
   head(page, "Short");
   head(page, "Why", "", false);
   page.close().close().open("tbody");
-  for (const UseAccount& use : accounts.uses) use_row(page, state, model, use, palette);
+  for (const reading::UseAccount& use : accounts.uses) use_row(page, state, model, use, palette);
   page.close().open("tfoot").open("tr").element("th", "All uses", {{"scope", "row"}});
-  number_cell(page, readable(accounts.all.asked_area));
-  number_cell(page, readable(accounts.all.limited_area));
-  number_cell(page, readable(accounts.all.floor_area));
-  number_cell(page, difference_of(accounts.all.floor_area, accounts.all.asked_area));
+  number_cell(page, reading::readable(accounts.all.asked_area));
+  number_cell(page, reading::readable(accounts.all.limited_area));
+  number_cell(page, reading::readable(accounts.all.floor_area));
+  number_cell(page, reading::difference_of(accounts.all.floor_area, accounts.all.asked_area));
   number_cell(page, std::to_string(model.volumes.size()));
   met_cell(page, accounts.all);
   number_cell(page, short_text(accounts.all, accounts.tolerance));
   page.element("td", "").close().close().close().close();
 }
 
-void write_volumes(Markup& page, const ReportModel& model, const State& state, const Palette& palette) {
+void write_volumes(drawing::Markup& page, const reading::ReportModel& model, const State& state,
+                   const drawing::Palette& palette) {
   page.element("h2", "Volumes", {{"id", "volumes"}});
   if (model.volumes.empty()) {
     page.element("p", "The scene has no volumes.");
     return;
   }
   open_table(page, "Volumes",
-             "Every volume, numbered as in the drawings. Met: within " + percent(model.accounts.tolerance) +
+             "Every volume, numbered as in the drawings. Met: within " + reading::percent(model.accounts.tolerance) +
                  " of what was asked for; where a programme asks, of its floor area too.");
   page.open("thead").open("tr");
   head(page, "No.");
@@ -169,30 +173,30 @@ void write_volumes(Markup& page, const ReportModel& model, const State& state, c
   head(page, "Reason", "", false);
   page.close().close().open("tbody");
   double surface = 0;
-  for (const VolumeRow& volume : model.volumes) {
+  for (const reading::VolumeRow& volume : model.volumes) {
     volume_row(page, state, model, volume, palette);
     surface += volume.figures.surface_area;
   }
   // Of the volumes alone: a use that no volume has asks in the programme's table.
-  Account sum;
-  for (const VolumeRow& volume : model.volumes) sum.add(volume);
+  reading::Account sum;
+  for (const reading::VolumeRow& volume : model.volumes) sum.add(volume);
   page.close().open("tfoot").open("tr");
   page.element("th", "All", {{"scope", "row"}, {"colspan", "3"}});
-  number_cell(page, readable(sum.asked));
-  number_cell(page, readable(sum.limited));
-  number_cell(page, readable(sum.volume));
-  number_cell(page, difference_of(sum.volume, sum.asked));
-  number_cell(page, readable(sum.floor_area));
+  number_cell(page, reading::readable(sum.asked));
+  number_cell(page, reading::readable(sum.limited));
+  number_cell(page, reading::readable(sum.volume));
+  number_cell(page, reading::difference_of(sum.volume, sum.asked));
+  number_cell(page, reading::readable(sum.floor_area));
   number_cell(page, "");
-  number_cell(page, readable(surface));
+  number_cell(page, reading::readable(surface));
   page.element("td", "", {{"colspan", "4"}});
   page.close().close().close().close();
 }
 
-void write_conflicts(Markup& page, const ReportModel& model) {
+void write_conflicts(drawing::Markup& page, const reading::ReportModel& model) {
   page.element("h2", "Conflicts", {{"id", "conflicts"}});
   const std::string minor =
-      model.minor_conflicts == 0 ? "" : counted(model.minor_conflicts, "port") + " under a tension too small to matter.";
+      model.minor_conflicts == 0 ? "" : reading::counted(model.minor_conflicts, "port") + " under a tension too small to matter.";
   if (model.conflicts.empty()) {
     page.element("p", "No links pull against each other. " + minor);
     return;
@@ -212,7 +216,7 @@ void write_conflicts(Markup& page, const ReportModel& model) {
   head(page, "Who pulls, and how", "", false);
   page.close().close().open("tbody");
   for (std::size_t i = 0; i < shown; ++i) {
-    const ConflictRow& row = model.conflicts[i];
+    const reading::ConflictRow& row = model.conflicts[i];
     page.open("tr").element("th", row.node, {{"scope", "row"}}).element("td", row.port);
     number_cell(page, row.tension);
     page.open("td").open("ul", {{"class", "plain"}});
@@ -225,7 +229,7 @@ void write_conflicts(Markup& page, const ReportModel& model) {
 }
 
 // Everybody who pulls, with how often and how hard: who stands in most conflicts stands first.
-void write_pullers(Markup& page, const ReportModel& model) {
+void write_pullers(drawing::Markup& page, const reading::ReportModel& model) {
   if (model.pullers.empty()) return;
   open_table(
       page, "Conflicts by link and person",
@@ -237,16 +241,16 @@ void write_pullers(Markup& page, const ReportModel& model) {
   head(page, "Conflicts");
   head(page, "Share");
   page.close().close().open("tbody");
-  for (const PullerRow& row : model.pullers) {
+  for (const reading::PullerRow& row : model.pullers) {
     page.open("tr").element("th", row.link.empty() ? "People, by hand" : row.link, {{"scope", "row"}}).element("td", row.kind);
     number_cell(page, std::to_string(row.conflicts));
-    number_cell(page, percent(row.share));
+    number_cell(page, reading::percent(row.share));
     page.close();
   }
   page.close().close().close();
 }
 
-void write_problems(Markup& page, const ReportModel& model) {
+void write_problems(drawing::Markup& page, const reading::ReportModel& model) {
   page.element("h2", "Problems", {{"id", "problems"}});
   if (model.problems.empty()) {
     page.element("p", "No node and no link reported an error.");
@@ -257,7 +261,7 @@ void write_problems(Markup& page, const ReportModel& model) {
   head(page, "Where", "", false);
   head(page, "What", "", false);
   page.close().close().open("tbody");
-  for (const ProblemRow& row : model.problems)
+  for (const reading::ProblemRow& row : model.problems)
     page.open("tr").element("th", row.place, {{"scope", "row"}}).element("td", row.message).close();
   page.close().close().close();
 }

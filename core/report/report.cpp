@@ -12,12 +12,12 @@
 #include "core/report/figure_tables.h"
 #include "core/report/page.h"
 
-namespace bl {
+namespace bl::report {
 
 namespace {
 
-using report::ReportModel;
-using report::VolumeRow;
+using reading::ReportModel;
+using reading::VolumeRow;
 
 const std::vector<std::string> kVolumeHeader = {
     "number",
@@ -54,9 +54,9 @@ const std::vector<std::string> kVolumeHeader = {
     "facade_cost [EUR]",
 };
 
-std::string csv_of(const ReportModel& model, const State& state) {
-  std::vector<std::vector<CsvCell>> rows;
-  for (const VolumeRow& v : model.volumes) {
+std::string csv_of(const reading::ReportModel& model, const State& state) {
+  std::vector<std::vector<csv::CsvCell>> rows;
+  for (const reading::VolumeRow& v : model.volumes) {
     rows.push_back({v.number,
                     v.id,
                     v.name,
@@ -83,7 +83,7 @@ std::string csv_of(const ReportModel& model, const State& state) {
                     v.figures.weight,
                     v.figures.state,
                     v.figures.reason,
-                    report::why_short(state, model.accounts, v)});
+                    reading::why_short(state, model.accounts, v)});
     const auto facade = reading::row_of<reading::FacadeFigures>(state, v.node);
     if (!facade) continue;
     rows.back().emplace_back(facade->style_in_force);
@@ -93,7 +93,7 @@ std::string csv_of(const ReportModel& model, const State& state) {
   return write_csv(kVolumeHeader, rows);
 }
 
-std::string uses_csv_of(const ReportModel& model, const State& state) {
+std::string uses_csv_of(const reading::ReportModel& model, const State& state) {
   const std::vector<std::string> header = {"use",
                                            "in_programme",
                                            "volumes",
@@ -109,23 +109,23 @@ std::string uses_csv_of(const ReportModel& model, const State& state) {
                                            "short_of_floor_area [m2]",
                                            "short_of_floor_area [%]",
                                            "why_short"};
-  std::vector<std::vector<CsvCell>> rows;
-  for (const report::UseAccount& use : model.accounts.uses)
+  std::vector<std::vector<csv::CsvCell>> rows;
+  for (const reading::UseAccount& use : model.accounts.uses)
     rows.push_back({use.use, use.is_in_programme ? "yes" : "no", use.volumes, use.short_volumes, use.asked_area, use.limited_area,
                     use.floor_area, use.asked, use.limited, use.volume, use.missing(), use.missing_share() * 100,
-                    use.missing_area(), use.missing_area_share() * 100, report::why_short(state, model.accounts, use)});
+                    use.missing_area(), use.missing_area_share() * 100, reading::why_short(state, model.accounts, use)});
   return write_csv(header, rows);
 }
 
 // One row for each conflict and each who pulls in it; who is empty where people have set or locked the value.
-std::string conflicts_csv_of(const ReportModel& model, const State& state) {
+std::string conflicts_csv_of(const reading::ReportModel& model, const State& state) {
   const std::vector<std::string> header = {"node", "name", "port", "tension", "unit", "severity [%]", "link", "kind", "says"};
-  std::vector<std::vector<CsvCell>> rows;
-  for (const report::ConflictRow& conflict : model.conflicts) {
+  std::vector<std::vector<csv::CsvCell>> rows;
+  for (const reading::ConflictRow& conflict : model.conflicts) {
     const std::string unit(info(state.plan->port(conflict.ref).unit).symbol);
     for (std::size_t k = 0; k < std::max<std::size_t>(1, conflict.pulls.size()); ++k) {
       const std::string link = k < conflict.links.size() ? conflict.links[k] : "";
-      const std::size_t index = report::link_index(*state.plan, link);
+      const std::size_t index = reading::link_index(*state.plan, link);
       const bool is_link = index < state.plan->links.size() && state.plan->links[index].definition != nullptr;
       rows.push_back({conflict.node_id, conflict.node, conflict.port, conflict.amount, unit, conflict.severity * 100, link,
                       is_link                                   ? state.plan->links[index].definition->label
@@ -138,9 +138,9 @@ std::string conflicts_csv_of(const ReportModel& model, const State& state) {
 }
 
 // One row for each orientation of each dressed volume.
-report::CsvFile facades_csv_of(const ReportModel& model, const State& state) {
-  std::vector<std::vector<CsvCell>> rows;
-  for (const VolumeRow& v : model.volumes) {
+report::CsvFile facades_csv_of(const reading::ReportModel& model, const State& state) {
+  std::vector<std::vector<csv::CsvCell>> rows;
+  for (const reading::VolumeRow& v : model.volumes) {
     const auto facade = reading::row_of<reading::FacadeFigures>(state, v.node);
     if (!facade) continue;
     const Table& sides = *facade->by_orientation;
@@ -153,9 +153,9 @@ report::CsvFile facades_csv_of(const ReportModel& model, const State& state) {
   return {"facades.csv", write_csv(header, rows), !rows.empty()};
 }
 
-std::string obj_of(const ReportModel& model) {
-  std::vector<NamedMesh> meshes;
-  for (const VolumeRow& volume : model.volumes) meshes.push_back({volume.name, volume.mesh});
+std::string obj_of(const reading::ReportModel& model) {
+  std::vector<exporting::NamedMesh> meshes;
+  for (const reading::VolumeRow& volume : model.volumes) meshes.push_back({volume.name, volume.mesh});
   return write_obj(meshes, model.mesh_note);
 }
 
@@ -168,14 +168,14 @@ Result<void> make_directory(const std::string& directory) {
 }
 
 Result<void> write_files(const std::string& directory, const ReportData& data) {
-  ReportModel model;
-  report::read_model(*data.state, model);
+  reading::ReportModel model;
+  reading::read_model(*data.state, model);
   if (data.state->tick == 0) {
     // As the page: what volumes are born with is nobody's result.
     model.volumes.clear();
     model.accounts = {};
   }
-  const report::Palette palette(model.use_names());
+  const drawing::Palette palette(model.use_names());
   const std::filesystem::path folder(directory);
   std::vector<report::CsvFile> tables = report::figure_files(*data.state);
   tables.push_back({"volumes.csv", csv_of(model, *data.state), true});
@@ -204,4 +204,4 @@ Result<void> write_report(const std::string& directory, const ReportData& data) 
   return write_files(directory, {&seen, data.history, data.scene_path, data.outcome});
 }
 
-}  // namespace bl
+}  // namespace bl::report

@@ -9,13 +9,13 @@
 #include "core/graph/state.h"
 #include "core/reading/error_sample.h"
 
-namespace bl {
+namespace bl::report {
 
 struct ReportData {
   const State* state = nullptr;
-  std::vector<ErrorSample> history;  ///< ascending tick; may be empty
-  std::string scene_path;            ///< as it was typed
-  std::string outcome;               ///< the last line of the run
+  std::vector<reading::ErrorSample> history;  ///< ascending tick; may be empty
+  std::string scene_path;                     ///< as it was typed
+  std::string outcome;                        ///< the last line of the run
 };
 
 /// Writes report.html, volumes.obj and tables (volumes.csv, uses.csv, conflicts.csv, and one for each kind of thing that the
@@ -28,4 +28,4 @@ Result<void> write_report(const std::string& directory, const ReportData& data);
 /// Nothing is wrong with a folder that is not there yet.
 Result<void> may_fill_with_report(const std::string& directory);
 
-}  // namespace bl
+}  // namespace bl::report

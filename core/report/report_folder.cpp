@@ -9,7 +9,7 @@
 #include "core/report/figure_tables.h"
 #include "core/report/report.h"
 
-namespace bl {
+namespace bl::report {
 
 namespace {
 
@@ -71,4 +71,4 @@ Result<void> may_fill_with_report(const std::string& directory) {
   return {};
 }
 
-}  // namespace bl
+}  // namespace bl::report

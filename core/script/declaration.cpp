@@ -14,7 +14,7 @@
 #include "core/script/text_lines.h"
 #include "core/script/utf8.h"
 
-namespace bl {
+namespace bl::script {
 
 namespace {
 
@@ -314,4 +314,4 @@ Result<ScriptDeclaration> read_declaration(lua_State* lua, const std::string& fi
   return Declaration(lua, file, text, types).run();
 }
 
-}  // namespace bl
+}  // namespace bl::script

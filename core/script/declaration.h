@@ -9,7 +9,7 @@
 
 struct lua_State;
 
-namespace bl {
+namespace bl::script {
 
 /// A declaration, and what the script calls its reads and proposals (as link.reads and link.proposes).
 struct ScriptDeclaration {
@@ -21,4 +21,4 @@ struct ScriptDeclaration {
 /// line that a message is about. Runs without limits and raises no Lua errors.
 Result<ScriptDeclaration> read_declaration(lua_State* lua, const std::string& file, std::string_view text, const Registry& types);
 
-}  // namespace bl
+}  // namespace bl::script

@@ -14,7 +14,7 @@
 #include "core/script/lua_mathematics.h"
 #include "core/script/machine.h"
 
-namespace bl {
+namespace bl::script {
 
 namespace {
 
@@ -327,8 +327,8 @@ int open_library(lua_State* lua) {
   count_all(lua, 6, {"char", "len", "lower", "reverse", "sub", "upper"});
   wrap(lua, 6, "byte", byte_of);
   wrap(lua, 6, "format", format_of);
-  count_all(lua, 8, {"abs",  "acos", "asin", "atan", "ceil", "cos", "deg",  "exp", "floor",     "fmod", "log",
-                     "max",  "min",  "modf", "rad",  "sin",  "sqrt", "tan", "tointeger", "ult"});
+  count_all(lua, 8, {"abs", "acos", "asin", "atan", "ceil", "cos", "deg",  "exp", "floor",     "fmod",
+                     "log", "max",  "min",  "modf", "rad",  "sin", "sqrt", "tan", "tointeger", "ult"});
   if (luaL_loadbufferx(lua, kLibrary, sizeof kLibrary - 1, "=(library)", "t") != LUA_OK) return lua_error(lua);
   push_raw(lua, 1, 3, 4);
   lua_call(lua, 1, 5);
@@ -386,4 +386,4 @@ void make_strict(lua_State* lua, Declared what) {
   lua_setmetatable(lua, -2);
 }
 
-}  // namespace bl
+}  // namespace bl::script

@@ -3,7 +3,7 @@
 
 struct lua_State;
 
-namespace bl {
+namespace bl::script {
 
 /// What the library's own code is called in messages.
 inline constexpr char kLibraryName[] = "(library)";
@@ -18,4 +18,4 @@ void push_point(lua_State* lua, double x, double y, double z);
 enum class Declared { ends, parameters };
 void make_strict(lua_State* lua, Declared what);
 
-}  // namespace bl
+}  // namespace bl::script

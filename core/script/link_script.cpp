@@ -14,7 +14,7 @@
 #include "core/script/machine.h"
 #include "core/script/utf8.h"
 
-namespace bl {
+namespace bl::script {
 
 namespace {
 
@@ -230,4 +230,4 @@ Result<LinkDefinition> read_link_script(const std::string& name, std::string_vie
   return link;
 }
 
-}  // namespace bl
+}  // namespace bl::script

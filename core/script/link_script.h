@@ -8,7 +8,7 @@
 
 #include "core/define/registry.h"
 
-namespace bl {
+namespace bl::script {
 
 /// What a script may use. Counted, not timed, so that a script is stopped at the same place on every machine.
 struct ScriptLimits {
@@ -31,4 +31,4 @@ struct ScriptLimits {
 /// definition can be evaluated from several threads at once, and gives the same bits whoever asks.
 Result<LinkDefinition> read_link_script(const std::string& name, std::string_view text, const Registry& types);
 
-}  // namespace bl
+}  // namespace bl::script

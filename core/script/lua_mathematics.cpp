@@ -7,7 +7,7 @@
 
 #include "core/base/mathematics.h"
 
-namespace bl {
+namespace bl::script {
 
 namespace {
 
@@ -122,4 +122,4 @@ void put_mathematics(lua_State* lua, int math, int globals) {
   lua_setfield(lua, globals, std::string(kPowerName).c_str());
 }
 
-}  // namespace bl
+}  // namespace bl::script

@@ -6,7 +6,7 @@
 
 struct lua_State;
 
-namespace bl {
+namespace bl::script {
 
 /// A global that the text read by Lua holds beside each `^`; scripts may not use the name.
 inline constexpr std::string_view kPowerName = "power__of__numbers";
@@ -19,4 +19,4 @@ std::string with_own_power(std::string_view source);
 /// Replaces the functions of Lua's mathematics in the table at `math`, and puts the object beside `^` into that at `globals`.
 void put_mathematics(lua_State* lua, int math, int globals);
 
-}  // namespace bl
+}  // namespace bl::script

@@ -12,7 +12,7 @@
 #include "core/script/link_script.h"
 #include "core/script/utf8.h"
 
-namespace bl {
+namespace bl::script {
 
 namespace {
 
@@ -145,4 +145,4 @@ std::optional<Value> proposal_at(lua_State* lua, int index, ValueKind kind, cons
   return Value(number);
 }
 
-}  // namespace bl
+}  // namespace bl::script

@@ -8,9 +8,10 @@
 
 struct lua_State;
 
-namespace bl {
+namespace bl::script {
 
-/// Places for a list of so many values: an odd number, which no table of names has, whose size makes instructions dearer (machine).
+/// Places for a list of so many values: an odd number, which no table of names has, whose size makes instructions dearer
+/// (machine).
 inline int list_places(std::size_t values) { return static_cast<int>(values | 1); }
 
 /// Can scripts read ports of this kind?
@@ -21,4 +22,4 @@ void push_value(lua_State* lua, const Value& value);
 /// `name` where it is something else or not finite.
 std::optional<Value> proposal_at(lua_State* lua, int index, ValueKind kind, const char* name);
 
-}  // namespace bl
+}  // namespace bl::script

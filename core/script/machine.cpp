@@ -17,7 +17,7 @@
 #include "core/script/lua_mathematics.h"
 #include "core/script/utf8.h"
 
-namespace bl {
+namespace bl::script {
 
 namespace {
 
@@ -397,4 +397,4 @@ Result<void> Machine::look(int (*use)(lua_State*, void*), void* context) {
   return {};
 }
 
-}  // namespace bl
+}  // namespace bl::script

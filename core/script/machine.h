@@ -10,7 +10,7 @@
 
 struct lua_State;
 
-namespace bl {
+namespace bl::script {
 
 /// What is left of what a link may use in one tick.
 struct ScriptBudget {
@@ -54,4 +54,4 @@ void blame_line(lua_State* lua, int line);
 /// For C functions that scripts can call: their work counts as so many instructions.
 void charge(lua_State* lua, std::int64_t instructions);
 
-}  // namespace bl
+}  // namespace bl::script

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace bl {
+namespace bl::script {
 
 namespace {
 
@@ -66,7 +66,8 @@ void TextLines::read(std::string_view text) {
     }
     const bool is_blank = text[at] == ' ' || text[at] == '\t' || text[at] == '\r' || text[at] == '\n';
     if (!is_comment && !is_blank) words_.push_back(word);
-    line += static_cast<std::size_t>(std::count(text.begin() + static_cast<long>(at), text.begin() + static_cast<long>(end), '\n'));
+    line +=
+        static_cast<std::size_t>(std::count(text.begin() + static_cast<long>(at), text.begin() + static_cast<long>(end), '\n'));
     at = end;
   }
 }
@@ -127,8 +128,8 @@ std::size_t TextLines::line_of(const std::vector<std::string>& path, std::string
   bool is_followed = range.depth >= 0;
   for (std::size_t step = 0; is_followed && step < path.size(); ++step) {
     const bool is_item = path[step].starts_with('#');
-    const std::size_t at = is_item ? find_item(range, static_cast<std::size_t>(std::atol(path[step].c_str() + 1)))
-                                   : find_key(range, path[step]);
+    const std::size_t at =
+        is_item ? find_item(range, static_cast<std::size_t>(std::atol(path[step].c_str() + 1))) : find_key(range, path[step]);
     is_followed = at < words_.size();
     if (!is_followed) break;
     line = words_[at].line;
@@ -145,4 +146,4 @@ std::size_t TextLines::line_of(const std::vector<std::string>& path, std::string
   return guess < words_.size() ? words_[guess].line : line;
 }
 
-}  // namespace bl
+}  // namespace bl::script

@@ -6,16 +6,16 @@
 #include <string_view>
 #include <vector>
 
-namespace bl {
+namespace bl::script {
 
-/// The words of a Lua text without its comments, for messages that name a line. A table that code puts together, instead of writing
-/// it down, cannot be followed; then the first place where the word stands is the best guess.
+/// The words of a Lua text without its comments, for messages that name a line. A table that code puts together, instead of
+/// writing it down, cannot be followed; then the first place where the word stands is the best guess.
 class TextLines {
  public:
   explicit TextLines(std::string_view text);
 
-  /// `path`: keys from the returned table inwards, such as {"reads", "here"}; "#2" is the second table of a list. `word`: a key or
-  /// a text inside of it; empty, or not found there, for the line of the path itself. Lines count from 1.
+  /// `path`: keys from the returned table inwards, such as {"reads", "here"}; "#2" is the second table of a list. `word`: a key
+  /// or a text inside of it; empty, or not found there, for the line of the path itself. Lines count from 1.
   std::size_t line_of(const std::vector<std::string>& path, std::string_view word) const;
 
  private:
@@ -42,4 +42,4 @@ class TextLines {
   std::vector<Word> words_;
 };
 
-}  // namespace bl
+}  // namespace bl::script

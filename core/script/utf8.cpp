@@ -1,7 +1,7 @@
 // UTF-8 as RFC 3629 defines it.
 #include "core/script/utf8.h"
 
-namespace bl {
+namespace bl::script {
 
 bool is_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
@@ -31,4 +31,4 @@ std::string shown_as_utf8(std::string text) {
   return text;
 }
 
-}  // namespace bl
+}  // namespace bl::script

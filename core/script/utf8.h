@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-namespace bl {
+namespace bl::script {
 
 bool is_utf8(std::string_view text);
 /// The text, or, where it is not well-formed, with `?` for every byte beyond ASCII.
 std::string shown_as_utf8(std::string text);
 
-}  // namespace bl
+}  // namespace bl::script

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace bl {
+namespace bl::sun {
 
 /// What each of `ids` takes, as a share of what the worst one of the table takes, be that one of them or not; 0 for who is not in
 /// it.
@@ -27,4 +27,4 @@ std::vector<double> loss_shares(const Table& losses, const std::vector<std::stri
   return shares;
 }
 
-}  // namespace bl
+}  // namespace bl::sun

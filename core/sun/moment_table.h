@@ -8,7 +8,7 @@
 
 #include "core/sun/sun_day.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// Directions and seconds; columns are looked for once, because a year has tens of thousands of rows. Empty without all columns.
 template <class Table>
@@ -28,4 +28,4 @@ std::vector<SunMoment> moments_in(const Table& table) {
   return moments;
 }
 
-}  // namespace bl
+}  // namespace bl::sun

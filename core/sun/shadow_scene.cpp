@@ -10,7 +10,7 @@
 
 #include "core/sun/triangle_hit.h"
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -176,4 +176,4 @@ void ShadowScene::blockers(const Point3& origin, const Vector3& toward, std::vec
 std::size_t ShadowScene::casters() const { return content_->casters; }
 std::size_t ShadowScene::triangles() const { return content_->triangles.size(); }
 
-}  // namespace bl
+}  // namespace bl::sun

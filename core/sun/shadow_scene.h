@@ -9,7 +9,7 @@
 #include "core/base/mesh.h"
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// Casters are named by their index. Asking does not change the scene: any number of threads may ask at once.
 class ShadowScene {
@@ -35,4 +35,4 @@ class ShadowScene {
   std::shared_ptr<const Content> content_;
 };
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -8,7 +8,7 @@
 
 #include "core/base/mathematics.h"
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -154,4 +154,4 @@ std::vector<SunPlane> solar_envelope(const Point3& a, const Point3& b, const Poi
   return planes;
 }
 
-}  // namespace bl
+}  // namespace bl::sun

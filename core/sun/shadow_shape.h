@@ -7,7 +7,7 @@
 
 #include "core/base/mesh.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// The outline of the shadow on the level plane at `ground`, counter-clockwise: the hull of the projected corners, which is exact
 /// for a convex mesh, and holds the shadow of any other. What lies below the plane casts nothing. Empty where the sun is not
@@ -28,4 +28,4 @@ struct SunPlane {
 /// on the other side of the edge, along it or below the horizon give none.
 std::vector<SunPlane> solar_envelope(const Point3& a, const Point3& b, const Point3& inside, std::span<const Vector3> suns);
 
-}  // namespace bl
+}  // namespace bl::sun

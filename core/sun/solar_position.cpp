@@ -7,7 +7,7 @@
 #include "core/base/mathematics.h"
 #include "core/sun/solar_terms.h"
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -94,4 +94,4 @@ SunPosition sun_position(const SunPlace& place, const EarthView& view) {
 
 SunPosition sun_position(const SunPlace& place, double moment) { return sun_position(place, earth_view(moment, place.delta_t)); }
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -3,7 +3,7 @@
 
 #include "core/sun/sun_place.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// The sun as seen from the middle of the earth, at a moment of universal time.
 struct EarthView {
@@ -34,4 +34,4 @@ double hour_angle(const SunPlace& place, const EarthView& view);
 /// Sunrise and sunset: the upper edge of the disc (16') at the horizon, lifted by standard refraction (34') [degree].
 inline constexpr double kHorizon = -0.8333;
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -6,7 +6,7 @@
 
 #include "core/base/mathematics.h"
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -269,4 +269,4 @@ double mean_longitude(double millennia) {
   return polynomial({280.4664567, 360007.6982779, 0.03032028, 1.0 / 49931, -1.0 / 15300, -1.0 / 2000000}, millennia);
 }
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -1,7 +1,7 @@
 // The earth's motion around the sun as sums of periodic terms: heliocentric coordinates, nutation, obliquity.
 #pragma once
 
-namespace bl {
+namespace bl::sun {
 
 /// Where the earth is, seen from the sun: longitude and latitude in the ecliptic [degree], not reduced to one turn, and distance
 /// [astronomical units].
@@ -22,4 +22,4 @@ double mean_obliquity(double millennia);
 /// The sun's mean longitude [degree], not reduced to one turn: what clocks follow.
 double mean_longitude(double millennia);
 
-}  // namespace bl
+}  // namespace bl::sun

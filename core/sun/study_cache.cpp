@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -134,4 +134,4 @@ Result<std::vector<SunRecord>> SunStudyCache::of(std::span<const SunCaster> cast
   return records;
 }
 
-}  // namespace bl
+}  // namespace bl::sun

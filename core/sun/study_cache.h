@@ -7,7 +7,7 @@
 
 #include "core/sun/sun_study.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// Casters and receivers are found again by their names, which are unique.
 struct SunCaster {
@@ -45,4 +45,4 @@ class SunStudyCache {
   std::size_t measured_ = 0;
 };
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -169,4 +169,4 @@ double possible_sun(std::span<const SunMoment> moments) {
   return sum;
 }
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -8,7 +8,7 @@
 
 #include "core/sun/solar_position.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// A stretch of time between two moments of universal time.
 struct SunSpan {
@@ -71,4 +71,4 @@ Result<std::vector<SunMoment>> sun_moments(const SunPlace& place, const SunPerio
 /// Seconds per day for which the sun is high enough.
 double possible_sun(std::span<const SunMoment> moments);
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -6,7 +6,7 @@
 
 #include "core/base/stop.h"
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -81,4 +81,4 @@ SunGrid sun_grid(const Point3& centre, const Vector3& half_across, const Vector3
   return grid;
 }
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -9,7 +9,7 @@
 #include "core/sun/shadow_scene.h"
 #include "core/sun/sun_day.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// A point of a receiver and the side that it looks to: sun from behind does not count.
 struct SunPoint {
@@ -29,8 +29,8 @@ struct SunHours {
   std::vector<SunLoss> casters;  ///< for each caster of the scene; `shared` adds up to what is missing
 };
 
-/// The same bits with any number of threads: points are taken in fixed chunks, and added up in their order. A stop wish leaves out
-/// the chunks that have not begun.
+/// The same bits with any number of threads: points are taken in fixed chunks, and added up in their order. A stop wish leaves
+/// out the chunks that have not begun.
 SunHours sun_hours(const ShadowScene& scene, std::span<const SunPoint> points, std::span<const SunMoment> moments,
                    ShadowScene::Mask mask = {}, ThreadPool* pool = nullptr);
 
@@ -43,4 +43,4 @@ struct SunGrid {
 /// grows.
 SunGrid sun_grid(const Point3& centre, const Vector3& half_across, const Vector3& half_up, double spacing, std::size_t most);
 
-}  // namespace bl
+}  // namespace bl::sun

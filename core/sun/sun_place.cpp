@@ -6,7 +6,7 @@
 
 #include "core/base/mathematics.h"
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -120,4 +120,4 @@ Vector3 scene_direction(const SunPlace& place, double azimuth, double altitude) 
           steady(mathematics::sine(up))};
 }
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -9,7 +9,7 @@
 #include "core/base/result.h"
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// When clocks are an hour ahead of the zone's standard time. Rules as they are in force today, for all years.
 enum class DaylightSaving {
@@ -55,4 +55,4 @@ double clock_at(const SunPlace& place, DayNumber day, double moment);
 /// From a compass direction (0 north, 90 east) and an altitude [degree] to a unit vector of the scene (z up).
 Vector3 scene_direction(const SunPlace& place, double azimuth, double altitude);
 
-}  // namespace bl
+}  // namespace bl::sun

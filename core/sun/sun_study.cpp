@@ -7,7 +7,7 @@
 #include "core/base/stop.h"
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::sun {
 
 namespace {
 
@@ -77,4 +77,4 @@ Result<std::vector<SunRecord>> sun_study(std::span<const MeshPointer> casters, s
   return records;
 }
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -6,7 +6,7 @@
 
 #include "core/sun/sun_hours.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// A rectangle that is measured on a grid.
 struct SunReceiver {
@@ -45,4 +45,4 @@ Result<void> check_sun_rays(std::span<const SunReceiver> receivers, std::size_t 
 Result<std::vector<SunRecord>> sun_study(std::span<const MeshPointer> casters, std::span<const SunMoment> moments,
                                          std::span<const SunReceiver> receivers, ThreadPool* pool = nullptr);
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -6,7 +6,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// A ray made ready for many triangles (after Woop, Benthin and Wald 2013): space is sheared so that the ray runs along one axis;
 /// then three signed areas tell on which side of each edge it passes. Neighbours compute the same number for their common edge,
@@ -49,4 +49,4 @@ class RayTest {
   double shear_first_, shear_second_, scale_;
 };
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -348,4 +348,4 @@ double BushWorker::excess(const Bush& bush, const LinkLoads& loads, std::span<co
   return sum;
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -8,7 +8,7 @@
 #include "core/traffic/network.h"
 #include "core/traffic/shortest_paths.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// Trips from one zone to another, per unit of time.
 struct TripDemand {
@@ -97,4 +97,4 @@ class BushWorker {
   std::vector<double> chosen_flows_;
 };
 
-}  // namespace bl
+}  // namespace bl::traffic

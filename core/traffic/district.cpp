@@ -13,7 +13,7 @@
 #include "core/traffic/equilibrium.h"
 #include "core/traffic/reach.h"
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -397,4 +397,4 @@ Result<DistrictResult> step_district(const DistrictParts& parts, const DistrictS
   return District(parts.zones, parts.settings, *held).step(last);
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

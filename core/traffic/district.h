@@ -10,7 +10,7 @@
 #include "core/base/vector.h"
 #include "core/traffic/trip_distribution.h"
 
-namespace bl {
+namespace bl::traffic {
 
 struct DistrictJunction {
   std::string id;
@@ -152,4 +152,4 @@ class DistrictMemo {
 /// last flows. A pure function of its arguments. An error's place is the id of what is wrong. Turns hold for cars, not on foot.
 Result<DistrictResult> step_district(const DistrictParts& parts, const DistrictState& last, DistrictMemo* memo = nullptr);
 
-}  // namespace bl
+}  // namespace bl::traffic

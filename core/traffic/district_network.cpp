@@ -8,7 +8,7 @@
 #include "core/traffic/reach.h"
 #include "core/traffic/street_line.h"
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -75,9 +75,9 @@ class Maker {
     }
     ++out_.streets_at[start];
     if (!is_loop) ++out_.streets_at[end];
-    result.length = street.length > 0 ? street.length
-                                      : street_length(out_.parts.junctions[start].position, street.course,
-                                                      out_.parts.junctions[end].position);
+    result.length = street.length > 0
+                        ? street.length
+                        : street_length(out_.parts.junctions[start].position, street.course, out_.parts.junctions[end].position);
     if (!street.is_for_cars) result.reason = "it is for walking only";
     else if (!street.is_open) result.reason = "it is closed";
     else if (street.capacity < kLeastCapacity) result.reason = "its capacity is next to nothing, so that it counts as closed";
@@ -189,4 +189,4 @@ std::vector<double> DistrictWalks::from(const DistrictNetwork& district, std::si
   return times;
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

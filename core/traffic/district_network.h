@@ -10,7 +10,7 @@
 #include "core/traffic/district.h"
 #include "core/traffic/network.h"
 
-namespace bl {
+namespace bl::traffic {
 
 struct DistrictNetwork {
   DistrictParts parts;  ///< what it was made of
@@ -49,4 +49,4 @@ class DistrictWalks {
   std::vector<double> costs_;
 };
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::vector<ForbiddenTurn> forbidden_turns(std::span<const DistrictRules> rules,
   return turns;
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -8,7 +8,7 @@
 #include "core/traffic/district.h"
 #include "core/traffic/turns.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// The node of a network that stands for a junction of a district: junctions and zones may have one id, because a node may be
 /// both; `:` stands in no id.
@@ -19,4 +19,4 @@ inline std::string junction_node(const std::string& id) { return "j:" + id; }
 std::vector<ForbiddenTurn> forbidden_turns(std::span<const DistrictRules> rules, std::span<const DistrictStreet> streets,
                                            std::span<const TrafficLink> links, std::vector<DistrictResult::Rules>& results);
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -6,7 +6,7 @@
 
 #include "core/base/stop_check.h"
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -270,4 +270,4 @@ std::vector<Route> Equilibrium::routes(std::uint32_t origin, std::uint32_t desti
   return routes;
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -9,7 +9,7 @@
 #include "core/traffic/bush.h"
 #include "core/traffic/shortest_trees.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// Trips that are not on the streets, and why.
 struct LostTrips {
@@ -102,4 +102,4 @@ class Equilibrium {
   int iterations_ = 0;
 };
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -7,7 +7,7 @@
 
 #include "core/base/mathematics.h"
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -178,4 +178,4 @@ double TrafficNetwork::integral(std::uint32_t index, double flow) const {
          (delay.scale > 0 ? delay.scale * delay.capacity * rise_of(flow / delay.capacity, delay.power, delay.edge).area : 0);
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -9,7 +9,7 @@
 
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// No node or link of a network.
 inline constexpr std::uint32_t kNoTrafficIndex = std::numeric_limits<std::uint32_t>::max();
@@ -38,9 +38,9 @@ struct CostFactors {
 
 /// Nodes and links in ascending id, whatever the order they came in: the same network gives the same bits.
 /// The cost of a link at flow v is free_time · (1 + alpha · (v / capacity)^power) + toll part + distance part
-/// (Bureau of Public Roads 1964, with generalised cost as the TNTP test networks define it). Where the delay exceeds 1e100, or the
-/// power itself 1e200, it goes on along its tangent, so that costs stay finite; `is_cut` tells. How a network divides one delay
-/// among free time, alpha and capacity makes no difference.
+/// (Bureau of Public Roads 1964, with generalised cost as the TNTP test networks define it). Where the delay exceeds 1e100, or
+/// the power itself 1e200, it goes on along its tangent, so that costs stay finite; `is_cut` tells. How a network divides one
+/// delay among free time, alpha and capacity makes no difference.
 class TrafficNetwork {
  public:
   TrafficNetwork() = default;
@@ -114,4 +114,4 @@ class TrafficNetwork {
   std::vector<double> fixed_;  // toll and distance parts of the cost
 };
 
-}  // namespace bl
+}  // namespace bl::traffic

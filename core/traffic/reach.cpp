@@ -7,7 +7,7 @@
 #include "core/base/mathematics.h"
 #include "core/traffic/shortest_paths.h"
 
-namespace bl {
+namespace bl::traffic {
 
 std::vector<double> walking_costs(const TrafficNetwork& network, double speed) {
   std::vector<double> costs;
@@ -61,4 +61,4 @@ double accessibility(std::span<const double> costs, std::span<const double> amou
   return sum;
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -7,7 +7,7 @@
 
 #include "core/traffic/network.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// What a walk costs on each link: at one speed along its length [m, m/s].
 std::vector<double> walking_costs(const TrafficNetwork& network, double speed);
@@ -33,4 +33,4 @@ std::vector<ReachedLink> reached_links(const TrafficNetwork& network, std::uint3
 /// decay). What is out of reach counts as nothing.
 double accessibility(std::span<const double> costs, std::span<const double> amounts, double fade);
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -107,4 +107,4 @@ void ShortestPaths::mend(std::uint32_t origin, std::span<const double> costs, st
   }
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -8,7 +8,7 @@
 
 #include "core/traffic/network.h"
 
-namespace bl {
+namespace bl::traffic {
 
 inline constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
@@ -59,4 +59,4 @@ class ShortestPaths {
   std::vector<std::uint8_t> is_waiting_;
 };
 
-}  // namespace bl
+}  // namespace bl::traffic

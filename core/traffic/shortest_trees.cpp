@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bl {
+namespace bl::traffic {
 
 ShortestTrees::ShortestTrees(const TrafficNetwork& network, std::vector<std::uint32_t> origins)
     : network_(&network), origins_(std::move(origins)), nodes_(network.node_count()), paths_(network) {
@@ -70,4 +70,4 @@ void ShortestTrees::measure(std::size_t place) {
   }
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -8,7 +8,7 @@
 
 #include "core/traffic/shortest_paths.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// Labels by origin and node. They are those of ShortestPaths::run(), bit for bit, whatever was asked before: what is kept saves
 /// work and decides nothing.
@@ -41,4 +41,4 @@ class ShortestTrees {
   std::vector<std::uint32_t> waiting_;
 };
 
-}  // namespace bl
+}  // namespace bl::traffic

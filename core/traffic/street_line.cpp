@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -60,4 +60,4 @@ Point3 point_on_line(std::span<const Point3> line, double share) {
   return between(line[next - 1], line[next], (wanted - ways[next - 1]) / (ways[next] - ways[next - 1]));
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

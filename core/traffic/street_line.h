@@ -6,7 +6,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// From `start` by the points of the course to `end`. The course counts in plan; the line rises evenly along it from end to end.
 std::vector<Point3> street_line(const Point3& start, std::span<const Point3> course, const Point3& end);
@@ -20,4 +20,4 @@ std::vector<Point3> part_of_line(std::span<const Point3> line, double begin, dou
 /// The point at a share of its length.
 Point3 point_on_line(std::span<const Point3> line, double share);
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -9,7 +9,7 @@
 #include "core/traffic/district_turns.h"
 #include "core/traffic/reach.h"
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -142,4 +142,4 @@ Result<std::vector<ReachedPart>> reached_parts(std::span<const ReachStreet> stre
   return parts;
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

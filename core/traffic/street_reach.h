@@ -9,7 +9,7 @@
 #include "core/traffic/district.h"
 #include "core/traffic/shortest_paths.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// A street between two junctions, and what it takes to go along it [s]; kUnreached where nobody may.
 struct ReachStreet {
@@ -35,4 +35,4 @@ struct ReachedPart {
 Result<std::vector<ReachedPart>> reached_parts(std::span<const ReachStreet> streets, std::span<const ReachEntry> entries,
                                                std::span<const double> times, std::span<const DistrictRules> rules = {});
 
-}  // namespace bl
+}  // namespace bl::traffic

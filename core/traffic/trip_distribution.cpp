@@ -6,7 +6,7 @@
 
 #include "core/base/mathematics.h"
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -86,4 +86,4 @@ TripDistribution distribute_trips(std::span<const double> times, std::span<const
   return out;
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

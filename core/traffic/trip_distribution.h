@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace bl {
+namespace bl::traffic {
 
 /// `origins`: exactly what leaves each zone; where it ends follows the attraction. `both`: what ends in each zone holds as well.
 enum class TripConstraint { origins, both };
@@ -25,4 +25,4 @@ TripDistribution distribute_trips(std::span<const double> times, std::span<const
                                   std::span<const double> arriving, double fade, TripConstraint constraint,
                                   double tolerance = 1e-9);
 
-}  // namespace bl
+}  // namespace bl::traffic

@@ -8,7 +8,7 @@
 
 #include "core/base/number_list.h"
 
-namespace bl {
+namespace bl::traffic {
 
 struct TripFlows {
   static constexpr std::string_view kMadeName = "flows of trips";  ///< as nodes hand it on
@@ -35,4 +35,4 @@ std::shared_ptr<const TripFlows> read_flows(const SharedTable& links, const Shar
   return flows;
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

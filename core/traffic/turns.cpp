@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-namespace bl {
+namespace bl::traffic {
 
 namespace {
 
@@ -76,4 +76,4 @@ Result<void> forbid_turns(std::vector<TrafficNode>& nodes, std::vector<TrafficLi
   return {};
 }
 
-}  // namespace bl
+}  // namespace bl::traffic

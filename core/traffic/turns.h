@@ -7,7 +7,7 @@
 #include "core/base/result.h"
 #include "core/traffic/network.h"
 
-namespace bl {
+namespace bl::traffic {
 
 /// Nobody may go on from the link `from` by the link `to`, which begins where `from` ends. Both ids of links.
 struct ForbiddenTurn {
@@ -29,4 +29,4 @@ inline bool is_turn(std::string_view link) { return link.ends_with(":turn"); }
 Result<void> forbid_turns(std::vector<TrafficNode>& nodes, std::vector<TrafficLink>& links,
                           const std::vector<ForbiddenTurn>& turns);
 
-}  // namespace bl
+}  // namespace bl::traffic

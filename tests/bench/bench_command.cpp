@@ -46,7 +46,7 @@ struct Row {
 // One evaluation of the diagram taken apart: triangulation, cells on top of it, and the rest (floor areas, meshes) on top of
 // that. The solver's own time is dealt out in these shares; it makes several evaluations in a tick, of which one has the rest.
 void take_apart(const State& state, int repeat, Row& row) {
-  const std::vector<PowerSite> sites = sites_of(state);
+  const std::vector<geometry::PowerSite> sites = sites_of(state);
   const auto domain = domain_of(state);
   if (sites.empty()) return;
   row.yardstick = median_seconds(repeat, [&] { (void)plain_triangulation(sites); });
@@ -56,10 +56,10 @@ void take_apart(const State& state, int repeat, Row& row) {
   if (!domain) return;
   std::vector<std::uint32_t> all(sites.size());
   std::iota(all.begin(), all.end(), 0u);
-  PowerNeighbours neighbours;
+  geometry::PowerNeighbours neighbours;
   const double triangulation = median_seconds(repeat, [&] { (void)find_power_neighbours(sites, all, neighbours); });
   ThreadPool pool(row.threads);
-  CellOptions options;
+  geometry::CellOptions options;
   options.pool = &pool;
   options.with_shape = false;
   const double plain = std::max(triangulation, median_seconds(repeat, [&] { (void)power_cells(*domain, sites, options); }));

@@ -13,7 +13,7 @@ constexpr double kWholeStep = 0.99999;
 
 }  // namespace
 
-FrankWolfe::FrankWolfe(TrafficNetwork network, std::vector<TripDemand> demands)
+FrankWolfe::FrankWolfe(traffic::TrafficNetwork network, std::vector<traffic::TripDemand> demands)
     : network_(std::move(network)), demands_(std::move(demands)), paths_(network_) {
   for (std::uint32_t l = 0; l < network_.link_count(); ++l) costs_.push_back(network_.cost(l, 0));
   load_shortest(flows_);
@@ -39,10 +39,10 @@ double FrankWolfe::objective() const {
 // Everybody on the way that is shortest at the costs as they are.
 void FrankWolfe::load_shortest(std::vector<double>& target) {
   target.assign(network_.link_count(), 0);
-  std::uint32_t origin = kNoTrafficIndex;
-  for (const TripDemand& demand : demands_) {
+  std::uint32_t origin = traffic::kNoTrafficIndex;
+  for (const traffic::TripDemand& demand : demands_) {
     if (demand.origin != origin) paths_.run(origin = demand.origin, costs_);
-    if (paths_.labels()[demand.destination] == kUnreached) continue;
+    if (paths_.labels()[demand.destination] == traffic::kUnreached) continue;
     for (std::uint32_t node = demand.destination; node != origin;) {
       const std::uint32_t link = paths_.last_links()[node];
       target[link] += demand.trips;

@@ -14,7 +14,7 @@ namespace bl::cli::bench {
 class FrankWolfe {
  public:
   /// Demands in ascending origin; what has no way is left out.
-  FrankWolfe(TrafficNetwork network, std::vector<TripDemand> demands);
+  FrankWolfe(traffic::TrafficNetwork network, std::vector<traffic::TripDemand> demands);
 
   /// Goes on from the flows as they are until the relative gap is reached; false where `most` iterations did not suffice.
   bool run(double gap, int most);
@@ -32,9 +32,9 @@ class FrankWolfe {
   void choose_target();
   double step_length(std::span<const double> direction) const;
 
-  TrafficNetwork network_;
-  std::vector<TripDemand> demands_;
-  ShortestPaths paths_;
+  traffic::TrafficNetwork network_;
+  std::vector<traffic::TripDemand> demands_;
+  traffic::ShortestPaths paths_;
   std::vector<double> flows_, costs_, shortest_, target_, last_, before_last_;
   double last_step_ = 0, gap_ = 1;
   int directions_ = 0, iterations_ = 0;  // how many of the last targets can be used

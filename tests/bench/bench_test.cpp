@@ -108,9 +108,9 @@ TEST(SolverBench, ChartsAreWholeDrawings) {
 }
 
 TEST(SolverBench, SmallMarksOfAChartAreWhatTheySay) {
-  report::Chart chart{
+  drawing::Chart chart{
       "small", "", "", {{"panel", "sites", {{"line", "#000", "", {{10, 0.001}, {20, 0.002}, {50, 0.005}}}}, 0, ""}}};
-  const std::string svg = report::draw_chart(chart);
+  const std::string svg = drawing::draw_chart(chart);
   for (const char* mark : {">10⁻³<", ">2·10⁻³<", ">5·10⁻³<"}) {
     const std::size_t first = svg.find(mark);
     ASSERT_NE(first, std::string::npos) << mark << " in " << svg;

@@ -138,18 +138,18 @@ std::string machine_line() {
          counted(std::thread::hardware_concurrency(), "core") + ", load " + load + "; " + compiler_name() + ", " + build + ".";
 }
 
-std::vector<PowerSite> sites_of(const State& state) {
-  std::vector<PowerSite> sites;
+std::vector<geometry::PowerSite> sites_of(const State& state) {
+  std::vector<geometry::PowerSite> sites;
   for (const auto& [node, volume] : reading::rows<reading::VolumeFigures>(state))
     sites.push_back({volume.position, volume.weight});
   return sites;
 }
 
-std::optional<Domain> domain_of(const State& state) {
-  std::optional<Domain> found;
+std::optional<geometry::Domain> domain_of(const State& state) {
+  std::optional<geometry::Domain> found;
   for (const auto& [node, boundary] : reading::rows<reading::BoundaryFigures>(state)) {
     if (found) return std::nullopt;  // several plots: there is no one domain to measure
-    auto domain = read_domain(*boundary.planes);
+    auto domain = geometry::read_domain(*boundary.planes);
     if (!domain) return std::nullopt;
     found = std::move(*domain);
   }

@@ -45,8 +45,8 @@ std::optional<double> peak_bytes(const std::function<void()>& work);
 std::string machine_line();
 
 /// The sites of a state as the geometry knows them, in ascending id.
-std::vector<PowerSite> sites_of(const State& state);
+std::vector<geometry::PowerSite> sites_of(const State& state);
 /// The boundary of the state's one solver; nothing where there are several plots, or none.
-std::optional<Domain> domain_of(const State& state);
+std::optional<geometry::Domain> domain_of(const State& state);
 
 }  // namespace bl::cli::bench

@@ -12,7 +12,7 @@ namespace {
 
 // The container with the sites in it. About 5.6 of them in a block were the fastest of the numbers that were tried.
 struct FilledBox {
-  FilledBox(const Vector3& minimum, const Vector3& maximum, std::span<const PowerSite> sites)
+  FilledBox(const Vector3& minimum, const Vector3& maximum, std::span<const geometry::PowerSite> sites)
       : block(std::cbrt(5.6 * (maximum.x - minimum.x) * (maximum.y - minimum.y) * (maximum.z - minimum.z) /
                         static_cast<double>(std::max<std::size_t>(1, sites.size())))),
         container(minimum.x, maximum.x, minimum.y, maximum.y, minimum.z, maximum.z, blocks(maximum.x - minimum.x),
@@ -29,11 +29,11 @@ struct FilledBox {
 
 }  // namespace
 
-double voropp_total_volume(const Vector3& minimum, const Vector3& maximum, std::span<const PowerSite> sites) {
+double voropp_total_volume(const Vector3& minimum, const Vector3& maximum, std::span<const geometry::PowerSite> sites) {
   return FilledBox(minimum, maximum, sites).container.sum_cell_volumes();
 }
 
-VoroppCells voropp_cells(const Vector3& minimum, const Vector3& maximum, std::span<const PowerSite> sites) {
+VoroppCells voropp_cells(const Vector3& minimum, const Vector3& maximum, std::span<const geometry::PowerSite> sites) {
   FilledBox box(minimum, maximum, sites);
   VoroppCells cells;
   cells.volumes.resize(sites.size());

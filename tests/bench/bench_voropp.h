@@ -9,7 +9,7 @@
 namespace bl::cli::bench {
 
 /// Computes all radical cells of the sites in the box with Voro++ and returns the sum of their volumes [m³].
-double voropp_total_volume(const Vector3& minimum, const Vector3& maximum, std::span<const PowerSite> sites);
+double voropp_total_volume(const Vector3& minimum, const Vector3& maximum, std::span<const geometry::PowerSite> sites);
 
 /// The same cells as the solver's diagram has them, one after the other in long lists, which is the fastest way to keep them.
 struct VoroppCells {
@@ -18,6 +18,6 @@ struct VoroppCells {
   std::vector<int> neighbours;     ///< the other site; negative: a side of the box
   std::vector<double> face_areas;  ///< [m²]
 };
-VoroppCells voropp_cells(const Vector3& minimum, const Vector3& maximum, std::span<const PowerSite> sites);
+VoroppCells voropp_cells(const Vector3& minimum, const Vector3& maximum, std::span<const geometry::PowerSite> sites);
 
 }  // namespace bl::cli::bench

@@ -14,7 +14,7 @@ namespace {
 // One set of sites with balls of some size; `plain` are the same sites as the others get them.
 struct CellCase {
   std::string balls;
-  std::vector<PowerSite> plain, sites;
+  std::vector<geometry::PowerSite> plain, sites;
   bool is_cut = false;  ///< do balls cut cells?
 };
 
@@ -42,8 +42,8 @@ BenchTable cell_table(const std::string& name, const std::string& heading) {
 }
 
 // Largest difference of a volume, as a share of the mean.
-BenchCell difference([[maybe_unused]] const Domain& domain, [[maybe_unused]] const CellCase& set,
-                     [[maybe_unused]] std::span<const CellMeasure> cells) {
+BenchCell difference([[maybe_unused]] const geometry::Domain& domain, [[maybe_unused]] const CellCase& set,
+                     [[maybe_unused]] std::span<const geometry::CellMeasure> cells) {
 #ifdef BL_VOROPP
   if (set.is_cut) return no_figure();
   const VoroppCells others = voropp_cells(domain.minimum, domain.maximum, set.plain);
@@ -56,7 +56,7 @@ BenchCell difference([[maybe_unused]] const Domain& domain, [[maybe_unused]] con
 }
 
 // Enters the diagram with each number of threads, then those it is compared with: CGAL, and Voro++ where it is there.
-std::vector<Contender> contenders_of(const Domain& domain, const CellCase& set,
+std::vector<Contender> contenders_of(const geometry::Domain& domain, const CellCase& set,
                                      const std::vector<std::unique_ptr<ThreadPool>>& pools) {
   std::vector<Contender> contenders;
   for (const auto& pool : pools) {
@@ -71,7 +71,7 @@ std::vector<Contender> contenders_of(const Domain& domain, const CellCase& set,
 }
 
 Result<void> measure(const SolverBench& bench, const CellCase& set, BenchTable& table) {
-  const Domain domain = unit_cube();
+  const geometry::Domain domain = unit_cube();
   const std::vector<int> threads = bench.threads();
   std::vector<std::unique_ptr<ThreadPool>> pools;
   for (const int count : threads) pools.push_back(std::make_unique<ThreadPool>(count));
@@ -85,7 +85,7 @@ Result<void> measure(const SolverBench& bench, const CellCase& set, BenchTable& 
   for (std::size_t t = 0; t < threads.size(); ++t) {
     const auto made = power_cells(domain, set.sites, plain_cells(pools[t].get()));
     if (!made) return made.error();
-    const std::vector<CellMeasure>& cells = *made;
+    const std::vector<geometry::CellMeasure>& cells = *made;
     const int count = threads[t];
     const double seconds = contenders[t].median.of(count);
     table.add({word(set.balls), figure(cells.size()), figure(static_cast<std::size_t>(count)),
@@ -101,8 +101,8 @@ Result<void> measure(const SolverBench& bench, const CellCase& set, BenchTable& 
 }
 
 // The weight that all sites have to gain until their balls fill so much of the cube.
-double lift_to_fill(const std::vector<PowerSite>& sites, double fill) {
-  const Domain domain = unit_cube();
+double lift_to_fill(const std::vector<geometry::PowerSite>& sites, double fill) {
+  const geometry::Domain domain = unit_cube();
   const double square = spacing_of(static_cast<int>(sites.size())) * spacing_of(static_cast<int>(sites.size()));
   double low = 0, high = 2 * square;
   for (int step = 0; step < 12; ++step) {

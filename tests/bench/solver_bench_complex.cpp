@@ -14,20 +14,20 @@ struct ComplexRun {
   std::vector<double> diagram_seconds, complex_seconds, cells, elements, changes;
 };
 
-double change_count(const ComplexChange& change) {
+double change_count(const geometry::ComplexChange& change) {
   return static_cast<double>(change.added.size() + change.removed.size() + change.changed.size());
 }
 
 // Frames in each of which another site is moved by a tenth of the distance between neighbours, or gains weight.
-Result<ComplexRun> run_frames(const SolverBench& bench, bool is_move, PowerDiagram& diagram, CellComplex& complex,
-                              std::vector<PowerSite>& sites) {
-  CellOptions options;
+Result<ComplexRun> run_frames(const SolverBench& bench, bool is_move, geometry::PowerDiagram& diagram,
+                              geometry::CellComplex& complex, std::vector<geometry::PowerSite>& sites) {
+  geometry::CellOptions options;
   options.with_outlines = true;
   ComplexRun run;
   const int count = static_cast<int>(sites.size()), frames = bench.options.is_quick ? 5 : 40;
   const double step = 0.1 * spacing_of(count);
   for (int frame = 0; frame < frames && bench.goes_on("complex of " + std::to_string(count) + " sites"); ++frame) {
-    PowerSite& site = sites[static_cast<std::size_t>(frame) * 7919 % sites.size()];
+    geometry::PowerSite& site = sites[static_cast<std::size_t>(frame) * 7919 % sites.size()];
     if (is_move) {
       site.position += Vector3{step, -step, step};
     } else {
@@ -47,17 +47,17 @@ Result<ComplexRun> run_frames(const SolverBench& bench, bool is_move, PowerDiagr
   return run;
 }
 
-std::string hash_of_listing(const CellComplex& complex) {
+std::string hash_of_listing(const geometry::CellComplex& complex) {
   Hash hash;
   hash.add(complex.listing());
   return hash.hex();
 }
 
 Result<void> measure_complex(const SolverBench& bench, int count, BenchTable& table) {
-  PowerDiagram diagram;
-  CellComplex complex;
-  std::vector<PowerSite> sites = random_sites(count);
-  CellOptions options;
+  geometry::PowerDiagram diagram;
+  geometry::CellComplex complex;
+  std::vector<geometry::PowerSite> sites = random_sites(count);
+  geometry::CellOptions options;
   options.with_outlines = true;
   if (auto set = diagram.set_domain(unit_cube()); !set) return set.error();
   if (auto made = diagram.update(sites, options); !made) return made.error();
@@ -67,9 +67,9 @@ Result<void> measure_complex(const SolverBench& bench, int count, BenchTable& ta
     auto run = run_frames(bench, is_move, diagram, complex, sites);
     if (!run) return run.error();
     std::vector<double> build;
-    CellComplex anew;
+    geometry::CellComplex anew;
     for (int round = 0; round < std::max(1, bench.rounds); ++round) {
-      anew = CellComplex();
+      anew = geometry::CellComplex();
       const double began = processor_time();
       if (auto built = anew.update(diagram, sites, true); !built) return built.error();
       build.push_back(processor_time() - began);

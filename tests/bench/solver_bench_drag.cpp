@@ -18,8 +18,8 @@ const Point3 kBegin = {0.2, 0.3, 0.25};
 const Vector3 kWay = {0.6, 0.48, 0.64};  // a unit vector: sixty frames end well inside the cube
 
 struct DragCase {
-  Domain domain;
-  std::vector<PowerSite> sites;
+  geometry::Domain domain;
+  std::vector<geometry::PowerSite> sites;
   std::vector<double> demands;
   std::uint32_t dragged = 0;
   int frames = 60, check_every = 1;
@@ -31,7 +31,7 @@ struct DragRun {
   double start_seconds = 0, error = 0, cells = 0;
   std::size_t refits = 0;
   std::string hash;
-  std::vector<PowerSite> fitted;  // before the first frame
+  std::vector<geometry::PowerSite> fitted;  // before the first frame
 };
 
 DragCase drag_case(const SolverBench& bench, int count, double fill) {
@@ -53,7 +53,7 @@ DragCase drag_case(const SolverBench& bench, int count, double fill) {
 }
 
 // The largest error of the cells as they really are, all of them made anew.
-double true_error(const DragCase& drag, const VolumeSolver& solver) {
+double true_error(const DragCase& drag, const geometry::VolumeSolver& solver) {
   const auto cells = power_cells(drag.domain, solver.sites(), plain_cells());
   if (!cells) return 1;
   double error = 0;
@@ -64,14 +64,14 @@ double true_error(const DragCase& drag, const VolumeSolver& solver) {
 }
 
 // `sites`: without weights, or with those that another run has found: then the start takes next to no time.
-Result<DragRun> drag_once(const SolverBench& bench, const DragCase& drag, std::span<const PowerSite> sites, int threads,
+Result<DragRun> drag_once(const SolverBench& bench, const DragCase& drag, std::span<const geometry::PowerSite> sites, int threads,
                           bool is_checked) {
   ThreadPool pool(threads);
-  SolveOptions options;
+  geometry::SolveOptions options;
   options.tolerance = kTolerance;
   options.pool = &pool;
   DragRun run;
-  VolumeSolver solver;
+  geometry::VolumeSolver solver;
   const Clocks began = clocks_now();
   if (auto started = solver.start(drag.domain, sites, drag.demands); !started) return started.error();
   if (auto solved = solver.solve(options); !solved) return solved.error();

@@ -8,12 +8,12 @@
 
 namespace bl::cli::bench {
 
-FitProblem fit_problem(int count, double fill, std::uint64_t seed) {
-  FitProblem problem;
+geometry::FitProblem fit_problem(int count, double fill, std::uint64_t seed) {
+  geometry::FitProblem problem;
   problem.sites = without_weights(random_sites(count, seed));
   const std::vector<double> demands = random_demands(count, fill, seed);
   for (std::uint32_t i = 0; i < demands.size(); ++i) {
-    VolumeDemand& wanted = problem.demands.emplace_back();
+    geometry::VolumeDemand& wanted = problem.demands.emplace_back();
     wanted.sites = {i};
     wanted.least = wanted.most = demands[i];
   }
@@ -22,15 +22,15 @@ FitProblem fit_problem(int count, double fill, std::uint64_t seed) {
 
 namespace {
 
-VolumeFitOptions fit_options() {
-  VolumeFitOptions options;
+geometry::VolumeFitOptions fit_options() {
+  geometry::VolumeFitOptions options;
   options.tolerance = 1e-6;
   return options;
 }
 
 Result<void> add_row(const SolverBench& bench, int count, double fill, BenchTable& table) {
-  const Domain domain = unit_cube();
-  const FitProblem problem = fit_problem(count, fill);
+  const geometry::Domain domain = unit_cube();
+  const geometry::FitProblem problem = fit_problem(count, fill);
   const auto fit = fit_volumes(domain, problem, fit_options());
   if (!fit) return fit.error();
   std::vector<Contender> contenders = {{[&] { (void)fit_volumes(domain, problem, fit_options()); }, {}, {}},
@@ -49,7 +49,7 @@ Result<void> add_row(const SolverBench& bench, int count, double fill, BenchTabl
 
 // The worst of many random sets.
 Result<void> add_seeds(const SolverBench& bench, int count, double fill, BenchTable& table) {
-  const Domain domain = unit_cube();
+  const geometry::Domain domain = unit_cube();
   int most_steps = 0, most_evaluations = 0;
   std::size_t failures = 0;
   std::vector<double> steps, volumes;
@@ -61,7 +61,7 @@ Result<void> add_seeds(const SolverBench& bench, int count, double fill, BenchTa
     }
     const auto fit = fit_volumes(domain, fit_problem(count, fill, static_cast<std::uint64_t>(seed)), fit_options());
     if (!fit) return fit.error();
-    failures += fit->status != FitStatus::met;
+    failures += fit->status != geometry::FitStatus::met;
     if (fit->iterations > most_steps) worst = std::to_string(seed);
     most_steps = std::max(most_steps, fit->iterations);
     most_evaluations = std::max(most_evaluations, fit->evaluations);

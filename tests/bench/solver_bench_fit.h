@@ -7,6 +7,6 @@
 namespace bl::cli::bench {
 
 /// Random sites in the unit cube without weights, with random demands that fill so much of it.
-FitProblem fit_problem(int count, double fill, std::uint64_t seed = 20070);
+geometry::FitProblem fit_problem(int count, double fill, std::uint64_t seed = 20070);
 
 }  // namespace bl::cli::bench

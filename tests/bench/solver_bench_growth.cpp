@@ -34,12 +34,12 @@ struct GrowthRow {
 Result<GrowthRow> measure(const SolverBench& bench, int count) {
   GrowthRow row;
   row.sites = count;
-  const Domain domain = unit_cube();
-  const FitProblem problem = fit_problem(count, kGrowthFill);
+  const geometry::Domain domain = unit_cube();
+  const geometry::FitProblem problem = fit_problem(count, kGrowthFill);
   const auto plain = random_sites(count), sites = lifted(plain, 3);
   std::vector<Contender> contenders(2);
   contenders[0].work = [&] {
-    PowerDiagram diagram;
+    geometry::PowerDiagram diagram;
     (void)diagram.set_domain(domain);
     if (const auto cells = diagram.update(sites, plain_cells()); cells && row.diagram_hash.empty())
       row.diagram_hash = hash_of(*cells);
@@ -62,10 +62,10 @@ Result<GrowthRow> measure(const SolverBench& bench, int count) {
 }
 
 Result<void> draw(const std::vector<GrowthRow>& rows, const std::string& folder) {
-  report::ChartPanel time{"time per site [µs], one thread", "sites", {}, 0, ""};
-  report::ChartPanel memory{"peak memory per site [bytes]", "sites", {}, 0, ""};
+  drawing::ChartPanel time{"time per site [µs], one thread", "sites", {}, 0, ""};
+  drawing::ChartPanel memory{"peak memory per site [bytes]", "sites", {}, 0, ""};
   for (std::size_t c = 0; c < kCurves.size(); ++c) {
-    report::ChartLine seconds{kCurves[c].label, kCurves[c].colour, kCurves[c].dashes, {}}, bytes = seconds;
+    drawing::ChartLine seconds{kCurves[c].label, kCurves[c].colour, kCurves[c].dashes, {}}, bytes = seconds;
     for (const GrowthRow& row : rows) {
       const double count = row.sites;
       if (row.seconds[c]) seconds.points.push_back({count, 1e6 * *row.seconds[c] / count});
@@ -79,11 +79,11 @@ Result<void> draw(const std::vector<GrowthRow>& rows, const std::string& folder)
   std::filesystem::create_directories(folder, ignored);
   return write_file(
       folder + "/growth.svg",
-      report::draw_chart({"growth",
-                          "Growth of the solver",
-                          "Time and peak memory per site over the number of sites, on logarithmic scales: the diagram "
-                          "without balls, a cold fit, the plain triangulation of CGAL, and the diagram of Voro++.",
-                          {time, memory}}));
+      drawing::draw_chart({"growth",
+                           "Growth of the solver",
+                           "Time and peak memory per site over the number of sites, on logarithmic scales: the diagram "
+                           "without balls, a cold fit, the plain triangulation of CGAL, and the diagram of Voro++.",
+                           {time, memory}}));
 }
 
 }  // namespace

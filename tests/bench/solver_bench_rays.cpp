@@ -50,17 +50,17 @@ std::vector<Ray> rays_over(int boxes, std::size_t count) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < count; ++i)
     rays.push_back({{random.uniform(-reach, reach), random.uniform(-reach, reach), 0},
-                    scene_direction(SunPlace{}, random.uniform(90, 270), random.uniform(10, 60))});
+                    scene_direction(sun::SunPlace{}, random.uniform(90, 270), random.uniform(10, 60))});
   return rays;
 }
 
 // All boxes in the way, each asked triangle by triangle until one is met.
 void plain_loop(const std::vector<MeshPointer>& boxes, const Ray& ray, std::vector<std::uint32_t>& found) {
-  const RayTest test(ray.origin, ray.toward);
+  const sun::RayTest test(ray.origin, ray.toward);
   found.clear();
   for (std::uint32_t k = 0; k < boxes.size(); ++k)
     for (const auto& [a, b, c] : boxes[k]->triangles)
-      if (test.meets(boxes[k]->vertices[a], boxes[k]->vertices[b], boxes[k]->vertices[c], ShadowScene::kStart)) {
+      if (test.meets(boxes[k]->vertices[a], boxes[k]->vertices[b], boxes[k]->vertices[c], sun::ShadowScene::kStart)) {
         found.push_back(k);
         break;
       }
@@ -70,7 +70,7 @@ using Answers = std::vector<std::vector<std::uint32_t>>;
 
 Result<void> measure_rays(const SolverBench& bench, int count, BenchTable& table) {
   const auto boxes = town(count);
-  const auto scene = ShadowScene::build(boxes);
+  const auto scene = sun::ShadowScene::build(boxes);
   if (!scene) return scene.error();
   const double triangles = static_cast<double>(scene->triangles());
   // The same few rays again and again would be known to the processor; the loop takes its time over fewer of them.

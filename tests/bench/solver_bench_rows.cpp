@@ -59,9 +59,9 @@ bool SolverBench::goes_on(const std::string& what) const {
   return !is_interrupted();
 }
 
-Domain unit_cube() {
+geometry::Domain unit_cube() {
   const std::array<Point3, 4> plan = {Point3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  return *extrude(plan, 0, 1);
+  return *geometry::extrude(plan, 0, 1);
 }
 
 double spacing_of(int count) {
@@ -69,11 +69,11 @@ double spacing_of(int count) {
   return std::round(1e6 / std::cbrt(static_cast<double>(count))) / 1e6;
 }
 
-std::vector<PowerSite> random_sites(int count, std::uint64_t seed) {
+std::vector<geometry::PowerSite> random_sites(int count, std::uint64_t seed) {
   Random random(seed);
   const double most = 0.25 * spacing_of(count) * spacing_of(count);
-  std::vector<PowerSite> sites(static_cast<std::size_t>(count));
-  for (PowerSite& site : sites) {
+  std::vector<geometry::PowerSite> sites(static_cast<std::size_t>(count));
+  for (geometry::PowerSite& site : sites) {
     site.position.x = random.uniform();
     site.position.y = random.uniform();
     site.position.z = random.uniform();
@@ -82,13 +82,13 @@ std::vector<PowerSite> random_sites(int count, std::uint64_t seed) {
   return sites;
 }
 
-std::vector<PowerSite> lifted(std::vector<PowerSite> sites, double more_weight) {
-  for (PowerSite& site : sites) site.weight += more_weight;
+std::vector<geometry::PowerSite> lifted(std::vector<geometry::PowerSite> sites, double more_weight) {
+  for (geometry::PowerSite& site : sites) site.weight += more_weight;
   return sites;
 }
 
-std::vector<PowerSite> without_weights(std::vector<PowerSite> sites) {
-  for (PowerSite& site : sites) site.weight = 0;
+std::vector<geometry::PowerSite> without_weights(std::vector<geometry::PowerSite> sites) {
+  for (geometry::PowerSite& site : sites) site.weight = 0;
   return sites;
 }
 
@@ -109,8 +109,8 @@ std::vector<double> random_demands(int count, double fill, std::uint64_t seed) {
   return demands;
 }
 
-CellOptions plain_cells(ThreadPool* pool) {
-  CellOptions options;
+geometry::CellOptions plain_cells(ThreadPool* pool) {
+  geometry::CellOptions options;
   options.with_shape = options.with_centroid = false;
   options.pool = pool;
   return options;
@@ -122,9 +122,9 @@ std::string hash_of(std::span<const double> volumes) {
   return hash.hex();
 }
 
-std::string hash_of(std::span<const CellMeasure> cells) {
+std::string hash_of(std::span<const geometry::CellMeasure> cells) {
   std::vector<double> volumes;
-  for (const CellMeasure& cell : cells) volumes.push_back(cell.volume);
+  for (const geometry::CellMeasure& cell : cells) volumes.push_back(cell.volume);
   return hash_of(volumes);
 }
 

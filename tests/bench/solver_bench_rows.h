@@ -67,23 +67,23 @@ struct SolverBench {
 
 // --- Sets of sites, the same on every machine ---------------------------------------------------------------------------------
 
-Domain unit_cube();
+geometry::Domain unit_cube();
 /// About the distance between neighbours of so many sites in the unit cube [m].
 double spacing_of(int count);
 /// Uniform in the unit cube, weights uniform in [0, (spacing / 2)²].
-std::vector<PowerSite> random_sites(int count, std::uint64_t seed = 20070);
+std::vector<geometry::PowerSite> random_sites(int count, std::uint64_t seed = 20070);
 /// The same diagram with larger balls.
-std::vector<PowerSite> lifted(std::vector<PowerSite> sites, double more_weight);
+std::vector<geometry::PowerSite> lifted(std::vector<geometry::PowerSite> sites, double more_weight);
 /// Sites whose weights are yet to be found.
-std::vector<PowerSite> without_weights(std::vector<PowerSite> sites);
+std::vector<geometry::PowerSite> without_weights(std::vector<geometry::PowerSite> sites);
 /// Log-uniform over a factor of 20; their sum is `fill` of the unit cube.
 std::vector<double> random_demands(int count, double fill, std::uint64_t seed = 20070);
 
 /// Volumes, neighbours and facet areas, nothing else.
-CellOptions plain_cells(ThreadPool* pool = nullptr);
+geometry::CellOptions plain_cells(ThreadPool* pool = nullptr);
 
 std::string hash_of(std::span<const double> volumes);
-std::string hash_of(std::span<const CellMeasure> cells);
+std::string hash_of(std::span<const geometry::CellMeasure> cells);
 
 /// Fills of the boundary that fits are measured at.
 inline constexpr double kFills[] = {0.3, 0.7, 0.95, 0.99, 1.0};

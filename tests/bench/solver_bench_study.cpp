@@ -22,8 +22,8 @@ constexpr double kGoal = 0.01, kFloor = 1e-11;
 constexpr int kMostTicks = 3000;
 
 struct Study {
-  Domain domain;
-  std::vector<PowerSite> sites;
+  geometry::Domain domain;
+  std::vector<geometry::PowerSite> sites;
   std::vector<double> demands;
   double fill = 0;
 };
@@ -50,7 +50,7 @@ Result<Study> read_study(const std::string& file) {
   Study study;
   study.domain = std::move(*domain);
   study.sites = without_weights(sites_of(state));
-  for (const report::VolumeAccount& volume : report::accounts_of(state).volumes) {
+  for (const reading::VolumeAccount& volume : reading::accounts_of(state).volumes) {
     study.demands.push_back(volume.limited);
     study.fill += volume.limited / study.domain.volume;
   }
@@ -60,11 +60,12 @@ Result<Study> read_study(const std::string& file) {
 }
 
 // As a scene does it: one evaluation a tick, with what the last one remembered.
-Result<Curve> follow(const Study& study, const std::string& name, FitMethod method, double gain, double floor, int most) {
+Result<Curve> follow(const Study& study, const std::string& name, geometry::FitMethod method, double gain, double floor,
+                     int most) {
   Curve curve{name, gain, {}, 0, 0, ""};
-  const FitOptions options{.method = method, .gain = gain, .steps = 1, .tolerance = floor};
-  std::vector<PowerSite> sites = study.sites;
-  FitState state;
+  const geometry::FitOptions options{.method = method, .gain = gain, .steps = 1, .tolerance = floor};
+  std::vector<geometry::PowerSite> sites = study.sites;
+  geometry::FitState state;
   const double began = processor_time();
   while (static_cast<int>(curve.errors.size()) < most) {
     auto report = adapt_weights(study.domain, sites, study.demands, {}, state, options);
@@ -88,21 +89,21 @@ Result<Curve> best_of_2007(const SolverBench& bench, const Study& study) {
   double gain = 0.2;
   for (int step = 0; step < 20; ++step, gain /= std::sqrt(2.0)) {
     if (!bench.goes_on("feedback of 2007, gain " + std::to_string(step + 1))) break;
-    auto curve =
-        follow(study, "feedback of 2007", FitMethod::feedback, gain, kGoal, best.to_goal > 0 ? best.to_goal : kMostTicks);
+    auto curve = follow(study, "feedback of 2007", geometry::FitMethod::feedback, gain, kGoal,
+                        best.to_goal > 0 ? best.to_goal : kMostTicks);
     if (!curve) return curve.error();
     if (curve->to_goal > 0 && (best.to_goal == 0 || curve->to_goal < best.to_goal)) best = std::move(*curve);
   }
   if (best.to_goal == 0) return Error{ErrorCode::infeasible, "", "no constant gain leads to 1 % here"};
-  return follow(study, "feedback of 2007", FitMethod::feedback, best.gain, kFloor, 4 * best.to_goal);
+  return follow(study, "feedback of 2007", geometry::FitMethod::feedback, best.gain, kFloor, 4 * best.to_goal);
 }
 
 Result<void> draw(const Study& study, const std::vector<Curve>& curves, const std::string& folder) {
   static constexpr const char* kColours[] = {"#8a5a00", "#225599", "#aa3311"};
   static constexpr const char* kDashes[] = {"2 2.5", "6 2.5", ""};
-  report::ChartPanel panel{"largest relative error of a volume", "evaluations of the diagram (one a tick)", {}, kGoal, "1 %"};
+  drawing::ChartPanel panel{"largest relative error of a volume", "evaluations of the diagram (one a tick)", {}, kGoal, "1 %"};
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    report::ChartLine line{curves[c].name + " (" + std::to_string(curves[c].to_goal) + " to 1 %)", kColours[c], kDashes[c], {}};
+    drawing::ChartLine line{curves[c].name + " (" + std::to_string(curves[c].to_goal) + " to 1 %)", kColours[c], kDashes[c], {}};
     for (std::size_t k = 0; k < curves[c].errors.size(); ++k) {
       line.points.push_back({static_cast<double>(k + 1), curves[c].errors[k]});
     }
@@ -112,12 +113,12 @@ Result<void> draw(const Study& study, const std::vector<Curve>& curves, const st
   std::filesystem::create_directories(folder, ignored);
   return write_file(
       folder + "/feedback_newton.svg",
-      report::draw_chart({"feedback-newton",
-                          "Feedback against Newton",
-                          "The largest relative error of " + std::to_string(study.sites.size()) +
-                              " volumes over the evaluations of the diagram, on logarithmic scales; the numbers are "
-                              "evaluations to one per cent.",
-                          {panel}}));
+      drawing::draw_chart({"feedback-newton",
+                           "Feedback against Newton",
+                           "The largest relative error of " + std::to_string(study.sites.size()) +
+                               " volumes over the evaluations of the diagram, on logarithmic scales; the numbers are "
+                               "evaluations to one per cent.",
+                           {panel}}));
 }
 
 }  // namespace
@@ -147,9 +148,9 @@ BenchTables bench_study(const SolverBench& bench) {
   auto old = best_of_2007(bench, *study);
   if (!old) return old.error();
   curves.push_back(std::move(*old));
-  for (const FitMethod method : {FitMethod::feedback, FitMethod::newton}) {
-    auto curve = follow(*study, method == FitMethod::newton ? "Newton" : "feedback without gain", method, 0, kFloor,
-                        method == FitMethod::newton ? 60 : static_cast<int>(curves.front().errors.size()));
+  for (const geometry::FitMethod method : {geometry::FitMethod::feedback, geometry::FitMethod::newton}) {
+    auto curve = follow(*study, method == geometry::FitMethod::newton ? "Newton" : "feedback without gain", method, 0, kFloor,
+                        method == geometry::FitMethod::newton ? 60 : static_cast<int>(curves.front().errors.size()));
     if (!curve) return curve.error();
     curves.push_back(std::move(*curve));
   }

@@ -23,8 +23,8 @@ constexpr int kMostIterations = 3000;  // where they do not suffice, the gap tha
 
 struct Town {
   std::string name;
-  TrafficNetwork network;
-  std::vector<TripDemand> demands;  // ascending origin
+  traffic::TrafficNetwork network;
+  std::vector<traffic::TripDemand> demands;  // ascending origin
 };
 
 // A grid of two-way streets of about 100 m, with trips between 30 of its crossings that fill the busiest streets.
@@ -32,8 +32,8 @@ Result<Town> made_up(int junctions) {
   const int side = std::max(2, static_cast<int>(std::lround(std::sqrt(junctions))));
   Random random(20070, static_cast<std::uint64_t>(side));
   const auto name = [&](int x, int y) { return std::to_string(10000 + x * side + y); };
-  std::vector<TrafficNode> nodes;
-  std::vector<TrafficLink> links;
+  std::vector<traffic::TrafficNode> nodes;
+  std::vector<traffic::TrafficLink> links;
   const auto both = [&](const std::string& a, const std::string& b) {
     const double time = random.uniform(8, 16), capacity = random.uniform(400, 1600);
     for (const auto& [from, to] : {std::pair{a, b}, {b, a}})
@@ -45,9 +45,9 @@ Result<Town> made_up(int junctions) {
       if (x > 0) both(name(x - 1, y), name(x, y));
       if (y > 0) both(name(x, y - 1), name(x, y));
     }
-  auto network = TrafficNetwork::make(std::move(nodes), std::move(links));
+  auto network = traffic::TrafficNetwork::make(std::move(nodes), std::move(links));
   if (!network) return network.error();
-  std::vector<TripDemand> demands;
+  std::vector<traffic::TripDemand> demands;
   std::vector<std::uint32_t> zones;
   while (zones.size() < std::min<std::size_t>(30, network->node_count())) {
     const auto zone = static_cast<std::uint32_t>(random.below(network->node_count()));
@@ -64,19 +64,19 @@ Result<Town> published(const std::filesystem::path& net, const std::string& name
   const auto streets = read_file(net.string());
   const auto table = read_file((net.parent_path() / (name + "_trips.tntp")).string());
   if (!streets || !table) return streets ? table.error() : streets.error();
-  const auto read = read_tntp_network(*streets);
-  const auto trips = read_tntp_trips(*table);
+  const auto read = importing::read_tntp_network(*streets);
+  const auto trips = importing::read_tntp_trips(*table);
   if (!read || !trips) return (read ? trips.error() : read.error()).within(name);
-  auto network = TrafficNetwork::make(read->nodes, read->links, read->factors);
+  auto network = traffic::TrafficNetwork::make(read->nodes, read->links, read->factors);
   if (!network) return network.error().within(name);
-  std::vector<TripDemand> demands;
-  for (const TntpTrips::Entry& entry : trips->entries) {
+  std::vector<traffic::TripDemand> demands;
+  for (const importing::TntpTrips::Entry& entry : trips->entries) {
     const std::uint32_t from = network->node_index(entry.origin), to = network->node_index(entry.destination);
-    if (from == kNoTrafficIndex || to == kNoTrafficIndex)
+    if (from == traffic::kNoTrafficIndex || to == traffic::kNoTrafficIndex)
       return Error{ErrorCode::not_found, name, "its trips name a zone that its network does not have"};
     if (from != to) demands.push_back({from, to, entry.trips});
   }
-  std::sort(demands.begin(), demands.end(), [](const TripDemand& a, const TripDemand& b) {
+  std::sort(demands.begin(), demands.end(), [](const traffic::TripDemand& a, const traffic::TripDemand& b) {
     return a.origin != b.origin ? a.origin < b.origin : a.destination < b.destination;
   });
   return Town{name, std::move(*network), std::move(demands)};
@@ -130,13 +130,13 @@ BenchTable assignments() {
 
 // Both methods on their marks; each call of `work` is one run from there.
 struct Race {
-  std::unique_ptr<Equilibrium> ours;
+  std::unique_ptr<traffic::Equilibrium> ours;
   std::unique_ptr<FrankWolfe> peer;
   std::vector<Contender> contenders;
 };
 
 void add_row(const Town& town, const char* start, double gap, const Race& race, BenchTable& table) {
-  const EquilibriumFigures figures = race.ours->figures();
+  const traffic::EquilibriumFigures figures = race.ours->figures();
   const double ours = race.contenders[0].median.of(1), peer = race.contenders[1].median.of(1);
   const double apart = std::abs(race.peer->objective() - figures.objective) / figures.objective;
   table.add({word(town.name), figure(town.network.link_count()), figure(town.demands.size()), word(start), tiny(gap),
@@ -148,7 +148,7 @@ void add_row(const Town& town, const char* start, double gap, const Race& race, 
 bool measure_cold(const SolverBench& bench, const Town& town, double gap, BenchTable& table) {
   Race race;
   race.contenders.push_back({[&] {
-                               race.ours = std::make_unique<Equilibrium>(town.network, town.demands);
+                               race.ours = std::make_unique<traffic::Equilibrium>(town.network, town.demands);
                                (void)race.ours->run(gap, kMostIterations);
                              },
                              {},
@@ -167,11 +167,11 @@ bool measure_cold(const SolverBench& bench, const Town& town, double gap, BenchT
 
 // The street that is used most, by volume over capacity, loses half of its capacity.
 bool measure_warm(const SolverBench& bench, const Town& town, double gap, BenchTable& table) {
-  Equilibrium before(town.network, town.demands);
+  traffic::Equilibrium before(town.network, town.demands);
   FrankWolfe peer_before(town.network, town.demands);
   (void)before.run(1e-6, kMostIterations);
   (void)peer_before.run(1e-6, kMostIterations);
-  const std::vector<OriginFlow> start = before.origin_flows();
+  const std::vector<traffic::OriginFlow> start = before.origin_flows();
   std::uint32_t busiest = 0;
   const auto load = [&](std::uint32_t l) { return before.flows()[l] / town.network.link(l).capacity; };
   for (std::uint32_t l = 1; l < town.network.link_count(); ++l)
@@ -184,7 +184,7 @@ bool measure_warm(const SolverBench& bench, const Town& town, double gap, BenchT
                              },
                              {},
                              {},
-                             [&] { race.ours = std::make_unique<Equilibrium>(town.network, town.demands, start); }});
+                             [&] { race.ours = std::make_unique<traffic::Equilibrium>(town.network, town.demands, start); }});
   race.contenders.push_back({[&] {
                                race.peer->set_capacity(busiest, capacity);
                                (void)race.peer->run(gap, kMostIterations);
@@ -201,12 +201,12 @@ bool measure_warm(const SolverBench& bench, const Town& town, double gap, BenchT
   return true;
 }
 
-TrafficNetwork passable(const TrafficNetwork& network) {
-  std::vector<TrafficNode> nodes;
-  std::vector<TrafficLink> links;
+traffic::TrafficNetwork passable(const traffic::TrafficNetwork& network) {
+  std::vector<traffic::TrafficNode> nodes;
+  std::vector<traffic::TrafficLink> links;
   for (std::uint32_t n = 0; n < network.node_count(); ++n) nodes.push_back({network.node(n).id, true});
   for (std::uint32_t l = 0; l < network.link_count(); ++l) links.push_back(network.link(l));
-  return *TrafficNetwork::make(std::move(nodes), std::move(links));  // a part of one that could be made
+  return *traffic::TrafficNetwork::make(std::move(nodes), std::move(links));  // a part of one that could be made
 }
 
 using Graph = boost::compressed_sparse_row_graph<boost::directedS>;
@@ -214,9 +214,9 @@ using Graph = boost::compressed_sparse_row_graph<boost::directedS>;
 // All labels from every node where trips begin, without traffic. Both know the costs by link as an array. Boost knows no nodes
 // that let nothing through, so that there are none here.
 bool measure_paths(const SolverBench& bench, const Town& town, BenchTable& table) {
-  const TrafficNetwork network = passable(town.network);
+  const traffic::TrafficNetwork network = passable(town.network);
   std::vector<std::uint32_t> origins;
-  for (const TripDemand& demand : town.demands)
+  for (const traffic::TripDemand& demand : town.demands)
     if (origins.empty() || origins.back() != demand.origin) origins.push_back(demand.origin);
   const std::size_t count = network.node_count();
   if (count == 0) return true;
@@ -229,7 +229,7 @@ bool measure_paths(const SolverBench& bench, const Town& town, BenchTable& table
       by_edge.push_back(costs[l]);
     }
   const Graph graph(boost::edges_are_sorted, edges.begin(), edges.end(), count);
-  ShortestPaths paths(network);
+  traffic::ShortestPaths paths(network);
   std::vector<double> labels(count), sums(2);
   Hash hash;
   std::vector<Contender> contenders;
@@ -239,7 +239,7 @@ bool measure_paths(const SolverBench& bench, const Town& town, BenchTable& table
                           for (const std::uint32_t origin : origins) {
                             paths.run(origin, costs);
                             for (const double label : paths.labels())
-                              if (label != kUnreached) sums[0] += label, hash.add(label);
+                              if (label != traffic::kUnreached) sums[0] += label, hash.add(label);
                           }
                         },
                         {},

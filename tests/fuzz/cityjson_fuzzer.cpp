@@ -7,10 +7,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  bl::ContextOptions options;
+  bl::importing::ContextOptions options;
   // A projection of its own, so that no database is asked in every run.
-  options.target = bl::GeoReference{"OGC:CRS84", 0, 0, 0, 0, 0};
+  options.target = bl::importing::GeoReference{"OGC:CRS84", 0, 0, 0, 0, 0};
   options.crs = "OGC:CRS84";
-  bl::fuzz::check_context(bl::read_cityjson_context(bytes, options));
+  bl::fuzz::check_context(bl::importing::read_cityjson_context(bytes, options));
   return 0;
 }

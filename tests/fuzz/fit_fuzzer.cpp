@@ -13,21 +13,21 @@
 
 namespace {
 
-using bl::Domain;
-using bl::FitProblem;
-using bl::FitStatus;
-using bl::VolumeDemand;
-using bl::VolumeFit;
-using bl::VolumeFitOptions;
 using bl::fuzz::Bytes;
 using bl::fuzz::require;
+using bl::geometry::Domain;
+using bl::geometry::FitProblem;
+using bl::geometry::FitStatus;
+using bl::geometry::VolumeDemand;
+using bl::geometry::VolumeFit;
+using bl::geometry::VolumeFitOptions;
 
 // A convex domain, or an L with a hole.
-Domain make_solid(Bytes& bytes) {
+geometry::Domain make_solid(Bytes& bytes) {
   if (bytes.next() % 3 != 0) return bl::fuzz::make_domain(bytes);
   const std::vector<bl::Point3> plan{{0, 0, 0}, {10, 0, 0}, {10, 5, 0}, {5, 5, 0}, {5, 10, 0}, {0, 10, 0}};
   const std::vector<std::vector<bl::Point3>> holes{{{1, 1, 0}, {2, 1, 0}, {2, 3, 0}}};
-  return bl::extrude_plan(plan, holes, 0, 10).value();
+  return bl::geometry::extrude_plan(plan, holes, 0, 10).value();
 }
 
 double make_amount(Bytes& bytes, double fair) {
@@ -41,8 +41,8 @@ double make_amount(Bytes& bytes, double fair) {
 }
 
 // Each site joins the demand before it, starts one of its own, or keeps its weight.
-FitProblem make_problem(Bytes& bytes, const Domain& domain) {
-  FitProblem problem;
+geometry::FitProblem make_problem(Bytes& bytes, const geometry::Domain& domain) {
+  geometry::FitProblem problem;
   std::array<std::uint8_t, 6> choices{};  // short inputs shall have sites, too: later sites vary those of the first
   for (std::uint8_t& choice : choices) choice = bytes.next();
   const std::uint8_t mode = bytes.next();
@@ -56,12 +56,12 @@ FitProblem make_problem(Bytes& bytes, const Domain& domain) {
       problem.demands.back().sites.push_back(site);
       continue;
     }
-    VolumeDemand demand;
+    geometry::VolumeDemand demand;
     demand.sites = {site};
     demand.least = (mode & 2u) != 0 ? make_amount(bytes, fair) : 0.8 * fair;
     demand.most = (choice & 3u) == 0 ? demand.least + make_amount(bytes, fair) : demand.least;
     if ((choice & 28u) == 0) {
-      demand.kind = VolumeDemand::Kind::floor_area;
+      demand.kind = geometry::VolumeDemand::Kind::floor_area;
       demand.storey_height = (choice & 32u) != 0 ? 3 : 0.01;
     }
     problem.demands.push_back(demand);
@@ -70,10 +70,10 @@ FitProblem make_problem(Bytes& bytes, const Domain& domain) {
 }
 
 // One thing that makes no sense; false where the problem has no room for it.
-bool spoil(Bytes& bytes, FitProblem& problem) {
+bool spoil(Bytes& bytes, geometry::FitProblem& problem) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   if (problem.demands.empty()) return false;
-  VolumeDemand& demand = problem.demands[bytes.next() % problem.demands.size()];
+  geometry::VolumeDemand& demand = problem.demands[bytes.next() % problem.demands.size()];
   switch (bytes.next() % 8) {
     case 0: demand.sites.push_back(static_cast<std::uint32_t>(problem.sites.size())); return true;
     case 1: demand.sites.push_back(0xffffffffu); return true;
@@ -86,38 +86,40 @@ bool spoil(Bytes& bytes, FitProblem& problem) {
   }
 }
 
-void check_weights(const FitProblem& problem, const VolumeFit& fit) {
+void check_weights(const geometry::FitProblem& problem, const geometry::VolumeFit& fit) {
   const std::size_t count = problem.sites.size();
   require(fit.weights.size() == count && fit.volumes.size() == count, "every site is accounted for");
   std::vector<bool> is_free(count, false);
-  for (const VolumeDemand& demand : problem.demands)
+  for (const geometry::VolumeDemand& demand : problem.demands)
     for (const std::uint32_t site : demand.sites) is_free[site] = true;
   for (std::size_t i = 0; i < count; ++i) {
-    require(std::isfinite(fit.weights[i]) && std::abs(fit.weights[i]) <= bl::kLargestWeight, "weights are finite");
+    require(std::isfinite(fit.weights[i]) && std::abs(fit.weights[i]) <= bl::geometry::kLargestWeight, "weights are finite");
     require(std::isfinite(fit.volumes[i]) && fit.volumes[i] >= 0, "volumes are finite");
     require(is_free[i] || fit.weights[i] == problem.sites[i].weight, "who has no demand keeps the weight");
   }
 }
 
-void check_report(const FitProblem& problem, const VolumeFit& fit, const VolumeFitOptions& options) {
+void check_report(const geometry::FitProblem& problem, const geometry::VolumeFit& fit,
+                  const geometry::VolumeFitOptions& options) {
   require(fit.evaluations <= options.most_steps && fit.iterations <= options.most_steps, "the number of steps is bounded");
   require(!std::isnan(fit.max_relative_error) && fit.max_relative_error >= 0, "the error is a number");
   require(problem.demands.empty() || fit.worst_demand < problem.demands.size(), "the worst demand is one of them");
-  require(fit.status != FitStatus::met || fit.max_relative_error <= options.tolerance, "met means within the tolerance");
-  require(fit.status != FitStatus::infeasible || !fit.reasons.empty(), "what is infeasible has a reason");
-  for (const bl::VolumeLoss& loss : fit.losses)
+  require(fit.status != geometry::FitStatus::met || fit.max_relative_error <= options.tolerance,
+          "met means within the tolerance");
+  require(fit.status != geometry::FitStatus::infeasible || !fit.reasons.empty(), "what is infeasible has a reason");
+  for (const bl::geometry::VolumeLoss& loss : fit.losses)
     require(loss.demand < problem.demands.size() && std::isfinite(loss.wanted) && std::isfinite(loss.had),
             "losses are of demands");
 }
 
 // The volumes of the report are those of its weights.
-void check_volumes(const Domain& domain, const FitProblem& problem, const VolumeFit& fit) {
+void check_volumes(const geometry::Domain& domain, const geometry::FitProblem& problem, const geometry::VolumeFit& fit) {
   if (fit.evaluations == 0) return;
-  std::vector<bl::PowerSite> sites = problem.sites;
+  std::vector<bl::geometry::PowerSite> sites = problem.sites;
   for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = fit.weights[i];
-  const auto cells = bl::power_cells(domain, sites, {.with_shape = false});
+  const auto cells = bl::geometry::power_cells(domain, sites, {.with_shape = false});
   require(cells.ok() && cells->size() == sites.size(), "the weights can be used");
-  if (fit.status != FitStatus::met) return;
+  if (fit.status != geometry::FitStatus::met) return;
   for (std::size_t i = 0; i < sites.size(); ++i)
     require(std::abs((*cells)[i].volume - fit.volumes[i]) <= 1e-9 * domain.volume, "the volumes are those of the weights");
 }
@@ -127,26 +129,26 @@ void check_volumes(const Domain& domain, const FitProblem& problem, const Volume
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
   const std::uint8_t mode = bytes.next();
-  const Domain domain = make_solid(bytes);
-  VolumeFitOptions options;
-  options.method = (mode & 1u) != 0 ? bl::FitMethod::feedback : bl::FitMethod::newton;
+  const geometry::Domain domain = make_solid(bytes);
+  geometry::VolumeFitOptions options;
+  options.method = (mode & 1u) != 0 ? bl::geometry::FitMethod::feedback : bl::geometry::FitMethod::newton;
   options.most_steps = 1 + mode / 16;
   options.tolerance = (mode & 2u) != 0 ? 1e-2 : 1e-6;
   const int last_step = (mode & 4u) != 0 ? 1 + bytes.next() % 4 : std::numeric_limits<int>::max();
   options.progress = [&](int steps, double) { return steps < last_step; };
-  FitProblem problem = make_problem(bytes, domain);
+  geometry::FitProblem problem = make_problem(bytes, domain);
   if ((mode & 8u) != 0 && spoil(bytes, problem)) {
-    const auto refused = bl::fit_volumes(domain, problem, options);
+    const auto refused = bl::geometry::fit_volumes(domain, problem, options);
     require(!refused.ok() && !refused.error().message.empty(), "nonsense is refused with a sentence");
     return 0;
   }
-  const auto fit = bl::fit_volumes(domain, problem, options);
+  const auto fit = bl::geometry::fit_volumes(domain, problem, options);
   require(fit.ok(), "a problem that makes sense gets an answer");
   check_weights(problem, *fit);
   check_report(problem, *fit, options);
   check_volumes(domain, problem, *fit);
-  require(fit->status != FitStatus::cancelled || fit->evaluations <= last_step, "a fit stops where it is told to");
-  const auto again = bl::fit_volumes(domain, problem, options);
+  require(fit->status != geometry::FitStatus::cancelled || fit->evaluations <= last_step, "a fit stops where it is told to");
+  const auto again = bl::geometry::fit_volumes(domain, problem, options);
   require(again.ok() && again->weights == fit->weights, "the same problem gives the same bits");
   return 0;
 }

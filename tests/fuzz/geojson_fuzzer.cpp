@@ -10,16 +10,16 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  bl::ContextOptions options;
-  options.target = bl::GeoReference{"OGC:CRS84", 0, 0, 0, 0, 0};
+  bl::importing::ContextOptions options;
+  options.target = bl::importing::GeoReference{"OGC:CRS84", 0, 0, 0, 0, 0};
   options.crs = "OGC:CRS84";
-  bl::fuzz::check_context(bl::read_geojson_context(bytes, options));
-  const auto layer = bl::read_layer_geojson(bytes, options);
+  bl::fuzz::check_context(bl::importing::read_geojson_context(bytes, options));
+  const auto layer = bl::importing::read_layer_geojson(bytes, options);
   if (!layer) {
     bl::fuzz::require(!layer.error().message.empty(), "an error without a sentence");
     return 0;
   }
-  for (const bl::LayerPoint& point : layer->points)
+  for (const bl::importing::LayerPoint& point : layer->points)
     bl::fuzz::require(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.value),
                       "a point that is not finite");
   return 0;

@@ -24,7 +24,7 @@ class Bytes {
   std::size_t size_, at_ = 0;
 };
 
-inline ConvexDomain make_domain(Bytes& bytes) {
+inline geometry::ConvexDomain make_domain(Bytes& bytes) {
   const unsigned kind = bytes.next() % 4u;
   const double shift = kind == 1 ? 10000 : 0;
   const std::vector<Point3> square{{shift, 0, 0}, {shift + 10, 0, 0}, {shift + 10, 10, 0}, {shift, 10, 0}};
@@ -47,8 +47,8 @@ inline double make_weight(Bytes& bytes) {
 }
 
 /// At most `most` sites in and about a box of 10 m whose lowest corner is `minimum`.
-inline std::vector<PowerSite> make_sites(Bytes& bytes, const Vector3& minimum, std::size_t most) {
-  std::vector<PowerSite> sites;
+inline std::vector<geometry::PowerSite> make_sites(Bytes& bytes, const Vector3& minimum, std::size_t most) {
+  std::vector<geometry::PowerSite> sites;
   while (!bytes.is_used_up() && sites.size() < most) {
     const std::uint8_t how = bytes.next();
     Point3 p{bytes.share() * 14 - 2, bytes.share() * 14 - 2, bytes.share() * 14 - 2};

@@ -13,12 +13,12 @@
 
 namespace {
 
-using bl::CellMeasure;
-using bl::ConvexDomain;
 using bl::Mesh;
-using bl::PowerSite;
 using bl::fuzz::Bytes;
 using bl::fuzz::require;
+using bl::geometry::CellMeasure;
+using bl::geometry::ConvexDomain;
+using bl::geometry::PowerSite;
 
 bool is_closed(const Mesh& mesh) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, twins;
@@ -35,12 +35,12 @@ bool is_closed(const Mesh& mesh) {
 
 // What rounding may do to a volume [m³]. Within 1e-12 of the size planes may count as touching, whatever the volume: a hull of a
 // micrometre's thickness shows it.
-double room_of(const ConvexDomain& domain) {
+double room_of(const geometry::ConvexDomain& domain) {
   const double extent = domain.size();
   return 1e-6 * domain.volume + 1e-12 * extent * extent * extent;
 }
 
-void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
+void check_cell(const geometry::CellMeasure& cell, const geometry::ConvexDomain& domain) {
   for (const double number :
        {cell.volume, cell.cell_volume, cell.surface_area, cell.spherical_area, cell.floor_area, cell.footprint, cell.height,
         cell.bottom, cell.volume_by_own_weight, cell.centroid.x, cell.centroid.y, cell.centroid.z}) {
@@ -51,7 +51,7 @@ void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
           "the shape is no higher than the domain");
   require(cell.footprint <= 1e-6 + 1.000001 * (domain.maximum.x - domain.minimum.x) * (domain.maximum.y - domain.minimum.y),
           "footprint");
-  require(cell.reason.empty() == (cell.state == bl::SiteState::alive), "whoever does not live has a reason");
+  require(cell.reason.empty() == (cell.state == bl::geometry::SiteState::alive), "whoever does not live has a reason");
   require((cell.mesh != nullptr) == (cell.volume > 0), "each volume has a mesh");
   if (!cell.mesh) return;
   require(is_closed(*cell.mesh), "meshes are closed");
@@ -65,24 +65,24 @@ void check_cell(const CellMeasure& cell, const ConvexDomain& domain) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
-  const ConvexDomain domain = bl::fuzz::make_domain(bytes);
+  const geometry::ConvexDomain domain = bl::fuzz::make_domain(bytes);
   const std::uint8_t mode = bytes.next();
-  const std::vector<PowerSite> sites = bl::fuzz::make_sites(bytes, domain.minimum, 200);
-  bl::CellOptions options;
+  const std::vector<geometry::PowerSite> sites = bl::fuzz::make_sites(bytes, domain.minimum, 200);
+  bl::geometry::CellOptions options;
   options.tessellation_depth = mode % 3;
   options.storey_height = 0.7;
-  const auto cells = bl::power_cells(domain, sites, options);
+  const auto cells = bl::geometry::power_cells(domain, sites, options);
   require(cells.ok() && cells->size() == sites.size(), "every site gets a record");
-  for (const CellMeasure& cell : *cells) check_cell(cell, domain);
-  const bl::CellTotals totals = bl::totals_of(*cells);
+  for (const geometry::CellMeasure& cell : *cells) check_cell(cell, domain);
+  const bl::geometry::CellTotals totals = bl::geometry::totals_of(*cells);
   require(totals.alive + totals.hidden + totals.outside + totals.coincident + totals.starved == sites.size(), "states add up");
   require(sites.empty() || std::abs(totals.cell_volume - domain.volume) <= room_of(domain), "cells tile the domain");
   if ((mode & 128u) != 0 && sites.size() <= 40) {
     const std::vector<double> demands(sites.size(), 0.5 * domain.volume / static_cast<double>(sites.size() + 1));
-    bl::FitOptions fit;
+    bl::geometry::FitOptions fit;
     fit.steps = 6;
-    fit.method = (mode & 64u) != 0 ? bl::FitMethod::newton : bl::FitMethod::feedback;
-    const auto fitted = bl::adapt_weights(domain, sites, demands, {}, {}, fit);
+    fit.method = (mode & 64u) != 0 ? bl::geometry::FitMethod::newton : bl::geometry::FitMethod::feedback;
+    const auto fitted = bl::geometry::adapt_weights(domain, sites, demands, {}, {}, fit);
     require(fitted.ok() && fitted->weights.size() == sites.size(), "a fit always answers");
     for (const double weight : fitted->weights) require(std::isfinite(weight), "weights are finite");
   }

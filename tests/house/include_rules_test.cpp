@@ -81,6 +81,10 @@ TEST(House, FilesBeginWithASentence) {
   for (const SourceFile& file : sources({"core", "nodes", "links", "ui", "tests"})) expect_none(check_form(file.path, file.text));
 }
 
+TEST(House, EveryLibraryHasItsOwnNamespace) {
+  for (const SourceFile& file : sources({"core", "nodes", "links", "ui"})) expect_none(check_names(file.path, file.text));
+}
+
 TEST(House, TheTableOfLayersHasNoFaults) {
   for (const std::string& fault : layers().faults) ADD_FAILURE() << "core/layers.txt: " << fault;
   std::vector<std::string> known;
@@ -244,6 +248,16 @@ TEST(HouseRules, WordsOfSamples) {
       EXPECT_NE(found[0].find(sample.expected), std::string::npos) << found[0];
     }
   }
+}
+
+TEST(HouseRules, NamespacesOfSamples) {
+  const auto found = [](const char* path, const char* text) { return sentences(check_names(path, text)).size(); };
+  EXPECT_EQ(found("core/graph/a.h", "namespace bl {\n}\n"), 0u);
+  EXPECT_EQ(found("core/base/a.h", "namespace bl::mathematics {\n}\n"), 0u) << "a namespace of its own within the room's";
+  EXPECT_EQ(found("core/geometry/inside/a.h", "namespace bl::geometry {\nnamespace {\n}\n}\n"), 0u);
+  EXPECT_EQ(found("core/geometry/a.h", "namespace bl {\n}\n"), 1u);
+  EXPECT_EQ(found("core/graph/a.h", "namespace bl::geometry {\n}\n"), 1u);
+  EXPECT_EQ(found("ui/desktop/panels/canvas/a.h", "namespace bl::desktop::canvas {\n}\n"), 0u);
 }
 
 TEST(HouseRules, FormOfSamples) {

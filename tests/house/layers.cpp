@@ -1,4 +1,5 @@
-// Reads the rows `room FOLDER: LINES folders...` and `file PATH: LINES reason`; blank lines and those that begin with # are free.
+// Reads the rows `room FOLDER: LINES namespace folders...` and `file PATH: LINES reason`; blank lines and those that begin with #
+// are free.
 #include "tests/house/layers.h"
 
 #include <algorithm>
@@ -55,9 +56,10 @@ Layers read_layers(std::string_view text) {
     const bool is_complete = !words.fail() && name.size() > 1 && name.back() == ':' && lines > 0;
     if (is_complete) name.pop_back();
     if (is_complete && kind == "room") {
-      Room room{name, lines, {}, false};
+      Room room{name, lines};
       for (std::string seen; words >> seen;) {
         if (seen == "alone") room.is_alone = true;
+        else if (seen.starts_with("bl::")) room.names = seen;
         else room.sees.push_back(seen);
       }
       layers.rooms.push_back(std::move(room));
@@ -65,7 +67,7 @@ Layers read_layers(std::string_view text) {
       layers.files.push_back({name, lines, reason});
     } else {
       layers.faults.push_back("line " + std::to_string(number) +
-                              ": neither `room FOLDER: LINES folders` nor `file PATH: LINES reason`");
+                              ": neither `room FOLDER: LINES namespace folders` nor `file PATH: LINES reason`");
     }
   }
   return layers;

@@ -1,4 +1,4 @@
-// The table core/layers.txt as the tests of the house read it: who may include whom, and how long a file may be.
+// The table core/layers.txt as the tests of the house read it: includes, namespaces, and how long a file may be.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@ struct Room {
   std::string folder;
   int lines = 0;
   std::vector<std::string> sees;
-  bool is_alone = false;  ///< its files do not include each other
+  std::string names = "bl";  ///< the namespace that its files open; others may lie within it
+  bool is_alone = false;     ///< its files do not include each other
 };
 
 /// One file that may be longer than its room allows.

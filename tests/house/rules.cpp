@@ -265,6 +265,27 @@ std::vector<Finding> check_words(std::string_view path, std::string_view text) {
   return findings;
 }
 
+std::vector<Finding> check_names(std::string_view path, std::string_view text) {
+  std::vector<Finding> findings;
+  const Room* room = layers().room_of(path);
+  if (room == nullptr) return findings;
+  const auto is_of_another = [&](std::string_view name) {
+    return std::any_of(layers().rooms.begin(), layers().rooms.end(),
+                       [&](const Room& other) { return other.names != room->names && other.names == name; });
+  };
+  for_each_line(code_only(text), [&](int number, std::string_view line) {
+    constexpr std::string_view kWord = "namespace ";
+    if (!line.starts_with(kWord) || !line.ends_with(" {")) return;
+    const std::string_view name = line.substr(kWord.size(), line.size() - kWord.size() - 2);
+    const bool is_own = name == room->names || (name.starts_with(room->names + "::") && !is_of_another(name));
+    if (name.starts_with("bl") && !is_own)
+      findings.push_back(
+          {place(path, number),
+           "`" + std::string(name) + "` is not this folder's namespace: core/layers.txt gives it `" + room->names + "`"});
+  });
+  return findings;
+}
+
 std::vector<Finding> check_form(std::string_view path, std::string_view text) {
   std::vector<Finding> findings;
   const std::string_view first = text.substr(0, text.find('\n'));

@@ -26,6 +26,9 @@ std::vector<Finding> check_functions(std::string_view path, std::string_view tex
 /// Words that would make results depend on the library, the clock or the order of a hash table.
 std::vector<Finding> check_words(std::string_view path, std::string_view text);
 
+/// Namespaces that are neither the one of the file's room nor lie within it.
+std::vector<Finding> check_names(std::string_view path, std::string_view text);
+
 /// A sentence on the first line, and `#pragma once` in headers.
 std::vector<Finding> check_form(std::string_view path, std::string_view text);
 

@@ -21,16 +21,16 @@ std::set<std::string> made_paths() {
 }
 
 // The domains of all boundaries, in ascending node id; asking makes them.
-std::vector<std::shared_ptr<const Domain>> domains_of(const State& state) {
-  std::vector<std::shared_ptr<const Domain>> domains;
+std::vector<std::shared_ptr<const geometry::Domain>> domains_of(const State& state) {
+  std::vector<std::shared_ptr<const geometry::Domain>> domains;
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n)
     if (const auto ref = state.plan->find(n, {"boundary", "domain", ""}))
-      domains.push_back(std::get<Made>(state.value(*ref)).get<Domain>());
+      domains.push_back(std::get<Made>(state.value(*ref)).get<geometry::Domain>());
   return domains;
 }
 
-void expect_the_same(const std::vector<std::shared_ptr<const Domain>>& a, const std::vector<std::shared_ptr<const Domain>>& b,
-                     const std::string& scene) {
+void expect_the_same(const std::vector<std::shared_ptr<const geometry::Domain>>& a,
+                     const std::vector<std::shared_ptr<const geometry::Domain>>& b, const std::string& scene) {
   ASSERT_EQ(a.size(), b.size()) << scene;
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i] == nullptr, b[i] == nullptr) << scene;
@@ -100,7 +100,7 @@ TEST(MadeLaws, NoFileHoldsThemAndLoadingMakesThemAgain) {
   const std::set<std::string> paths = made_paths();
   for (const std::string& scene : small_scenes()) {
     std::string text;
-    std::vector<std::shared_ptr<const Domain>> before;
+    std::vector<std::shared_ptr<const geometry::Domain>> before;
     {
       World world = World::from_file(scene);
       world.tick(3);

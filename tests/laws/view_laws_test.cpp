@@ -13,14 +13,14 @@ namespace {
 using reading::ViewDefinition;
 using reading::ViewRead;
 
-const TypeDefinition* find_type(const ViewDefinition& view, const std::string& id) {
+const TypeDefinition* find_type(const reading::ViewDefinition& view, const std::string& id) {
   const Registry& registry = full_registry();
   if (view.is_of_links) return registry.link(id);
   return registry.typification(id);
 }
 
 // What is wrong with one read, as a sentence; empty where nothing is.
-std::string fault_of(const ViewDefinition& view, const ViewRead& read) {
+std::string fault_of(const reading::ViewDefinition& view, const reading::ViewRead& read) {
   const std::string where = "the view " + view.name + " shows " + read.path.typification + "." + read.path.port;
   if (read.path.typification != view.type && (view.is_of_links || read.path.typification != kBaseNode))
     return where + ", and is of " + view.type;
@@ -40,37 +40,37 @@ std::string fault_of(const ViewDefinition& view, const ViewRead& read) {
 
 TEST(ViewLaws, ViewsShowPortsThatExistWithTheKindAndUnitTheySay) {
   ASSERT_FALSE(reading::all_views().empty());
-  for (const ViewDefinition* view : reading::all_views()) {
+  for (const reading::ViewDefinition* view : reading::all_views()) {
     EXPECT_NE(find_type(*view, view->type), nullptr)
         << "the view " << view->name << " is of " << view->type << ", which is no type";
     EXPECT_FALSE(view->reads.empty()) << view->name;
-    for (const ViewRead& read : view->reads) EXPECT_EQ(fault_of(*view, read), "");
+    for (const reading::ViewRead& read : view->reads) EXPECT_EQ(fault_of(*view, read), "");
   }
 }
 
 // The law finds what it is there for.
 TEST(ViewLaws, ARenamedPortIsToldWithItsView) {
   const auto fault = [](const auto& change) {
-    ViewDefinition view = reading::VolumeFigures::view();
-    ViewRead& read = view.reads[reading::read_index(view, reading::key_of_member(&reading::VolumeFigures::volume))];
+    reading::ViewDefinition view = reading::VolumeFigures::view();
+    reading::ViewRead& read = view.reads[reading::read_index(view, reading::key_of_member(&reading::VolumeFigures::volume))];
     change(read);
     return fault_of(view, read);
   };
-  EXPECT_EQ(fault([](ViewRead&) {}), "");
-  EXPECT_EQ(fault([](ViewRead& read) { read.path.port = "volumes"; }),
+  EXPECT_EQ(fault([](reading::ViewRead&) {}), "");
+  EXPECT_EQ(fault([](reading::ViewRead& read) { read.path.port = "volumes"; }),
             "the view VolumeFigures shows smart_volume.volumes, and there is no such port");
-  EXPECT_EQ(fault([](ViewRead& read) { read.kind = ValueKind::text; }),
+  EXPECT_EQ(fault([](reading::ViewRead& read) { read.kind = ValueKind::text; }),
             "the view VolumeFigures shows smart_volume.volume as a text, and it holds a number");
-  EXPECT_EQ(fault([](ViewRead& read) { read.unit = Unit::metre; }),
+  EXPECT_EQ(fault([](reading::ViewRead& read) { read.unit = Unit::metre; }),
             "the view VolumeFigures shows smart_volume.volume in another unit");
-  EXPECT_EQ(fault([](ViewRead& read) { read.unit.reset(); }),
+  EXPECT_EQ(fault([](reading::ViewRead& read) { read.unit.reset(); }),
             "the view VolumeFigures shows smart_volume.volume without saying its unit");
-  EXPECT_EQ(fault([](ViewRead& read) { read.path.typification = "plot"; }),
+  EXPECT_EQ(fault([](reading::ViewRead& read) { read.path.typification = "plot"; }),
             "the view VolumeFigures shows plot.volume, and is of smart_volume");
 }
 
 TEST(ViewLaws, NoMemberShowsTwoPorts) {
-  for (const ViewDefinition* view : reading::all_views())
+  for (const reading::ViewDefinition* view : reading::all_views())
     for (std::size_t a = 0; a < view->reads.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
         EXPECT_NE(view->reads[a].member, view->reads[b].member) << view->name << " " << view->reads[a].path.port;

@@ -7,7 +7,7 @@ namespace {
 
 // What a boundary makes of such planes.
 Value domain_of(const Table& planes) {
-  return Made::of<Domain>([planes = Shared<Table>(planes)] { return shared_domain(planes); });
+  return Made::of<geometry::Domain>([planes = Shared<Table>(planes)] { return geometry::shared_domain(planes); });
 }
 
 // A box of 60 x 40 x 30 m; the normal of one side is not of length 1.

@@ -75,7 +75,7 @@ TEST(Boundary, APlanMayBendIn) {
   EXPECT_NEAR(world.number("it", "boundary.volume"), 180, 1e-9);
   EXPECT_NEAR(world.number("it", "boundary.ground_area"), 60, 1e-9);
   const Table& planes = world.table("it", "boundary.planes");
-  const auto domain = read_domain(planes);
+  const auto domain = geometry::read_domain(planes);
   ASSERT_TRUE(domain.ok());
   EXPECT_EQ(domain->pieces.size(), 3u);
   EXPECT_EQ(domain->side_count, 7u);
@@ -90,7 +90,7 @@ TEST(Boundary, OldTablesAreOneConvexPiece) {
   Table old{{"x", "y", "z", "offset"}, {}};
   old.rows = {{1.0, 0.0, 0.0, 2.0},  {-1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 3.0},
               {0.0, -1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 4.0},  {0.0, 0.0, -1.0, 0.0}};
-  const auto domain = read_domain(old);
+  const auto domain = geometry::read_domain(old);
   ASSERT_TRUE(domain.ok());
   EXPECT_EQ(domain->pieces.size(), 1u);
   EXPECT_EQ(domain->pieces[0].sides, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));

@@ -81,10 +81,10 @@ TEST(TrafficNetwork, TripsThatOlderFilesHeldAsDigitsAreTheSame) {
 TEST(TrafficNetwork, ItsFlowsAreHandedOnByStreet) {
   World world = World::from_file("scenes/nodes/traffic_network.json");
   ASSERT_TRUE(world.settle(200));
-  const auto flows = std::get<Made>(value_in(world.state(), "network", "traffic_network.trip_flows")).get<TripFlows>();
+  const auto flows = std::get<Made>(value_in(world.state(), "network", "traffic_network.trip_flows")).get<traffic::TripFlows>();
   ASSERT_NE(flows, nullptr);
   std::map<std::string, double> by_place;
-  for (const TripFlows::Zone& zone : flows->zones)
+  for (const traffic::TripFlows::Zone& zone : flows->zones)
     for (std::size_t k = 0; k < zone.links->size(); ++k) by_place[flows->places.at((*zone.links)[k])] += (*zone.flows)[k];
   for (const char* street : {"e11", "e12"})
     EXPECT_NEAR(by_place[street], world.number(street, "street.flow_forth") + world.number(street, "street.flow_back"), 1e-6)

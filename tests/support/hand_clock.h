@@ -8,7 +8,7 @@
 
 namespace bl::test {
 
-class HandClock final : public Clock {
+class HandClock final : public host::Clock {
  public:
   void advance(double seconds) { now_ = now_ + seconds; }
   double now() const override { return now_; }

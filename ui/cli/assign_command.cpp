@@ -60,7 +60,7 @@ class AssignRun {
     const StopScope scope(is_interrupted);
     bool is_met = false;
     const auto found = settle("equilibrium", *network_, is_met);
-    Equilibrium& equilibrium = *found;
+    traffic::Equilibrium& equilibrium = *found;
     tell_lost(equilibrium);
     Json json = {{"equilibrium", figures_json(equilibrium)}};
     if (flows_) json["comparison"] = compare(equilibrium);
@@ -76,7 +76,8 @@ class AssignRun {
     for (const auto& [from, limit] : reach_) json["reach"].push_back(tell_reach(equilibrium, from, limit));
     json["links"] = links_json(equilibrium);
     if (places_)
-      for (const TntpPlaces::Entry& place : places_->entries) json["nodes"][place.node] = {{"x", place.x}, {"y", place.y}};
+      for (const importing::TntpPlaces::Entry& place : places_->entries)
+        json["nodes"][place.node] = {{"x", place.x}, {"y", place.y}};
     if (!o_.json.empty())
       if (auto written = write_file(o_.json, write_json(json) + "\n"); !written) {
         print_error(o_.json, written.error());
@@ -91,25 +92,25 @@ class AssignRun {
 
  private:
   bool read() {
-    const auto net = load(o_.net, read_tntp_network);
-    const auto trips = load(o_.trips, read_tntp_trips);
-    if (!o_.flows.empty()) flows_ = load(o_.flows, read_tntp_flows);
-    if (!o_.nodes.empty()) places_ = load(o_.nodes, read_tntp_places);
+    const auto net = load(o_.net, importing::read_tntp_network);
+    const auto trips = load(o_.trips, importing::read_tntp_trips);
+    if (!o_.flows.empty()) flows_ = load(o_.flows, importing::read_tntp_flows);
+    if (!o_.nodes.empty()) places_ = load(o_.nodes, importing::read_tntp_places);
     if (!net || !trips || (!o_.flows.empty() && !flows_) || (!o_.nodes.empty() && !places_)) return false;
-    const CostFactors factors{o_.toll_factor >= 0 ? o_.toll_factor : net->factors.toll,
-                              o_.distance_factor >= 0 ? o_.distance_factor : net->factors.distance};
-    auto made = TrafficNetwork::make(net->nodes, net->links, factors);
+    const traffic::CostFactors factors{o_.toll_factor >= 0 ? o_.toll_factor : net->factors.toll,
+                                       o_.distance_factor >= 0 ? o_.distance_factor : net->factors.distance};
+    auto made = traffic::TrafficNetwork::make(net->nodes, net->links, factors);
     if (!made) {
       print_error(o_.net, made.error());
       return false;
     }
     network_ = std::move(*made);
-    for (const TntpTrips::Entry& entry : trips->entries) {
+    for (const importing::TntpTrips::Entry& entry : trips->entries) {
       const std::uint32_t origin = network_->node_index(entry.origin), destination = network_->node_index(entry.destination);
-      if (origin == kNoTrafficIndex || destination == kNoTrafficIndex) {
+      if (origin == traffic::kNoTrafficIndex || destination == traffic::kNoTrafficIndex) {
         print_error(o_.trips, {ErrorCode::not_found, "Origin " + entry.origin,
                                "trips from " + entry.origin + " to " + entry.destination + ", but the network has no node " +
-                                   (origin == kNoTrafficIndex ? entry.origin : entry.destination)});
+                                   (origin == traffic::kNoTrafficIndex ? entry.origin : entry.destination)});
         return false;
       }
       demands_.push_back({origin, destination, entry.trips});
@@ -121,7 +122,7 @@ class AssignRun {
 
   std::optional<std::uint32_t> link_named(const std::string& name, const char* option) const {
     const std::uint32_t link = network_->link_index(name);
-    if (link != kNoTrafficIndex) return link;
+    if (link != traffic::kNoTrafficIndex) return link;
     print_error("", {ErrorCode::not_found, option,
                      "there is no link `" + name + "`; links are named by their nodes, such as `" + network_->link(0).id + "`"});
     return std::nullopt;
@@ -149,7 +150,7 @@ class AssignRun {
 
   std::optional<std::uint32_t> node_named(const std::string& name, const char* option) const {
     const std::uint32_t node = network_->node_index(name);
-    if (node != kNoTrafficIndex) return node;
+    if (node != traffic::kNoTrafficIndex) return node;
     print_error("", {ErrorCode::not_found, option, "there is no node `" + name + "` in the network"});
     return std::nullopt;
   }
@@ -176,14 +177,14 @@ class AssignRun {
     return true;
   }
 
-  Json tell_routes(const Equilibrium& equilibrium, std::uint32_t from, std::uint32_t to) const {
+  Json tell_routes(const traffic::Equilibrium& equilibrium, std::uint32_t from, std::uint32_t to) const {
     const auto routes = equilibrium.routes(from, to);
     print_line();
     print_parts({{"from " + network_->node(from).id + " to " + network_->node(to).id, Colour::bold},
                  {routes.empty() ? ": no trips" : "", Colour::plain}});
     Json json = Json::array();
     TextTable table({{"trips", true}, {"cost", true}, {"by"}});
-    for (const Route& route : routes) {
+    for (const traffic::Route& route : routes) {
       std::string nodes = network_->node(from).id;
       for (const std::uint32_t link : route.links) nodes += " " + network_->node(network_->to(link)).id;
       json.push_back({{"trips", route.trips}, {"cost", route.cost}, {"nodes", nodes}});
@@ -193,13 +194,13 @@ class AssignRun {
     return {{"from", network_->node(from).id}, {"to", network_->node(to).id}, {"used", std::move(json)}};
   }
 
-  Json tell_reach(const Equilibrium& equilibrium, std::uint32_t from, double limit) const {
+  Json tell_reach(const traffic::Equilibrium& equilibrium, std::uint32_t from, double limit) const {
     const std::vector<double> at = travel_costs(equilibrium.network(), from, equilibrium.costs());
     Json nodes = Json::object(), links = Json::array();
     for (std::uint32_t n = 0; n < at.size(); ++n)
       if (at[n] <= limit) nodes[network_->node(n).id] = at[n];
     double whole = 0;
-    for (const ReachedLink& reached : reached_links(equilibrium.network(), from, at, equilibrium.costs(), limit)) {
+    for (const traffic::ReachedLink& reached : reached_links(equilibrium.network(), from, at, equilibrium.costs(), limit)) {
       links.push_back({{"link", network_->link(reached.link).id}, {"share", reached.share}});
       whole += reached.share == 1 ? 1 : 0;
     }
@@ -212,11 +213,11 @@ class AssignRun {
   }
 
   // Iterates until the gap is reached; `gaps` gets one entry for each iteration.
-  bool iterate(Equilibrium& equilibrium, std::vector<double>& gaps) const {
+  bool iterate(traffic::Equilibrium& equilibrium, std::vector<double>& gaps) const {
     const int end = equilibrium.figures().iterations + o_.iterations;
     Progress progress;
     while (true) {
-      const EquilibriumFigures figures = equilibrium.figures();
+      const traffic::EquilibriumFigures figures = equilibrium.figures();
       gaps.push_back(figures.gap);
       if (figures.gap <= o_.gap) return true;
       if (figures.iterations >= end || is_interrupted()) return false;
@@ -226,13 +227,14 @@ class AssignRun {
   }
 
   // From the beginning, as often as asked; the state of the last run is kept.
-  std::unique_ptr<Equilibrium> settle(const std::string& label, const TrafficNetwork& network, bool& is_met) const {
-    std::unique_ptr<Equilibrium> equilibrium;
+  std::unique_ptr<traffic::Equilibrium> settle(const std::string& label, const traffic::TrafficNetwork& network,
+                                               bool& is_met) const {
+    std::unique_ptr<traffic::Equilibrium> equilibrium;
     std::vector<double> gaps, seconds;
     for (int r = 0; r < o_.repeat && (r == 0 || !is_interrupted()); ++r) {
       gaps.clear();
       const double began = now();
-      equilibrium = std::make_unique<Equilibrium>(network, demands_);
+      equilibrium = std::make_unique<traffic::Equilibrium>(network, demands_);
       is_met = iterate(*equilibrium, gaps);
       seconds.push_back(now() - began);
     }
@@ -240,7 +242,7 @@ class AssignRun {
     return equilibrium;
   }
 
-  void apply(Equilibrium& equilibrium) const {
+  void apply(traffic::Equilibrium& equilibrium) const {
     for (const Edit& edit : edits_) {
       if (edit.capacity < 0) equilibrium.set_open(edit.link, false);
       else if (auto done = equilibrium.set_capacity(edit.link, edit.capacity); !done) print_error(o_.net, done.error());
@@ -248,11 +250,11 @@ class AssignRun {
   }
 
   // The edit on the running state, and for comparison everything from the beginning.
-  bool settle_edited(Equilibrium& equilibrium) {
-    const std::vector<OriginFlow> before = equilibrium.origin_flows();
+  bool settle_edited(traffic::Equilibrium& equilibrium) {
+    const std::vector<traffic::OriginFlow> before = equilibrium.origin_flows();
     std::vector<double> gaps, seconds;
     for (int r = 1; r < o_.repeat && !is_interrupted(); ++r) {
-      Equilibrium other(*network_, demands_, before);
+      traffic::Equilibrium other(*network_, demands_, before);
       const double began = now();
       apply(other);
       iterate(other, gaps);
@@ -270,9 +272,9 @@ class AssignRun {
     return is_met;
   }
 
-  void print_row(Equilibrium& equilibrium, const std::string& label, const std::vector<double>& gaps, double seconds,
+  void print_row(traffic::Equilibrium& equilibrium, const std::string& label, const std::vector<double>& gaps, double seconds,
                  bool is_met) const {
-    const EquilibriumFigures figures = equilibrium.figures();
+    const traffic::EquilibriumFigures figures = equilibrium.figures();
     print_line();
     print_parts({{label, Colour::bold}, {is_met ? "" : " (the gap was not reached)", Colour::red}});
     print_line("  iterations  " + std::to_string(gaps.size() - 1));
@@ -290,7 +292,7 @@ class AssignRun {
                  " would cost more than 1e100: gap, objective and total are those of smaller costs, not of the formula");
   }
 
-  void tell_lost(const Equilibrium& equilibrium) const {
+  void tell_lost(const traffic::Equilibrium& equilibrium) const {
     const auto& lost = equilibrium.lost();
     for (std::size_t i = 0; i < lost.size() && i < kMostStreetLines; ++i)
       print_line("  lost        " + fixed(lost[i].trips, 1) + " trips from " + network_->node(lost[i].origin).id + " to " +
@@ -299,16 +301,16 @@ class AssignRun {
       print_line("  and " + std::to_string(lost.size() - kMostStreetLines) + " more pairs are lost; --json has all");
   }
 
-  Json compare(const Equilibrium& equilibrium) const {
+  Json compare(const traffic::Equilibrium& equilibrium) const {
     std::map<std::string, int> twins;
     double difference = 0, volume = 0, worst = 0;
     std::string worst_link, missing;
     std::size_t compared = 0;
-    for (const TntpFlows::Entry& entry : flows_->entries) {
+    for (const importing::TntpFlows::Entry& entry : flows_->entries) {
       std::string name = entry.from + "-" + entry.to;
       if (const int count = ++twins[name]; count > 1) name += "#" + std::to_string(count);
       const std::uint32_t link = network_->link_index(name);
-      if (link == kNoTrafficIndex) {
+      if (link == traffic::kNoTrafficIndex) {
         missing += (missing.empty() ? "" : ", ") + name;
         continue;
       }
@@ -327,11 +329,11 @@ class AssignRun {
     return {{"links", compared}, {"share_apart", share}, {"largest", worst}, {"at", worst_link}};
   }
 
-  static Json figures_json(Equilibrium& equilibrium) {
-    const EquilibriumFigures f = equilibrium.figures();
+  static Json figures_json(traffic::Equilibrium& equilibrium) {
+    const traffic::EquilibriumFigures f = equilibrium.figures();
     Json lost = Json::array();
-    const TrafficNetwork& network = equilibrium.network();
-    for (const LostTrips& l : equilibrium.lost())
+    const traffic::TrafficNetwork& network = equilibrium.network();
+    for (const traffic::LostTrips& l : equilibrium.lost())
       lost.push_back({{"from", network.node(l.origin).id},
                       {"to", network.node(l.destination).id},
                       {"trips", l.trips},
@@ -341,7 +343,7 @@ class AssignRun {
             {"waiting", f.waiting},       {"cut", f.cut},     {"lost", std::move(lost)}};
   }
 
-  static Json links_json(const Equilibrium& equilibrium) {
+  static Json links_json(const traffic::Equilibrium& equilibrium) {
     Json links = Json::array();
     for (std::uint32_t l = 0; l < equilibrium.network().link_count(); ++l)
       links.push_back(
@@ -350,10 +352,10 @@ class AssignRun {
   }
 
   const AssignOptions& o_;
-  std::optional<TrafficNetwork> network_;
-  std::vector<TripDemand> demands_;
-  std::optional<TntpFlows> flows_;
-  std::optional<TntpPlaces> places_;
+  std::optional<traffic::TrafficNetwork> network_;
+  std::vector<traffic::TripDemand> demands_;
+  std::optional<importing::TntpFlows> flows_;
+  std::optional<importing::TntpPlaces> places_;
   std::vector<Edit> edits_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> routes_;  // from and to
   std::vector<std::pair<std::uint32_t, double>> reach_;          // from and limit

@@ -18,25 +18,25 @@ const char* const kBoundaryForms =
 namespace {
 
 // The place of what a maker complains about: what is told of one point or plane names it already.
-Result<Domain> told(Result<ConvexDomain> made, const std::string& place) {
+Result<geometry::Domain> told(Result<geometry::ConvexDomain> made, const std::string& place) {
   if (!made) return made.error().within(place);
-  return Domain(std::move(*made));
+  return geometry::Domain(std::move(*made));
 }
 
-Result<Domain> from_vertex_list(const Json& json, const std::string& place) {
+Result<geometry::Domain> from_vertex_list(const Json& json, const std::string& place) {
   const auto list = list_at(json, "vertices", place);
   if (!list) return list.error();
   const std::string here = slash(place, "vertices");
   const auto vertices = points_at(**list, here);
   if (!vertices) return vertices.error();
-  return told(convex_hull(*vertices), here);
+  return told(geometry::convex_hull(*vertices), here);
 }
 
-Result<Domain> from_plane_list(const Json& json, const std::string& place) {
+Result<geometry::Domain> from_plane_list(const Json& json, const std::string& place) {
   const auto list = list_at(json, "planes", place);
   if (!list) return list.error();
   const std::string here = slash(place, "planes");
-  std::vector<Plane> planes;
+  std::vector<geometry::Plane> planes;
   for (std::size_t k = 0; k < (*list)->size(); ++k) {
     const auto plane = numbers_at((**list)[k], 4, "a plane [a, b, c, d]", slash(here, k));
     if (!plane) return plane.error();
@@ -63,7 +63,7 @@ Result<double> height_at(const Json& json, const char* key, const std::string& p
   return number_at(*it, slash(place, key));
 }
 
-Result<Domain> from_plan(const Json& json, const std::string& place) {
+Result<geometry::Domain> from_plan(const Json& json, const std::string& place) {
   const auto plan = ring_at(json["plan"], slash(place, "plan"));
   if (!plan) return plan.error();
   const auto bottom = height_at(json, "bottom", place), top = height_at(json, "top", place);
@@ -79,12 +79,12 @@ Result<Domain> from_plan(const Json& json, const std::string& place) {
       holes.push_back(std::move(*hole));
     }
   }
-  auto solid = extrude_plan(*plan, holes, *bottom, *top);
+  auto solid = geometry::extrude_plan(*plan, holes, *bottom, *top);
   if (!solid) return solid.error().within(place);
   return solid;
 }
 
-Result<Domain> from_mesh_object(const Json& mesh, const std::string& place) {
+Result<geometry::Domain> from_mesh_object(const Json& mesh, const std::string& place) {
   if (!mesh.is_object())
     return Error{ErrorCode::wrong_kind, place,
                  "expects {\"vertices\": [[x, y, z], ...], \"triangles\": [[i, j, k], ...]}, found " + excerpt(mesh)};
@@ -103,7 +103,7 @@ Result<Domain> from_mesh_object(const Json& mesh, const std::string& place) {
       return Error{ErrorCode::wrong_kind, here, "expects a triangle [i, j, k], found " + excerpt((**triangles)[t])};
     result.triangles.push_back({(*corners)[0], (*corners)[1], (*corners)[2]});
   }
-  auto solid = from_closed_mesh(result);
+  auto solid = geometry::from_closed_mesh(result);
   if (!solid) return solid.error().within(place);
   return solid;
 }
@@ -114,7 +114,7 @@ Result<BoundaryReading> boundary_at(const Json& json, const std::string& place) 
   if (!json.is_object()) return Error{ErrorCode::wrong_kind, place, std::string("expects ") + kBoundaryForms};
   BoundaryReading reading;
   reading.has_given_planes = json.contains("planes");
-  Result<Domain> domain =
+  Result<geometry::Domain> domain =
       Error{ErrorCode::missing, place, std::string("expects `planes`, `vertices`, `plan` or `mesh`: ") + kBoundaryForms};
   if (json.contains("planes")) domain = from_plane_list(json, place);
   else if (json.contains("vertices")) domain = from_vertex_list(json, place);

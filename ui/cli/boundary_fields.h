@@ -12,7 +12,7 @@ namespace bl::cli {
 extern const char* const kBoundaryForms;
 
 struct BoundaryReading {
-  Domain domain;
+  geometry::Domain domain;
   bool has_given_planes = false;  ///< made of planes: side `#k` is the k-th of them, and nobody needs to be told
 };
 

@@ -19,10 +19,10 @@ namespace bl::cli {
 
 namespace {
 
-Json cell_json(const CellMeasure& cell) {
+Json cell_json(const geometry::CellMeasure& cell) {
   Json facets = Json::object();
-  for (const FacetArea& facet : cell.facets)
-    facets[(facet.kind == FacetArea::Kind::plane ? "plane:" : "site:") + std::to_string(facet.index)] = facet.area;
+  for (const geometry::FacetArea& facet : cell.facets)
+    facets[(facet.kind == geometry::FacetArea::Kind::plane ? "plane:" : "site:") + std::to_string(facet.index)] = facet.area;
   return {{"volume", cell.volume},
           {"cell_volume", cell.cell_volume},
           {"surface_area", cell.surface_area},
@@ -34,31 +34,31 @@ Json cell_json(const CellMeasure& cell) {
 }
 
 // Boundary sides that nobody numbered by hand: the plane of each.
-Json side_planes(const Domain& domain) {
+Json side_planes(const geometry::Domain& domain) {
   Json planes = Json::array();
   for (std::uint32_t side = 0; side < domain.side_count; ++side) planes.push_back(nullptr);
-  for (const Domain::Piece& piece : domain.pieces)
+  for (const geometry::Domain::Piece& piece : domain.pieces)
     for (std::size_t k = 0; k < piece.sides.size(); ++k) {
-      const Plane& plane = piece.shape.planes[k];
-      if (piece.sides[k] != Domain::kInner)
+      const geometry::Plane& plane = piece.shape.planes[k];
+      if (piece.sides[k] != geometry::Domain::kInner)
         planes[piece.sides[k]] = {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset};
     }
   return planes;
 }
 
 Result<Json> solved(const SiteCase& input, bool with_complex, ThreadPool& pool) {
-  const Domain& domain = input.boundary.domain;
-  CellOptions options;
+  const geometry::Domain& domain = input.boundary.domain;
+  geometry::CellOptions options;
   options.storey_height = domain.maximum.z - domain.minimum.z;  // floor areas are not written: one storey
   options.pool = &pool;
   options.with_outlines = with_complex;
-  PowerDiagram diagram;
+  geometry::PowerDiagram diagram;
   if (auto set = diagram.set_domain(domain); !set) return set.error().within(input.place);
   const auto cells = diagram.update(input.problem.sites, options);
   if (!cells) return cells.error().within(input.place);
   Json result = Json::object();
   result["cells"] = Json::array();
-  for (const CellMeasure& cell : *cells) result["cells"].push_back(cell_json(cell));
+  for (const geometry::CellMeasure& cell : *cells) result["cells"].push_back(cell_json(cell));
   if (!input.boundary.has_given_planes) result["planes"] = side_planes(domain);
   if (with_complex) {
     auto complex = complex_json(diagram, input.problem.sites);

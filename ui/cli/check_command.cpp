@@ -75,20 +75,20 @@ void try_out(const SceneReading& reading, std::vector<Problem>& problems) {
   if (!session) return problems.push_back({true, session.error()});
   for (int i = 0; i < kTrialTicks; ++i) (*session)->tick();
   const State& state = *(*session)->state();
-  for (Error& error : report::problems_of(state)) {
+  for (Error& error : reading::problems_of(state)) {
     const bool is_known = std::any_of(problems.begin(), problems.end(), [&](const Problem& p) { return p.error == error; });
     if (is_known) continue;
     const bool is_error = !waits_for_sensor(state, reading.scene, error) && !is_wish(state, error);
     problems.push_back({is_error, std::move(error)});
   }
-  for (Error& error : unusable_sensors(reading.scene)) problems.push_back({true, std::move(error)});
+  for (Error& error : live::unusable_sensors(reading.scene)) problems.push_back({true, std::move(error)});
   try_scripts(reading.scene, problems);
   for (const auto& [node, volume] : reading::rows<reading::VolumeFigures>(state))
     if (volume.state == "coincident" || volume.state == "outside" || volume.state == "idle")
       problems.push_back({false,
                           {ErrorCode::geometry, "nodes/" + state.plan->nodes[node].id,
                            "is " + volume.state + (volume.reason.empty() ? "" : ": " + volume.reason)}});
-  if (const std::string message = report::solver_message(state); !message.empty())
+  if (const std::string message = reading::solver_message(state); !message.empty())
     problems.push_back({false, {ErrorCode::infeasible, "", message}});
 }
 
@@ -100,7 +100,7 @@ Checked check_file(const std::string& file, bool is_writing) {
     return checked;
   }
   if (file.ends_with(".lua")) {
-    auto kind = read_link_script(making::script_name(file), *text, full_registry());
+    auto kind = script::read_link_script(making::script_name(file), *text, full_registry());
     if (!kind) checked.problems.push_back({true, kind.error()});
     else if (auto fault = fault_of_kind(*kind, full_registry())) checked.problems.push_back({fault->is_certain, fault->error});
     return checked;

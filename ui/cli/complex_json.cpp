@@ -11,9 +11,9 @@ namespace {
 
 Json corner_json(const Point3& p) { return {p.x, p.y, p.z}; }
 
-Json names_json(const std::vector<ElementName>& names) {
+Json names_json(const std::vector<geometry::ElementName>& names) {
   Json list = Json::array();
-  for (const ElementName& name : names) list.push_back(name.text());
+  for (const geometry::ElementName& name : names) list.push_back(name.text());
   return list;
 }
 
@@ -29,22 +29,23 @@ Json polygons_json(const std::vector<std::vector<Point3>>& polygons) {
 
 }  // namespace
 
-Result<Json> complex_json(const PowerDiagram& diagram, std::span<const PowerSite> sites) {
-  CellComplex complex;
+Result<Json> complex_json(const geometry::PowerDiagram& diagram, std::span<const geometry::PowerSite> sites) {
+  geometry::CellComplex complex;
   if (auto built = complex.update(diagram, sites); !built) return built.error();
   Json vertices = Json::array(), edges = Json::array(), facets = Json::array();
-  for (const ElementName& name : complex.names(ElementKind::vertex)) {
+  for (const geometry::ElementName& name : complex.names(geometry::ElementKind::vertex)) {
     vertices.push_back({{"name", name.text()}, {"position", corner_json(*complex.position(name))}});
   }
-  for (const ElementName& name : complex.names(ElementKind::edge)) {
-    edges.push_back({{"name", name.text()},
-                     {"length", complex.length(name)},
-                     {"vertices", names_json(complex.incident({ElementKind::edge, name}, ElementKind::vertex))}});
+  for (const geometry::ElementName& name : complex.names(geometry::ElementKind::edge)) {
+    edges.push_back(
+        {{"name", name.text()},
+         {"length", complex.length(name)},
+         {"vertices", names_json(complex.incident({geometry::ElementKind::edge, name}, geometry::ElementKind::vertex))}});
   }
-  for (const ElementName& name : complex.names(ElementKind::facet)) {
+  for (const geometry::ElementName& name : complex.names(geometry::ElementKind::facet)) {
     facets.push_back({{"name", name.text()},
                       {"area", complex.area(name)},
-                      {"edges", names_json(complex.incident({ElementKind::facet, name}, ElementKind::edge))},
+                      {"edges", names_json(complex.incident({geometry::ElementKind::facet, name}, geometry::ElementKind::edge))},
                       {"polygons", polygons_json(complex.polygons(name))}});
   }
   return Json{{"vertices", std::move(vertices)}, {"edges", std::move(edges)}, {"facets", std::move(facets)}};

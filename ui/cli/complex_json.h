@@ -10,6 +10,6 @@
 namespace bl::cli {
 
 /// Vertices, edges and facets in the order of their names; the diagram was made from the sites, with outlines.
-Result<Json> complex_json(const PowerDiagram& diagram, std::span<const PowerSite> sites);
+Result<Json> complex_json(const geometry::PowerDiagram& diagram, std::span<const geometry::PowerSite> sites);
 
 }  // namespace bl::cli

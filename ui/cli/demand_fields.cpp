@@ -22,9 +22,9 @@ constexpr const char* kDemandForms =
 constexpr double kLargestDemand = 1e25;
 
 // What a demand without a maximum is told instead: twice what the box about the domain could hold.
-double largest_possible(const Domain& domain, const VolumeDemand& demand) {
+double largest_possible(const geometry::Domain& domain, const geometry::VolumeDemand& demand) {
   const Vector3 box = domain.maximum - domain.minimum;
-  if (demand.kind == VolumeDemand::Kind::volume) return 2 * box.x * box.y * box.z;
+  if (demand.kind == geometry::VolumeDemand::Kind::volume) return 2 * box.x * box.y * box.z;
   return 2 * box.x * box.y * (box.z / demand.storey_height + 1);
 }
 
@@ -38,7 +38,8 @@ Result<double> amount_at(const Json& json, const std::string& place) {
 }
 
 // Sets least and most from a number or from {"min", "max"}.
-Result<void> read_bounds(const Json& json, const Domain& domain, const std::string& place, VolumeDemand& demand) {
+Result<void> read_bounds(const Json& json, const geometry::Domain& domain, const std::string& place,
+                         geometry::VolumeDemand& demand) {
   if (!json.is_object()) {
     const auto amount = amount_at(json, place);
     if (!amount) return amount.error();
@@ -60,8 +61,8 @@ Result<void> read_bounds(const Json& json, const Domain& domain, const std::stri
   return {};
 }
 
-Result<VolumeDemand> demand_at(const Json& json, const Domain& domain, const std::string& place) {
-  VolumeDemand demand;
+Result<geometry::VolumeDemand> demand_at(const Json& json, const geometry::Domain& domain, const std::string& place) {
+  geometry::VolumeDemand demand;
   if (!json.is_number() && !json.is_object())
     return Error{ErrorCode::wrong_kind, place, std::string("expects ") + kDemandForms + ", found " + excerpt(json)};
   if (!json.is_object() || !(json.contains("floor_area") || json.contains("storey_height"))) {
@@ -71,15 +72,15 @@ Result<VolumeDemand> demand_at(const Json& json, const Domain& domain, const std
   if (auto checked = check_keys(json, {"floor_area", "storey_height"}, place); !checked) return checked.error();
   if (!json.contains("floor_area"))
     return Error{ErrorCode::missing, slash(place, "floor_area"), "`floor_area` is missing beside `storey_height`"};
-  demand.kind = VolumeDemand::Kind::floor_area;
+  demand.kind = geometry::VolumeDemand::Kind::floor_area;
   if (json.contains("storey_height")) {
     const std::string here = slash(place, "storey_height");
     const auto height = number_at(json["storey_height"], here);
     if (!height) return height.error();
-    const double least = (domain.maximum.z - domain.minimum.z) / kMostStoreys;
-    if (!(*height > 0) || *height < least || *height > 2 * kLargestCoordinate)
+    const double least = (domain.maximum.z - domain.minimum.z) / geometry::kMostStoreys;
+    if (!(*height > 0) || *height < least || *height > 2 * geometry::kLargestCoordinate)
       return Error{ErrorCode::out_of_range, here,
-                   "must be a height in m with at most " + shortest(kMostStoreys) + " storeys in the boundary, found " +
+                   "must be a height in m with at most " + shortest(geometry::kMostStoreys) + " storeys in the boundary, found " +
                        excerpt(json["storey_height"])};
     demand.storey_height = *height;
   }
@@ -167,7 +168,7 @@ Result<void> check_kept(const Json& json, const SiteCase& c) {
                  "there is no demand to meet: give one to a site or group that is not locked"};
   if (json.contains("weights")) return {};
   std::vector<bool> is_free(c.problem.sites.size(), false);
-  for (const VolumeDemand& demand : c.problem.demands)
+  for (const geometry::VolumeDemand& demand : c.problem.demands)
     for (const std::uint32_t site : demand.sites) is_free[site] = true;
   const auto kept = std::find(is_free.begin(), is_free.end(), false);
   if (kept == is_free.end()) return {};
@@ -180,9 +181,9 @@ Result<void> check_kept(const Json& json, const SiteCase& c) {
 
 std::string line_place(std::size_t line) { return "line " + std::to_string(line); }
 
-bool has_demand(const SiteRow& row) { return row.demand || row.demand_min || row.demand_max; }
+bool has_demand(const importing::SiteRow& row) { return row.demand || row.demand_min || row.demand_max; }
 
-Result<VolumeDemand> demand_of(const SiteRow& row, const Domain& domain) {
+Result<geometry::VolumeDemand> demand_of(const importing::SiteRow& row, const geometry::Domain& domain) {
   if (row.demand && (row.demand_min || row.demand_max))
     return Error{ErrorCode::conflict, line_place(row.line),
                  "gives both a demand and bounds of it: keep `demand`, or `demand_min` and `demand_max`"};
@@ -194,7 +195,8 @@ Result<VolumeDemand> demand_of(const SiteRow& row, const Domain& domain) {
 }
 
 // A row joins the group of its text; the demand of a group stands in one of its rows, or alike in several.
-Result<void> join_group(const SiteRow& row, const SiteRow& first, VolumeDemand& group, SiteCase& into) {
+Result<void> join_group(const importing::SiteRow& row, const importing::SiteRow& first, geometry::VolumeDemand& group,
+                        SiteCase& into) {
   if (!has_demand(row)) return {};
   auto demand = demand_of(row, into.boundary.domain);
   if (!demand) return demand.error();
@@ -219,21 +221,21 @@ Result<void> read_demands(const Json& json, SiteCase& into) {
   return read ? check_kept(json, into) : read;
 }
 
-Result<void> read_demands(const SiteTable& table, SiteCase& into) {
+Result<void> read_demands(const importing::SiteTable& table, SiteCase& into) {
   const std::string header = line_place(table.header_line);
   if (!table.has_demands)
     return Error{ErrorCode::missing, header,
-                 "there is no column demand, demand_min or demand_max; accepted are " + site_table_columns()};
+                 "there is no column demand, demand_min or demand_max; accepted are " + importing::site_table_columns()};
   struct Group {
-    std::size_t demand = 0;         // index into the problem's demands
-    const SiteRow* told = nullptr;  // the row whose demand it has, or its first row
+    std::size_t demand = 0;                    // index into the problem's demands
+    const importing::SiteRow* told = nullptr;  // the row whose demand it has, or its first row
   };
   std::map<std::string, Group> groups;
   for (std::uint32_t site = 0; site < table.rows.size(); ++site) {
-    const SiteRow& row = table.rows[site];
+    const importing::SiteRow& row = table.rows[site];
     const auto known = row.group.empty() ? groups.end() : groups.find(row.group);
     if (known != groups.end()) {
-      VolumeDemand& demand = into.problem.demands[known->second.demand];
+      geometry::VolumeDemand& demand = into.problem.demands[known->second.demand];
       if (auto joined = join_group(row, *known->second.told, demand, into); !joined) return joined.error();
       if (has_demand(row)) known->second.told = &row;
       demand.sites.push_back(site);
@@ -243,7 +245,8 @@ Result<void> read_demands(const SiteTable& table, SiteCase& into) {
       if (row.weight) continue;
       return Error{ErrorCode::missing, line_place(row.line), "gives neither a demand nor a weight to keep: give one of them"};
     }
-    auto demand = has_demand(row) ? demand_of(row, into.boundary.domain) : Result<VolumeDemand>(VolumeDemand{});
+    auto demand =
+        has_demand(row) ? demand_of(row, into.boundary.domain) : Result<geometry::VolumeDemand>(geometry::VolumeDemand{});
     if (!demand) return demand.error();
     demand->sites = {site};
     if (!row.group.empty()) groups[row.group] = {into.problem.demands.size(), &row};

@@ -11,6 +11,6 @@ namespace bl::cli {
 Result<void> read_demands(const Json& json, SiteCase& into);
 
 /// The same from the columns of a table.
-Result<void> read_demands(const SiteTable& table, SiteCase& into);
+Result<void> read_demands(const importing::SiteTable& table, SiteCase& into);
 
 }  // namespace bl::cli

@@ -34,9 +34,9 @@ std::string amount(double number) {
 
 Json number_or_null(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
-Json fit_json(const VolumeFit& fit, const FitProblem& problem) {
+Json fit_json(const geometry::VolumeFit& fit, const geometry::FitProblem& problem) {
   Json losses = Json::array();
-  for (const VolumeLoss& loss : fit.losses)
+  for (const geometry::VolumeLoss& loss : fit.losses)
     losses.push_back({{"demand", loss.demand},
                       {"sites", problem.demands[loss.demand].sites},
                       {"wanted", number_or_null(loss.wanted)},
@@ -52,17 +52,17 @@ Json fit_json(const VolumeFit& fit, const FitProblem& problem) {
 }
 
 // What is said of cases that an interrupt left no time for: they keep what they came with.
-VolumeFit not_begun(const FitProblem& problem) {
-  VolumeFit fit;
-  for (const PowerSite& site : problem.sites) fit.weights.push_back(site.weight);
+geometry::VolumeFit not_begun(const geometry::FitProblem& problem) {
+  geometry::VolumeFit fit;
+  for (const geometry::PowerSite& site : problem.sites) fit.weights.push_back(site.weight);
   fit.max_relative_error = std::numeric_limits<double>::quiet_NaN();  // nobody knows
-  fit.status = FitStatus::cancelled;
+  fit.status = geometry::FitStatus::cancelled;
   fit.reasons.emplace_back("was not begun");
   return fit;
 }
 
 // "2, 5, 7": the sites of a demand by number or name.
-std::string sites_text(const VolumeDemand& demand, const SiteCase& c) {
+std::string sites_text(const geometry::VolumeDemand& demand, const SiteCase& c) {
   std::string text;
   for (std::size_t i = 0; i < demand.sites.size(); ++i) {
     if (i == 6) return text + ", ...";
@@ -103,8 +103,8 @@ class FitRun {
     for (std::size_t i = 0; i < input.cases.size(); ++i) {
       const std::string label =
           input.is_list ? "case " + std::to_string(i + 1) + " of " + std::to_string(input.cases.size()) + ", " : "";
-      auto fit =
-          is_interrupted() ? Result<VolumeFit>(not_begun(input.cases[i].problem)) : fit_one(input.cases[i], label, progress);
+      auto fit = is_interrupted() ? Result<geometry::VolumeFit>(not_begun(input.cases[i].problem))
+                                  : fit_one(input.cases[i], label, progress);
       if (!fit) {
         progress.clear();
         print_error(options_.input, fit.error().within(input.cases[i].place));
@@ -115,9 +115,9 @@ class FitRun {
     return is_all_well;
   }
 
-  Result<VolumeFit> fit_one(const SiteCase& c, const std::string& label, Progress& progress) const {
-    VolumeFitOptions how;
-    how.method = options_.method == "feedback" ? FitMethod::feedback : FitMethod::newton;
+  Result<geometry::VolumeFit> fit_one(const SiteCase& c, const std::string& label, Progress& progress) const {
+    geometry::VolumeFitOptions how;
+    how.method = options_.method == "feedback" ? geometry::FitMethod::feedback : geometry::FitMethod::newton;
     how.tolerance = options_.tolerance;
     how.most_steps = options_.steps;
     how.pool = pool_;
@@ -140,20 +140,20 @@ class FitRun {
   }
 
   // Why a case is not met, and who goes without.
-  void tell(const SiteCase& c, const VolumeFit& fit) {
+  void tell(const SiteCase& c, const geometry::VolumeFit& fit) {
     // Of cases that were stopped nobody may know it: then there is no largest one.
     is_error_known_ = is_error_known_ && std::isfinite(fit.max_relative_error);
     worst_error_ = std::max(worst_error_, fit.max_relative_error);
     evaluations_ += fit.evaluations;
     iterations_ += fit.iterations;
-    if (fit.status == FitStatus::met) {
+    if (fit.status == geometry::FitStatus::met) {
       ++met_;
       return;
     }
     std::vector<std::string> reasons = fit.reasons;
     if (reasons.empty()) reasons.push_back(own_reason(c, fit));
     for (std::size_t i = 0; i < reasons.size() && i < kMostLines; ++i)
-      print_error(options_.input, {ErrorCode::infeasible, c.place, with_names(reasons[i], c.names)});
+      print_error(options_.input, {ErrorCode::infeasible, c.place, geometry::with_names(reasons[i], c.names)});
     if (reasons.size() > kMostLines)
       print_error(options_.input,
                   {ErrorCode::infeasible, c.place,
@@ -161,32 +161,33 @@ class FitRun {
     print_losses(c, fit);
   }
 
-  std::string own_reason(const SiteCase& c, const VolumeFit& fit) const {
+  std::string own_reason(const SiteCase& c, const geometry::VolumeFit& fit) const {
     if (!std::isfinite(fit.max_relative_error)) return "stopped before it was known how near the demands are";
     std::string state = "the largest relative error is " + rough(fit.max_relative_error);
     if (fit.worst_demand < c.problem.demands.size()) {
-      const VolumeDemand& demand = c.problem.demands[fit.worst_demand];
+      const geometry::VolumeDemand& demand = c.problem.demands[fit.worst_demand];
       state += ", of demand " + std::to_string(fit.worst_demand) + (demand.sites.size() == 1 ? " (site " : " (sites ") +
                sites_text(demand, c) + ")";
     }
     const std::string effort = counted(static_cast<std::size_t>(fit.evaluations), "evaluation");
-    if (fit.status == FitStatus::cancelled) return "stopped after " + effort + "; " + state;
-    if (fit.status == FitStatus::infeasible) return "the demands cannot be met together; " + state;
+    if (fit.status == geometry::FitStatus::cancelled) return "stopped after " + effort + "; " + state;
+    if (fit.status == geometry::FitStatus::infeasible) return "the demands cannot be met together; " + state;
     return "not met after " + effort + "; " + state + ": give it more by --steps" +
            (options_.method == "feedback" ? ", or take --method newton" : "");
   }
 
-  static void print_losses(const SiteCase& c, const VolumeFit& fit) {
+  static void print_losses(const SiteCase& c, const geometry::VolumeFit& fit) {
     if (fit.losses.empty()) return;
-    std::vector<VolumeLoss> losses = fit.losses;
-    std::stable_sort(losses.begin(), losses.end(),
-                     [](const VolumeLoss& a, const VolumeLoss& b) { return a.wanted - a.had > b.wanted - b.had; });
+    std::vector<geometry::VolumeLoss> losses = fit.losses;
+    std::stable_sort(losses.begin(), losses.end(), [](const geometry::VolumeLoss& a, const geometry::VolumeLoss& b) {
+      return a.wanted - a.had > b.wanted - b.had;
+    });
     if (!c.place.empty()) print_line(c.place + ":");
     TextTable table({{"demand", true}, {"sites"}, {"wanted", true}, {"had", true}, {"short by %", true}});
     for (std::size_t i = 0; i < losses.size() && i < kMostLines; ++i) {
-      const VolumeLoss& loss = losses[i];
-      const VolumeDemand& demand = c.problem.demands[loss.demand];
-      const std::string unit = demand.kind == VolumeDemand::Kind::volume ? " m³" : " m²";
+      const geometry::VolumeLoss& loss = losses[i];
+      const geometry::VolumeDemand& demand = c.problem.demands[loss.demand];
+      const std::string unit = demand.kind == geometry::VolumeDemand::Kind::volume ? " m³" : " m²";
       table.add({std::to_string(loss.demand), sites_text(demand, c), amount(loss.wanted) + unit, amount(loss.had) + unit,
                  loss.wanted > 0 ? fixed(100 * (loss.wanted - loss.had) / loss.wanted, 2) : ""});
     }
@@ -206,7 +207,7 @@ class FitRun {
 
   const FitFileOptions& options_;
   ThreadPool* pool_ = nullptr;
-  std::vector<VolumeFit> fits_;
+  std::vector<geometry::VolumeFit> fits_;
   std::size_t met_ = 0;
   long long iterations_ = 0, evaluations_ = 0;
   double worst_error_ = 0;

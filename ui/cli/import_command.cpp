@@ -30,15 +30,16 @@ void print_counts(const making::ImportedScene& imported) {
     TextTable table({{"outcome"}, {"kind"}, {"number", true}, {"what it is, or why not"}});
     for (const auto& [key, number] : report.counts()) {
       const auto& [outcome, kind, reason] = key;
-      const Colour colour = outcome == ImportOutcome::taken      ? Colour::plain
-                            : outcome == ImportOutcome::repaired ? Colour::yellow
-                                                                 : Colour::dim;
+      const Colour colour = outcome == importing::ImportOutcome::taken      ? Colour::plain
+                            : outcome == importing::ImportOutcome::repaired ? Colour::yellow
+                                                                            : Colour::dim;
       table.add({std::string(name_of(outcome)), kind, std::to_string(number), reason}, colour);
     }
     table.print();
-    print_line("total: " + std::to_string(report.count(ImportOutcome::taken)) + " taken, " +
-               std::to_string(report.count(ImportOutcome::repaired)) + " repaired, " +
-               std::to_string(report.count(ImportOutcome::skipped)) + " skipped of " + counted(report.total(), "element"));
+    print_line("total: " + std::to_string(report.count(importing::ImportOutcome::taken)) + " taken, " +
+               std::to_string(report.count(importing::ImportOutcome::repaired)) + " repaired, " +
+               std::to_string(report.count(importing::ImportOutcome::skipped)) + " skipped of " +
+               counted(report.total(), "element"));
   }
 }
 
@@ -50,7 +51,7 @@ bool is_there(const std::string& file) {
 // Shows on a terminal how far an import is, and has Ctrl-C end it between two elements. Without a thread to be had it is silent.
 class ImportDisplay {
  public:
-  ImportDisplay(const std::vector<std::string>& files, ImportWatch& watch) : files_(files), watch_(watch) {
+  ImportDisplay(const std::vector<std::string>& files, importing::ImportWatch& watch) : files_(files), watch_(watch) {
     catch_interrupts();
     try {
       thread_ = std::thread([this] { run(); });
@@ -92,7 +93,7 @@ class ImportDisplay {
   }
 
   const std::vector<std::string>& files_;
-  ImportWatch& watch_;
+  importing::ImportWatch& watch_;
   std::atomic<bool> is_over_{false}, is_paused_{false};
   std::thread thread_;
 };
@@ -124,7 +125,7 @@ bool asks_to_clear(std::size_t buildings, const std::string& site) {
 }
 
 // An old report must not stand for an import that failed.
-bool write_import_report(const making::ImportOptions& options, const ImportReports& reports) {
+bool write_import_report(const making::ImportOptions& options, const importing::ImportReports& reports) {
   if (options.report.empty()) return true;
   auto written = write_file(options.report, import_csv(reports));
   if (!written) print_error(options.report, written.error());
@@ -133,8 +134,9 @@ bool write_import_report(const making::ImportOptions& options, const ImportRepor
 
 // Why none of the files was imported, in a row for each.
 bool write_refusal(const making::ImportOptions& options, const std::string& why) {
-  ImportReports nothing;
-  for (const std::string& file : options.files) nothing.emplace_back(file, ImportReport()).second.skip("file", "", why);
+  importing::ImportReports nothing;
+  for (const std::string& file : options.files)
+    nothing.emplace_back(file, importing::ImportReport()).second.skip("file", "", why);
   return write_import_report(options, nothing);
 }
 
@@ -194,7 +196,7 @@ int import_command(const making::ImportOptions& given) {
     (void)write_refusal(options, "the scene that it was to be written to exists already");
     return kBadInput;
   }
-  ImportWatch watch;
+  importing::ImportWatch watch;
   options.context.watch = &watch;
   std::optional<ImportDisplay> display(std::in_place, options.files, watch);
   if (::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1)

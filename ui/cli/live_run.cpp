@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kBetweenReadings = 1;  // [s]
 
-std::string call(const ConnectionStatus& status) { return (status.is_sensor ? "sensor " : "actuator ") + status.node; }
+std::string call(const live::ConnectionStatus& status) { return (status.is_sensor ? "sensor " : "actuator ") + status.node; }
 
 // "3.2 m, good", or why not.
 std::string reading_of(const State& state, const std::string& node) {
@@ -28,7 +28,7 @@ std::string reading_of(const State& state, const std::string& node) {
 }
 
 // Rows that were not played are told of, since a scene may settle before a recording ends.
-std::string rows_of(const ConnectionStatus& status) {
+std::string rows_of(const live::ConnectionStatus& status) {
   std::string text = "; " + std::to_string(status.played) + " of " + std::to_string(status.rows) + " rows played";
   if (status.played < status.rows) text += ", " + std::to_string(status.rows - status.played) + " come after the end of the run";
   if (status.empty > 0) text += ", besides " + std::to_string(status.empty) + " without a reading";
@@ -38,7 +38,7 @@ std::string rows_of(const ConnectionStatus& status) {
 
 }  // namespace
 
-LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere, Clock& clock)
+LiveRun::LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere, host::Clock& clock)
     : is_live_(is_live),
       rate_(rate),
       devices_({std::filesystem::path(scene_file).parent_path().string(), is_live, {}, reads_anywhere}),
@@ -56,7 +56,7 @@ void LiveRun::before_tick(Session& session) {
 
 // Once for each fault: an address may be set while the scene runs.
 void LiveRun::tell_unusable(const Scene& scene) {
-  for (const Error& error : unusable_sensors(scene))
+  for (const Error& error : live::unusable_sensors(scene))
     if (unusable_.insert(error.text()).second) print_error("", error);
 }
 
@@ -70,7 +70,7 @@ void LiveRun::after_tick(const Session& session) {
 // Only what is new: a sensor that stands still needs no lines.
 void LiveRun::tell_readings(const State& state) {
   told_readings_ = clock_->now();
-  for (const ConnectionStatus& status : devices_.status()) {
+  for (const live::ConnectionStatus& status : devices_.status()) {
     if (!status.is_sensor) continue;
     const std::string reading = reading_of(state, status.node);
     std::string& last = read_[status.node];
@@ -80,7 +80,7 @@ void LiveRun::tell_readings(const State& state) {
 }
 
 void LiveRun::tell() {
-  for (const ConnectionStatus& status : devices_.status()) {
+  for (const live::ConnectionStatus& status : devices_.status()) {
     std::string& told = told_[call(status)];
     if (told == status.line) continue;
     told = status.line;
@@ -90,12 +90,12 @@ void LiveRun::tell() {
 
 void LiveRun::wait(const Session& session) {
   if (!is_live_) return;
-  pace_.wait(rate_ > 0 ? 1 / rate_ : tick_length(session.scene(), full_registry()), is_interrupted);
+  pace_.wait(rate_ > 0 ? 1 / rate_ : host::tick_length(session.scene(), full_registry()), is_interrupted);
 }
 
 void LiveRun::sum_up(const State& state) const {
-  for (const ConnectionStatus& status : devices_.status()) {
-    const Traffic& t = status.traffic;
+  for (const live::ConnectionStatus& status : devices_.status()) {
+    const live::Traffic& t = status.traffic;
     std::string text = call(status) + ": ";
     if (status.is_sensor)
       text += counted(static_cast<std::size_t>(t.received), "message") + ", " + std::to_string(t.skipped) + " of them skipped" +

@@ -14,7 +14,8 @@ namespace bl::cli {
 class LiveRun {
  public:
   /// `rate` in ticks per second; 0 for the pace that the sensors' tick lengths say.
-  LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere = false, Clock& clock = real_clock());
+  LiveRun(const std::string& scene_file, bool is_live, double rate, bool reads_anywhere = false,
+          host::Clock& clock = host::real_clock());
 
   /// Hands the session what has come for its next tick.
   void before_tick(Session& session);
@@ -32,13 +33,13 @@ class LiveRun {
 
   bool is_live_;
   double rate_;
-  DeviceDoor devices_;
+  host::DeviceDoor devices_;
   std::map<std::string, std::string> told_;  // by sensor or actuator: the last sentence about its connection
   std::set<std::string> unusable_;           // sentences about sensors' addresses that were told
   std::map<std::string, std::string> read_;  // by node: the last sentence about its value
-  Clock* clock_;
+  host::Clock* clock_;
   double told_readings_;  // [s] on the clock
-  Pace pace_;
+  host::Pace pace_;
 };
 
 }  // namespace bl::cli

@@ -64,7 +64,9 @@ void declare_run(CLI::App& app, RunOptions& o) {
   c.add_option("--save", o.save, "Saves the scene with its running state, to continue later; may be the scene itself.")
       ->type_name("FILE");
   files_of(c).reads({"scene", "--script"}).writes("--log", FileKind::log).writes("--json", FileKind::figures);
-  files_of(c).writes("--save", FileKind::scene, "scene").fills("--report", {".html", ".csv", ".obj"}, may_fill_with_report);
+  files_of(c)
+      .writes("--save", FileKind::scene, "scene")
+      .fills("--report", {".html", ".csv", ".obj"}, report::may_fill_with_report);
   c.footer(
       "Example:\n  behaviourlinks run scenes/start/quarter.json --set site/boundary.height=\"60 m\" --report proposal\n\n"
       "Exit codes: 0 settled, or all ticks done; 2 bad input; 3 not settled; 130 stopped by Ctrl-C, with everything written.");

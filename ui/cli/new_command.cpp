@@ -16,7 +16,7 @@ namespace {
 constexpr double kTightFill = 0.9;
 
 void print_figures(const making::NewOptions& o, const making::MadeScene& made) {
-  const PlanBoundary& plan = *made.plan;
+  const importing::PlanBoundary& plan = *made.plan;
   const making::SceneParts& parts = made.parts;
   const double plan_area = made.plan_area, demand = made.demand, space = plan_area * parts.height, fill = made.fill();
   const std::string added = plan_area > plan.area ? ", of which the hull adds " + fixed(plan_area - plan.area, 1) + " m²" : "";

@@ -90,7 +90,7 @@ class Run {
 
   void record(const State& state) {
     if (options_.report.empty()) return;
-    ErrorSample sample{state.tick, 0, 0, state.largest_move};
+    reading::ErrorSample sample{state.tick, 0, 0, state.largest_move};
     const auto volumes = reading::rows<reading::VolumeFigures>(state);
     for (const auto& [node, volume] : volumes) {
       sample.worst_error = std::max(sample.worst_error, volume.error);
@@ -126,7 +126,7 @@ class Run {
     }
   }
 
-  std::string outcome(const report::Survey& survey) const {
+  std::string outcome(const reading::Survey& survey) const {
     const State& state = *session_->state();
     const auto idle = static_cast<std::size_t>(
         std::count_if(state.links.begin(), state.links.end(), [](const LinkState& link) { return link.has_failed(); }));
@@ -148,7 +148,7 @@ class Run {
     const std::shared_ptr<const State> state = session_->state();
     // What people and programs read: the sums of this tick beside the figures of this tick.
     const State seen = with_sums_of_now(*state);
-    const report::Survey survey = report::survey_of(seen);
+    const reading::Survey survey = reading::survey_of(seen);
     const std::string last_line = outcome(survey);
     bool is_saved = true;
     if (log_.is_open()) {
@@ -166,7 +166,8 @@ class Run {
     if (!options_.json.empty())
       is_saved &= write(options_.json, write_file(options_.json, write_json(survey_json(survey, seen, last_line)) + "\n"));
     if (!options_.report.empty())
-      is_saved &= write(options_.report, write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
+      is_saved &=
+          write(options_.report, report::write_report(options_.report, {state.get(), history_, options_.scene, last_line}));
     print_survey(survey, seen);
     live_.sum_up(*state);
     const bool is_whole =
@@ -180,7 +181,7 @@ class Run {
   std::unique_ptr<Session> session_;
   std::shared_ptr<const State> before_;
   LogWriter log_;
-  std::vector<ErrorSample> history_;
+  std::vector<reading::ErrorSample> history_;
 };
 
 }  // namespace

@@ -20,11 +20,11 @@ constexpr std::size_t kShownTensions = 10, kShownPulls = 4;
 std::string hundredths(double share, int decimals = 2) { return fixed(100 * share, decimals); }
 
 // A percentage of nothing says nothing; who is not short has no figure.
-std::string short_text(const report::Account& account, double tolerance) {
+std::string short_text(const reading::Account& account, double tolerance) {
   return account.is_short(tolerance) ? hundredths(account.short_share(), 1) : "";
 }
 
-void print_volumes(const report::Survey& survey, double tolerance) {
+void print_volumes(const reading::Survey& survey, double tolerance) {
   if (survey.volumes.empty()) return print_line("There are no SmartVolumes in this scene.");
   TextTable table({{"volume"},
                    {"use"},
@@ -36,7 +36,7 @@ void print_volumes(const report::Survey& survey, double tolerance) {
                    {"floor m²", true},
                    {"surface m²", true},
                    {"state"}});
-  for (const report::VolumeRow& row : survey.volumes) {
+  for (const reading::VolumeRow& row : survey.volumes) {
     const std::string name = row.name.empty() || row.name == row.id ? row.id : row.id + " (" + row.name + ")";
     const std::string state = row.figures.reason.empty() ? row.figures.state : row.figures.state + ": " + row.figures.reason;
     const Colour colour = !row.is_alive                                                     ? Colour::red
@@ -50,7 +50,7 @@ void print_volumes(const report::Survey& survey, double tolerance) {
   table.print();
 }
 
-void print_totals(const report::Survey& survey) {
+void print_totals(const reading::Survey& survey) {
   if (survey.volumes.empty() && survey.uses.empty()) return;
   print_line();
   TextTable table({{"use"},
@@ -62,25 +62,25 @@ void print_totals(const report::Survey& survey) {
                    {"volume m³", true},
                    {"short %", true},
                    {"why"}});
-  const auto add = [&](const report::UseRow& row) {
-    const report::UseAccount& use = row.account;
+  const auto add = [&](const reading::UseRow& row) {
+    const reading::UseAccount& use = row.account;
     table.add({use.use.empty() ? "(none)" : use.use, std::to_string(use.volumes),
                use.is_in_programme ? fixed(use.asked_area, 1) : "no row", fixed(use.floor_area, 1), fixed(use.asked, 1),
                fixed(use.limited, 1), fixed(use.volume, 1), short_text(use, survey.tolerance), row.why_short},
               use.is_short(survey.tolerance) ? Colour::yellow : Colour::plain);
   };
-  for (const report::UseRow& use : survey.uses) add(use);
+  for (const reading::UseRow& use : survey.uses) add(use);
   if (survey.uses.size() > 1) {
     table.rule();
     add(survey.all);
   }
   table.print();
-  for (const report::SolverRow& solver : survey.solvers)
+  for (const reading::SolverRow& solver : survey.solvers)
     if (solver.figures.boundary_volume > 0)
       print_line(solver.id + ": " + fixed(solver.figures.total_volume, 1) + " of " + fixed(solver.figures.total_demand, 1) +
                  " m³ in a boundary of " + fixed(solver.figures.boundary_volume, 1) + " m³ (" +
                  hundredths(solver.figures.total_volume / solver.figures.boundary_volume, 1) + " % full)");
-  for (const report::SolverRow& solver : survey.solvers)
+  for (const reading::SolverRow& solver : survey.solvers)
     if (!solver.message.empty()) print_line(solver.id + ": " + solver.message, Colour::red);
 }
 
@@ -91,12 +91,12 @@ std::string amount(const Value& value, const std::string& unit) {
   return fixed(as_number(value), 3) + suffix;
 }
 
-void print_tensions(const report::Survey& survey) {
+void print_tensions(const reading::Survey& survey) {
   if (survey.tensions.empty()) return;
   print_line();
   TextTable table({{"conflict at"}, {"port"}, {"tension", true}, {"links that pull"}});
   for (std::size_t i = 0; i < std::min(kShownTensions, survey.tensions.size()); ++i) {
-    const report::TensionRow& row = survey.tensions[i];
+    const reading::TensionRow& row = survey.tensions[i];
     std::string pulls;
     for (std::size_t p = 0; p < std::min(kShownPulls, row.pulls.size()); ++p)
       pulls += (p > 0 ? ", " : "") +
@@ -114,7 +114,7 @@ void print_tensions(const report::Survey& survey) {
 
 }  // namespace
 
-void print_survey(const report::Survey& survey, const State& state) {
+void print_survey(const reading::Survey& survey, const State& state) {
   // What volumes have before a solver has seen them is nobody's result, and no reason for anything.
   if (state.tick == 0) return;
   print_volumes(survey, state.plan->settings.tolerance);
@@ -129,7 +129,7 @@ namespace {
 
 Json point_json(const Vector3& v) { return Json::array({v.x, v.y, v.z}); }
 
-Json volume_json(const report::VolumeRow& row, const std::string& why_short) {
+Json volume_json(const reading::VolumeRow& row, const std::string& why_short) {
   return {{"id", row.id},
           {"name", row.name},
           {"use", row.use},
@@ -156,8 +156,8 @@ Json volume_json(const report::VolumeRow& row, const std::string& why_short) {
           {"reason", row.figures.reason}};
 }
 
-Json use_json(const report::UseRow& row) {
-  const report::UseAccount& use = row.account;
+Json use_json(const reading::UseRow& row) {
+  const reading::UseAccount& use = row.account;
   return {{"use", use.use},
           {"in_programme", use.is_in_programme},
           {"volumes", use.volumes},
@@ -176,11 +176,11 @@ Json use_json(const report::UseRow& row) {
           {"why_short", row.why_short}};
 }
 
-Json tension_json(const report::TensionRow& row, const State& state) {
+Json tension_json(const reading::TensionRow& row, const State& state) {
   Json pulls = Json::array();
   const auto path = parse_port_path(row.port);
   const auto ref = state.plan->find(state.plan->node_index(row.node), *path);
-  for (const report::Pull& pull : row.pulls) {
+  for (const reading::Pull& pull : row.pulls) {
     Json voice = Json::object();
     if (pull.link.empty()) voice["by_hand"] = pull.is_locked ? "locked" : "set";
     else voice["link"] = pull.link;
@@ -193,7 +193,7 @@ Json tension_json(const report::TensionRow& row, const State& state) {
 
 }  // namespace
 
-Json survey_json(const report::Survey& survey, const State& state, const std::string& outcome) {
+Json survey_json(const reading::Survey& survey, const State& state, const std::string& outcome) {
   Json json = Json::object();
   json["ticks"] = state.tick;
   json["settled"] = state.is_settled();
@@ -215,18 +215,18 @@ Json survey_json(const report::Survey& survey, const State& state, const std::st
   Json& totals = json["totals"] = use_json(survey.all);
   totals.erase("use");
   totals["uses"] = Json::array();
-  for (const report::UseRow& use : survey.uses) totals["uses"].push_back(use_json(use));
+  for (const reading::UseRow& use : survey.uses) totals["uses"].push_back(use_json(use));
   totals["solvers"] = Json::array();
-  for (const report::SolverRow& solver : survey.solvers)
+  for (const reading::SolverRow& solver : survey.solvers)
     totals["solvers"].push_back({{"id", solver.id},
                                  {"message", solver.message},
                                  {"boundary_volume", solver.figures.boundary_volume},
                                  {"total_demand", solver.figures.total_demand},
                                  {"total_volume", solver.figures.total_volume}});
   json["tensions"] = Json::array();
-  for (const report::TensionRow& row : survey.tensions) json["tensions"].push_back(tension_json(row, state));
+  for (const reading::TensionRow& row : survey.tensions) json["tensions"].push_back(tension_json(row, state));
   json["conflicts_by"] = Json::array();
-  for (const report::PullerRow& row : survey.pullers)
+  for (const reading::PullerRow& row : survey.pullers)
     json["conflicts_by"].push_back({{"link", row.link}, {"kind", row.kind}, {"conflicts", row.conflicts}, {"share", row.share}});
   // Streets, sun, plots, surroundings: whatever the scene has of them.
   const Json figures = report::figure_json(state);

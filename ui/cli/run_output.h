@@ -14,9 +14,9 @@ namespace bl::cli {
 inline constexpr std::string_view kNothingComputed = "nothing has been computed yet; run a tick or more";
 
 /// Nothing of a scene that has not run a tick.
-void print_survey(const report::Survey& survey, const State& state);
+void print_survey(const reading::Survey& survey, const State& state);
 
 /// The content of --json. `outcome`: the last line of the run.
-Json survey_json(const report::Survey& survey, const State& state, const std::string& outcome);
+Json survey_json(const reading::Survey& survey, const State& state, const std::string& outcome);
 
 }  // namespace bl::cli

@@ -24,13 +24,14 @@ Mover fastest(const State& state, const State* before) {
   if (before == nullptr || before->plan != state.plan) return mover;
   for (std::uint32_t n = 0; n < state.nodes.size(); ++n) {
     using reading::NodePlace;
-    const double moved = distance(reading::read<&NodePlace::position>(*before, n), reading::read<&NodePlace::position>(state, n));
+    const double moved = distance(reading::read<&reading::NodePlace::position>(*before, n),
+                                  reading::read<&reading::NodePlace::position>(state, n));
     if (moved > mover.distance) mover = {state.plan->nodes[n].id, moved};
   }
   return mover;
 }
 
-std::string of_worst(const State& state, const report::VolumeAccount& worst) {
+std::string of_worst(const State& state, const reading::VolumeAccount& worst) {
   const reading::VolumeFigures& figures = worst.figures;
   std::string text =
       "`" + state.plan->nodes[worst.node].id + "` has " + fixed(worst.volume, 1) + " of " + fixed(worst.limited, 1) + " m³";
@@ -69,14 +70,15 @@ bool SettleWatch::is_hopeless(const State& state) {
   if (!is_calm || is_better || state.calm > 0) idle_ = 0;
   else ++idle_;
   if (idle_ >= kLongPatience) return true;
-  return idle_ >= kPatience && (!report::solver_message(state).empty() || has_failure(state));
+  return idle_ >= kPatience && (!reading::solver_message(state).empty() || has_failure(state));
 }
 
 std::string why_not_settled(const State& state, const State* before) {
   // A collapse comes before what follows from it.
-  if (const auto collapsed = report::collapsed_volumes(state); !collapsed.empty()) return collapsed.front().sentence();
-  if (const std::string message = report::solver_message(state); !message.empty()) return "the demands cannot be met: " + message;
-  const std::vector<report::VolumeAccount> volumes = report::accounts_of(state).volumes;
+  if (const auto collapsed = reading::collapsed_volumes(state); !collapsed.empty()) return collapsed.front().sentence();
+  if (const std::string message = reading::solver_message(state); !message.empty())
+    return "the demands cannot be met: " + message;
+  const std::vector<reading::VolumeAccount> volumes = reading::accounts_of(state).volumes;
   const auto worst = std::max_element(volumes.begin(), volumes.end(),
                                       [](const auto& a, const auto& b) { return a.figures.error < b.figures.error; });
   const Settings& settings = state.plan->settings;

@@ -30,7 +30,7 @@ Result<Json> json_of(const std::string& text) {
     return Error{ErrorCode::missing, "", "the file is empty: it needs a JSON object, see --help"};
   auto json = parse_json(text);
   if (json) return json;
-  const std::string_view body = trimmed(text), line = body.substr(0, body.find('\n'));
+  const std::string_view body = csv::trimmed(text), line = body.substr(0, body.find('\n'));
   const bool is_like_a_header =
       !line.empty() && line.front() != '{' && line.front() != '[' && line.find_first_of(",;\t") != line.npos;
   Error error = json.error();
@@ -38,11 +38,11 @@ Result<Json> json_of(const std::string& text) {
   return error;
 }
 
-Result<void> check_site(const PowerSite& site, const std::string& place, const std::string& weight_place) {
+Result<void> check_site(const geometry::PowerSite& site, const std::string& place, const std::string& weight_place) {
   const Point3& p = site.position;
-  if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kLargestCoordinate)
+  if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > geometry::kLargestCoordinate)
     return Error{ErrorCode::out_of_range, place, "lies more than 1e8 m from the origin: move the origin near the sites"};
-  if (std::abs(site.weight) > kLargestWeight)
+  if (std::abs(site.weight) > geometry::kLargestWeight)
     return Error{ErrorCode::out_of_range, weight_place,
                  "a weight is at most 1e18 m², found " + shortest(site.weight) + ": it is a squared radius"};
   return {};
@@ -75,7 +75,7 @@ class Reader {
   void from_table(const std::string& text) {
     if (boundary_ == nullptr)
       return fail({ErrorCode::missing, "", "a table has no boundary: give one as JSON by --boundary FILE"});
-    const auto table = read_site_table(text);
+    const auto table = importing::read_site_table(text);
     if (!table) return fail(table.error());
     result_.notes = table->notes;
     auto only = case_of(*table);
@@ -83,14 +83,15 @@ class Reader {
     result_.content.cases.push_back(std::move(*only));
   }
 
-  Result<SiteCase> case_of(const SiteTable& table) const {
+  Result<SiteCase> case_of(const importing::SiteTable& table) const {
     const std::string header = "line " + std::to_string(table.header_line);
     if (table.rows.empty()) return Error{ErrorCode::missing, header, "there are no sites below the header: add a row for each"};
     if (purpose_ == CasePurpose::cells && !table.has_weights)
-      return Error{ErrorCode::missing, header, "there is no column weight or radius; accepted are " + site_table_columns()};
+      return Error{ErrorCode::missing, header,
+                   "there is no column weight or radius; accepted are " + importing::site_table_columns()};
     SiteCase result;
     result.boundary = *boundary_;
-    for (const SiteRow& row : table.rows) {
+    for (const importing::SiteRow& row : table.rows) {
       const std::string line = "line " + std::to_string(row.line);
       if (purpose_ == CasePurpose::cells && !row.weight)
         return Error{ErrorCode::missing, line, "the site has no weight: give one, in m²"};
@@ -98,7 +99,8 @@ class Reader {
       if (auto checked = check_site(result.problem.sites.back(), line, line); !checked) return checked.error();
       result.names.push_back(row.name.empty() ? "site " + std::to_string(result.names.size()) : row.name);
     }
-    const bool is_named = std::any_of(table.rows.begin(), table.rows.end(), [](const SiteRow& row) { return !row.name.empty(); });
+    const bool is_named =
+        std::any_of(table.rows.begin(), table.rows.end(), [](const importing::SiteRow& row) { return !row.name.empty(); });
     if (!is_named) result.names.clear();
     if (purpose_ == CasePurpose::fit)
       if (auto read = read_demands(table, result); !read) return read.error();
@@ -162,7 +164,7 @@ class Reader {
       return Error{ErrorCode::conflict, weights_place,
                    "there are " + counted(points->size(), "site") + ", but " + counted((*weights)->size(), "weight")};
     for (std::size_t i = 0; i < points->size(); ++i) {
-      PowerSite site{(*points)[i], 0};
+      geometry::PowerSite site{(*points)[i], 0};
       if (has_weights) {
         const auto weight = number_at((**weights)[i], slash(weights_place, i));
         if (!weight) return weight.error();

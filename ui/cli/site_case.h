@@ -15,7 +15,7 @@ enum class CasePurpose { cells, fit };
 struct SiteCase {
   std::string place;  ///< "cases/3" in a list, else empty
   BoundaryReading boundary;
-  FitProblem problem;              ///< without demands where only cells are wanted
+  geometry::FitProblem problem;    ///< without demands where only cells are wanted
   std::vector<std::string> names;  ///< what people call the sites; empty: nothing but their numbers
 };
 

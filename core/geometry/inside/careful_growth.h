@@ -7,7 +7,7 @@
 
 #include "core/geometry/inside/fit_numbers.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Changes of volume [m³] towards the demands: what is missing; or, for a careful step, growth by the 2/3 power of what it takes.
 /// The large ones grow all at once, into the same small neighbours, and would empty them. What all together ask for stays what it
@@ -30,4 +30,4 @@ inline std::vector<double> changes_towards(std::span<const double> demands, std:
   return changes;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include "core/geometry/inside/none.h"
 #include "core/geometry/inside/shape_measure.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -235,4 +235,4 @@ void CellMaker::make(const CellInput& ground, std::uint32_t site, bool whole) {
   if (is_convex && (outline.is_empty() || (!is_sure && cell_.is_flat()))) part_count_ = 0;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -10,7 +10,7 @@
 #include "core/geometry/inside/site_grid.h"
 #include "core/geometry/power_neighbours.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// What all threads read while cells are made.
 struct CellInput {
@@ -84,4 +84,4 @@ class CellMaker {
   std::uint32_t free_link_ = 0;  // the first of those that nobody needs any more
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

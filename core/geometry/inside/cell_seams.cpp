@@ -9,7 +9,7 @@
 
 #include "core/geometry/inside/seam_outline.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -398,4 +398,4 @@ std::vector<OpenPart> open_parts(std::span<const Polyhedron> parts, std::span<co
   return SeamMaker(parts, shapes, squared_radius).run();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include "core/geometry/inside/shape_measure.h"
 #include "core/geometry/tessellate.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// What is to be divided and wrapped of one part: its faces without the openings. A part without openings is closed. Along an
 /// opening two parts have the same corners but for rounding, and both wrap its rim onto the same circle, so that together they
@@ -31,4 +31,4 @@ double seam_tolerance(std::span<const Polyhedron> parts);
 /// wrapping moves them onto the circle.
 std::vector<OpenPart> open_parts(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes, double squared_radius);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -10,7 +10,7 @@
 #include "core/geometry/inside/none.h"
 #include "core/geometry/tessellate.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -157,4 +157,4 @@ std::optional<std::vector<Polyhedron>> trimmed_parts(std::span<const Polyhedron>
   return left;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include "core/geometry/inside/shape_measure.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Cells hold at most so many times the volume of their shape when they are divided for a mesh.
 inline constexpr double kMostTrimmedShare = 1.7;
@@ -19,4 +19,4 @@ inline constexpr double kMostTrimmedShare = 1.7;
 std::optional<std::vector<Polyhedron>> trimmed_parts(std::span<const Polyhedron> parts, std::span<const ShapeMeasure> shapes,
                                                      const PowerSite& site, const Point3& centroid);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -86,4 +86,4 @@ CellView read_cell(const Point3& site, ElementLabel own, std::span<const Polyhed
   return view;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

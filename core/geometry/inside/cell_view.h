@@ -9,7 +9,7 @@
 #include "core/geometry/element_name.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// The unshrunk cell of one site in labels that last, so that two views of one cell can be compared whatever the order of the
 /// sites was. A function of the cell alone: it knows nothing of what its neighbours see.
@@ -48,4 +48,4 @@ struct CellView {
 CellView read_cell(const Point3& site, ElementLabel own, std::span<const Polyhedron> parts, std::span<const std::uint32_t> labels,
                    double tolerance);
 
-}  // namespace bl
+}  // namespace bl::geometry

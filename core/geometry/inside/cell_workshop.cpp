@@ -16,7 +16,7 @@
 #include "core/geometry/inside/none.h"
 #include "core/geometry/inside/plan_cover.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -371,4 +371,4 @@ Result<void> check_sites(std::span<const PowerSite> sites) {
   return {};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -11,7 +11,7 @@
 #include "core/geometry/inside/shape_measure.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// What one thread needs to make and measure cells.
 struct CellBench {
@@ -86,4 +86,4 @@ class CellWorkshop {
 /// Fails on what cannot be computed with: numbers that are not finite or absurd.
 Result<void> check_sites(std::span<const PowerSite> sites);
 
-}  // namespace bl
+}  // namespace bl::geometry

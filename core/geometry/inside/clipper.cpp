@@ -8,7 +8,7 @@
 
 #include "core/geometry/inside/lane_pair.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -391,4 +391,4 @@ bool Clipper::is_flat() const {
   });
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

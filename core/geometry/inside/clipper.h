@@ -9,7 +9,7 @@
 #include "core/base/vector.h"
 #include "core/geometry/inside/polyhedron.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Kept so that a cut touches little memory and allocates nothing once warm: exactly three faces meet at each vertex (a corner
 /// of the shape where more meet is several vertices at one place), vertices know their three neighbours, coordinates lie in
@@ -140,4 +140,4 @@ class Clipper {
   std::uint32_t seen_count_ = 0;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -4,7 +4,7 @@
 
 #include "core/geometry/inside/clipper.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -156,4 +156,4 @@ void Clipper::write_split_faces(Polyhedron& out) {
   }
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -10,7 +10,7 @@
 
 #include "core/geometry/inside/none.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -59,4 +59,4 @@ void find_coincident(std::span<const PowerSite> sites, double tolerance, std::ve
   }
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -6,7 +6,7 @@
 
 #include "core/geometry/inside/complex_store.h"
 
-namespace bl {
+namespace bl::geometry {
 
 struct CellComplex::Body {
   ComplexStore store;
@@ -23,4 +23,4 @@ struct CellComplex::Body {
   void list_all();
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

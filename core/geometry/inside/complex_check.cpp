@@ -6,7 +6,7 @@
 #include "core/geometry/inside/complex_update.h"
 #include "core/geometry/inside/none.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -209,4 +209,4 @@ std::vector<std::string> CellComplex::verify() const {
   return recount.complaints;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

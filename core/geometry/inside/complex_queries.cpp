@@ -7,7 +7,7 @@
 
 #include "core/geometry/inside/complex_body.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -196,4 +196,4 @@ std::string CellComplex::listing() const {
   return text;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

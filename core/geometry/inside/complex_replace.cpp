@@ -6,7 +6,7 @@
 
 #include "core/geometry/inside/complex_update.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -127,4 +127,4 @@ void ComplexUpdate::exchange_views(Fresh fresh, bool keeps_corners) {
   for (const auto& [cell, view] : fresh) visited_.push_back(cell);
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

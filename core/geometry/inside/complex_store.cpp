@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -259,4 +259,4 @@ std::vector<Point3> ComplexStore::geometry(const ElementKey& element) const {
   return all;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -9,7 +9,7 @@
 #include "core/geometry/cell_complex.h"
 #include "core/geometry/inside/cell_view.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Nodes are the places where corners of cells meet; between two nodes runs a segment, around a polygon lie nodes. In general
 /// position they are the vertices, edges and facets. Where cells are nearly lined up, slivers end somewhere along an edge: such
@@ -109,4 +109,4 @@ class ComplexStore {
 /// Points by x, then y, then z.
 bool comes_before(const Point3& a, const Point3& b);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -6,7 +6,7 @@
 
 #include "core/geometry/inside/none.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -365,4 +365,4 @@ void ComplexUpdate::replace(std::vector<std::pair<std::uint32_t, CellView>> fres
   store_.unsettled.clear();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

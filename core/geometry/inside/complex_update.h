@@ -7,7 +7,7 @@
 
 #include "core/geometry/inside/complex_store.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Corners are one place when a chain of links joins them. A link joins two corners of neighbouring cells that carry the same
 /// key; where the neighbour has no such key, and within a cell along its edges, two corners nearer than the tolerance. That is
@@ -73,4 +73,4 @@ class ComplexUpdate {
   std::size_t elements_made_ = 0;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -6,7 +6,7 @@
 
 #include "core/base/stop_check.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// What the loop works on; kept between two solutions it saves the memory's making.
 struct GradientVectors {
@@ -54,4 +54,4 @@ void conjugate_gradients(const Rows& rows, GradientVectors& v, int most_iteratio
   }
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

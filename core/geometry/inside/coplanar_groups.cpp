@@ -9,7 +9,7 @@
 #include "core/base/mathematics.h"
 #include "core/geometry/inside/none.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -129,4 +129,4 @@ CoplanarGroups coplanar_groups(std::span<const Point3> points, std::span<const s
   return Grouper(points, triangles).run();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 
 #include "core/geometry/convex_domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Group g lies in planes[g]. Groups are sorted by the polar sector of the normal, then by offset.
 struct CoplanarGroups {
@@ -20,4 +20,4 @@ struct CoplanarGroups {
 /// once; points and triangles are sorted, so that the answer depends on the shape alone.
 CoplanarGroups coplanar_groups(std::span<const Point3> points, std::span<const std::array<std::uint32_t, 3>> triangles);
 
-}  // namespace bl
+}  // namespace bl::geometry

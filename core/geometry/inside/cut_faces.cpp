@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::optional<Plane> best_plane(const SolidPart& part, std::span<const CutFace> 
   return best != nullptr ? std::optional<Plane>(faces[best->face].plane) : std::nullopt;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

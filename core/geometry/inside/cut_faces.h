@@ -7,7 +7,7 @@
 
 #include "core/geometry/solid_part.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A face of the surface that parts are split along.
 struct CutFace {
@@ -24,4 +24,4 @@ std::vector<std::uint32_t> crossing_faces(const SolidPart& part, std::span<const
 std::optional<Plane> best_plane(const SolidPart& part, std::span<const CutFace> faces, std::span<const std::uint32_t> crossing,
                                 double tolerance);
 
-}  // namespace bl
+}  // namespace bl::geometry

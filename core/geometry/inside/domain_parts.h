@@ -6,7 +6,7 @@
 
 #include "core/geometry/convex_domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Every coordinate finite and no larger than kLargestCoordinate, or an error that names the point as "`what` number".
 Result<void> check_points(std::span<const Point3> points, std::string_view what);
@@ -17,4 +17,4 @@ Result<ConvexDomain> finish_domain(ConvexDomain domain);
 /// Every edge has one triangle on either side, turned the same way; at least 4 triangles; no vertex that is not there.
 Result<void> check_closed(const Mesh& mesh);
 
-}  // namespace bl
+}  // namespace bl::geometry

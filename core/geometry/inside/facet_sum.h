@@ -8,7 +8,7 @@
 #include "core/base/mathematics.h"
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::geometry {
 
 // A sum of angles as a product of complex numbers with the full turns counted: one arctangent for the whole sum.
 class AngleSum {
@@ -146,4 +146,4 @@ class FacetSum {
   bool meets_edge_ = false;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -5,7 +5,7 @@
 #include "core/geometry/inside/fit_numbers.h"
 #include "core/geometry/inside/weight_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -71,4 +71,4 @@ void WeightFit::move_by_gain(std::span<const CellMeasure> cells) {
   }
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace bl {
+namespace bl::geometry {
 
 /// Cube root by Newton's steps from a power of two; 0 for what is not positive.
 inline double cube_root(double x) {
@@ -25,4 +25,4 @@ inline double weight_of_cube(double cube) {
 /// The weight [m²] whose whole ball has this volume [m³].
 inline double weight_of_volume(double volume) { return weight_of_cube(volume / (4 * std::numbers::pi / 3)); }
 
-}  // namespace bl
+}  // namespace bl::geometry

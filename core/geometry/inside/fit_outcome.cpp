@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -104,4 +104,4 @@ void explain_losses(const FitProblem& problem, std::span<const CellMeasure> cell
   if (more > 0) fit.reasons.push_back("and " + std::to_string(more) + " more demands that are not met");
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

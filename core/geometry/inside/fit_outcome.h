@@ -7,7 +7,7 @@
 
 #include "core/geometry/volume_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Replaces demands on floor areas by demands on volumes, one storey high; false where there are none.
 bool ask_for_volumes(FitProblem& problem);
@@ -28,4 +28,4 @@ std::string sites_text(const VolumeDemand& demand);
 /// Adds to `fit.reasons` the sites that share a position, and each loss with what its cell says; so many, and a count of more.
 void explain_losses(const FitProblem& problem, std::span<const CellMeasure> cells, VolumeFit& fit);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -7,7 +7,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -154,4 +154,4 @@ double FitTargets::error(std::size_t target) const {
   return bound > 0 ? std::abs(total_[target] - bound) / bound : 0;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

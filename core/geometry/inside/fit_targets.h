@@ -8,7 +8,7 @@
 
 #include "core/geometry/demand_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Bounds that make sense, sites that are there and belong to one demand only; or an error that names what is wrong.
 Result<void> check_demands(const FitProblem& problem);
@@ -67,4 +67,4 @@ class FitTargets {
   bool is_full_ = false;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <exception>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -73,4 +73,4 @@ Result<std::vector<std::array<std::uint32_t, 3>>> hull_triangles(std::span<const
   return Error{ErrorCode::internal, "", std::string("the convex hull failed: ") + problem.what()};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -6,7 +6,7 @@
 #include "core/geometry/demand_fit.h"
 #include "core/geometry/inside/fit_numbers.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::vector<double> initial_weights(const Domain& domain, std::span<const PowerS
   return weights;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace bl {
+namespace bl::geometry {
 
 typedef double LanePair __attribute__((vector_size(16), aligned(8)));
 typedef std::int64_t LaneAnswers __attribute__((vector_size(16)));
@@ -34,4 +34,4 @@ inline std::uint64_t bits_of(const LaneAnswers& answers) {
 /// The lowest bits of 64: as many as there are, at most.
 inline std::uint64_t lowest_bits(std::uint32_t count) { return count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0}; }
 
-}  // namespace bl
+}  // namespace bl::geometry

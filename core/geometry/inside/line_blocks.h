@@ -10,7 +10,7 @@
 
 #include "core/geometry/inside/line_sums.h"
 
-namespace bl {
+namespace bl::geometry {
 
 struct LineBlock {
   std::array<int, 3> low{}, high{};  ///< steps [low, high) along each axis
@@ -112,4 +112,4 @@ std::vector<LineTask> tasks_of(const SampleFrame& frame, std::span<const FrameSi
   return tasks;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -9,7 +9,7 @@
 
 #include "core/geometry/inside/site_metric.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A site as a line sees it.
 struct SiteOnLine {
@@ -108,4 +108,4 @@ void walk_line(std::span<const SiteOnLine> sites, double from, double to, double
   visit(owner, t, to, count);
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

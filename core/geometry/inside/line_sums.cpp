@@ -9,7 +9,7 @@
 #include "core/geometry/inside/line_blocks.h"
 #include "core/geometry/inside/line_envelope.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -319,4 +319,4 @@ std::vector<UprightSums> sum_upright(Metric metric, const SampleFrame& frame, co
   return sum_upright_lines<Metric::multiplicative>(frame, lines, sites, participants, storeys, pool);
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

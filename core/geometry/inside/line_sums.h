@@ -10,7 +10,7 @@
 #include "core/geometry/inside/site_metric.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A site in the frame of the grid.
 struct FrameSite {
@@ -55,4 +55,4 @@ std::vector<UprightSums> sum_upright(Metric metric, const SampleFrame& frame, co
                                      std::span<const FrameSite> sites, std::span<const std::uint32_t> participants,
                                      std::span<const double> storeys, ThreadPool* pool);
 
-}  // namespace bl
+}  // namespace bl::geometry

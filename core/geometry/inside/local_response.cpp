@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -159,4 +159,4 @@ void LocalResponse::apply(std::span<const std::uint32_t> active, double share, s
   }
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include "core/geometry/inside/conjugate_gradients.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// The matrix dV_i/dw_j as in ResponseSystem, for sites whose cells are made anew at different times. A bond of two sites has one
 /// value, that of the cell made last; so the matrix stays symmetric.
@@ -61,4 +61,4 @@ class LocalResponse {
   std::vector<double> shift_;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -9,7 +9,7 @@
 
 #include "core/geometry/inside/mesh_shells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -89,4 +89,4 @@ Result<std::vector<TrianglePair>> crossing_triangles(const Mesh& mesh) try {
   return Error{ErrorCode::internal, "", std::string("the check of the mesh failed: ") + problem.what()};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

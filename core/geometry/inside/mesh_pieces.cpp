@@ -11,7 +11,7 @@
 #include "core/geometry/inside/mesh_shells.h"
 #include "core/geometry/inside/part_faces.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -81,4 +81,4 @@ Result<Domain> from_closed_mesh(const Mesh& given) {
   return settled_domain(*parts, walls, tolerance, static_cast<std::uint32_t>(groups.planes.size()));
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

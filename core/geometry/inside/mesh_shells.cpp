@@ -12,7 +12,7 @@
 #include "core/base/text.h"
 #include "core/geometry/inside/domain_parts.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -132,4 +132,4 @@ Result<Mesh> ready_mesh(const Mesh& mesh) {
   return result;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -7,7 +7,7 @@
 #include "core/base/mesh.h"
 #include "core/base/result.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// The same solid with each place one vertex, vertices and triangles sorted, and each shell turned outward, or, where it bounds a
 /// cavity of another, into the cavity. Errors name the place where the mesh is open, crosses or touches itself.
@@ -23,4 +23,4 @@ struct TrianglePair {
 };
 Result<std::vector<TrianglePair>> crossing_triangles(const Mesh& mesh);
 
-}  // namespace bl
+}  // namespace bl::geometry

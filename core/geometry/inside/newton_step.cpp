@@ -7,7 +7,7 @@
 #include "core/geometry/inside/response_system.h"
 #include "core/geometry/inside/weight_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -182,4 +182,4 @@ void WeightFit::follow(std::size_t i, double from) {
   state.previous_move[i] = cube_of_radius(sites_[i].weight) - from;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

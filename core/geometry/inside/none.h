@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-namespace bl {
+namespace bl::geometry {
 
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-}  // namespace bl
+}  // namespace bl::geometry

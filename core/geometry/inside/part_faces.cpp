@@ -8,7 +8,7 @@
 
 #include "core/base/text.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -321,4 +321,4 @@ Result<void> check_volume(double kept, double wanted) {
                    shortest(wanted) + " m³ would be lost"};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

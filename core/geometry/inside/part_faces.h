@@ -5,7 +5,7 @@
 
 #include "core/geometry/solid_part.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// A part on its way into a domain. `whole` is the piece that it was, as long as nothing was cut off it: such a piece comes out
 /// with the same bits.
@@ -32,4 +32,4 @@ Result<Domain> settled_domain(const std::vector<LoosePart>& parts, const std::ve
 /// Fails where the pieces that were too thin to keep had more than 1e-9 of the volume.
 Result<void> check_volume(double kept, double wanted);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -40,4 +40,4 @@ void PlanBuckets::near(const Point3& point, double radius, double share, const s
   }
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

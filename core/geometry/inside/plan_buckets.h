@@ -9,7 +9,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::geometry {
 
 class PlanBuckets {
  public:
@@ -29,4 +29,4 @@ class PlanBuckets {
   std::vector<Size> sizes_;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

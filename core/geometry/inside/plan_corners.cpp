@@ -8,7 +8,7 @@
 #include "core/geometry/inside/domain_parts.h"
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -128,4 +128,4 @@ ConvexDomain prism(const std::vector<PlanCorner>& plan, double bottom, double to
   return domain;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

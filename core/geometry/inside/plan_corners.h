@@ -8,7 +8,7 @@
 #include "core/base/result.h"
 #include "core/geometry/convex_domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 struct PlanCorner {
   double x = 0, y = 0;
@@ -37,4 +37,4 @@ Result<void> check_heights(double bottom, double top);
 /// The upright column over a convex polygon: planes and faces are bottom, top and one wall per side.
 ConvexDomain prism(const std::vector<PlanCorner>& plan, double bottom, double top);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -9,7 +9,7 @@
 
 #include "core/geometry/inside/shape_outline.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -255,4 +255,4 @@ double plan_cover(std::span<const Polyhedron> parts, std::span<const ShapeMeasur
   return PlanUnion(parts, shapes, squared_radius).area();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include "core/geometry/inside/plan_pieces.h"
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -102,4 +102,4 @@ Result<Domain> extrude_plan(std::span<const Point3> plan, std::span<const std::v
   return domain;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -16,7 +16,7 @@
 
 #include "core/geometry/plan_ring.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -311,4 +311,4 @@ Result<std::vector<PlanPiece>> plan_pieces(const std::vector<std::vector<PlanCor
   return Error{ErrorCode::geometry, "", "the rings of the plan cross within rounding: move the corners apart"};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

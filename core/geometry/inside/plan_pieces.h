@@ -8,7 +8,7 @@
 #include "core/base/result.h"
 #include "core/geometry/inside/plan_corners.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// One convex polygon of a plan, counter-clockwise.
 struct PlanPiece {
@@ -34,4 +34,4 @@ struct LabelledPolygon {
 Result<std::vector<LabelledPolygon>> labelled_pieces(const std::vector<std::vector<PlanCorner>>& rings,
                                                      const std::function<int(const Point3&)>& label_at);
 
-}  // namespace bl
+}  // namespace bl::geometry

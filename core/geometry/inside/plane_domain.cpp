@@ -7,7 +7,7 @@
 #include "core/geometry/inside/clipper.h"
 #include "core/geometry/inside/domain_parts.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -127,4 +127,4 @@ Result<ConvexDomain> from_planes(std::span<const Plane> input) {
   return finish_domain(exact_domain(shape, *planes, origin));
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

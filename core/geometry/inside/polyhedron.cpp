@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bl {
+namespace bl::geometry {
 
 double volume_and_centroid(const Polyhedron& shape, Point3& centroid) {
   if (shape.is_empty()) return 0;
@@ -46,4 +46,4 @@ Polyhedron polyhedron_of(const ConvexDomain& domain, const Point3& origin) {
   return shape;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

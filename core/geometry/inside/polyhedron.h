@@ -8,7 +8,7 @@
 #include "core/base/vector.h"
 #include "core/geometry/convex_domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// What a face lies on. The order of the kinds is the order of faces.
 enum class FaceKind : std::uint8_t {
@@ -52,4 +52,4 @@ double volume_and_centroid(const Polyhedron& shape, Point3& centroid);
 /// A convex domain, moved so that `origin` becomes the origin.
 Polyhedron polyhedron_of(const ConvexDomain& domain, const Point3& origin);
 
-}  // namespace bl
+}  // namespace bl::geometry

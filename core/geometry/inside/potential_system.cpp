@@ -7,7 +7,7 @@
 #include "core/geometry/inside/conjugate_gradients.h"
 #include "core/geometry/inside/none.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::vector<double> solve_potentials(const SampledCells& cells, std::span<const 
   return std::move(vectors.solution);
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -7,7 +7,7 @@
 
 #include "core/geometry/inside/sampled_diagram.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Changes of potential per unknown for wanted changes of volume [m³]. `unknown_of` gives per site the unknown that its potential
 /// moves with (several sites may share one), or 0xffffffff for sites that stay. The matrix has -response off the diagonal and, on
@@ -16,4 +16,4 @@ namespace bl {
 std::vector<double> solve_potentials(const SampledCells& cells, std::span<const std::uint32_t> unknown_of,
                                      std::span<const double> wanted, double tolerance);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::geometry {
 
 // Four numbers worked on at a time.
 typedef float LaneQuad __attribute__((vector_size(16), may_alias));
@@ -124,4 +124,4 @@ struct Hits {
   }
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -7,7 +7,7 @@
 
 #include "core/geometry/inside/none.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -186,4 +186,4 @@ RayCell::Measure RayCell::measure(RayResponse& others) {
   return made;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -10,7 +10,7 @@
 #include "core/geometry/inside/ray_cast.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// What all cells see of each other: a place for each site, those of neighbours near to each other in memory.
 struct RayScene {
@@ -72,4 +72,4 @@ class RayCell {
   std::vector<float> area_;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

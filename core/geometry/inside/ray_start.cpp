@@ -13,7 +13,7 @@
 #include "core/geometry/inside/ray_cell.h"
 #include "core/geometry/inside/site_grid.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -253,4 +253,4 @@ std::vector<double> weights_by_rays(const Domain& domain, std::span<const PowerS
   return fit.weights();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

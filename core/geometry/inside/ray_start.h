@@ -8,7 +8,7 @@
 #include "core/geometry/domain.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Weights [m²] that come nearer to the demands [m³], one per site, than the given ones, which `initial_weights` has made. Each
 /// cell is measured along fifty fixed rays, some tenths off at worst; three steps with that take less time than one exact
@@ -18,4 +18,4 @@ namespace bl {
 std::vector<double> weights_by_rays(const Domain& domain, std::span<const PowerSite> sites, std::vector<double> weights,
                                     std::span<const double> demands, ThreadPool* pool = nullptr);
 
-}  // namespace bl
+}  // namespace bl::geometry

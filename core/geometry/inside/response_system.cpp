@@ -8,7 +8,7 @@
 
 #include "core/geometry/inside/conjugate_gradients.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -72,4 +72,4 @@ std::vector<double> ResponseSystem::solve(std::span<const double> wanted, std::s
   return std::move(vectors.solution);
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -7,7 +7,7 @@
 
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// The matrix dV_i/dw_j of the sites that are free to move: off the diagonal -A_ij / (2 d_ij), on it the sum of these plus
 /// spherical area / (2 radius). Symmetric and positive definite while some shape has a free surface.
@@ -32,4 +32,4 @@ class ResponseSystem {
   std::vector<std::uint32_t> unknown_of_;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

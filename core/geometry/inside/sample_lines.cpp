@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -156,4 +156,4 @@ void SampleLines::build(const Domain& domain, const SampleFrame& frame, std::siz
   }
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

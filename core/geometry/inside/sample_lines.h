@@ -9,7 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/geometry/domain.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Axes of a sampling grid and where its lines run. Coordinates in it are relative to the middle of the domain's box.
 struct SampleFrame {
@@ -68,4 +68,4 @@ class SampleLines {
   std::size_t count_ = 0;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -14,7 +14,7 @@
 #include "core/geometry/inside/none.h"
 #include "core/geometry/inside/sample_lines.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -276,4 +276,4 @@ Result<SampledCells> sampled_cells(const Domain& domain, std::span<const PowerSi
   return diagram.measure(sites, options);
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

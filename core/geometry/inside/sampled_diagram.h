@@ -10,7 +10,7 @@
 #include "core/geometry/inside/site_metric.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// "power", "additive", "multiplicative".
 std::string_view name_of(Metric metric);
@@ -73,4 +73,4 @@ class SampledDiagram {
   std::unique_ptr<Ground> ground_;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

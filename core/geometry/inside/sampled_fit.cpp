@@ -13,7 +13,7 @@
 #include "core/geometry/inside/fit_targets.h"
 #include "core/geometry/inside/sampled_newton.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -187,4 +187,4 @@ Result<VolumeFit> sampled_fit(const Domain& domain, const FitProblem& problem, c
   return Error{ErrorCode::internal, "", std::string("the sampled fit failed: ") + trouble.what()};
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

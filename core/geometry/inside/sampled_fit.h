@@ -10,7 +10,7 @@
 #include "core/geometry/inside/sampled_diagram.h"
 #include "core/geometry/volume_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 
 struct SampledFitOptions {
   Metric metric = Metric::power;
@@ -39,4 +39,4 @@ Result<SampledSteps> adapt_sampled_weights(const Domain& domain, std::span<const
 /// `volumes` and errors are those of the samples. Deterministic: the same bits with any number of threads.
 Result<VolumeFit> sampled_fit(const Domain& domain, const FitProblem& problem, const SampledFitOptions& options = {});
 
-}  // namespace bl
+}  // namespace bl::geometry

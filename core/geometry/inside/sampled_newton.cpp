@@ -10,7 +10,7 @@
 #include "core/geometry/inside/fit_numbers.h"
 #include "core/geometry/inside/potential_system.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -288,4 +288,4 @@ void SampledNewton::repair() {
   for (std::size_t i = 0; i < sites_.size(); ++i) sites_[i].weight = weights[i];
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -10,7 +10,7 @@
 #include "core/geometry/inside/fit_targets.h"
 #include "core/geometry/inside/sampled_diagram.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// The fit as a thing that is measured and moved in turn: measure(), look at error() and is_met(), then move() or stop.
 class SampledNewton {
@@ -74,4 +74,4 @@ class SampledNewton {
   bool is_met_ = false, is_settled_ = false;
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bl {
+namespace bl::geometry {
 
 std::pair<Polygon, Polygon> cut_outline(const Polygon& polygon, const Vector3& outward, double offset, double tolerance) {
   std::pair<Polygon, Polygon> sides;
@@ -56,4 +56,4 @@ Point3 nearest_in_outline(const Polygon& polygon, const Vector3& normal, double 
   return is_inside ? foot : best;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -5,7 +5,7 @@
 
 #include "core/geometry/solid_part.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// The parts of a polygon within (outward·x <= offset) and beyond a line; corners within the tolerance [m] of the line belong to
 /// both. A part that nowhere leaves the line by more is empty.
@@ -20,4 +20,4 @@ double outline_area(const Polygon& polygon);
 /// The point of a polygon that is nearest to the origin; its plane is normal·x = offset.
 Point3 nearest_in_outline(const Polygon& polygon, const Vector3& normal, double offset);
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include "core/geometry/inside/shape_measure.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -168,4 +168,4 @@ double footprint_area(const Polyhedron& cell, double squared_radius, const Shape
   return sum;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -7,7 +7,7 @@
 
 #include "core/geometry/inside/facet_sum.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -113,4 +113,4 @@ void measure_shape(const Polyhedron& cell, double squared_radius, double cell_vo
   out.centroid = moment / out.volume;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

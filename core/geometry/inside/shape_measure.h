@@ -5,7 +5,7 @@
 
 #include "core/geometry/inside/polyhedron.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Measures of the shape, relative to the ball's centre, which is the polyhedron's origin. Lengths in metres.
 struct ShapeMeasure {
@@ -38,4 +38,4 @@ double floor_area(const Polyhedron& cell, double squared_radius, const ShapeMeas
 /// below it and of downward facets above it (all other surface is covered by these, seen from above).
 double footprint_area(const Polyhedron& cell, double squared_radius, const ShapeMeasure& shape);
 
-}  // namespace bl
+}  // namespace bl::geometry

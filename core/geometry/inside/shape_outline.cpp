@@ -6,7 +6,7 @@
 
 #include "core/base/mathematics.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -278,4 +278,4 @@ void outline_in_plan(const Polyhedron& cell, double squared_radius, double toler
   OutlineMaker(cell, squared_radius, tolerance, out).run();
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -5,7 +5,7 @@
 
 #include "core/geometry/inside/shape_measure.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// y = level + slope (x - middle) + bulge sqrt(width² - (x - middle)²) for x from `from` to `to` [m]. A straight stretch has no
 /// bulge. Anything else is a circle on the ball, in the plane normal·p = offset, as it is seen from above.
@@ -26,4 +26,4 @@ struct PlanArc {
 /// are left out.
 void outline_in_plan(const Polyhedron& cell, double squared_radius, double tolerance, std::vector<PlanArc>& out);
 
-}  // namespace bl
+}  // namespace bl::geometry

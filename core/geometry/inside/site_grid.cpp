@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -222,4 +222,4 @@ std::uint32_t SiteGrid::least_power(const Point3& p) const {
   return found;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

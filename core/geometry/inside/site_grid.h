@@ -12,7 +12,7 @@
 #include "core/geometry/inside/lane_pair.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// Sites in cubic blocks of about equal number. In the order of the blocks their data lie side by side in memory.
 class SiteGrid {
@@ -216,4 +216,4 @@ class SiteGrid {
   std::vector<Entry> strays_;  // sites that have left their blocks
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -6,7 +6,7 @@
 
 #include "core/base/vector.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// With d = |x - p| and the radius r = sqrt(weight) a point belongs to the site of least d² - r², d - r, or d / r. In all three
 /// the ball d <= r is where the site is "nearer than nothing", so shapes are shrink-wrapped by the same balls.
@@ -38,4 +38,4 @@ inline double radius_by_potential(Metric metric, double radius) {
   return metric == Metric::power ? 1 / (2 * radius) : metric == Metric::additive ? 1.0 : radius;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

@@ -8,7 +8,7 @@
 #include "core/geometry/inside/cut_faces.h"
 #include "core/geometry/inside/part_faces.h"
 
-namespace bl {
+namespace bl::geometry {
 
 namespace {
 
@@ -266,4 +266,4 @@ Mesh to_mesh(const Domain& domain) {
   return mesh;
 }
 
-}  // namespace bl
+}  // namespace bl::geometry

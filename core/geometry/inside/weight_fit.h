@@ -11,7 +11,7 @@
 #include "core/geometry/inside/fit_targets.h"
 #include "core/geometry/power_cells.h"
 
-namespace bl {
+namespace bl::geometry {
 
 /// One call of adapt_weights(). Start and judgement are in demand_fit.cpp, the steps in feedback_step.cpp and newton_step.cpp.
 class WeightFit {
@@ -65,4 +65,4 @@ class WeightFit {
   std::vector<double> even_;  // weights that rays have left for better ones
 };
 
-}  // namespace bl
+}  // namespace bl::geometry

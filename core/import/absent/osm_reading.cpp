@@ -1,7 +1,7 @@
 // Stands for the reader of OpenStreetMap files in a build without it.
 #include "core/import/osm_store.h"
 
-namespace bl {
+namespace bl::importing {
 
 Result<OsmStore> read_osm(std::string_view, ImportWatch*) {
   return Error{
@@ -9,4 +9,4 @@ Result<OsmStore> read_osm(std::string_view, ImportWatch*) {
       "This program was built without OpenStreetMap: configure the build with -DBL_OSM=ON, or give the data as GeoJSON."};
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -1,7 +1,7 @@
 // Stands for the reader of GeoTIFF in a build without it.
 #include "core/import/terrain_grid.h"
 
-namespace bl {
+namespace bl::importing {
 
 Result<TerrainGrid> read_geotiff(std::string_view) {
   return Error{
@@ -9,4 +9,4 @@ Result<TerrainGrid> read_geotiff(std::string_view) {
       "This program was built without GeoTIFF: configure the build with -DBL_GEOTIFF=ON, or give the terrain as ASCII grid."};
 }
 
-}  // namespace bl
+}  // namespace bl::importing

@@ -1,7 +1,7 @@
 // Stands for connections by MQTT, OSC and HTTP in a build without them: each says so once and waits for its end.
 #include "core/live/endpoint.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -17,4 +17,4 @@ void run_osc_input(Endpoint& endpoint) { say_absent(endpoint); }
 void run_osc_output(Endpoint& endpoint) { say_absent(endpoint); }
 void run_http(Endpoint& endpoint) { say_absent(endpoint); }
 
-}  // namespace bl
+}  // namespace bl::live

@@ -62,9 +62,9 @@ struct NetworkFigures {
   double walking_speed = 0;   ///< [m/s]
   double isochrone_step = 0;  ///< [s]
   std::int64_t isochrone_bands = 0;
-  double gap = 0;                               ///< that is good enough
-  double relative_gap = 0;                      ///< that was reached
-  std::shared_ptr<const TripFlows> trip_flows;  ///< by the zone where they begin
+  double gap = 0;                                        ///< that is good enough
+  double relative_gap = 0;                               ///< that was reached
+  std::shared_ptr<const traffic::TripFlows> trip_flows;  ///< by the zone where they begin
 
   static void declare(ViewBuilder<NetworkFigures>& v);
   static const ViewDefinition& view();

@@ -8,7 +8,7 @@
 #include "core/csv/csv_reader.h"
 #include "core/csv/csv_table.h"
 
-namespace bl {
+namespace bl::csv {
 namespace {
 
 TEST(CsvTable, QuotesWhereNeeded) {
@@ -90,4 +90,4 @@ TEST(CsvTable, EveryTextIsHarmlessAndComesBack) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::csv

@@ -5,7 +5,7 @@
 
 #include "core/export/wavefront_obj.h"
 
-namespace bl {
+namespace bl::exporting {
 namespace {
 
 TEST(WavefrontObj, ObjectsShareOneCount) {
@@ -25,4 +25,4 @@ TEST(WavefrontObj, ANoteIsOneLineOfTheHeader) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::exporting

@@ -9,13 +9,15 @@
 #include "core/geometry/power_cells.h"
 #include "core/geometry/site_domain.h"
 
-namespace bl {
+namespace bl::facade {
 namespace {
 
-Domain box(double x, double y, double z) { return *site_domain({{{0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0}}, {}, 0, z, {}, {}}); }
+geometry::Domain box(double x, double y, double z) {
+  return *geometry::site_domain({{{0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0}}, {}, 0, z, {}, {}});
+}
 
-std::vector<CellMeasure> cells_of(const Domain& domain, const std::vector<PowerSite>& sites) {
-  CellOptions options;
+std::vector<geometry::CellMeasure> cells_of(const geometry::Domain& domain, const std::vector<geometry::PowerSite>& sites) {
+  geometry::CellOptions options;
   options.with_coarse_mesh = true;
   options.tessellation_depth = 1;
   return *power_cells(domain, sites, options);
@@ -119,15 +121,16 @@ TEST(FacadeSurvey, ACutBallHasExactFlatFaces) {
 }
 
 // The law: every square metre is counted once, whatever the diagram.
-void expect_all_surface(const Domain& domain, const std::vector<PowerSite>& sites, double roughness) {
+void expect_all_surface(const geometry::Domain& domain, const std::vector<geometry::PowerSite>& sites, double roughness) {
   const auto cells = cells_of(domain, sites);
   std::vector<std::vector<ShapeFace>> faces;
-  for (const CellMeasure& cell : cells) faces.push_back(cell.mesh ? faces_of(whole_cell(*cell.mesh)) : std::vector<ShapeFace>());
+  for (const geometry::CellMeasure& cell : cells)
+    faces.push_back(cell.mesh ? faces_of(whole_cell(*cell.mesh)) : std::vector<ShapeFace>());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!cells[i].mesh) continue;
     double shared = 0;
-    for (const FacetArea& facet : cells[i].facets) {
-      if (facet.kind != FacetArea::Kind::site) continue;
+    for (const geometry::FacetArea& facet : cells[i].facets) {
+      if (facet.kind != geometry::FacetArea::Kind::site) continue;
       shared += facet.area;
       mark_shared(faces[i], faces[facet.index], 2 * std::sqrt(sites[i].weight));
     }
@@ -154,7 +157,7 @@ void expect_all_surface(const Domain& domain, const std::vector<PowerSite>& site
 
 TEST(FacadeSurvey, AllSurfaceIsCountedOnce) {
   Random random(11);
-  std::vector<PowerSite> sites;
+  std::vector<geometry::PowerSite> sites;
   for (int i = 0; i < 40; ++i) {
     const double x = 80 * random.uniform(), y = 60 * random.uniform(), z = 30 * random.uniform(), r = 5 + 8 * random.uniform();
     sites.push_back({{x, y, z}, r * r});
@@ -163,10 +166,12 @@ TEST(FacadeSurvey, AllSurfaceIsCountedOnce) {
 }
 
 TEST(FacadeSurvey, AllSurfaceOfCellsInSeveralPieces) {
-  const auto angle = site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
+  const auto angle =
+      geometry::site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
   ASSERT_TRUE(angle.ok());
   // Pieces leave slits along their seams, which only the scale makes up for.
-  expect_all_surface(*angle, {{{24, 24, 8}, 300}, {{10, 45, 10}, 160}, {{45, 12, 9}, 200}, {{8, 8, 10}, 90}, {{27, 20, 4}, 60}}, 0.05);
+  expect_all_surface(*angle, {{{24, 24, 8}, 300}, {{10, 45, 10}, 160}, {{45, 12, 9}, 200}, {{8, 8, 10}, 90}, {{27, 20, 4}, 60}},
+                     0.05);
 }
 
 TEST(Dressing, WindowsStandBetweenSillAndBand) {
@@ -200,4 +205,4 @@ TEST(PolygonInADisc, ByHand) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::facade

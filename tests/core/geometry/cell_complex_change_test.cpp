@@ -10,10 +10,10 @@ namespace {
 
 /// Sites with labels of their own, changed at random.
 struct Crowd {
-  std::vector<PowerSite> sites;
+  std::vector<geometry::PowerSite> sites;
   std::vector<std::uint32_t> labels;
   std::uint32_t next = 0;
-  void add(const PowerSite& site, std::size_t at) {
+  void add(const geometry::PowerSite& site, std::size_t at) {
     sites.insert(sites.begin() + static_cast<std::ptrdiff_t>(at), site);
     labels.insert(labels.begin() + static_cast<std::ptrdiff_t>(at), next++);
   }
@@ -32,7 +32,7 @@ struct Crowd {
 };
 
 TEST(CellComplex, TwoHundredChangesEndWhereBuildingAnewEnds) {
-  const Domain domain = unit_cube();
+  const geometry::Domain domain = unit_cube();
   Live live(domain);
   Random random(17);
   Crowd crowd;
@@ -48,10 +48,10 @@ TEST(CellComplex, TwoHundredChangesEndWhereBuildingAnewEnds) {
 
 // The lists of changes alone keep a copy true: nothing changes that they do not name.
 TEST(CellComplex, ListsOfChangesAreComplete) {
-  const auto numbers = [](const CellComplex& complex) {
-    std::map<ElementKey, std::vector<Point3>> all;
+  const auto numbers = [](const geometry::CellComplex& complex) {
+    std::map<geometry::ElementKey, std::vector<Point3>> all;
     for (const Kind kind : {Kind::facet, Kind::edge, Kind::vertex}) {
-      for (const ElementName& name : complex.names(kind)) {
+      for (const geometry::ElementName& name : complex.names(kind)) {
         auto& mine = all[{kind, name}];
         if (kind == Kind::vertex) mine.push_back(*complex.position(name));
         if (kind == Kind::edge) mine.push_back({complex.length(name), 0, 0});
@@ -64,16 +64,17 @@ TEST(CellComplex, ListsOfChangesAreComplete) {
   Random random(23);
   Crowd crowd;
   for (int i = 0; i < 80; ++i) crowd.add({random_point(random, {0, 0, 0}, {1, 1, 1}), random.uniform(0, 0.01)}, 0);
-  std::map<ElementKey, std::vector<Point3>> before;
+  std::map<geometry::ElementKey, std::vector<Point3>> before;
   for (int step = 0; step < 40; ++step) {
     if (step > 0) crowd.change(random);
     ASSERT_TRUE(live.complex.set_labels(crowd.labels).ok());
     live.update(crowd.sites);
     auto now = numbers(live.complex);
-    const ComplexChange& change = live.complex.change();
-    for (const ElementKey& key : change.removed) EXPECT_TRUE(key.kind == Kind::cell || before.erase(key) == 1);
-    for (const ElementKey& key : change.added) EXPECT_TRUE(key.kind == Kind::cell || before.emplace(key, now[key]).second);
-    for (const ElementKey& key : change.changed) {
+    const geometry::ComplexChange& change = live.complex.change();
+    for (const geometry::ElementKey& key : change.removed) EXPECT_TRUE(key.kind == Kind::cell || before.erase(key) == 1);
+    for (const geometry::ElementKey& key : change.added)
+      EXPECT_TRUE(key.kind == Kind::cell || before.emplace(key, now[key]).second);
+    for (const geometry::ElementKey& key : change.changed) {
       if (key.kind == Kind::cell) continue;
       EXPECT_TRUE(before.contains(key));
       before[key] = now[key];
@@ -93,17 +94,17 @@ TEST(CellComplex, WhatHangsOnANameSurvives) {
   crowd.next = 150;
   ASSERT_TRUE(live.complex.set_labels(crowd.labels).ok());
   live.update(crowd.sites);
-  std::map<ElementName, std::string> doors;
-  for (const ElementName& name : live.complex.names(Kind::facet)) doors[name] = "door in " + name.text();
-  const std::vector<ElementName> before = live.complex.names(Kind::facet);
+  std::map<geometry::ElementName, std::string> doors;
+  for (const geometry::ElementName& name : live.complex.names(Kind::facet)) doors[name] = "door in " + name.text();
+  const std::vector<geometry::ElementName> before = live.complex.names(Kind::facet);
   // Another site comes in at the front and one leaves: the indices of all others shift, their names do not.
   crowd.remove(20);
   crowd.add({{0.5, 0.5, 0.5}, 0.005}, 0);
   ASSERT_TRUE(live.complex.set_labels(crowd.labels).ok());
   live.update(crowd.sites);
-  for (const ElementKey& key : live.complex.change().removed) doors.erase(key.name);
+  for (const geometry::ElementKey& key : live.complex.change().removed) doors.erase(key.name);
   std::size_t kept = 0;
-  for (const ElementName& name : before) kept += live.complex.has({Kind::facet, name});
+  for (const geometry::ElementName& name : before) kept += live.complex.has({Kind::facet, name});
   EXPECT_EQ(doors.size(), kept);
   EXPECT_GT(kept, before.size() * 2 / 3);
   EXPECT_LT(live.complex.work().cells_replaced, 45u);
@@ -113,8 +114,8 @@ TEST(CellComplex, WhatHangsOnANameSurvives) {
 
 // 2007 froze the points because its database of cells could not follow. Counts, not times: they are the same everywhere.
 TEST(CellComplex, OneSiteOfThousandsTouchesAFewElements) {
-  const Domain domain = unit_cube();
-  std::vector<PowerSite> sites = random_sites(5000, 1, 0.0005, 0.0015);
+  const geometry::Domain domain = unit_cube();
+  std::vector<geometry::PowerSite> sites = random_sites(5000, 1, 0.0005, 0.0015);
   Live live(domain);
   live.update(sites);
   const std::size_t all = live.complex.work().elements_made;
@@ -123,12 +124,12 @@ TEST(CellComplex, OneSiteOfThousandsTouchesAFewElements) {
     if (step % 2 == 0) sites[2500 + step].position += Vector3{0.004, -0.003, 0.005};
     else sites[100 + step].weight += 2e-4;
     live.update(sites);
-    const ComplexWork& work = live.complex.work();
+    const geometry::ComplexWork& work = live.complex.work();
     EXPECT_GT(work.cells_replaced, 5u);
     EXPECT_LT(work.cells_replaced, 60u);
     EXPECT_LT(work.cells_visited, 200u);
     EXPECT_LT(work.elements_made, 500u);
-    const ComplexChange& change = live.complex.change();
+    const geometry::ComplexChange& change = live.complex.change();
     EXPECT_LT(change.added.size() + change.removed.size() + change.changed.size(), 600u);
   }
   EXPECT_EQ(live.complex.listing(), rebuilt(domain, sites));
@@ -141,9 +142,9 @@ TEST(CellComplex, OneSiteOfThousandsTouchesAFewElements) {
 }
 
 /// An L of two by two metres without its far corner, one metre high.
-Domain corner_building() {
+geometry::Domain corner_building() {
   const std::vector<Point3> plan{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
-  return extrude_plan(plan, {}, 0, 1).value();
+  return geometry::extrude_plan(plan, {}, 0, 1).value();
 }
 
 // By hand: the pieces of the domain and the faces between them are not to be seen.
@@ -155,7 +156,7 @@ TEST(CellComplex, PiecesOfTheDomainDoNotShow) {
   EXPECT_EQ(live.complex.count(Kind::vertex), 12u);
   expect_whole(live.complex, "corner building");
   double surface = 0;
-  for (const ElementName& name : live.complex.names(Kind::facet)) surface += live.complex.area(name);
+  for (const geometry::ElementName& name : live.complex.names(Kind::facet)) surface += live.complex.area(name);
   EXPECT_NEAR(surface, 2 * 3 + 8, 1e-12);
   // A facet that runs through all pieces is one, of several polygons.
   live.update({{{0.5, 0.5, 0.3}, 0.1}, {{0.5, 0.5, 0.7}, 0.1}});
@@ -167,13 +168,13 @@ TEST(CellComplex, PiecesOfTheDomainDoNotShow) {
 }
 
 TEST(CellComplex, UpdatesFollowInDomainsOfSeveralPieces) {
-  const Domain domain = corner_building();
+  const geometry::Domain domain = corner_building();
   Live live(domain);
   Random random(41);
-  std::vector<PowerSite> sites = random_sites(70, 42, 0, 0.02);
-  for (PowerSite& site : sites) site.position = {2 * site.position.x, 2 * site.position.y, site.position.z};
+  std::vector<geometry::PowerSite> sites = random_sites(70, 42, 0, 0.02);
+  for (geometry::PowerSite& site : sites) site.position = {2 * site.position.x, 2 * site.position.y, site.position.z};
   for (int step = 0; step < 60; ++step) {
-    PowerSite& site = sites[random.below(sites.size())];
+    geometry::PowerSite& site = sites[random.below(sites.size())];
     if (step % 2 == 0) site.position = random_point(random, {0, 0, 0}, {2, 2, 1});
     else site.weight = random.uniform(-0.02, 0.05);
     live.update(sites);
@@ -187,13 +188,13 @@ TEST(CellComplex, UpdatesFollowInDomainsOfSeveralPieces) {
 TEST(CellComplex, AnotherDomainOfTheSameExtentEndsWhereBuildingAnewEnds) {
   const auto cornered = [](double x, double y) {
     const std::vector<Point3> plan{{0, 0, 0}, {2, 0, 0}, {2, y, 0}, {x, y, 0}, {x, 2, 0}, {0, 2, 0}};
-    return extrude_plan(plan, {}, 0, 1).value();
+    return geometry::extrude_plan(plan, {}, 0, 1).value();
   };
-  const std::vector<Domain> domains{corner_building(), cornered(0.5, 1), cornered(0.5, 0.25), box({0, 0, 0}, {2, 2, 1}),
-                                    cornered(1.5, 1.75)};
+  const std::vector<geometry::Domain> domains{corner_building(), cornered(0.5, 1), cornered(0.5, 0.25), box({0, 0, 0}, {2, 2, 1}),
+                                              cornered(1.5, 1.75)};
   for (const std::size_t count : {1u, 2u, 12u}) {
-    std::vector<PowerSite> sites = random_sites(count, 43, 0, 0.02);
-    for (PowerSite& site : sites) site.position = {2 * site.position.x, 2 * site.position.y, site.position.z};
+    std::vector<geometry::PowerSite> sites = random_sites(count, 43, 0, 0.02);
+    for (geometry::PowerSite& site : sites) site.position = {2 * site.position.x, 2 * site.position.y, site.position.z};
     Live live(domains.front());
     for (const std::size_t k : {0u, 1u, 2u, 3u, 4u, 0u, 2u, 4u, 1u, 3u, 0u}) {
       ASSERT_TRUE(live.diagram.set_domain(domains[k]).ok());
@@ -205,11 +206,11 @@ TEST(CellComplex, AnotherDomainOfTheSameExtentEndsWhereBuildingAnewEnds) {
 }
 
 TEST(CellComplex, RefusesWhatItCannotRead) {
-  PowerDiagram diagram;
+  geometry::PowerDiagram diagram;
   ASSERT_TRUE(diagram.set_domain(unit_cube()).ok());
   const auto sites = random_sites(5, 1, 0.01, 0.02);
   ASSERT_TRUE(diagram.update(sites).ok());
-  CellComplex complex;
+  geometry::CellComplex complex;
   EXPECT_EQ(complex.update(diagram, sites).error().code, ErrorCode::missing);
   ASSERT_TRUE(diagram.update(sites, outlines()).ok());
   EXPECT_EQ(complex.update(diagram, std::span(sites).first(4)).error().code, ErrorCode::conflict);

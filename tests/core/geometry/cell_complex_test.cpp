@@ -11,16 +11,20 @@ namespace {
 TEST(ElementNames, AreSortedSetsWithATextOfTheirOwn) {
   EXPECT_EQ(named("{3,7,#2}").text(), "{3,7,#2}");
   EXPECT_EQ(named(" { #2, 7 ,3 } ").text(), "{3,7,#2}");
-  EXPECT_EQ((ElementName{ElementLabel::side(0), ElementLabel::site(4294967295u)}).text(), "{4294967295,#0}");
+  EXPECT_EQ((geometry::ElementName{geometry::ElementLabel::side(0), geometry::ElementLabel::site(4294967295u)}).text(),
+            "{4294967295,#0}");
   EXPECT_EQ(named("{9,8,7,6,5,4,#1}").text(), "{4,5,6,7,8,9,#1}");
-  EXPECT_EQ((ElementName{ElementLabel::site(2), ElementLabel::site(1), ElementLabel::site(2)}).size(), 2u);
+  EXPECT_EQ(
+      (geometry::ElementName{geometry::ElementLabel::site(2), geometry::ElementLabel::site(1), geometry::ElementLabel::site(2)})
+          .size(),
+      2u);
   EXPECT_LT(named("{1,2}"), named("{1,2,3}"));
   EXPECT_LT(named("{1,2,3}"), named("{1,3}"));
   EXPECT_LT(named("{900,901}"), named("{900,#0}"));
   EXPECT_LT(named("{1,2,3,4,5,6}"), named("{1,2,3,4,5,7}"));
   EXPECT_EQ(named("{5,#4}").sites(), std::vector<std::uint32_t>{5});
   for (const char* text : {"", "{", "{}", "3,7", "{3,,7}", "{3;7}", "{3,3}", "{-1}", "{#}", "{1.5}", "{4294967296}", "{1,2"}) {
-    EXPECT_FALSE(ElementName::parse(text).ok()) << text;
+    EXPECT_FALSE(geometry::ElementName::parse(text).ok()) << text;
   }
 }
 
@@ -40,7 +44,7 @@ TEST(CellComplex, OneSiteIsTheDomain) {
 TEST(CellComplex, TwoSitesShareOneFacet) {
   Live live(unit_cube());
   live.update({{{0.25, 0.5, 0.5}, 0.1}, {{0.75, 0.5, 0.5}, 0.1}});
-  const CellComplex& complex = live.complex;
+  const geometry::CellComplex& complex = live.complex;
   EXPECT_EQ(complex.count(Kind::facet), 11u);
   EXPECT_EQ(complex.count(Kind::edge), 20u);
   EXPECT_EQ(complex.count(Kind::vertex), 12u);
@@ -66,7 +70,7 @@ TEST(CellComplex, TwoSitesShareOneFacet) {
 TEST(CellComplex, ALatticeOfEightMeetsInOneVertex) {
   Live live(unit_cube());
   live.update(lattice(2, 0.01));
-  const CellComplex& complex = live.complex;
+  const geometry::CellComplex& complex = live.complex;
   EXPECT_EQ(complex.count(Kind::vertex), 27u);
   EXPECT_EQ(complex.count(Kind::edge), 54u);
   EXPECT_EQ(complex.count(Kind::facet), 36u);
@@ -89,15 +93,15 @@ TEST(CellComplex, LatticesHoldWhereverTheyLie) {
     EXPECT_EQ(live.complex.count(Kind::facet), 3 * m * m * (m + 1));
     expect_whole(live.complex, "lattice");
     // Turned and far away, so that every coordinate is rounded: the same names.
-    std::vector<PowerSite> turned = lattice(n);
+    std::vector<geometry::PowerSite> turned = lattice(n);
     const auto turn = [](const Point3& p) {
       const Point3 q{0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z};
       return Point3{q.x + 1234.5, 0.28 * q.y - 0.96 * q.z - 987.6, 0.96 * q.y + 0.28 * q.z};
     };
-    for (PowerSite& site : turned) site.position = turn(site.position);
+    for (geometry::PowerSite& site : turned) site.position = turn(site.position);
     std::vector<Point3> corners;
     for (const Point3& p : unit_cube().vertices) corners.push_back(turn(p));
-    Live far(convex_hull(corners).value());
+    Live far(geometry::convex_hull(corners).value());
     far.update(turned);
     EXPECT_EQ(far.complex.count(Kind::vertex), live.complex.count(Kind::vertex));
     EXPECT_EQ(far.complex.count(Kind::edge), live.complex.count(Kind::edge));
@@ -106,11 +110,11 @@ TEST(CellComplex, LatticesHoldWhereverTheyLie) {
   }
 }
 
-std::vector<std::pair<std::string, std::vector<PowerSite>>> zoo() {
-  std::vector<std::pair<std::string, std::vector<PowerSite>>> zoo;
-  zoo.emplace_back("none", std::vector<PowerSite>{});
+std::vector<std::pair<std::string, std::vector<geometry::PowerSite>>> zoo() {
+  std::vector<std::pair<std::string, std::vector<geometry::PowerSite>>> zoo;
+  zoo.emplace_back("none", std::vector<geometry::PowerSite>{});
   zoo.emplace_back("lattice", lattice(4));
-  std::vector<PowerSite> coplanar, collinear, ring, sphere,
+  std::vector<geometry::PowerSite> coplanar, collinear, ring, sphere,
       flat{{{0.2, 0.5, 0.5}, 0}, {{0.4, 0.5, 0.5}, -0.04}, {{0.6, 0.5, 0.5}, 0}};
   for (int i = 0; i < 25; ++i) coplanar.push_back({{0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5), 0.5}, 0.01});
   for (int i = 0; i < 9; ++i) collinear.push_back({{0.1 + 0.1 * i, 0.5, 0.5}, 0.01 * (i % 3)});
@@ -127,17 +131,17 @@ std::vector<std::pair<std::string, std::vector<PowerSite>>> zoo() {
   zoo.emplace_back("ring", ring);
   zoo.emplace_back("sphere", sphere);
   zoo.emplace_back("a cell without thickness", flat);
-  std::vector<PowerSite> twins = random_sites(20, 3, 0, 0.01), outside = random_sites(20, 4, 0, 0.01), crowd;
+  std::vector<geometry::PowerSite> twins = random_sites(20, 3, 0, 0.01), outside = random_sites(20, 4, 0, 0.01), crowd;
   for (std::size_t i = 0; i < 5; ++i) twins.push_back(twins[3 * i]);
   for (std::size_t i = 0; i < 20; i += 2) outside[i].position += Vector3{0.9, 0, 0.2};
   crowd = random_sites(60, 5, 0, 0.2);  // many of them hidden
-  std::vector<PowerSite> centred = lattice(3);
-  for (const PowerSite& site : lattice(2)) centred.push_back(site);  // body-centred
-  std::vector<PowerSite> tiny = random_sites(30, 6, 0, 1e-8);
-  for (PowerSite& site : tiny) site.position = Point3{0.5, 0.5, 0.5} + 1e-4 * (site.position - Point3{0.5, 0.5, 0.5});
-  std::vector<PowerSite> noisy = lattice(4);
+  std::vector<geometry::PowerSite> centred = lattice(3);
+  for (const geometry::PowerSite& site : lattice(2)) centred.push_back(site);  // body-centred
+  std::vector<geometry::PowerSite> tiny = random_sites(30, 6, 0, 1e-8);
+  for (geometry::PowerSite& site : tiny) site.position = Point3{0.5, 0.5, 0.5} + 1e-4 * (site.position - Point3{0.5, 0.5, 0.5});
+  std::vector<geometry::PowerSite> noisy = lattice(4);
   Random random(8);
-  for (PowerSite& site : noisy) site.position += random_point(random, {-1e-12, -1e-12, -1e-12}, {1e-12, 1e-12, 1e-12});
+  for (geometry::PowerSite& site : noisy) site.position += random_point(random, {-1e-12, -1e-12, -1e-12}, {1e-12, 1e-12, 1e-12});
   zoo.emplace_back("twins", twins);
   zoo.emplace_back("outside", outside);
   zoo.emplace_back("crowd", crowd);
@@ -154,7 +158,7 @@ TEST(CellComplex, HoldsInTheDegenerateZoo) {
     expect_whole(live.complex, name);
     // Every site moved away and back: what lies in degenerate corners changes in parts.
     for (std::size_t i = 0; i < std::min<std::size_t>(sites.size(), 9); ++i) {
-      std::vector<PowerSite> moved = sites;
+      std::vector<geometry::PowerSite> moved = sites;
       moved[i].position += Vector3{0.013, -0.007, 0.011};
       live.update(moved);
       EXPECT_EQ(live.complex.listing(), rebuilt(unit_cube(), moved)) << name << " " << i;
@@ -183,7 +187,8 @@ TEST(CellComplex, HiddenSitesHaveNoElements) {
     if (live.diagram.cells()[i].cell_volume > 0) continue;
     ++hidden;
     for (const Kind kind : {Kind::cell, Kind::facet, Kind::edge, Kind::vertex}) {
-      for (const ElementName& name : live.complex.names(kind)) EXPECT_FALSE(name.contains(ElementLabel::site(i)));
+      for (const geometry::ElementName& name : live.complex.names(kind))
+        EXPECT_FALSE(name.contains(geometry::ElementLabel::site(i)));
     }
   }
   EXPECT_GT(hidden, 10u);
@@ -198,8 +203,8 @@ TEST(CellComplex, RandomSetsHold) {
     expect_whole(live.complex, "random");
     if (seed < 4) expect_symmetric(live.complex);
     // In general position every name has the length of its kind.
-    for (const ElementName& name : live.complex.names(Kind::edge)) EXPECT_EQ(name.size(), 3u);
-    for (const ElementName& name : live.complex.names(Kind::vertex)) EXPECT_EQ(name.size(), 4u);
+    for (const geometry::ElementName& name : live.complex.names(Kind::edge)) EXPECT_EQ(name.size(), 3u);
+    for (const geometry::ElementName& name : live.complex.names(Kind::vertex)) EXPECT_EQ(name.size(), 4u);
   }
 }
 

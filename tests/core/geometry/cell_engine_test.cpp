@@ -11,26 +11,27 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-CellOptions plain(bool with_shape = false, ThreadPool* pool = nullptr) {
-  CellOptions options;
+geometry::CellOptions plain(bool with_shape = false, ThreadPool* pool = nullptr) {
+  geometry::CellOptions options;
   options.with_shape = options.with_centroid = with_shape;
   options.pool = pool;
   return options;
 }
 
-std::vector<CellMeasure> measure(const Domain& domain, std::span<const PowerSite> sites, const CellOptions& options) {
+std::vector<geometry::CellMeasure> measure(const geometry::Domain& domain, std::span<const geometry::PowerSite> sites,
+                                           const geometry::CellOptions& options) {
   auto cells = power_cells(domain, sites, options);
   EXPECT_TRUE(cells.ok()) << (cells.ok() ? "" : cells.error().text());
-  return cells.ok() ? *cells : std::vector<CellMeasure>{};
+  return cells.ok() ? *cells : std::vector<geometry::CellMeasure>{};
 }
 
-bool same_bits(const CellMeasure& a, const CellMeasure& b) {
+bool same_bits(const geometry::CellMeasure& a, const geometry::CellMeasure& b) {
   return a.state == b.state && a.volume == b.volume && a.cell_volume == b.cell_volume && a.surface_area == b.surface_area &&
          a.spherical_area == b.spherical_area && a.centroid == b.centroid && a.facets == b.facets &&
          a.volume_by_own_weight == b.volume_by_own_weight && a.reason == b.reason;
 }
 
-std::size_t first_difference(std::span<const CellMeasure> a, std::span<const CellMeasure> b) {
+std::size_t first_difference(std::span<const geometry::CellMeasure> a, std::span<const geometry::CellMeasure> b) {
   if (a.size() != b.size()) return 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (!same_bits(a[i], b[i])) return i;
@@ -38,9 +39,9 @@ std::size_t first_difference(std::span<const CellMeasure> a, std::span<const Cel
   return a.size();
 }
 
-const FacetArea* find_facet(const CellMeasure& cell, std::uint32_t site) {
-  for (const FacetArea& facet : cell.facets) {
-    if (facet.kind == FacetArea::Kind::site && facet.index == site) return &facet;
+const geometry::FacetArea* find_facet(const geometry::CellMeasure& cell, std::uint32_t site) {
+  for (const geometry::FacetArea& facet : cell.facets) {
+    if (facet.kind == geometry::FacetArea::Kind::site && facet.index == site) return &facet;
   }
   return nullptr;
 }
@@ -62,10 +63,10 @@ void for_zoo(int sets, std::uint64_t seed, auto&& check) {
 TEST(CellEngine, WholeCellsTileTheDomainAndBallsStayWithinThem) {
   for_zoo(rounds(3000), 1000, [](const SiteSet& set) {
     const auto cells = measure(set.domain, set.sites, plain(true));
-    const CellTotals totals = totals_of(cells);
+    const geometry::CellTotals totals = totals_of(cells);
     EXPECT_EQ(totals.alive + totals.hidden + totals.outside + totals.coincident + totals.starved, set.sites.size());
     EXPECT_NEAR(totals.cell_volume, set.domain.volume, 2 * rounding(set) * set.domain.volume);
-    for (const CellMeasure& cell : cells) {
+    for (const geometry::CellMeasure& cell : cells) {
       EXPECT_LE(cell.volume, cell.cell_volume);
       EXPECT_EQ(cell.volume > 0, cell.surface_area > 0);
     }
@@ -80,9 +81,9 @@ TEST(CellEngine, LimitedCellsAreWholeCellsWithinTheBall) {
       const double nothing = 1e-14 * set.domain.volume, wide = std::max(1e-300, set.sites[i].weight);
       EXPECT_NEAR(limited[i].volume, whole[i].volume, 1e-12 * whole[i].volume + nothing) << i << " of weight " << wide;
       EXPECT_NEAR(limited[i].spherical_area, whole[i].spherical_area, 1e-11 * (std::min(wide, 1.0) + wide * 1e-3) + 1e-14) << i;
-      for (const FacetArea& facet : whole[i].facets) {
-        if (facet.kind != FacetArea::Kind::site || facet.area < 1e-10) continue;
-        const FacetArea* same = find_facet(limited[i], facet.index);
+      for (const geometry::FacetArea& facet : whole[i].facets) {
+        if (facet.kind != geometry::FacetArea::Kind::site || facet.area < 1e-10) continue;
+        const geometry::FacetArea* same = find_facet(limited[i], facet.index);
         ASSERT_NE(same, nullptr) << i << " " << facet.index;
         EXPECT_NEAR(same->area, facet.area, 1e-11) << i << " " << facet.index;
       }
@@ -94,25 +95,25 @@ TEST(CellEngine, LimitedCellsAreWholeCellsWithinTheBall) {
 TEST(CellEngine, TheGridFindsWhatTheTriangulationFinds) {
   for_zoo(rounds(1500), 3000, [](const SiteSet& set) {
     std::vector<std::uint32_t> twin, participants;
-    find_coincident(set.sites, kCoincidenceShare * set.domain.size(), twin);
+    find_coincident(set.sites, geometry::kCoincidenceShare * set.domain.size(), twin);
     for (std::uint32_t i = 0; i < twin.size(); ++i) {
       if (twin[i] == kNone) participants.push_back(i);
     }
-    CellInput by_grid, by_triangles;
-    for (CellInput* ground : {&by_grid, &by_triangles}) {
+    geometry::CellInput by_grid, by_triangles;
+    for (geometry::CellInput* ground : {&by_grid, &by_triangles}) {
       ground->set_domain(set.domain);
       ASSERT_TRUE(ground->set_sites(set.sites, participants).ok());
     }
     by_grid.is_triangulated = false;
     by_triangles.is_triangulated = true;
     ASSERT_TRUE(find_power_neighbours(set.sites, participants, by_triangles.neighbours).ok());
-    CellMaker a, b;
-    ShapeMeasure shape;
-    const auto volume = [&](CellMaker& maker, const CellInput& ground, std::uint32_t i, bool whole) {
+    geometry::CellMaker a, b;
+    geometry::ShapeMeasure shape;
+    const auto volume = [&](geometry::CellMaker& maker, const geometry::CellInput& ground, std::uint32_t i, bool whole) {
       maker.make(ground, i, whole);
       double sum = 0;
       Point3 middle;
-      for (const Polyhedron& part : maker.parts()) {
+      for (const geometry::Polyhedron& part : maker.parts()) {
         const double all = whole ? volume_and_centroid(part, middle) : std::numeric_limits<double>::infinity();
         if (!whole) measure_shape(part, std::max(0.0, set.sites[i].weight), all, false, shape);
         sum += whole ? all : shape.volume;
@@ -133,7 +134,7 @@ TEST(CellEngine, UnevenSetsTileTheDomainToo) {
   for (int k = 0; k < rounds(20); ++k) {
     SiteSet set = zoo_set(13, 900, 77 + static_cast<std::uint64_t>(k));
     for (int i = 0; i < 20; ++i) set.sites.push_back(random_sites(1, 900 + static_cast<std::uint64_t>(i), 0, 0.01)[0]);
-    CellInput ground;
+    geometry::CellInput ground;
     ground.set_domain(set.domain);
     std::vector<std::uint32_t> all(set.sites.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -151,7 +152,7 @@ TEST(CellEngine, UnevenSetsTileTheDomainToo) {
 TEST(CellEngine, ClustersFarApartFindEachOther) {
   for (int k = 0; k < rounds(400) && !HasFailure(); ++k) {
     Random random(static_cast<std::uint64_t>(k));
-    std::vector<PowerSite> sites;
+    std::vector<geometry::PowerSite> sites;
     const int clusters = 2 + static_cast<int>(random.below(3));
     std::vector<Point3> centres;
     for (int c = 0; c < clusters; ++c) centres.push_back({random.uniform(), random.uniform(0, 0.2), random.uniform(0, 0.2)});
@@ -168,7 +169,8 @@ TEST(CellEngine, ThreadsChangeNoBit) {
   ThreadPool two(2), three(3), eight(8);
   for_zoo(rounds(400), 4000, [&](const SiteSet& given) {
     SiteSet set = given;
-    for (const PowerSite& more : zoo_set(static_cast<int>(set.sites.size() % 4), 60, 5).sites) set.sites.push_back(more);
+    for (const geometry::PowerSite& more : zoo_set(static_cast<int>(set.sites.size() % 4), 60, 5).sites)
+      set.sites.push_back(more);
     for (const bool with_shape : {true, false}) {
       const auto alone = measure(set.domain, set.sites, plain(with_shape));
       for (ThreadPool* pool : {&two, &three, &eight}) {
@@ -184,9 +186,9 @@ TEST(CellEngine, SharedFacetsAreSeenAlikeFromBothSides) {
     for (const bool with_shape : {true, false}) {
       const auto cells = measure(set.domain, set.sites, plain(with_shape));
       for (std::uint32_t i = 0; i < cells.size(); ++i) {
-        for (const FacetArea& facet : cells[i].facets) {
-          if (facet.kind != FacetArea::Kind::site || facet.area < 1e-9) continue;
-          const FacetArea* back = find_facet(cells[facet.index], i);
+        for (const geometry::FacetArea& facet : cells[i].facets) {
+          if (facet.kind != geometry::FacetArea::Kind::site || facet.area < 1e-9) continue;
+          const geometry::FacetArea* back = find_facet(cells[facet.index], i);
           ASSERT_NE(back, nullptr) << i << " " << facet.index << " area " << facet.area;
           EXPECT_NEAR(back->area, facet.area, 1e-11 + 1e-9 * facet.area) << i << " " << facet.index;
         }
@@ -201,18 +203,18 @@ TEST(CellEngine, SharedFacetsAreSeenAlikeFromBothSides) {
 TEST(CellEngine, FacetsAndSphereEncloseTheVolume) {
   for_zoo(rounds(600), 6000, [](const SiteSet& set) {
     if (!set.domain.is_convex()) return;
-    const ConvexDomain& room = set.domain.pieces[0].shape;
+    const geometry::ConvexDomain& room = set.domain.pieces[0].shape;
     const auto cells = measure(set.domain, set.sites, plain(false));
     for (std::uint32_t i = 0; i < cells.size(); ++i) {
-      const PowerSite& own = set.sites[i];
+      const geometry::PowerSite& own = set.sites[i];
       if (!(cells[i].volume > 0) || own.weight > 100) continue;
       double sum = std::sqrt(own.weight) * cells[i].spherical_area, size = sum;
-      for (const FacetArea& facet : cells[i].facets) {
+      for (const geometry::FacetArea& facet : cells[i].facets) {
         double h = 0;
-        if (facet.kind == FacetArea::Kind::plane) {
+        if (facet.kind == geometry::FacetArea::Kind::plane) {
           h = room.planes[facet.index].offset - dot(room.planes[facet.index].normal, own.position);
         } else {
-          const PowerSite& other = set.sites[facet.index];
+          const geometry::PowerSite& other = set.sites[facet.index];
           const double d = distance(own.position, other.position);
           h = (d * d + own.weight - other.weight) / (2 * d);
         }
@@ -227,10 +229,10 @@ TEST(CellEngine, FacetsAndSphereEncloseTheVolume) {
 TEST(CellEngine, OrderOfTheSitesChangesRoundingOnly) {
   for_zoo(rounds(500), 7000, [](const SiteSet& set) {
     if (set.name.starts_with("coincident")) return;  // of equals at one place the first lives: the order decides
-    std::vector<PowerSite> reversed(set.sites.rbegin(), set.sites.rend());
+    std::vector<geometry::PowerSite> reversed(set.sites.rbegin(), set.sites.rend());
     const auto cells = measure(set.domain, set.sites, plain(true)), back = measure(set.domain, reversed, plain(true));
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const CellMeasure& other = back[cells.size() - 1 - i];
+      const geometry::CellMeasure& other = back[cells.size() - 1 - i];
       EXPECT_NEAR(cells[i].volume, other.volume, rounding(set) * cells[i].volume + 1e-14) << i;
       EXPECT_NEAR(cells[i].cell_volume, other.cell_volume, rounding(set) * cells[i].cell_volume + 1e-14) << i;
     }
@@ -243,12 +245,12 @@ TEST(CellEngine, ScaledAndMovedSetsHaveScaledVolumes) {
     const auto round = [](const Point3& p) {
       return Point3{std::round(p.x * 0x1p20), std::round(p.y * 0x1p20), std::round(p.z * 0x1p20)} * 0x1p-20;
     };
-    std::vector<PowerSite> here, there;
-    for (const PowerSite& s : set.sites) {
+    std::vector<geometry::PowerSite> here, there;
+    for (const geometry::PowerSite& s : set.sites) {
       here.push_back({round(s.position), s.weight});
       there.push_back({4 * round(s.position) + Vector3{4096, -2048, 64}, 16 * s.weight});
     }
-    const Domain cube = unit_cube(), moved = box({4096, -2048, 64}, {4100, -2044, 68});
+    const geometry::Domain cube = unit_cube(), moved = box({4096, -2048, 64}, {4100, -2044, 68});
     for (const bool with_shape : {true, false}) {
       const auto cells = measure(cube, here, plain(with_shape)), after = measure(moved, there, plain(with_shape));
       for (std::size_t i = 0; i < cells.size(); ++i) {

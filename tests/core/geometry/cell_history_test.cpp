@@ -6,14 +6,14 @@
 namespace bl::test {
 namespace {
 
-bool same_measure_bits(const CellMeasure& a, const CellMeasure& b) {
+bool same_measure_bits(const geometry::CellMeasure& a, const geometry::CellMeasure& b) {
   return a.state == b.state && a.volume == b.volume && a.cell_volume == b.cell_volume && a.surface_area == b.surface_area &&
          a.spherical_area == b.spherical_area && a.centroid == b.centroid && a.facets == b.facets &&
          a.volume_by_own_weight == b.volume_by_own_weight;
 }
 
 // One of the ways in which a link, a person or a fit changes sites.
-void change(std::vector<PowerSite>& sites, const std::vector<PowerSite>& before, Random& random) {
+void change(std::vector<geometry::PowerSite>& sites, const std::vector<geometry::PowerSite>& before, Random& random) {
   const std::size_t i = random.below(sites.size()), j = random.below(sites.size());
   switch (random.below(9)) {
     case 0: sites[i].position += 0.01 * random_point(random, {-1, -1, -1}, {1, 1, 1}); break;
@@ -32,12 +32,12 @@ void change(std::vector<PowerSite>& sites, const std::vector<PowerSite>& before,
 }
 
 void expect_history_leaves_no_trace(const SiteSet& set, bool with_shape, std::uint64_t seed, int changes) {
-  CellOptions options;
+  geometry::CellOptions options;
   options.with_shape = options.with_centroid = with_shape;
-  PowerDiagram diagram;
+  geometry::PowerDiagram diagram;
   ASSERT_TRUE(diagram.set_domain(set.domain).ok());
   ASSERT_TRUE(diagram.update(set.sites, options).ok());
-  std::vector<PowerSite> sites = set.sites;
+  std::vector<geometry::PowerSite> sites = set.sites;
   Random random(seed);
   for (int step = 0; step < changes; ++step) {
     change(sites, set.sites, random);
@@ -66,10 +66,10 @@ TEST(CellHistory, AHundredChangesLeaveNoTrace) {
 // A site that suddenly outweighs cells that it does not border: they are gone, although no neighbour of it tells.
 TEST(CellHistory, CellsSwallowedBeyondTheNeighboursAreGone) {
   for (const bool with_shape : {true, false}) {
-    CellOptions options;
+    geometry::CellOptions options;
     options.with_shape = options.with_centroid = with_shape;
     auto sites = random_sites(200, 3, 0.004, 0.006);
-    PowerDiagram diagram;
+    geometry::PowerDiagram diagram;
     ASSERT_TRUE(diagram.set_domain(unit_cube()).ok());
     ASSERT_TRUE(diagram.update(sites, options).ok());
     sites[7] = {{0.5, 0.5, 0.5}, 0.12};
@@ -85,17 +85,17 @@ TEST(CellHistory, CellsSwallowedBeyondTheNeighboursAreGone) {
 // Sites that leave the box in which they were when they were sorted find each other out there.
 TEST(CellHistory, SitesThatLeaveTheirOldBoxFindEachOther) {
   for (const bool with_shape : {true, false}) {
-    CellOptions options;
+    geometry::CellOptions options;
     options.with_shape = options.with_centroid = with_shape;
     auto sites = random_sites(60, 4, 0.5, 0.501);
-    for (PowerSite& site : sites) site.position = 0.1 * site.position;
-    PowerDiagram diagram;
+    for (geometry::PowerSite& site : sites) site.position = 0.1 * site.position;
+    geometry::PowerDiagram diagram;
     ASSERT_TRUE(diagram.set_domain(unit_cube()).ok());
     Random random(9);
     for (int step = 0; step < 60; ++step) {
       ASSERT_TRUE(diagram.update(sites, options).ok());
       // The outermost ones go on outwards.
-      for (PowerSite& site : sites) {
+      for (geometry::PowerSite& site : sites) {
         if (site.position.x + site.position.y + site.position.z > 0.2) {
           site.position = {std::min(0.95, 1.1 * site.position.x), std::min(0.95, 1.1 * site.position.y),
                            std::min(0.95, 1.1 * site.position.z)};

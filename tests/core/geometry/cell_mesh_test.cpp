@@ -4,7 +4,7 @@
 #include "core/geometry/power_cells.h"
 #include "core/geometry/site_domain.h"
 
-namespace bl {
+namespace bl::geometry {
 namespace {
 
 CellOptions with_both_meshes() {
@@ -43,8 +43,7 @@ void expect_same_surface(const CellMeasure& cell) {
 }
 
 TEST(CellMesh, CoarseMeshWrapsToTheFineOne) {
-  const auto angle =
-      site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
+  const auto angle = site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
   ASSERT_TRUE(angle.ok());
   const std::vector<PowerSite> sites = {{{24, 24, 8}, 300}, {{10, 45, 10}, 160}, {{45, 12, 9}, 200}, {{27, 20, 4}, 60}};
   const auto cells = power_cells(*angle, sites, with_both_meshes());
@@ -75,4 +74,4 @@ TEST(CellMesh, IsThereOnlyWhereItIsAskedForAndThereIsAShape) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::geometry

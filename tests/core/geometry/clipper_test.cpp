@@ -20,9 +20,9 @@ std::vector<Vector3> directions(std::size_t count) {
   return result;
 }
 
-double volume_of(const Polyhedron& shape) {
+double volume_of(const geometry::Polyhedron& shape) {
   double six = 0;
-  for (const PolyhedronFace& face : shape.faces) {
+  for (const geometry::PolyhedronFace& face : shape.faces) {
     const auto loop = shape.loop(face);
     for (std::size_t i = 2; i < loop.size(); ++i) {
       six += dot(shape.vertices[loop[0]], cross(shape.vertices[loop[i - 1]], shape.vertices[loop[i]]));
@@ -32,10 +32,11 @@ double volume_of(const Polyhedron& shape) {
 }
 
 // Every edge of every face is that of one other, the other way round; V - E + F = 2; no vertex beyond any plane.
-void expect_body(const Polyhedron& shape, std::span<const Plane> planes, double tolerance, const std::string& what) {
+void expect_body(const geometry::Polyhedron& shape, std::span<const geometry::Plane> planes, double tolerance,
+                 const std::string& what) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, twins;
   std::set<std::uint32_t> seen;
-  for (const PolyhedronFace& face : shape.faces) {
+  for (const geometry::PolyhedronFace& face : shape.faces) {
     const auto loop = shape.loop(face);
     ASSERT_GE(loop.size(), 3u) << what;
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -50,28 +51,28 @@ void expect_body(const Polyhedron& shape, std::span<const Plane> planes, double 
   EXPECT_EQ(edges, twins) << what;
   EXPECT_EQ(seen.size() + shape.faces.size(), edges.size() / 2 + 2) << what;
   for (const std::uint32_t v : seen) {
-    for (const Plane& plane : planes) ASSERT_LE(dot(plane.normal, shape.vertices[v]), plane.offset + tolerance) << what;
+    for (const geometry::Plane& plane : planes) ASSERT_LE(dot(plane.normal, shape.vertices[v]), plane.offset + tolerance) << what;
   }
 }
 
 // Far more than 64 vertices, far more than fit into the first room: cuts that take one vertex, and one that takes nearly all.
 TEST(Clipper, HundredsOfFacesAndACutThroughAllOfThem) {
   for (const std::size_t count : {60u, 400u, 1500u}) {
-    Clipper clipper;
+    geometry::Clipper clipper;
     clipper.start_box({-2, -2, -2}, {2, 2, 2});
-    std::vector<Plane> planes;
+    std::vector<geometry::Plane> planes;
     std::uint32_t index = 0;
     for (const Vector3& n : directions(count)) {
       planes.push_back({n, 1});
-      ASSERT_TRUE(clipper.cut(n, 1, FaceKind::site, index++));
+      ASSERT_TRUE(clipper.cut(n, 1, geometry::FaceKind::site, index++));
     }
-    Polyhedron shape;
+    geometry::Polyhedron shape;
     clipper.finish(shape);
     EXPECT_EQ(shape.faces.size(), count);
     expect_body(shape, planes, 1e-12, std::to_string(count));
     // All faces touch the unit ball: a third of the surface is the volume.
     double surface = 0;
-    for (const PolyhedronFace& face : shape.faces) {
+    for (const geometry::PolyhedronFace& face : shape.faces) {
       const auto loop = shape.loop(face);
       Vector3 twice;
       for (std::size_t i = 2; i < loop.size(); ++i) {
@@ -81,19 +82,19 @@ TEST(Clipper, HundredsOfFacesAndACutThroughAllOfThem) {
     }
     EXPECT_NEAR(volume_of(shape), surface / 3, 1e-11);
     EXPECT_GT(volume_of(shape), 4 * std::numbers::pi / 3);
-    Clipper upper, lower;
+    geometry::Clipper upper, lower;
     upper.copy(clipper);
     lower.copy(clipper);
     const Vector3 n = (1 / std::sqrt(14.0)) * Vector3{1, 2, 3};
-    ASSERT_TRUE(upper.cut(-1 * n, -0.31, FaceKind::site, index));
-    ASSERT_TRUE(lower.cut(n, 0.31, FaceKind::site, index));
-    Polyhedron above, below;
+    ASSERT_TRUE(upper.cut(-1 * n, -0.31, geometry::FaceKind::site, index));
+    ASSERT_TRUE(lower.cut(n, 0.31, geometry::FaceKind::site, index));
+    geometry::Polyhedron above, below;
     upper.finish(above);
     lower.finish(below);
     EXPECT_NEAR(volume_of(above) + volume_of(below), volume_of(shape), 1e-11);
     planes.push_back({n, 0.31});
     expect_body(below, planes, 1e-12, "below");
-    EXPECT_FALSE(upper.cut(n, 0.2, FaceKind::site, index + 1));
+    EXPECT_FALSE(upper.cut(n, 0.2, geometry::FaceKind::site, index + 1));
     EXPECT_TRUE(upper.is_empty());
   }
 }
@@ -101,7 +102,7 @@ TEST(Clipper, HundredsOfFacesAndACutThroughAllOfThem) {
 // Cuts through corners, along edges and through faces that are there already, in any order: one body, of the right volume.
 TEST(Clipper, PlanesOfALatticeInAnyOrder) {
   Random random(5);
-  std::vector<Plane> planes;
+  std::vector<geometry::Plane> planes;
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = -1; z <= 1; ++z) {
@@ -118,17 +119,17 @@ TEST(Clipper, PlanesOfALatticeInAnyOrder) {
     for (std::size_t k = planes.size(); k-- > 1;)
       std::swap(planes[k], planes[static_cast<std::size_t>(random.uniform(0, double(k + 1)))]);
     const bool is_small = round % 2 == 0;
-    Clipper clipper;
+    geometry::Clipper clipper;
     clipper.start_box({-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5});
     for (std::uint32_t k = 0; k < planes.size(); ++k)
-      ASSERT_TRUE(clipper.cut(planes[k].normal, planes[k].offset, FaceKind::site, k));
+      ASSERT_TRUE(clipper.cut(planes[k].normal, planes[k].offset, geometry::FaceKind::site, k));
     if (is_small) {  // the octahedron through the middles of the cube's faces
       for (std::uint32_t k = 0; k < 8; ++k) {
         const Vector3 n = Vector3{(k & 1u) ? 1.0 : -1.0, (k & 2u) ? 1.0 : -1.0, (k & 4u) ? 1.0 : -1.0} / std::sqrt(3.0);
-        ASSERT_TRUE(clipper.cut(n, 1 / std::sqrt(3.0), FaceKind::site, 100 + k));
+        ASSERT_TRUE(clipper.cut(n, 1 / std::sqrt(3.0), geometry::FaceKind::site, 100 + k));
       }
     }
-    Polyhedron shape;
+    geometry::Polyhedron shape;
     clipper.finish_as_cut(shape);
     EXPECT_NEAR(volume_of(shape), is_small ? 4.0 / 3 : 8.0, 1e-11) << round;
   }
@@ -138,21 +139,21 @@ TEST(Clipper, PlanesOfALatticeInAnyOrder) {
 // samples' count in its ball, and the same with any threads.
 TEST(Clipper, ASiteInTheMiddleOfASphereOfSites) {
   Random random(6);
-  std::vector<PowerSite> sites{{{0.5, 0.5, 0.5}, 0.04}};
+  std::vector<geometry::PowerSite> sites{{{0.5, 0.5, 0.5}, 0.04}};
   for (const Vector3& n : directions(400)) sites.push_back({Point3{0.5, 0.5, 0.5} + random.uniform(0.40, 0.401) * n, 0.03});
-  CellOptions options;
+  geometry::CellOptions options;
   const auto cells = power_cells(unit_cube(), sites, options).value();
   double sum = 0;
-  for (const CellMeasure& cell : cells) sum += cell.cell_volume;
+  for (const geometry::CellMeasure& cell : cells) sum += cell.cell_volume;
   EXPECT_NEAR(sum, 1, 1e-12);
   // Whole: the ball holds the middle cell when it is heavy enough, and the facets are the bases of pyramids.
-  for (PowerSite& site : sites) site.weight += 4;
+  for (geometry::PowerSite& site : sites) site.weight += 4;
   const auto whole = power_cells(unit_cube(), sites, options).value();
   EXPECT_NEAR(whole[0].cell_volume, cells[0].cell_volume, 1e-13);
   EXPECT_NEAR(whole[0].volume, whole[0].cell_volume, 1e-13);
   EXPECT_GT(whole[0].facets.size(), 300u);
   double pyramids = 0;
-  for (const FacetArea& facet : whole[0].facets) {
+  for (const geometry::FacetArea& facet : whole[0].facets) {
     const double d = distance(sites[0].position, sites[facet.index].position);
     pyramids += facet.area * (d * d + sites[0].weight - sites[facet.index].weight) / (2 * d) / 3;
   }
@@ -171,10 +172,10 @@ TEST(SiteGrid, FindsWhatAListFindsAfterManyChanges) {
   Random random(7);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 40; ++round) {
-    std::vector<PowerSite> sites = random_sites(150, 100 + static_cast<std::uint64_t>(round), -0.01, 0.03);
+    std::vector<geometry::PowerSite> sites = random_sites(150, 100 + static_cast<std::uint64_t>(round), -0.01, 0.03);
     std::vector<std::uint32_t> all(sites.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-    SiteGrid grid;
+    geometry::SiteGrid grid;
     grid.build(sites, all);
     std::vector<std::uint8_t> is_there(sites.size(), 1);
     for (int k = 0; k < 60; ++k) {
@@ -188,14 +189,14 @@ TEST(SiteGrid, FindsWhatAListFindsAfterManyChanges) {
         is_there.push_back(1);
         grid.insert(static_cast<std::uint32_t>(sites.size() - 1), sites.back());
       } else if (is_there[i]) {
-        const PowerSite before = sites[i];
+        const geometry::PowerSite before = sites[i];
         sites[i] = {random_point(random, {-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}), random.uniform(-0.01, 0.05)};
         grid.change(i, sites[i]);
         if (what < 0.6) grid.change(i, sites[i] = before);
       }
     }
     if (round % 2 == 0) {
-      for (PowerSite& site : sites) site.weight *= 0.5;
+      for (geometry::PowerSite& site : sites) site.weight *= 0.5;
       grid.refresh_weights(sites);
     }
     for (std::uint32_t i = 0; i < sites.size(); ++i) {
@@ -207,7 +208,7 @@ TEST(SiteGrid, FindsWhatAListFindsAfterManyChanges) {
         std::set<std::uint32_t> found;
         grid.search(
             sites[i].position, sites[i].weight, i, {}, [&] { return reach; },
-            [&](const SiteGrid::Entry& entry) {
+            [&](const geometry::SiteGrid::Entry& entry) {
               ASSERT_LT(entry.site, sites.size());
               EXPECT_EQ(entry.position, sites[entry.site].position);
               EXPECT_EQ(entry.weight, sites[entry.site].weight);

@@ -49,25 +49,26 @@ struct MeshLosses {
   double worst[5] = {0, 0, 0, 0, 0}, sum[5] = {0, 0, 0, 0, 0};
 };
 
-void expect_closed(const Domain& domain, const std::vector<PowerSite>& sites, const std::string& name, MeshLosses& losses) {
+void expect_closed(const geometry::Domain& domain, const std::vector<geometry::PowerSite>& sites, const std::string& name,
+                   MeshLosses& losses) {
   std::vector<double> seen;
   for (int depth = 0; depth <= 4; ++depth) {
     std::size_t alive = 0;
-    CellOptions options;
+    geometry::CellOptions options;
     options.with_coarse_mesh = true;
     options.tessellation_depth = depth;
     const auto cells = power_cells(domain, sites, options);
     ASSERT_TRUE(cells.ok()) << cells.error().text();
     for (std::size_t i = 0; i < cells->size(); ++i) {
-      const CellMeasure& cell = (*cells)[i];
+      const geometry::CellMeasure& cell = (*cells)[i];
       if (!cell.mesh) continue;
       const double radius = std::sqrt(sites[i].weight);
       EXPECT_EQ(open_edges(*cell.mesh, 1e-6 * radius), 0u) << name << ", site " << i << ", depth " << depth;
-      const MeshPointer study = study_mesh(cell.mesh);
+      const MeshPointer study = geometry::study_mesh(cell.mesh);
       EXPECT_EQ(open_edges(*study, 1e-6 * radius), 0u) << name << ", site " << i << ", depth " << depth << ", for studies";
       if (depth == 0) seen.push_back(enclosed_volume(*study));
       else EXPECT_NEAR(enclosed_volume(*study), seen[alive], 1e-9 * cell.volume) << "studies do not see how finely it is shown";
-      if (depth == kStudyDepth) { EXPECT_EQ(study, cell.mesh); }
+      if (depth == geometry::kStudyDepth) { EXPECT_EQ(study, cell.mesh); }
       ++alive;
       const double loss = 1 - enclosed_volume(*cell.mesh) / cell.volume;
       EXPECT_GT(loss, -1e-7) << name << ", site " << i << ", depth " << depth;
@@ -81,8 +82,9 @@ void expect_closed(const Domain& domain, const std::vector<PowerSite>& sites, co
 }
 
 // Radii between two shares of the domain's size, all magnitudes alike.
-std::vector<PowerSite> sites_in(const Domain& domain, Random& random, std::size_t count, double least = 0.08, double most = 0.7) {
-  std::vector<PowerSite> sites;
+std::vector<geometry::PowerSite> sites_in(const geometry::Domain& domain, Random& random, std::size_t count, double least = 0.08,
+                                          double most = 0.7) {
+  std::vector<geometry::PowerSite> sites;
   const double size = std::cbrt(domain.volume);
   while (sites.size() < count) {
     const Point3 place = random_point(random, domain.minimum, domain.maximum);
@@ -102,9 +104,10 @@ std::vector<Point3> star(Random& random) {
   return ring;
 }
 
-SitePlan random_plan(Random& random, int kind) {
+geometry::SitePlan random_plan(Random& random, int kind) {
   const double a = random.uniform(10, 50), b = random.uniform(10, 50);
-  SitePlan plan{{{0, 0, 0}, {60, 0, 0}, {60, a, 0}, {b, a, 0}, {b, 60, 0}, {0, 60, 0}}, {}, 0, random.uniform(8, 40), {}, {}};
+  geometry::SitePlan plan{
+      {{0, 0, 0}, {60, 0, 0}, {60, a, 0}, {b, a, 0}, {b, 60, 0}, {0, 60, 0}}, {}, 0, random.uniform(8, 40), {}, {}};
   if (kind == 1) {
     plan.plan = {{0, 0, 0}, {60, 0, 0}, {60, 60, 0}, {45, 60, 0}, {45, a, 0}, {12, a, 0}, {12, 60, 0}, {0, 60, 0}};
   } else if (kind == 2) {
@@ -122,7 +125,7 @@ SitePlan random_plan(Random& random, int kind) {
 
 TEST(ClosedMeshes, OnTheEllWhereTheCapWasMissing) {
   for (const double cut : {20.0, 40.0}) {
-    const auto domain = extrude_plan(
+    const auto domain = geometry::extrude_plan(
         std::vector<Point3>{{0, 0, 0}, {60, 0, 0}, {60, cut, 0}, {cut, cut, 0}, {cut, 60, 0}, {0, 60, 0}}, {}, 0, 40);
     ASSERT_TRUE(domain.ok());
     const double radius = std::cbrt(1000 / (4 * 3.14159265358979 / 3));
@@ -147,7 +150,7 @@ TEST(ClosedMeshes, OnRandomPlans) {
   const double promised[5] = {0.25, 0.08, 0.025, 0.007, 0.002};
   for (int depth = 0; depth <= 4; ++depth) {
     EXPECT_LT(losses.sum[depth] / static_cast<double>(losses.cells), promised[depth]) << "depth " << depth;
-    EXPECT_LE(losses.worst[depth], kMostMeshLoss[depth]) << "depth " << depth;
+    EXPECT_LE(losses.worst[depth], geometry::kMostMeshLoss[depth]) << "depth " << depth;
     if (depth > 0) { EXPECT_LT(losses.worst[depth], losses.worst[depth - 1]) << "depth " << depth; }
   }
 }
@@ -164,7 +167,9 @@ TEST(ClosedMeshes, EachCellKeepsThePromiseOfItsDepthWhateverItsSize) {
     expect_closed(*domain, sites_in(*domain, random, count, 0.007, 0.7), "round " + std::to_string(round), losses);
   }
   EXPECT_GT(losses.cells, static_cast<std::size_t>(3 * kPlans));
-  for (int depth = 0; depth <= 4; ++depth) { EXPECT_LE(losses.worst[depth], kMostMeshLoss[depth]) << "depth " << depth; }
+  for (int depth = 0; depth <= 4; ++depth) {
+    EXPECT_LE(losses.worst[depth], geometry::kMostMeshLoss[depth]) << "depth " << depth;
+  }
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace bl::test {
 namespace {
 
 // Heaviest first, each against all that live: the definition, as slow as it is.
-std::vector<std::uint32_t> twins_by_definition(const std::vector<PowerSite>& sites, double tolerance) {
+std::vector<std::uint32_t> twins_by_definition(const std::vector<geometry::PowerSite>& sites, double tolerance) {
   std::vector<std::uint32_t> order(sites.size()), twin(sites.size(), kNone), living;
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return sites[i].weight > sites[j].weight; });
@@ -28,7 +28,7 @@ TEST(Coincidence, IsWhatItsWordsSay) {
     Random random(round);
     const double tolerance = round % 3 == 0 ? 1e-6 : 0.01;
     const Vector3 origin = round % 2 == 0 ? Vector3{} : Vector3{4e6, -3e5, 7};
-    std::vector<PowerSite> sites;
+    std::vector<geometry::PowerSite> sites;
     for (int k = 0; k < 60; ++k) {
       const Point3 place = random_point(random, {0, 0, 0}, {3 * tolerance, 2 * tolerance, 2 * tolerance});
       const Point3 centre = origin + 5.0 * static_cast<double>(random.below(3)) * Vector3{tolerance, 1, tolerance};
@@ -42,7 +42,7 @@ TEST(Coincidence, IsWhatItsWordsSay) {
 
 // Of the processor, and the shortest of a few: others work on this machine, too [s].
 double seconds_for_sites_on_one_place(std::uint32_t count) {
-  std::vector<PowerSite> sites(count, {{5, 5, 5}, 4});
+  std::vector<geometry::PowerSite> sites(count, {{5, 5, 5}, 4});
   sites[count / 2].weight = 5;
   sites.push_back({{2, 2, 2}, 4});
   double least = 1e9;
@@ -50,10 +50,10 @@ double seconds_for_sites_on_one_place(std::uint32_t count) {
     const std::clock_t begin = std::clock();
     const auto cells = cells_of(box({0, 0, 0}, {10, 10, 10}), sites);
     least = std::min(least, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-    const CellTotals totals = totals_of(cells);
+    const geometry::CellTotals totals = totals_of(cells);
     EXPECT_EQ(totals.alive, 2u);
     EXPECT_EQ(totals.coincident, count - 1);
-    EXPECT_EQ(cells[count / 2].state, SiteState::alive);
+    EXPECT_EQ(cells[count / 2].state, geometry::SiteState::alive);
   }
   return least;
 }

@@ -10,8 +10,8 @@ namespace bl::test {
 namespace {
 
 struct Scene {
-  ConvexDomain domain;
-  std::vector<PowerSite> sites;
+  geometry::ConvexDomain domain;
+  std::vector<geometry::PowerSite> sites;
   std::vector<double> demands;
 };
 
@@ -29,19 +29,19 @@ Scene make_scene(std::size_t count, double fill, std::uint64_t seed = 7) {
   return scene;
 }
 
-FitReport fit(const Scene& scene, const FitOptions& options, std::span<const std::uint8_t> locked = {}) {
+geometry::FitReport fit(const Scene& scene, const geometry::FitOptions& options, std::span<const std::uint8_t> locked = {}) {
   auto report = adapt_weights(scene.domain, scene.sites, scene.demands, locked, {}, options);
   EXPECT_TRUE(report.ok()) << (report.ok() ? "" : report.error().text());
-  return report.ok() ? *report : FitReport{};
+  return report.ok() ? *report : geometry::FitReport{};
 }
 
-void use(std::vector<PowerSite>& sites, const FitReport& report) {
+void use(std::vector<geometry::PowerSite>& sites, const geometry::FitReport& report) {
   for (std::size_t i = 0; i < sites.size(); ++i) sites[i].weight = report.weights[i];
 }
 
-void expect_met(const Scene& scene, const FitReport& report, double tolerance) {
+void expect_met(const Scene& scene, const geometry::FitReport& report, double tolerance) {
   EXPECT_TRUE(report.is_met) << report.error;
-  std::vector<PowerSite> sites = scene.sites;
+  std::vector<geometry::PowerSite> sites = scene.sites;
   use(sites, report);
   const auto cells = cells_of(scene.domain, sites);
   for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -55,9 +55,9 @@ TEST(DemandFit, FeedbackMeetsDemandsAtEveryFill) {
     for (const double fill : {0.3, 0.5, 0.7, 0.9}) {
       SCOPED_TRACE(std::to_string(count) + " sites, fill " + std::to_string(fill));
       const Scene scene = make_scene(count, fill);
-      FitOptions options;
+      geometry::FitOptions options;
       options.steps = 150;
-      const FitReport report = fit(scene, options);
+      const geometry::FitReport report = fit(scene, options);
       expect_met(scene, report, 0.01);
       std::printf("feedback: %zu sites, fill %.0f %%: %d steps to 1 %%\n", count, 100 * fill, report.steps);
     }
@@ -69,11 +69,11 @@ TEST(DemandFit, NewtonMeetsDemandsInAHandfulOfSteps) {
     for (const double fill : {0.3, 0.7, 0.95, 0.99}) {
       SCOPED_TRACE(std::to_string(count) + " sites, fill " + std::to_string(fill));
       const Scene scene = make_scene(count, fill);
-      FitOptions options;
-      options.method = FitMethod::newton;
+      geometry::FitOptions options;
+      options.method = geometry::FitMethod::newton;
       options.steps = 30;
       options.tolerance = 1e-6;
-      const FitReport report = fit(scene, options);
+      const geometry::FitReport report = fit(scene, options);
       expect_met(scene, report, 1e-6);
       EXPECT_LE(report.steps, 16);
       std::printf("newton: %zu sites, fill %.0f %%: %d steps to 1e-6\n", count, 100 * fill, report.steps);
@@ -82,18 +82,18 @@ TEST(DemandFit, NewtonMeetsDemandsInAHandfulOfSteps) {
 }
 
 TEST(DemandFit, SavedStateMakesSingleStepsEqualToManyInOneCall) {
-  for (const FitMethod method : {FitMethod::feedback, FitMethod::newton}) {
+  for (const geometry::FitMethod method : {geometry::FitMethod::feedback, geometry::FitMethod::newton}) {
     const Scene scene = make_scene(40, 0.8);
-    FitOptions options;
+    geometry::FitOptions options;
     options.method = method;
     options.steps = 12;
     options.tolerance = 1e-12;
-    const FitReport at_once = fit(scene, options);
+    const geometry::FitReport at_once = fit(scene, options);
     options.steps = 1;
     ThreadPool pool(3);
     options.pool = &pool;
     auto sites = scene.sites;
-    FitState state;
+    geometry::FitState state;
     for (int i = 0; i < 12; ++i) {
       const auto report = adapt_weights(scene.domain, sites, scene.demands, {}, state, options);
       ASSERT_TRUE(report.ok());
@@ -107,9 +107,9 @@ TEST(DemandFit, SavedStateMakesSingleStepsEqualToManyInOneCall) {
 TEST(DemandFit, ConstantGainIsTheRuleOf2007) {
   const Scene scene = make_scene(10, 0.2);
   auto sites = scene.sites;
-  for (PowerSite& site : sites) site.weight = 100;
+  for (geometry::PowerSite& site : sites) site.weight = 100;
   const auto cells = cells_of(scene.domain, sites);
-  FitOptions options;
+  geometry::FitOptions options;
   options.gain = 1e-4;
   const auto report = adapt_weights(scene.domain, sites, scene.demands, {}, {}, options);
   ASSERT_TRUE(report.ok());
@@ -125,11 +125,11 @@ TEST(DemandFit, LockedWeightsStay) {
     locked[i] = 1;
     scene.sites[i].weight = 150;
   }
-  for (const FitMethod method : {FitMethod::feedback, FitMethod::newton}) {
-    FitOptions options;
+  for (const geometry::FitMethod method : {geometry::FitMethod::feedback, geometry::FitMethod::newton}) {
+    geometry::FitOptions options;
     options.method = method;
     options.steps = 100;
-    const FitReport report = fit(scene, options, locked);
+    const geometry::FitReport report = fit(scene, options, locked);
     EXPECT_TRUE(report.is_met) << report.error;
     for (std::size_t i = 0; i < 30; i += 5) EXPECT_EQ(report.weights[i], 150);
   }
@@ -137,15 +137,15 @@ TEST(DemandFit, LockedWeightsStay) {
 
 TEST(DemandFit, TooMuchIsScaledAndSaysWhoLoses) {
   const Scene scene = make_scene(20, 1.25);
-  FitOptions options;
-  options.method = FitMethod::newton;
+  geometry::FitOptions options;
+  options.method = geometry::FitMethod::newton;
   options.steps = 60;
-  const FitReport report = fit(scene, options);
+  const geometry::FitReport report = fit(scene, options);
   EXPECT_TRUE(report.is_met) << report.error;
   EXPECT_NE(report.infeasible.find("80.0 %"), std::string::npos) << report.infeasible;
   ASSERT_EQ(report.losses.size(), 20u);
   EXPECT_NEAR(report.losses[3].granted, 0.8 * report.losses[3].demand, 1e-9 * report.losses[3].demand);
-  options.method = FitMethod::feedback;
+  options.method = geometry::FitMethod::feedback;
   options.steps = 190;
   EXPECT_LT(fit(scene, options).error, 0.05);
 }
@@ -153,9 +153,9 @@ TEST(DemandFit, TooMuchIsScaledAndSaysWhoLoses) {
 TEST(DemandFit, CoincidentSitesLoseTheirDemandAndSayIt) {
   Scene scene = make_scene(10, 0.3);
   scene.sites[7].position = scene.sites[2].position;
-  FitOptions options;
+  geometry::FitOptions options;
   options.steps = 100;
-  const FitReport report = fit(scene, options);
+  const geometry::FitReport report = fit(scene, options);
   EXPECT_TRUE(report.is_met);
   ASSERT_EQ(report.losses.size(), 1u);
   EXPECT_EQ(report.losses[0].site, 7u);
@@ -163,9 +163,9 @@ TEST(DemandFit, CoincidentSitesLoseTheirDemandAndSayIt) {
 }
 
 TEST(DemandFit, EmptiedCellsComeBack) {
-  for (const FitMethod method : {FitMethod::feedback, FitMethod::newton}) {
+  for (const geometry::FitMethod method : {geometry::FitMethod::feedback, geometry::FitMethod::newton}) {
     Scene scene = make_scene(30, 0.6);
-    FitOptions options;
+    geometry::FitOptions options;
     options.method = method;
     options.steps = 150;
     use(scene.sites, fit(scene, options));
@@ -175,7 +175,7 @@ TEST(DemandFit, EmptiedCellsComeBack) {
     const std::size_t dragged = largest == 4 ? 5 : 4, close = largest == 9 ? 10 : 9;
     scene.sites[dragged].position = scene.sites[largest].position + Vector3{0.5, 0.2, 0.1};
     scene.sites[close].position = scene.sites[dragged].position + Vector3{0.1, 0.4, -0.3};
-    const FitReport report = fit(scene, options);
+    const geometry::FitReport report = fit(scene, options);
     EXPECT_TRUE(report.is_met) << report.error << " steps " << report.steps;
   }
 }
@@ -184,11 +184,11 @@ TEST(DemandFit, EmptiedCellsComeBack) {
 TEST(DemandFit, NewtonMeetsDemandsOfHardArrangements) {
   const auto expect_fit = [](const char* name, Scene scene, auto&& place) {
     SCOPED_TRACE(name);
-    for (PowerSite& site : scene.sites) site.position = place(site.position);
-    FitOptions options;
-    options.method = FitMethod::newton;
+    for (geometry::PowerSite& site : scene.sites) site.position = place(site.position);
+    geometry::FitOptions options;
+    options.method = geometry::FitMethod::newton;
     options.steps = 150;
-    const FitReport report = fit(scene, options);
+    const geometry::FitReport report = fit(scene, options);
     EXPECT_TRUE(report.is_met) << report.error;
     std::printf("newton, %s: %d steps to 1 %%\n", name, report.steps);
   };
@@ -208,12 +208,12 @@ TEST(DemandFit, NewtonMeetsDemandsOfHardArrangements) {
 // A site moved a little in every tick, one step a tick: the others keep their volumes on the way.
 TEST(DemandFit, NewtonFollowsADrag) {
   Scene scene = make_scene(60, 0.7);
-  FitOptions options;
-  options.method = FitMethod::newton;
+  geometry::FitOptions options;
+  options.method = geometry::FitMethod::newton;
   options.steps = 30;
   use(scene.sites, fit(scene, options));
   options.steps = 2;
-  FitState state;
+  geometry::FitState state;
   double worst = 0;
   for (int tick = 0; tick < 60; ++tick) {
     scene.sites[0].position = Point3{50 + 40 * std::cos(0.05 * tick), 50 + 40 * std::sin(0.05 * tick), 30.0 + tick * 0.5};
@@ -228,15 +228,16 @@ TEST(DemandFit, NewtonFollowsADrag) {
 }
 
 TEST(DemandFit, FewSitesAndSitesOutside) {
-  const ConvexDomain domain = box({0, 0, 0}, {10, 10, 10});
-  for (const FitMethod method : {FitMethod::feedback, FitMethod::newton}) {
-    FitOptions options;
+  const geometry::ConvexDomain domain = box({0, 0, 0}, {10, 10, 10});
+  for (const geometry::FitMethod method : {geometry::FitMethod::feedback, geometry::FitMethod::newton}) {
+    geometry::FitOptions options;
     options.method = method;
     options.steps = 100;
-    const auto one = adapt_weights(domain, std::vector<PowerSite>{{{1, 1, 1}, 0}}, std::vector<double>{500}, {}, {}, options);
+    const auto one =
+        adapt_weights(domain, std::vector<geometry::PowerSite>{{{1, 1, 1}, 0}}, std::vector<double>{500}, {}, {}, options);
     ASSERT_TRUE(one.ok());
     EXPECT_TRUE(one->is_met);
-    const std::vector<PowerSite> sites{{{5, 5, 5}, 0}, {{-2, 5, 5}, 0}, {{5, 13, 12}, 0}};
+    const std::vector<geometry::PowerSite> sites{{{5, 5, 5}, 0}, {{-2, 5, 5}, 0}, {{5, 13, 12}, 0}};
     const auto outside = adapt_weights(domain, sites, std::vector<double>{300, 100, 50}, {}, {}, options);
     ASSERT_TRUE(outside.ok());
     EXPECT_TRUE(outside->is_met) << outside->error;
@@ -247,12 +248,12 @@ TEST(DemandFit, FewSitesAndSitesOutside) {
 }
 
 TEST(DemandFit, BadDemandsAreRefused) {
-  const ConvexDomain domain = unit_cube();
-  const std::vector<PowerSite> sites{{{0.5, 0.5, 0.5}, 0}};
+  const geometry::ConvexDomain domain = unit_cube();
+  const std::vector<geometry::PowerSite> sites{{{0.5, 0.5, 0.5}, 0}};
   EXPECT_FALSE(adapt_weights(domain, sites, std::vector<double>{-1}, {}, {}, {}).ok());
   EXPECT_FALSE(adapt_weights(domain, sites, std::vector<double>{std::nan("")}, {}, {}, {}).ok());
   EXPECT_FALSE(adapt_weights(domain, sites, std::vector<double>{1, 2}, {}, {}, {}).ok());
-  FitOptions options;
+  geometry::FitOptions options;
   options.damping = 0;
   EXPECT_FALSE(adapt_weights(domain, sites, std::vector<double>{0.1}, {}, {}, options).ok());
 }
@@ -260,9 +261,9 @@ TEST(DemandFit, BadDemandsAreRefused) {
 TEST(DemandFit, SitesWithoutDemandGetNothing) {
   Scene scene = make_scene(12, 0.4);
   scene.demands[5] = 0;
-  FitOptions options;
+  geometry::FitOptions options;
   options.steps = 100;
-  const FitReport report = fit(scene, options);
+  const geometry::FitReport report = fit(scene, options);
   EXPECT_TRUE(report.is_met);
   EXPECT_EQ(report.weights[5], 0);
   EXPECT_EQ(report.volumes[5], 0);

@@ -7,14 +7,14 @@ namespace {
 
 const std::vector<Point3> kEll = ring_of({{0, 0}, {20, 0}, {20, 10}, {10, 10}, {10, 20}, {0, 20}});
 
-Domain ell(double height) { return extrude_plan(kEll, {}, 0, height).value(); }
+geometry::Domain ell(double height) { return geometry::extrude_plan(kEll, {}, 0, height).value(); }
 
-bool has_piece(const Domain& domain, const Domain::Piece& piece) {
+bool has_piece(const geometry::Domain& domain, const geometry::Domain::Piece& piece) {
   return std::find(domain.pieces.begin(), domain.pieces.end(), piece) != domain.pieces.end();
 }
 
 // The share of sample points that are held, times the box.
-void expect_same_points(const Domain& domain, auto&& is_inside) {
+void expect_same_points(const geometry::Domain& domain, auto&& is_inside) {
   Random random(9);
   for (int k = 0; k < 2000; ++k) {
     const Point3 p = random_point(random, domain.minimum, domain.maximum);
@@ -24,7 +24,7 @@ void expect_same_points(const Domain& domain, auto&& is_inside) {
 
 TEST(DomainCut, ASetbackTakesAWedge) {
   // From 6 m up at the south wall, rising one to one.
-  const auto cut = cut_domain(ell(10), std::vector<Plane>{{{0, -1, 1}, 6}, {{0, 0, 1}, 100}});
+  const auto cut = cut_domain(ell(10), std::vector<geometry::Plane>{{{0, -1, 1}, 6}, {{0, 0, 1}, 100}});
   ASSERT_TRUE(cut.ok()) << cut.error().text();
   EXPECT_EQ(cut->side_count, 10u);
   const double wedge = 0.5 * 4 * 4 * 20;
@@ -34,16 +34,16 @@ TEST(DomainCut, ASetbackTakesAWedge) {
 }
 
 TEST(DomainCut, WhatNoPlaneCutsKeepsItsBits) {
-  const Domain before = ell(10);
-  EXPECT_EQ(cut_domain(before, std::vector<Plane>{{{0, 0, 1}, 10}})->pieces, before.pieces);
-  EXPECT_EQ(cut_domain(before, std::vector<Plane>{{{0, 0, 1}, -1}}).error().text(),
+  const geometry::Domain before = ell(10);
+  EXPECT_EQ(cut_domain(before, std::vector<geometry::Plane>{{{0, 0, 1}, 10}})->pieces, before.pieces);
+  EXPECT_EQ(cut_domain(before, std::vector<geometry::Plane>{{{0, 0, 1}, -1}}).error().text(),
             "the planes cut the whole boundary away: nothing is left of it");
-  EXPECT_EQ(cut_domain(before, std::vector<Plane>{{{0, 0, 1}, 9}, {{0, 0, 0}, 1}}).error().place, "1");
+  EXPECT_EQ(cut_domain(before, std::vector<geometry::Plane>{{{0, 0, 1}, 9}, {{0, 0, 0}, 1}}).error().place, "1");
 }
 
 TEST(DomainCut, APlaneInAnInnerFaceMakesItSurface) {
   // The ell falls into two pieces along the diagonal from (0, 0) to (10, 10).
-  const auto cut = cut_domain(ell(10), std::vector<Plane>{{{-1, 1, 0}, 0}});
+  const auto cut = cut_domain(ell(10), std::vector<geometry::Plane>{{{-1, 1, 0}, 0}});
   ASSERT_TRUE(cut.ok());
   ASSERT_EQ(cut->pieces.size(), 1u);
   EXPECT_NEAR(outer_area(*cut, 8), 10 * std::sqrt(200), 1e-9);
@@ -51,8 +51,8 @@ TEST(DomainCut, APlaneInAnInnerFaceMakesItSurface) {
 }
 
 TEST(DomainCut, ATowerOnAPodium) {
-  const Domain podium = box({0, 0, 0}, {30, 20, 6}), tower = box({5, 5, 0}, {15, 15, 40});
-  const std::vector<Domain> both{podium, tower};
+  const geometry::Domain podium = box({0, 0, 0}, {30, 20, 6}), tower = box({5, 5, 0}, {15, 15, 40});
+  const std::vector<geometry::Domain> both{podium, tower};
   const auto domain = unite(both);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   EXPECT_LE(domain->pieces.size(), 8u);
@@ -60,7 +60,7 @@ TEST(DomainCut, ATowerOnAPodium) {
   expect_sound(*domain, 3600 + 3400, 2 * 600 + 100 * 6 + 40 * 34);
   EXPECT_NEAR(outer_area(*domain, 1), 500, 1e-9);
   EXPECT_NEAR(area_in_plan(*domain), 600, 1e-6);
-  const std::vector<Domain> turned{tower, podium};
+  const std::vector<geometry::Domain> turned{tower, podium};
   const auto other = unite(turned);
   ASSERT_TRUE(other.ok()) << other.error().text();
   expect_sound(*other, 7000, 2 * 600 + 100 * 6 + 40 * 34);
@@ -68,7 +68,8 @@ TEST(DomainCut, ATowerOnAPodium) {
 
 TEST(DomainCut, StepsThatShareWalls) {
   // Three terraces side by side, the middle one reaching into both neighbours.
-  const std::vector<Domain> steps{box({0, 0, 0}, {10, 10, 3}), box({5, 0, 0}, {25, 10, 6}), box({20, 0, 0}, {30, 10, 9})};
+  const std::vector<geometry::Domain> steps{box({0, 0, 0}, {10, 10, 3}), box({5, 0, 0}, {25, 10, 6}),
+                                            box({20, 0, 0}, {30, 10, 9})};
   const auto domain = unite(steps);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   expect_sound(*domain, 150 + 900 + 900, 2 * (15 + 90 + 90) + 2 * 300 + 10 * (3 + 3 + 3 + 9));
@@ -78,7 +79,7 @@ TEST(DomainCut, StepsThatShareWalls) {
 TEST(DomainCut, RandomUnionsOfBoxesAddUp) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Random random(seed);
-    std::vector<Domain> boxes;
+    std::vector<geometry::Domain> boxes;
     for (std::uint64_t k = 0, n = 2 + random.below(4); k < n; ++k) {
       // Whole metres, so that faces often meet.
       const double x = static_cast<double>(random.below(6)), y = static_cast<double>(random.below(6)),
@@ -88,7 +89,9 @@ TEST(DomainCut, RandomUnionsOfBoxesAddUp) {
     }
     // Unit cubes counted one by one.
     const auto held = [&](int x, int y, int z) {
-      return std::any_of(boxes.begin(), boxes.end(), [&](const Domain& b) { return b.contains({x + 0.5, y + 0.5, z + 0.5}); });
+      return std::any_of(boxes.begin(), boxes.end(), [&](const geometry::Domain& b) {
+        return b.contains({x + 0.5, y + 0.5, z + 0.5});
+      });
     };
     double volume = 0, surface = 0;
     for (int x = 0; x < 12; ++x)
@@ -108,8 +111,8 @@ TEST(DomainCut, RandomUnionsOfBoxesAddUp) {
 }
 
 TEST(DomainCut, ABuildingThatStaysIsAHole) {
-  const Domain site = box({0, 0, 0}, {40, 30, 20});
-  const std::vector<Domain> standing{box({10, 10, -5}, {20, 18, 12})};
+  const geometry::Domain site = box({0, 0, 0}, {40, 30, 20});
+  const std::vector<geometry::Domain> standing{box({10, 10, -5}, {20, 18, 12})};
   const auto domain = exclude(site, standing);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   EXPECT_EQ(domain->side_count, 12u);
@@ -121,12 +124,12 @@ TEST(DomainCut, ABuildingThatStaysIsAHole) {
 }
 
 TEST(DomainCut, PiecesOutOfReachKeepTheirBits) {
-  const Domain before = ell(10);
-  const std::vector<Domain> easement{box({14, -5, -5}, {16, 30, 30})};
+  const geometry::Domain before = ell(10);
+  const std::vector<geometry::Domain> easement{box({14, -5, -5}, {16, 30, 30})};
   const auto domain = exclude(before, easement);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   int same = 0;
-  for (const Domain::Piece& piece : before.pieces) same += has_piece(*domain, piece) ? 1 : 0;
+  for (const geometry::Domain::Piece& piece : before.pieces) same += has_piece(*domain, piece) ? 1 : 0;
   EXPECT_EQ(same, 1);
   expect_sound(*domain, 3000 - 200, 2 * 280 + (80 - 4 + 20) * 10);
   expect_same_points(*domain, [&](const Point3& p) { return before.contains(p) && (p.x < 14 || p.x > 16); });
@@ -134,15 +137,15 @@ TEST(DomainCut, PiecesOutOfReachKeepTheirBits) {
 
 TEST(DomainCut, ExclusionsThatFillAnInnerFaceNameIt) {
   // What is taken away is one whole piece of the ell: the face between the pieces becomes a wall of the exclusion.
-  const Domain before = ell(10);
+  const geometry::Domain before = ell(10);
   ASSERT_EQ(before.pieces.size(), 2u);
-  const std::vector<Domain> gone{Domain(before.pieces[0].shape)};
+  const std::vector<geometry::Domain> gone{geometry::Domain(before.pieces[0].shape)};
   const auto domain = exclude(before, gone);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   ASSERT_EQ(domain->pieces.size(), 1u);
   EXPECT_EQ(domain->pieces[0].shape, before.pieces[1].shape);
   expect_sound(*domain, 1500, 2 * 150 + 10 * (20 + 10 + 10 + std::sqrt(200)));
-  EXPECT_FALSE(exclude(before, std::vector<Domain>{box({-1, -1, -1}, {50, 50, 50})}).ok());
+  EXPECT_FALSE(exclude(before, std::vector<geometry::Domain>{box({-1, -1, -1}, {50, 50, 50})}).ok());
 }
 
 TEST(DomainCut, RandomExclusionsAgreeWithSamples) {
@@ -150,11 +153,11 @@ TEST(DomainCut, RandomExclusionsAgreeWithSamples) {
     Random random(seed);
     SCOPED_TRACE(seed);
     const auto plan = star_ring(random, {0, 0, 0}, 5 + random.below(12), 8, 14);
-    const Domain site = extrude_plan(plan, {}, 0, 12).value();
-    std::vector<Domain> solids;
+    const geometry::Domain site = geometry::extrude_plan(plan, {}, 0, 12).value();
+    std::vector<geometry::Domain> solids;
     for (int k = 0; k < 2; ++k) {
       const auto ring = star_ring(random, {random.uniform(-6, 6), random.uniform(-6, 6), 0}, 3 + random.below(5), 2, 5);
-      solids.push_back(extrude_plan(ring, {}, random.uniform(-3, 2), random.uniform(4, 15)).value());
+      solids.push_back(geometry::extrude_plan(ring, {}, random.uniform(-3, 2), random.uniform(4, 15)).value());
     }
     const auto domain = exclude(site, solids);
     ASSERT_TRUE(domain.ok()) << domain.error().text();

@@ -12,58 +12,60 @@
 
 namespace bl::test {
 
-inline double outer_area(const Domain& domain, std::uint32_t side = Domain::kInner) {
+inline double outer_area(const geometry::Domain& domain, std::uint32_t side = geometry::Domain::kInner) {
   double area = 0;
-  for (const Domain::Piece& piece : domain.pieces) {
-    const SolidPart part = part_of(piece);
+  for (const geometry::Domain::Piece& piece : domain.pieces) {
+    const geometry::SolidPart part = part_of(piece);
     for (std::size_t f = 0; f < part.faces.size(); ++f)
-      if (part.faces[f].side != Domain::kInner && (side == Domain::kInner || part.faces[f].side == side))
-        area += norm(area_vector(part.polygon(f)));
+      if (part.faces[f].side != geometry::Domain::kInner && (side == geometry::Domain::kInner || part.faces[f].side == side))
+        area += norm(geometry::area_vector(part.polygon(f)));
   }
   return area;
 }
 
 /// How much of a face the faces of the other pieces cover, and how much of those is called inner.
-inline double covered_area(const Domain& domain, std::size_t of, const PartFace& face, const Polygon& polygon, double tolerance) {
+inline double covered_area(const geometry::Domain& domain, std::size_t of, const geometry::PartFace& face,
+                           const geometry::Polygon& polygon, double tolerance) {
   double covered = 0;
   for (std::size_t p = 0; p < domain.pieces.size(); ++p) {
     if (p == of) continue;
-    const SolidPart other = part_of(domain.pieces[p]);
+    const geometry::SolidPart other = part_of(domain.pieces[p]);
     for (std::size_t g = 0; g < other.faces.size(); ++g) {
       if (dot(other.faces[g].plane.normal, face.plane.normal) > -0.999999) continue;
-      const Polygon facing = other.polygon(g);
+      const geometry::Polygon facing = other.polygon(g);
       const bool is_coplanar = std::all_of(facing.begin(), facing.end(), [&](const Point3& q) {
         return std::abs(dot(face.plane.normal, q) - face.plane.offset) <= tolerance;
       });
-      const double common = is_coplanar ? common_area(polygon, facing, face.plane.normal) : 0;
+      const double common = is_coplanar ? geometry::common_area(polygon, facing, face.plane.normal) : 0;
       covered += common;
-      if (common > 1e-6 * norm(area_vector(polygon))) { EXPECT_EQ(other.faces[g].side, Domain::kInner); }
+      if (common > 1e-6 * norm(geometry::area_vector(polygon))) { EXPECT_EQ(other.faces[g].side, geometry::Domain::kInner); }
     }
   }
   return covered;
 }
 
-inline void expect_sound(const Domain& domain, double volume, double surface) {
+inline void expect_sound(const geometry::Domain& domain, double volume, double surface) {
   const double size = domain.size(), tolerance = 1e-8 * size;
   EXPECT_NEAR(domain.volume, volume, 1e-9 * volume);
   EXPECT_NEAR(outer_area(domain), surface, 1e-8 * surface);
   double sum = 0;
   Vector3 closing;
   for (std::size_t p = 0; p < domain.pieces.size(); ++p) {
-    const Domain::Piece& piece = domain.pieces[p];
+    const geometry::Domain::Piece& piece = domain.pieces[p];
     ASSERT_EQ(piece.sides.size(), piece.shape.planes.size());
     EXPECT_TRUE(is_closed(to_mesh(piece.shape)));
     EXPECT_NEAR(enclosed_volume(to_mesh(piece.shape)), piece.shape.volume, 1e-12 * size * size * size);
     sum += piece.shape.volume;
-    const SolidPart part = part_of(piece);
+    const geometry::SolidPart part = part_of(piece);
     for (std::size_t f = 0; f < part.faces.size(); ++f) {
-      const Polygon polygon = part.polygon(f);
-      const double area = norm(area_vector(polygon)), covered = covered_area(domain, p, part.faces[f], polygon, tolerance);
-      EXPECT_NEAR(covered, part.faces[f].side == Domain::kInner ? area : 0.0, 1e-7 * size * size)
+      const geometry::Polygon polygon = part.polygon(f);
+      const double area = norm(geometry::area_vector(polygon)),
+                   covered = covered_area(domain, p, part.faces[f], polygon, tolerance);
+      EXPECT_NEAR(covered, part.faces[f].side == geometry::Domain::kInner ? area : 0.0, 1e-7 * size * size)
           << "piece " << p << " face " << f;
-      if (part.faces[f].side == Domain::kInner) continue;
+      if (part.faces[f].side == geometry::Domain::kInner) continue;
       EXPECT_LT(part.faces[f].side, domain.side_count);
-      closing += area_vector(polygon);
+      closing += geometry::area_vector(polygon);
     }
     // The half-spaces alone give the piece back: they are what travels between nodes.
     const auto again = from_planes(piece.shape.planes);
@@ -77,7 +79,7 @@ inline void expect_sound(const Domain& domain, double volume, double surface) {
   for (int k = 0; k < 400; ++k) {
     const Point3 p = random_point(random, domain.minimum, domain.maximum);
     int held = 0;
-    for (const Domain::Piece& piece : domain.pieces) held += piece.shape.contains(p, -tolerance) ? 1 : 0;
+    for (const geometry::Domain::Piece& piece : domain.pieces) held += piece.shape.contains(p, -tolerance) ? 1 : 0;
     EXPECT_LE(held, 1);
   }
 }

@@ -54,15 +54,15 @@ void turn(Mesh& mesh, double scale) {
   for (Point3& v : mesh.vertices) v = Vector3{100, -50, 7} + scale * Vector3{dot(a, v), dot(b, v), dot(c, v)};
 }
 
-Domain expect_blocks(const Blocks& given, std::size_t most) {
-  const auto domain = from_closed_mesh(given.mesh);
+geometry::Domain expect_blocks(const Blocks& given, std::size_t most) {
+  const auto domain = geometry::from_closed_mesh(given.mesh);
   EXPECT_TRUE(domain.ok()) << domain.error().text();
   if (!domain) return {};
   expect_sound(*domain, given.volume, given.surface);
   EXPECT_LE(domain->pieces.size(), most);
   Blocks turned = given;
   turn(turned.mesh, 3);
-  const auto tilted = from_closed_mesh(turned.mesh);
+  const auto tilted = geometry::from_closed_mesh(turned.mesh);
   EXPECT_TRUE(tilted.ok()) << tilted.error().text();
   if (tilted) expect_sound(*tilted, 27 * given.volume, 9 * given.surface);
   return *domain;
@@ -93,24 +93,24 @@ double surface_of(const Mesh& mesh) {
 
 TEST(DomainMesh, AConvexMeshIsOnePiece) {
   const Mesh mesh = to_mesh(box({1, 2, 3}, {4, 6, 8}));
-  const auto domain = from_closed_mesh(mesh);
+  const auto domain = geometry::from_closed_mesh(mesh);
   ASSERT_TRUE(domain.ok());
-  EXPECT_EQ(*domain, Domain(from_mesh(mesh).value()));
+  EXPECT_EQ(*domain, geometry::Domain(geometry::from_mesh(mesh).value()));
 }
 
 TEST(DomainMesh, AnEll) {
-  const Domain domain = expect_blocks(blocks(2, [](int x, int y, int) { return x == 0 || y == 0; }), 3);
+  const geometry::Domain domain = expect_blocks(blocks(2, [](int x, int y, int) { return x == 0 || y == 0; }), 3);
   EXPECT_EQ(domain.side_count, 8u);
 }
 
 TEST(DomainMesh, ARingHasAHandle) {
-  const Domain domain = expect_blocks(blocks(3, [](int x, int y, int z) { return z == 0 && (x != 1 || y != 1); }), 8);
+  const geometry::Domain domain = expect_blocks(blocks(3, [](int x, int y, int z) { return z == 0 && (x != 1 || y != 1); }), 8);
   EXPECT_EQ(domain.side_count, 10u);
 }
 
 TEST(DomainMesh, ACavity) {
   const Blocks hollow = blocks(3, [](int x, int y, int z) { return x != 1 || y != 1 || z != 1; });
-  const Domain domain = expect_blocks(hollow, 26);
+  const geometry::Domain domain = expect_blocks(hollow, 26);
   EXPECT_EQ(domain.side_count, 12u);
   EXPECT_FALSE(domain.contains({1.5, 1.5, 1.5}));
 }
@@ -122,10 +122,10 @@ TEST(DomainMesh, ShellsBesideAndWithinEachOther) {
     const int away = std::max({std::abs(x - 2), std::abs(y - 2), std::abs(z - 2)});
     return away == 0 || away == 2;
   });
-  const Domain domain = expect_blocks(set, 30);
+  const geometry::Domain domain = expect_blocks(set, 30);
   Blocks other = set;
   for (auto& t : other.mesh.triangles) std::swap(t[0], t[1]);
-  EXPECT_EQ(from_closed_mesh(other.mesh).value(), domain);
+  EXPECT_EQ(geometry::from_closed_mesh(other.mesh).value(), domain);
 }
 
 TEST(DomainMesh, RandomBlocks) {
@@ -136,7 +136,7 @@ TEST(DomainMesh, RandomBlocks) {
     std::array<bool, 64> cells{};
     for (bool& cell : cells) cell = random.uniform() < 0.9;
     const Blocks set = blocks(4, [&](int x, int y, int z) { return cells[static_cast<std::size_t>(16 * x + 4 * y + z)]; });
-    const auto domain = from_closed_mesh(set.mesh);
+    const auto domain = geometry::from_closed_mesh(set.mesh);
     if (!domain) {
       // Cubes that touch along an edge only.
       EXPECT_NE(domain.error().message.find("not closed"), std::string::npos) << domain.error().text();
@@ -153,7 +153,7 @@ TEST(DomainMesh, RandomBlocks) {
 
 TEST(DomainMesh, ATorusOfTriangles) {
   const Mesh mesh = torus(12, 6);
-  const auto domain = from_closed_mesh(mesh);
+  const auto domain = geometry::from_closed_mesh(mesh);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   expect_sound(*domain, enclosed_volume(mesh), surface_of(mesh));
   RecordProperty("pieces", static_cast<int>(domain->pieces.size()));
@@ -164,7 +164,7 @@ TEST(DomainMesh, ATorusOfTriangles) {
 
 TEST(DomainMesh, TheOrderOfTheMeshDoesNotMatter) {
   const Mesh mesh = torus(8, 5);
-  const Domain domain = from_closed_mesh(mesh).value();
+  const geometry::Domain domain = geometry::from_closed_mesh(mesh).value();
   Random random(4);
   std::vector<std::uint32_t> place(mesh.vertices.size());
   std::iota(place.begin(), place.end(), 0u);
@@ -173,14 +173,14 @@ TEST(DomainMesh, TheOrderOfTheMeshDoesNotMatter) {
   for (std::size_t v = 0; v < place.size(); ++v) shuffled.vertices[place[v]] = mesh.vertices[v];
   for (auto& t : shuffled.triangles) t = {place[t[1]], place[t[2]], place[t[0]]};
   std::reverse(shuffled.triangles.begin(), shuffled.triangles.end());
-  EXPECT_EQ(from_closed_mesh(shuffled).value(), domain);
+  EXPECT_EQ(geometry::from_closed_mesh(shuffled).value(), domain);
   for (auto& t : shuffled.triangles) std::swap(t[0], t[1]);
-  EXPECT_EQ(from_closed_mesh(shuffled).value(), domain);
+  EXPECT_EQ(geometry::from_closed_mesh(shuffled).value(), domain);
 }
 
 TEST(DomainMesh, RefusesWithASentence) {
   const auto text = [](const Mesh& mesh) {
-    const auto domain = from_closed_mesh(mesh);
+    const auto domain = geometry::from_closed_mesh(mesh);
     return domain ? std::string("taken") : domain.error().text();
   };
   Mesh open = torus(8, 5);
@@ -199,7 +199,7 @@ TEST(DomainMesh, RefusesWithASentence) {
   Mesh wrong = torus(8, 5);
   wrong.triangles[3][1] = 4000;
   EXPECT_EQ(text(wrong), "a triangle of the boundary mesh names a vertex that is not there");
-  EXPECT_FALSE(from_closed_mesh(Mesh{}).ok());
+  EXPECT_FALSE(geometry::from_closed_mesh(Mesh{}).ok());
 }
 
 }  // namespace

@@ -10,12 +10,12 @@ using Rings = std::vector<std::vector<Point3>>;
 const std::vector<Point3> kEllPlan = ring_of({{0, 0}, {20, 0}, {20, 10}, {10, 10}, {10, 20}, {0, 20}});
 
 void expect_plan(const std::vector<Point3>& plan, const Rings& holes, double bottom, double top) {
-  const auto domain = extrude_plan(plan, holes, bottom, top);
+  const auto domain = geometry::extrude_plan(plan, holes, bottom, top);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
-  double area = std::abs(signed_area(plan)), length = perimeter(plan);
+  double area = std::abs(geometry::signed_area(plan)), length = geometry::perimeter(plan);
   for (const auto& hole : holes) {
-    area -= std::abs(signed_area(hole));
-    length += perimeter(hole);
+    area -= std::abs(geometry::signed_area(hole));
+    length += geometry::perimeter(hole);
   }
   const double height = top - bottom;
   expect_sound(*domain, area * height, 2 * area + length * height);
@@ -23,14 +23,14 @@ void expect_plan(const std::vector<Point3>& plan, const Rings& holes, double bot
   Random random(5);
   for (int k = 0; k < 1000; ++k) {
     const Point3 p = random_point(random, domain->minimum, domain->maximum);
-    bool is_inside = ring_contains(plan, p);
-    for (const auto& hole : holes) is_inside = is_inside && !ring_contains(hole, p);
+    bool is_inside = geometry::ring_contains(plan, p);
+    for (const auto& hole : holes) is_inside = is_inside && !geometry::ring_contains(hole, p);
     EXPECT_EQ(domain->contains(p), is_inside) << p.x << " " << p.y;
   }
 }
 
 TEST(DomainPlan, AnEllIsTwoPieces) {
-  const auto domain = extrude_plan(kEllPlan, {}, 0, 5);
+  const auto domain = geometry::extrude_plan(kEllPlan, {}, 0, 5);
   ASSERT_TRUE(domain.ok());
   EXPECT_EQ(domain->pieces.size(), 2u);
   EXPECT_EQ(domain->side_count, 8u);
@@ -43,20 +43,20 @@ TEST(DomainPlan, AnEllIsTwoPieces) {
 
 TEST(DomainPlan, AConvexPlanIsWhatItWas) {
   const auto plan = ring_of({{3, 0}, {9, 1}, {8, 7}, {2, 6}});
-  const auto domain = extrude_plan(plan, {}, -2, 5);
+  const auto domain = geometry::extrude_plan(plan, {}, -2, 5);
   ASSERT_TRUE(domain.ok());
-  EXPECT_EQ(*domain, Domain(extrude(plan, -2, 5).value()));
+  EXPECT_EQ(*domain, geometry::Domain(geometry::extrude(plan, -2, 5).value()));
 }
 
 TEST(DomainPlan, WallsOfHolesFollowThoseOfTheRing) {
   const auto square = ring_of({{0, 0}, {12, 0}, {12, 12}, {0, 12}});
   const auto court = ring_of({{4, 5}, {8, 5}, {8, 9}, {4, 9}});
-  const auto domain = extrude_plan(square, Rings{court}, 0, 10);
+  const auto domain = geometry::extrude_plan(square, Rings{court}, 0, 10);
   ASSERT_TRUE(domain.ok());
   EXPECT_EQ(domain->side_count, 10u);
   EXPECT_LE(domain->pieces.size(), 5u);
   // Clockwise from (4, 5): the west wall of the court comes first, and its surface looks east.
-  for (const Domain::Piece& piece : domain->pieces)
+  for (const geometry::Domain::Piece& piece : domain->pieces)
     for (std::size_t k = 0; k < piece.sides.size(); ++k)
       if (piece.sides[k] == 6) { EXPECT_NEAR(piece.shape.planes[k].normal.x, 1, 1e-12); }
   expect_plan(square, {court}, 0, 10);
@@ -84,11 +84,11 @@ TEST(DomainPlan, PiecesDoNotDependOnWhereTheRingBegins) {
   const auto plan = star_ring(random, {0, 0, 0}, 17, 5, 12);
   auto turned = plan;
   std::rotate(turned.begin(), turned.begin() + 5, turned.end());
-  const auto domain = extrude_plan(plan, {}, 0, 4).value(), other = extrude_plan(turned, {}, 0, 4).value();
+  const auto domain = geometry::extrude_plan(plan, {}, 0, 4).value(), other = geometry::extrude_plan(turned, {}, 0, 4).value();
   ASSERT_EQ(domain.pieces.size(), other.pieces.size());
   for (std::size_t p = 0; p < domain.pieces.size(); ++p) EXPECT_EQ(domain.pieces[p].shape, other.pieces[p].shape);
   std::reverse(turned.begin(), turned.end());
-  const auto reversed = extrude_plan(turned, {}, 0, 4).value();
+  const auto reversed = geometry::extrude_plan(turned, {}, 0, 4).value();
   for (std::size_t p = 0; p < domain.pieces.size(); ++p) EXPECT_EQ(domain.pieces[p].shape, reversed.pieces[p].shape);
 }
 
@@ -99,7 +99,7 @@ TEST(DomainPlan, ACombNeedsOnePieceForEachToothAndOneMore) {
     comb.push_back({10.0 * tooth + 3, 20, 0});
     if (tooth > 0) comb.push_back({10.0 * tooth, 5, 0});
   }
-  const auto domain = extrude_plan(comb, {}, 0, 3);
+  const auto domain = geometry::extrude_plan(comb, {}, 0, 3);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   EXPECT_LE(domain->pieces.size(), 18u);
   expect_plan(comb, {}, 0, 3);
@@ -107,7 +107,7 @@ TEST(DomainPlan, ACombNeedsOnePieceForEachToothAndOneMore) {
 
 TEST(DomainPlan, RefusesWithPlaces) {
   const auto text = [](const std::vector<Point3>& plan, const Rings& holes) {
-    const auto domain = extrude_plan(plan, holes, 0, 3);
+    const auto domain = geometry::extrude_plan(plan, holes, 0, 3);
     return domain ? std::string("taken") : domain.error().text();
   };
   const auto square = ring_of({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
@@ -132,12 +132,12 @@ TEST(DomainPlan, RefusesWithPlaces) {
 
 // A ball around a corner reaches into pieces that its site does not see: its shape is drawn inside the domain all the same.
 TEST(DomainPlan, MeshesStayInTheDomainAndInTheirBalls) {
-  const auto domain = extrude_plan(kEllPlan, Rings{ring_of({{2, 2}, {8, 2}, {8, 8}, {2, 8}})}, 0, 10).value();
+  const auto domain = geometry::extrude_plan(kEllPlan, Rings{ring_of({{2, 2}, {8, 2}, {8, 8}, {2, 8}})}, 0, 10).value();
   Random random(71);
   for (int round = 0; round < 30; ++round) {
-    std::vector<PowerSite> sites;
+    std::vector<geometry::PowerSite> sites;
     for (int i = 0; i < 4; ++i) sites.push_back({random_point(random, {-2, -2, 0}, {20, 20, 10}), random.uniform(9, 150)});
-    CellOptions options;
+    geometry::CellOptions options;
     options.tessellation_depth = 3;
     const auto cells = power_cells(domain, sites, options).value();
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -10,19 +10,19 @@ std::vector<Point3> rectangle(double x, double y, double width, double depth) {
   return ring_of({{x, y}, {x + width, y}, {x + width, y + depth}, {x, y + depth}});
 }
 
-bool is_in(const PlanSolid& solid, const Point3& p) {
-  return p.z > solid.bottom && p.z < solid.top && ring_contains(solid.ring, p);
+bool is_in(const geometry::PlanSolid& solid, const Point3& p) {
+  return p.z > solid.bottom && p.z < solid.top && geometry::ring_contains(solid.ring, p);
 }
 
-bool is_in(const SitePlan& site, const Point3& p) {
-  bool inside = is_in(PlanSolid{site.plan, site.bottom, site.top}, p);
-  for (const auto& hole : site.holes) inside = inside && !ring_contains(hole, p);
-  for (const PlanSolid& step : site.steps) inside = inside || is_in(step, p);
-  for (const PlanSolid& gone : site.exclusions) inside = inside && !is_in(gone, p);
+bool is_in(const geometry::SitePlan& site, const Point3& p) {
+  bool inside = is_in(geometry::PlanSolid{site.plan, site.bottom, site.top}, p);
+  for (const auto& hole : site.holes) inside = inside && !geometry::ring_contains(hole, p);
+  for (const geometry::PlanSolid& step : site.steps) inside = inside || is_in(step, p);
+  for (const geometry::PlanSolid& gone : site.exclusions) inside = inside && !is_in(gone, p);
   return inside;
 }
 
-void expect_samples(const Domain& domain, const SitePlan& site) {
+void expect_samples(const geometry::Domain& domain, const geometry::SitePlan& site) {
   Random random(21);
   for (int k = 0; k < 3000; ++k) {
     const Point3 p = random_point(random, domain.minimum, domain.maximum);
@@ -31,12 +31,12 @@ void expect_samples(const Domain& domain, const SitePlan& site) {
 }
 
 TEST(DomainSite, WithoutStepsAndExclusionsItIsThePlan) {
-  const SitePlan site{rectangle(0, 0, 30, 20), {rectangle(10, 5, 5, 5)}, 0, 9, {}, {}};
-  EXPECT_EQ(site_domain(site).value(), extrude_plan(site.plan, site.holes, 0, 9).value());
+  const geometry::SitePlan site{rectangle(0, 0, 30, 20), {rectangle(10, 5, 5, 5)}, 0, 9, {}, {}};
+  EXPECT_EQ(site_domain(site).value(), geometry::extrude_plan(site.plan, site.holes, 0, 9).value());
 }
 
 TEST(DomainSite, AStepAndABuildingThatStays) {
-  const SitePlan site{
+  const geometry::SitePlan site{
       rectangle(0, 0, 40, 30), {}, 0, 20, {{rectangle(30, 0, 10, 10), 0, 50}}, {{rectangle(10, 10, 10, 8), -5, 12}}};
   const auto domain = site_domain(site);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
@@ -53,7 +53,7 @@ TEST(DomainSite, AStepAndABuildingThatStays) {
 }
 
 TEST(DomainSite, FullHeightExclusionsAreCourts) {
-  const SitePlan site{rectangle(0, 0, 40, 30), {}, 0, 20, {}, {{rectangle(10, 10, 10, 8), -5, 25}}};
+  const geometry::SitePlan site{rectangle(0, 0, 40, 30), {}, 0, 20, {}, {{rectangle(10, 10, 10, 8), -5, 25}}};
   const auto domain = site_domain(site);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   EXPECT_LE(domain->pieces.size(), 5u);
@@ -64,7 +64,7 @@ TEST(DomainSite, AgreesWithTheGeneralMakers) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    SitePlan site{star_ring(random, {0, 0, 0}, 5 + random.below(15), 8, 14), {}, 0, 12, {}, {}};
+    geometry::SitePlan site{star_ring(random, {0, 0, 0}, 5 + random.below(15), 8, 14), {}, 0, 12, {}, {}};
     if (seed % 2 == 0) site.holes.push_back(star_ring(random, {0, 0, 0}, 3 + random.below(5), 0.5, 2));
     for (std::uint64_t k = 0, n = random.below(3); k < n; ++k)
       site.steps.push_back({star_ring(random, {random.uniform(-9, 9), random.uniform(-9, 9), 0}, 3 + random.below(5), 2, 6), 0,
@@ -74,8 +74,9 @@ TEST(DomainSite, AgreesWithTheGeneralMakers) {
                                  random.uniform(-3, 3), random.uniform(4, 20)});
     const auto domain = site_domain(site);
     ASSERT_TRUE(domain.ok()) << domain.error().text();
-    std::vector<Domain> parts{extrude_plan(site.plan, site.holes, 0, 12).value()};
-    for (const PlanSolid& step : site.steps) parts.push_back(extrude_plan(step.ring, {}, step.bottom, step.top).value());
+    std::vector<geometry::Domain> parts{geometry::extrude_plan(site.plan, site.holes, 0, 12).value()};
+    for (const geometry::PlanSolid& step : site.steps)
+      parts.push_back(geometry::extrude_plan(step.ring, {}, step.bottom, step.top).value());
     const auto whole = unite(parts);
     ASSERT_TRUE(whole.ok()) << whole.error().text();
     const auto other = without_solids(*whole, site.exclusions);
@@ -91,12 +92,12 @@ TEST(DomainSite, AgreesWithTheGeneralMakers) {
 }
 
 TEST(DomainSite, RowsOfHousesThatShareWalls) {
-  SitePlan site{rectangle(0, 0, 100, 50), {}, 0, 30, {}, {}};
+  geometry::SitePlan site{rectangle(0, 0, 100, 50), {}, 0, 30, {}, {}};
   for (int house = 0; house < 10; ++house) site.exclusions.push_back({rectangle(10.0 * house, 0, 10, 12), 0, 6.0 + 0.5 * house});
   const auto domain = site_domain(site);
   ASSERT_TRUE(domain.ok()) << domain.error().text();
   double gone = 0;
-  for (const PlanSolid& house : site.exclusions) gone += 120 * house.top;
+  for (const geometry::PlanSolid& house : site.exclusions) gone += 120 * house.top;
   EXPECT_NEAR(domain->volume, 150000 - gone, 1e-4);
   EXPECT_LE(domain->pieces.size(), 40u);
   expect_sound(*domain, domain->volume, outer_area(*domain));
@@ -104,7 +105,7 @@ TEST(DomainSite, RowsOfHousesThatShareWalls) {
 }
 
 TEST(DomainSite, RefusesWithPlaces) {
-  const auto text = [](const SitePlan& site) {
+  const auto text = [](const geometry::SitePlan& site) {
     const auto domain = site_domain(site);
     return domain ? std::string("taken") : domain.error().text();
   };

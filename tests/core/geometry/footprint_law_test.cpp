@@ -24,9 +24,9 @@ struct Rise {
 };
 
 // Does the upright line through a place in plan meet the cell of a site? From distances alone.
-bool is_covered(const Domain& domain, std::span<const PowerSite> sites, std::size_t i, Point3 foot) {
+bool is_covered(const geometry::Domain& domain, std::span<const geometry::PowerSite> sites, std::size_t i, Point3 foot) {
   foot.z = 0;
-  const PowerSite& own = sites[i];
+  const geometry::PowerSite& own = sites[i];
   const double dx = foot.x - own.position.x, dy = foot.y - own.position.y, rest = own.weight - dx * dx - dy * dy;
   if (!(rest > 0)) return false;
   Rise cell{own.position.z - std::sqrt(rest), own.position.z + std::sqrt(rest)};
@@ -35,21 +35,22 @@ bool is_covered(const Domain& domain, std::span<const PowerSite> sites, std::siz
     const Vector3 to = sites[j].position - own.position;
     cell.keep(to, 0.5 * (squared_norm(sites[j].position) - squared_norm(own.position) + own.weight - sites[j].weight), foot);
   }
-  return std::any_of(domain.pieces.begin(), domain.pieces.end(), [&](const Domain::Piece& piece) {
+  return std::any_of(domain.pieces.begin(), domain.pieces.end(), [&](const geometry::Domain::Piece& piece) {
     Rise rise = cell;
-    for (const Plane& plane : piece.shape.planes) rise.keep(plane.normal, plane.offset, foot);
+    for (const geometry::Plane& plane : piece.shape.planes) rise.keep(plane.normal, plane.offset, foot);
     return rise.low < rise.high;
   });
 }
 
-std::vector<CellMeasure> cells_in(const Domain& domain, std::span<const PowerSite> sites) {
+std::vector<geometry::CellMeasure> cells_in(const geometry::Domain& domain, std::span<const geometry::PowerSite> sites) {
   auto cells = power_cells(domain, sites, {});
   EXPECT_TRUE(cells.ok()) << (cells.ok() ? "" : cells.error().text());
-  return cells.ok() ? *cells : std::vector<CellMeasure>{};
+  return cells.ok() ? *cells : std::vector<geometry::CellMeasure>{};
 }
 
-std::vector<PowerSite> sites_within(const Domain& domain, Random& random, std::size_t count, double least, double most) {
-  std::vector<PowerSite> sites;
+std::vector<geometry::PowerSite> sites_within(const geometry::Domain& domain, Random& random, std::size_t count, double least,
+                                              double most) {
+  std::vector<geometry::PowerSite> sites;
   while (sites.size() < count) {
     const Point3 place = random_point(random, domain.minimum, domain.maximum);
     const double radius = domain.size() * random.uniform(least, most);
@@ -70,8 +71,8 @@ std::vector<Point3> ring_around(Random& random, const Point3& middle, double lea
 }
 
 // Stars and ells, with houses that stay: on the ground, up in the air, through the top.
-SitePlan plan_with_houses(std::uint64_t seed, Random& random) {
-  SitePlan plan;
+geometry::SitePlan plan_with_houses(std::uint64_t seed, Random& random) {
+  geometry::SitePlan plan;
   plan.top = random.uniform(8, 30);
   if (seed % 3 == 0) plan.plan = {{0, 0, 0}, {60, 0, 0}, {60, 60, 0}, {0, 60, 0}};
   else if (seed % 3 == 1) plan.plan = {{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {20, 25, 0}, {20, 60, 0}, {0, 60, 0}};
@@ -96,7 +97,7 @@ TEST(FootprintLaws, LinesThatMeetTheCellCountItsFootprint) {
   int in_several_pieces = 0, checked = 0;
   for (std::uint64_t seed = 0; seed < 48; ++seed) {
     Random random(900 + seed);
-    const SitePlan plan = plan_with_houses(seed, random);
+    const geometry::SitePlan plan = plan_with_houses(seed, random);
     const auto domain = site_domain(plan);
     ASSERT_TRUE(domain.ok()) << seed << ": " << domain.error().text();
     const auto sites = sites_within(*domain, random, 1 + random.below(8), 0.05, 0.5);
@@ -127,25 +128,25 @@ TEST(FootprintLaws, LinesThatMeetTheCellCountItsFootprint) {
 }
 
 // Cut through by planes that lean any way: pieces lie above one another, and each has a part of the same ball.
-Domain cut_apart(const ConvexDomain& whole, Random& random, int cuts, bool is_level) {
-  std::vector<SolidPart> parts{part_of(Domain(whole).pieces.front())};
-  const double tolerance = place_tolerance(whole.minimum, whole.maximum);
+geometry::Domain cut_apart(const geometry::ConvexDomain& whole, Random& random, int cuts, bool is_level) {
+  std::vector<geometry::SolidPart> parts{part_of(geometry::Domain(whole).pieces.front())};
+  const double tolerance = geometry::place_tolerance(whole.minimum, whole.maximum);
   for (int k = 0; k < cuts; ++k) {
     Vector3 normal{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     // Level, upright and leaning ones: faces that lie exactly above one another are the common case in sites.
     if (is_level) normal = random.below(2) == 0 ? Vector3{0, 0, 1} : random.below(2) == 0 ? Vector3{0, 1, 0} : Vector3{1, 0, 0};
     normal = normal / norm(normal);
-    const Plane plane{normal, dot(normal, random_point(random, whole.minimum, whole.maximum))};
-    std::vector<SolidPart> next;
-    for (const SolidPart& part : parts) {
-      Halves halves = cut_in_two(part, plane, tolerance, Domain::kInner);
+    const geometry::Plane plane{normal, dot(normal, random_point(random, whole.minimum, whole.maximum))};
+    std::vector<geometry::SolidPart> next;
+    for (const geometry::SolidPart& part : parts) {
+      geometry::Halves halves = cut_in_two(part, plane, tolerance, geometry::Domain::kInner);
       if (halves.inside) next.push_back(std::move(*halves.inside));
       if (halves.outside) next.push_back(std::move(*halves.outside));
     }
     parts = std::move(next);
   }
-  std::vector<Domain::Piece> pieces;
-  for (const SolidPart& part : parts) {
+  std::vector<geometry::Domain::Piece> pieces;
+  for (const geometry::SolidPart& part : parts) {
     auto piece = piece_of(part);
     if (piece.ok()) pieces.push_back(std::move(*piece));
   }
@@ -155,12 +156,12 @@ Domain cut_apart(const ConvexDomain& whole, Random& random, int cuts, bool is_le
 TEST(FootprintLaws, ADomainThatIsCutUpGivesWhatTheWholeOneGives) {
   const std::vector<Point3> points{{0, 0, 0},     {1, 0.1, 0},     {1.1, 1, 0.1}, {0, 0.9, -0.1},
                                    {0.2, 0.1, 1}, {0.9, 0.8, 1.2}, {0.1, 1, 0.9}};
-  const ConvexDomain skew = convex_hull(points).value();
+  const geometry::ConvexDomain skew = geometry::convex_hull(points).value();
   int balls_cut = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     Random random(seed);
-    const ConvexDomain whole = seed % 3 == 0 ? unit_cube() : skew;
-    const Domain pieces = cut_apart(whole, random, 1 + static_cast<int>(seed % 6), seed % 2 == 0);
+    const geometry::ConvexDomain whole = seed % 3 == 0 ? unit_cube() : skew;
+    const geometry::Domain pieces = cut_apart(whole, random, 1 + static_cast<int>(seed % 6), seed % 2 == 0);
     ASSERT_NEAR(pieces.volume, whole.volume, 1e-12) << seed;
     const auto sites = sites_within(whole, random, 1 + random.below(10), 0.1, seed % 5 == 0 ? 2 : 0.4);
     const auto cells = cells_in(whole, sites), apart = cells_in(pieces, sites);
@@ -178,15 +179,15 @@ TEST(FootprintLaws, ADomainThatIsCutUpGivesWhatTheWholeOneGives) {
 
 TEST(FootprintLaws, AboveAndBelowAHouseItIsTheGroundOfBoth) {
   // A ball that reaches everywhere: the plan is 40 m by 30 m, the house in the air leaves a storey below and above it.
-  const SitePlan plan{{{0, 0, 0}, {40, 0, 0}, {40, 30, 0}, {0, 30, 0}},
-                      {},
-                      0,
-                      20,
-                      {},
-                      {{{{10, 10, 0}, {20, 10, 0}, {20, 18, 0}, {10, 18, 0}}, 5, 12}}};
+  const geometry::SitePlan plan{{{0, 0, 0}, {40, 0, 0}, {40, 30, 0}, {0, 30, 0}},
+                                {},
+                                0,
+                                20,
+                                {},
+                                {{{{10, 10, 0}, {20, 10, 0}, {20, 18, 0}, {10, 18, 0}}, 5, 12}}};
   const auto domain = site_domain(plan);
   ASSERT_TRUE(domain.ok());
-  const std::vector<PowerSite> sites{{{5, 5, 5}, 1e4}};
+  const std::vector<geometry::PowerSite> sites{{{5, 5, 5}, 1e4}};
   const auto cells = cells_in(*domain, sites);
   EXPECT_NEAR(cells.at(0).footprint, 1200, 1e-9);
 }

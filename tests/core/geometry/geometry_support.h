@@ -15,20 +15,21 @@
 
 namespace bl::test {
 
-inline ConvexDomain box(const Vector3& low, const Vector3& high) {
+inline geometry::ConvexDomain box(const Vector3& low, const Vector3& high) {
   const std::vector<Point3> plan{{low.x, low.y, 0}, {high.x, low.y, 0}, {high.x, high.y, 0}, {low.x, high.y, 0}};
-  return extrude(plan, low.z, high.z).value();
+  return geometry::extrude(plan, low.z, high.z).value();
 }
-inline ConvexDomain unit_cube() { return box({0, 0, 0}, {1, 1, 1}); }
+inline geometry::ConvexDomain unit_cube() { return box({0, 0, 0}, {1, 1, 1}); }
 
 inline Point3 random_point(Random& random, const Vector3& low, const Vector3& high) {
   const double x = random.uniform(low.x, high.x), y = random.uniform(low.y, high.y);
   return {x, y, random.uniform(low.z, high.z)};
 }
 
-inline std::vector<PowerSite> random_sites(std::size_t count, std::uint64_t seed, double weight_low, double weight_high) {
+inline std::vector<geometry::PowerSite> random_sites(std::size_t count, std::uint64_t seed, double weight_low,
+                                                     double weight_high) {
   Random random(seed);
-  std::vector<PowerSite> sites;
+  std::vector<geometry::PowerSite> sites;
   for (std::size_t i = 0; i < count; ++i) {
     const Point3 p = random_point(random, {0, 0, 0}, {1, 1, 1});
     sites.push_back({p, random.uniform(weight_low, weight_high)});
@@ -52,19 +53,20 @@ inline bool is_closed(const Mesh& mesh) {
 
 /// In a box of ten metres: 0 lives, 1 lies at its place and is lighter, 2 is swallowed by it, 3 lies outside and out of reach,
 /// 4 reaches in from outside, 5 has no ball.
-inline std::vector<PowerSite> sites_in_every_state() {
+inline std::vector<geometry::PowerSite> sites_in_every_state() {
   return {{{5, 5, 5}, 4}, {{5, 5, 5}, 1}, {{5.1, 5, 5}, 0.01}, {{20, 5, 5}, 1}, {{10.5, 9, 9}, 1}, {{1, 1, 1}, 0}};
 }
 
 /// Power distance of a point to a site.
-inline double power(const PowerSite& site, const Point3& x) { return squared_norm(x - site.position) - site.weight; }
+inline double power(const geometry::PowerSite& site, const Point3& x) { return squared_norm(x - site.position) - site.weight; }
 
-inline std::vector<CellMeasure> cells_of(const ConvexDomain& domain, std::span<const PowerSite> sites, int depth = -1) {
-  CellOptions options;
+inline std::vector<geometry::CellMeasure> cells_of(const geometry::ConvexDomain& domain,
+                                                   std::span<const geometry::PowerSite> sites, int depth = -1) {
+  geometry::CellOptions options;
   options.tessellation_depth = depth;
   auto cells = power_cells(domain, sites, options);
   EXPECT_TRUE(cells.ok()) << (cells.ok() ? "" : cells.error().text());
-  return cells.ok() ? *cells : std::vector<CellMeasure>{};
+  return cells.ok() ? *cells : std::vector<geometry::CellMeasure>{};
 }
 
 }  // namespace bl::test

@@ -10,15 +10,16 @@ std::size_t many() { return static_cast<std::size_t>(rounds(460)) + 40; }
 
 void refill(FitScene& scene, double fill) {
   double sum = 0;
-  for (const VolumeDemand& demand : scene.problem.demands) sum += demand.least;
-  for (VolumeDemand& demand : scene.problem.demands) demand.least = demand.most = demand.least * fill * scene.domain.volume / sum;
+  for (const geometry::VolumeDemand& demand : scene.problem.demands) sum += demand.least;
+  for (geometry::VolumeDemand& demand : scene.problem.demands)
+    demand.least = demand.most = demand.least * fill * scene.domain.volume / sum;
 }
 
-VolumeFit report(const char* name, const FitScene& scene, double tolerance = 1e-6) {
+geometry::VolumeFit report(const char* name, const FitScene& scene, double tolerance = 1e-6) {
   SCOPED_TRACE(name);
-  VolumeFitOptions options;
+  geometry::VolumeFitOptions options;
   options.tolerance = tolerance;
-  const VolumeFit fit = fit_of(scene, options);
+  const geometry::VolumeFit fit = fit_of(scene, options);
   std::printf("%-34s %-10s %3d steps %3d evaluations, error %.1e%s%s\n", name, std::string(name_of(fit.status)).c_str(),
               fit.iterations, fit.evaluations, fit.max_relative_error, fit.reasons.empty() ? "" : ": ",
               fit.reasons.empty() ? "" : fit.reasons[0].substr(0, 120).c_str());
@@ -26,7 +27,9 @@ VolumeFit report(const char* name, const FitScene& scene, double tolerance = 1e-
   return fit;
 }
 
-void expect_met(const char* name, const FitScene& scene) { EXPECT_EQ(report(name, scene).status, FitStatus::met) << name; }
+void expect_met(const char* name, const FitScene& scene) {
+  EXPECT_EQ(report(name, scene).status, geometry::FitStatus::met) << name;
+}
 
 // Found among 63 sites: a start that looks along rays misses the sliver between being swallowed and swallowing.
 TEST(HardFits, NearPairsAmongFewSitesAreMet) {
@@ -89,7 +92,7 @@ TEST(HardFits, AllOfThemAreMet) {
   refill(plan, 0.7);
   expect_met("plan with a hole, and sites there", plan);
   Random random(5);
-  for (PowerSite& site : plan.problem.sites) {
+  for (geometry::PowerSite& site : plan.problem.sites) {
     while (!plan.domain.contains(site.position)) site.position = random_point(random, {0, 0, 0}, {1, 1, 1});
   }
   refill(plan, 0.7);
@@ -107,19 +110,19 @@ TEST(HardFits, DemandsThatLieFarApartAreMetOrSaidNotToBe) {
           double sum = 0;
           for (std::uint32_t i = 0; i < count; ++i) sum += (is_one ? i == 0 : i % 2 != 0) ? 1 : 1 / ratio;
           for (std::uint32_t i = 0; i < count; ++i) {
-            VolumeDemand& demand = scene.problem.demands[i];
+            geometry::VolumeDemand& demand = scene.problem.demands[i];
             demand.least = demand.most = fill / sum * ((is_one ? i == 0 : i % 2 != 0) ? 1 : 1 / ratio);
           }
-          const VolumeFit fit = fit_of(scene);
+          const geometry::VolumeFit fit = fit_of(scene);
           const std::string name = std::to_string(count) + " over a factor " + std::to_string(ratio);
-          EXPECT_NE(fit.status, FitStatus::infeasible) << name << ": that is not so";
-          if (ratio == 1e6) { EXPECT_EQ(fit.status, FitStatus::met) << name << ", fill " << fill; }
-          if (fit.status == FitStatus::step_limit) {
+          EXPECT_NE(fit.status, geometry::FitStatus::infeasible) << name << ": that is not so";
+          if (ratio == 1e6) { EXPECT_EQ(fit.status, geometry::FitStatus::met) << name << ", fill " << fill; }
+          if (fit.status == geometry::FitStatus::step_limit) {
             ASSERT_FALSE(fit.reasons.empty());
             EXPECT_EQ(fit.reasons[0].find("not met after "), 0u) << fit.reasons[0];
           }
           ++tried;
-          met += fit.status == FitStatus::met ? 1 : 0;
+          met += fit.status == geometry::FitStatus::met ? 1 : 0;
         }
   EXPECT_GE(met, tried - 2);
 }
@@ -130,8 +133,8 @@ TEST(HardFits, CoincidentPairsAreRefusedByName) {
     scene.problem.sites[7].position = scene.problem.sites[3].position + Vector3{gap, 0, 0};
     char name[64];
     std::snprintf(name, sizeof name, "pair at %.0e", gap);
-    const VolumeFit fit = report(name, scene);
-    EXPECT_EQ(fit.status, FitStatus::infeasible);
+    const geometry::VolumeFit fit = report(name, scene);
+    EXPECT_EQ(fit.status, geometry::FitStatus::infeasible);
     ASSERT_FALSE(fit.reasons.empty());
     EXPECT_NE(fit.reasons[0].find("site 3"), std::string::npos) << fit.reasons[0];
     EXPECT_NE(fit.reasons[0].find("site 7"), std::string::npos) << fit.reasons[0];
@@ -141,12 +144,12 @@ TEST(HardFits, CoincidentPairsAreRefusedByName) {
 
 TEST(HardFits, MoreThanTheDomainIsScaledAndTheLossesAddUp) {
   const FitScene scene = fit_scene(many(), 1.05, 36);
-  const VolumeFit fit = report("1.05 of the boundary", scene);
-  EXPECT_EQ(fit.status, FitStatus::infeasible);
+  const geometry::VolumeFit fit = report("1.05 of the boundary", scene);
+  EXPECT_EQ(fit.status, geometry::FitStatus::infeasible);
   ASSERT_FALSE(fit.reasons.empty());
   EXPECT_NE(fit.reasons[0].find("exceed"), std::string::npos) << fit.reasons[0];
   double lost = 0, had = 0;
-  for (const VolumeLoss& loss : fit.losses) lost += loss.wanted - loss.had;
+  for (const geometry::VolumeLoss& loss : fit.losses) lost += loss.wanted - loss.had;
   for (const double volume : fit.volumes) had += volume;
   EXPECT_EQ(fit.losses.size(), scene.problem.demands.size());
   EXPECT_NEAR(lost, 0.05, 1e-6);
@@ -158,18 +161,18 @@ TEST(HardFits, StarvedByAFixedNeighbourOrOutOfReach) {
   FitScene scene = fit_scene(10, 0.3, 37);
   // A fixed one that outweighs everybody in the domain.
   scene.problem.sites.push_back({{0.5, 0.5, 0.5}, 1e6});
-  const VolumeFit starved = report("a fixed weight takes everything", scene);
-  EXPECT_EQ(starved.status, FitStatus::infeasible);
+  const geometry::VolumeFit starved = report("a fixed weight takes everything", scene);
+  EXPECT_EQ(starved.status, geometry::FitStatus::infeasible);
   EXPECT_EQ(starved.weights.back(), 1e6);
   EXPECT_FALSE(starved.losses.empty());
   // A site far away, beside others: its cell can still be won, at a price of weight.
   scene = fit_scene(10, 0.3, 38);
   scene.problem.sites[4].position = {40, 0.5, 0.5};
-  const VolumeFit far = report("one site 40 domains away", scene);
-  EXPECT_TRUE(far.status == FitStatus::met || !far.losses.empty());
+  const geometry::VolumeFit far = report("one site 40 domains away", scene);
+  EXPECT_TRUE(far.status == geometry::FitStatus::met || !far.losses.empty());
   scene.problem.sites[4].position = {1e7, 0.5, 0.5};
-  const VolumeFit lost = report("one site 1e7 domains away", scene);
-  EXPECT_EQ(lost.status, FitStatus::infeasible);
+  const geometry::VolumeFit lost = report("one site 1e7 domains away", scene);
+  EXPECT_EQ(lost.status, geometry::FitStatus::infeasible);
   ASSERT_EQ(lost.losses.size(), 1u) << "nobody else may pay for it";
   ASSERT_FALSE(lost.reasons.empty());
   EXPECT_EQ(lost.reasons[0].find("site 4 has 0 m³"), 0u) << lost.reasons[0];
@@ -185,9 +188,9 @@ TEST(HardFits, DemandsBesideFixedWeights) {
     scene.problem.sites.push_back({{0.5, 0.5, 0.5}, 0.16});  // a ball of 0.268
     char name[64];
     std::snprintf(name, sizeof name, "%.0f %% beside a fixed ball of 27 %%", 100 * fill);
-    const VolumeFit fit = report(name, scene);
+    const geometry::VolumeFit fit = report(name, scene);
     EXPECT_EQ(fit.weights.back(), 0.16);
-    if (fill < 0.7) { EXPECT_EQ(fit.status, FitStatus::met) << fill; }
+    if (fill < 0.7) { EXPECT_EQ(fit.status, geometry::FitStatus::met) << fill; }
   }
 }
 
@@ -200,8 +203,8 @@ TEST(HardFits, ZeroDemandsGetNothingAndHurtNobody) {
   for (std::size_t i = 0; i < 40; ++i) {
     if (i % 5) scene.problem.sites[i].weight = 0.02;
   }
-  const VolumeFit fit = report("zero demands", scene);
-  EXPECT_EQ(fit.status, FitStatus::met);
+  const geometry::VolumeFit fit = report("zero demands", scene);
+  EXPECT_EQ(fit.status, geometry::FitStatus::met);
   for (std::size_t i = 0; i < 40; i += 5) EXPECT_EQ(fit.volumes[i], 0) << i;
 }
 

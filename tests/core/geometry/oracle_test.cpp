@@ -12,14 +12,14 @@ namespace {
 
 double value_of(const nlohmann::json& j) { return j.is_string() ? parse_number(j.get<std::string>()).value() : j.get<double>(); }
 
-Result<ConvexDomain> domain_of(const nlohmann::json& boundary) {
-  std::vector<Plane> planes;
+Result<geometry::ConvexDomain> domain_of(const nlohmann::json& boundary) {
+  std::vector<geometry::Plane> planes;
   for (const auto& p : boundary.at("planes")) planes.push_back({{p[0], p[1], p[2]}, p[3]});
   return from_planes(planes);
 }
 
-std::vector<PowerSite> sites_of(const nlohmann::json& scene) {
-  std::vector<PowerSite> sites;
+std::vector<geometry::PowerSite> sites_of(const nlohmann::json& scene) {
+  std::vector<geometry::PowerSite> sites;
   for (std::size_t i = 0; i < scene.at("sites").size(); ++i) {
     const auto& p = scene["sites"][i];
     sites.push_back({{p[0], p[1], p[2]}, scene["weights"][i]});
@@ -27,11 +27,11 @@ std::vector<PowerSite> sites_of(const nlohmann::json& scene) {
   return sites;
 }
 
-double facet_area(const CellMeasure& cell, const std::string& name) {
+double facet_area(const geometry::CellMeasure& cell, const std::string& name) {
   const auto colon = name.find(':');
-  const auto kind = name.substr(0, colon) == "plane" ? FacetArea::Kind::plane : FacetArea::Kind::site;
+  const auto kind = name.substr(0, colon) == "plane" ? geometry::FacetArea::Kind::plane : geometry::FacetArea::Kind::site;
   const auto index = static_cast<std::uint32_t>(std::stoul(name.substr(colon + 1)));
-  for (const FacetArea& facet : cell.facets) {
+  for (const geometry::FacetArea& facet : cell.facets) {
     if (facet.kind == kind && facet.index == index) return facet.area;
   }
   return 0;
@@ -43,7 +43,7 @@ struct Worst {
 
 double relative(double got, double wanted) { return std::abs(got - wanted) / std::abs(wanted); }
 
-void compare(const nlohmann::json& wanted, const CellMeasure& cell, Worst& worst) {
+void compare(const nlohmann::json& wanted, const geometry::CellMeasure& cell, Worst& worst) {
   const auto check = [&](double got, double expected, double& largest, const std::string& what) {
     if (expected == 0) {
       EXPECT_NEAR(got, 0, 1e-13) << what;
@@ -60,7 +60,7 @@ void compare(const nlohmann::json& wanted, const CellMeasure& cell, Worst& worst
     facets += value_of(area);
   }
   double got = 0;
-  for (const FacetArea& facet : cell.facets) got += facet.area;
+  for (const geometry::FacetArea& facet : cell.facets) got += facet.area;
   EXPECT_NEAR(got, facets, 1e-11 * std::max(1e-2, facets)) << "a facet too many or too few";
 }
 
@@ -114,7 +114,7 @@ TEST(Oracle, FittedWeightsGiveTheDemandedVolumes) {
 
 // Neighbour cells of sphere packings, ids as in the file; without the ball.
 struct Packing {
-  std::vector<PowerSite> sites;
+  std::vector<geometry::PowerSite> sites;
   std::vector<int> ids;
 };
 
@@ -133,16 +133,16 @@ Packing read_packing(const std::filesystem::path& path) {
 void expect_volumes(const std::filesystem::path& path, const std::filesystem::path& table) {
   const Packing packing = read_packing(path);
   ASSERT_EQ(packing.sites.size(), 159u);
-  const ConvexDomain domain = box({-3, -3, 0}, {3, 3, 6});
+  const geometry::ConvexDomain domain = box({-3, -3, 0}, {3, 3, 6});
   const auto all = cells_of(domain, packing.sites);
   EXPECT_EQ(totals_of(all).outside, 3u);
   EXPECT_EQ(totals_of(all).alive, 156u);
   EXPECT_NEAR(totals_of(all).cell_volume, 216, 1e-10);
   // The table was made without the three that lie outside.
-  std::vector<PowerSite> inside;
+  std::vector<geometry::PowerSite> inside;
   std::vector<int> ids;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].state == SiteState::outside) continue;
+    if (all[i].state == geometry::SiteState::outside) continue;
     inside.push_back(packing.sites[i]);
     ids.push_back(packing.ids[i]);
   }
@@ -168,14 +168,14 @@ void expect_swallowed(const std::filesystem::path& path) {
   Packing packing = read_packing(path);
   for (std::size_t i = 7; i < packing.sites.size(); i += 8) packing.sites[i].weight = 1.6 * 1.6;
   const auto cells = cells_of(box({-3, -3, 0}, {3, 3, 6}), packing.sites);
-  const CellTotals totals = totals_of(cells);
+  const geometry::CellTotals totals = totals_of(cells);
   // 124 have a cell; of these 7 have one that their own ball does not reach, which the reference (no balls) does not ask.
   EXPECT_EQ(totals.alive + totals.starved, 124u);
   EXPECT_EQ(totals.starved, 7u);
   EXPECT_EQ(totals.hidden, 32u);
   EXPECT_EQ(totals.outside, 3u);
   EXPECT_NEAR(totals.cell_volume, 216, 1e-10);
-  for (const CellMeasure& cell : cells) EXPECT_EQ(cell.reason.empty(), cell.state == SiteState::alive);
+  for (const geometry::CellMeasure& cell : cells) EXPECT_EQ(cell.reason.empty(), cell.state == geometry::SiteState::alive);
 }
 
 // Places along one line with weights of their own, and how long the cell of each is within (0, 1): by comparing all with all.
@@ -205,7 +205,7 @@ Row random_row(Random& random, std::size_t count, double largest_weight) {
 
 // Weights that are sums along the axes make boxes of all cells, and swallow whole layers of sites.
 void expect_boxes(const Row& x, const Row& y, const Row& z, int& swallowed) {
-  std::vector<PowerSite> sites;
+  std::vector<geometry::PowerSite> sites;
   std::vector<double> volumes;
   for (std::size_t i = 0; i < x.places.size(); ++i) {
     for (std::size_t j = 0; j < y.places.size(); ++j) {
@@ -219,7 +219,7 @@ void expect_boxes(const Row& x, const Row& y, const Row& z, int& swallowed) {
   EXPECT_NEAR(totals_of(cells).cell_volume, 1, 1e-12);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     EXPECT_NEAR(cells[i].cell_volume, volumes[i], 1e-13) << i;
-    EXPECT_EQ(cells[i].state == SiteState::hidden, volumes[i] == 0) << i << " " << name_of(cells[i].state);
+    EXPECT_EQ(cells[i].state == geometry::SiteState::hidden, volumes[i] == 0) << i << " " << name_of(cells[i].state);
     swallowed += volumes[i] == 0;
   }
 }

@@ -8,7 +8,7 @@
 
 #include "core/base/random.h"
 
-namespace bl {
+namespace bl::geometry {
 namespace {
 
 struct Balls {
@@ -65,4 +65,4 @@ TEST(PlanBuckets, FarAndOddPlacesAreTaken) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::geometry

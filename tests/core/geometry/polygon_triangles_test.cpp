@@ -9,7 +9,7 @@
 #include "core/geometry/height_grid.h"
 #include "core/geometry/polygon_triangles.h"
 
-namespace bl {
+namespace bl::geometry {
 namespace {
 
 double area(const std::vector<Ring>& rings, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -96,4 +96,4 @@ TEST(HeightGrid, RowsReadBackToHalfAStep) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::geometry

@@ -7,17 +7,17 @@ namespace bl::test {
 namespace {
 
 // A bounded domain without symmetry, so that nothing holds by luck.
-ConvexDomain skew_domain() {
+geometry::ConvexDomain skew_domain() {
   const std::vector<Point3> points{{0, 0, 0},     {1, 0.1, 0},     {1.1, 1, 0.1}, {0, 0.9, -0.1},
                                    {0.2, 0.1, 1}, {0.9, 0.8, 1.2}, {0.1, 1, 0.9}};
-  return convex_hull(points).value();
+  return geometry::convex_hull(points).value();
 }
 
 double relative_error(double got, double wanted) { return std::abs(got - wanted) / std::max(1e-300, std::abs(wanted)); }
 
 TEST(PowerCellLaws, CellsTileTheDomain) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const ConvexDomain domain = seed % 2 ? unit_cube() : skew_domain();
+    const geometry::ConvexDomain domain = seed % 2 ? unit_cube() : skew_domain();
     const auto cells = cells_of(domain, random_sites(1 + 7 * seed, seed, -0.01, 0.02 * static_cast<double>(seed % 5)));
     EXPECT_LT(relative_error(totals_of(cells).cell_volume, domain.volume), 1e-12) << seed;
     EXPECT_LE(totals_of(cells).volume, domain.volume * (1 + 1e-12));
@@ -29,11 +29,11 @@ TEST(PowerCellLaws, SharedFacetsAreSeenAlikeFromBothSides) {
   const auto sites = random_sites(80, 5, 9, 9.02);
   const auto cells = cells_of(unit_cube(), sites);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
-    for (const FacetArea& facet : cells[i].facets) {
-      if (facet.kind != FacetArea::Kind::site || facet.area < 1e-10) continue;
+    for (const geometry::FacetArea& facet : cells[i].facets) {
+      if (facet.kind != geometry::FacetArea::Kind::site || facet.area < 1e-10) continue;
       const auto& others = cells[facet.index].facets;
-      const auto back =
-          std::find_if(others.begin(), others.end(), [&](const FacetArea& f) { return f.kind == facet.kind && f.index == i; });
+      const auto back = std::find_if(others.begin(), others.end(),
+                                     [&](const geometry::FacetArea& f) { return f.kind == facet.kind && f.index == i; });
       ASSERT_NE(back, others.end());
       EXPECT_NEAR(back->area, facet.area, 1e-12);
     }
@@ -45,11 +45,11 @@ TEST(PowerCellLaws, SharedFacetsAreSeenAlikeInsideTheBalls) {
   const auto sites = random_sites(60, 6, 0.01, 0.05);
   const auto cells = cells_of(unit_cube(), sites);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
-    for (const FacetArea& facet : cells[i].facets) {
-      if (facet.kind != FacetArea::Kind::site || facet.area < 1e-10) continue;
+    for (const geometry::FacetArea& facet : cells[i].facets) {
+      if (facet.kind != geometry::FacetArea::Kind::site || facet.area < 1e-10) continue;
       const auto& others = cells[facet.index].facets;
-      const auto back =
-          std::find_if(others.begin(), others.end(), [&](const FacetArea& f) { return f.kind == facet.kind && f.index == i; });
+      const auto back = std::find_if(others.begin(), others.end(),
+                                     [&](const geometry::FacetArea& f) { return f.kind == facet.kind && f.index == i; });
       ASSERT_NE(back, others.end());
       EXPECT_NEAR(back->area, facet.area, 1e-12);
     }
@@ -59,7 +59,7 @@ TEST(PowerCellLaws, SharedFacetsAreSeenAlikeInsideTheBalls) {
 // The meshes hold exactly the sample points that the distances assign to them (checked by winding of rays: convex, so by planes).
 TEST(PowerCellLaws, SamplesCountTheVolumes) {
   const auto sites = random_sites(12, 9, 0.02, 0.12);
-  const ConvexDomain domain = unit_cube();
+  const geometry::ConvexDomain domain = unit_cube();
   const auto cells = cells_of(domain, sites);
   std::vector<int> hits(sites.size(), 0);
   std::vector<Vector3> sums(sites.size());
@@ -88,7 +88,7 @@ TEST(PowerCellLaws, ResponseToWeightsIsTheDerivative) {
   auto sites = random_sites(30, 11, 0.01, 0.06);
   const auto cells = cells_of(skew_domain(), sites);
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (cells[i].state != SiteState::alive) continue;
+    if (cells[i].state != geometry::SiteState::alive) continue;
     const double h = 1e-6 * sites[i].weight, before = sites[i].weight;
     sites[i].weight = before + h;
     const double more = cells_of(skew_domain(), sites)[i].volume;
@@ -99,13 +99,14 @@ TEST(PowerCellLaws, ResponseToWeightsIsTheDerivative) {
   }
 }
 
-std::vector<Point3> moved_points(const ConvexDomain& domain, auto&& map) {
+std::vector<Point3> moved_points(const geometry::ConvexDomain& domain, auto&& map) {
   std::vector<Point3> points;
   for (const Point3& p : domain.vertices) points.push_back(map(p));
   return points;
 }
 
-void expect_alike(std::span<const CellMeasure> a, std::span<const CellMeasure> b, double scale, double tolerance) {
+void expect_alike(std::span<const geometry::CellMeasure> a, std::span<const geometry::CellMeasure> b, double scale,
+                  double tolerance) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double cube = scale * scale * scale, square = scale * scale;
@@ -119,12 +120,13 @@ void expect_alike(std::span<const CellMeasure> a, std::span<const CellMeasure> b
 
 TEST(PowerCellLaws, ScaleByTheCube) {
   const auto sites = random_sites(50, 21, 0.0, 0.05);
-  const ConvexDomain domain = skew_domain();
+  const geometry::ConvexDomain domain = skew_domain();
   const auto cells = cells_of(domain, sites);
   for (const double scale : {0.25, 1024.0, 3.0}) {
-    const ConvexDomain big = convex_hull(moved_points(domain, [&](const Point3& p) { return scale * p; })).value();
-    std::vector<PowerSite> moved;
-    for (const PowerSite& s : sites) moved.push_back({scale * s.position, scale * scale * s.weight});
+    const geometry::ConvexDomain big =
+        geometry::convex_hull(moved_points(domain, [&](const Point3& p) { return scale * p; })).value();
+    std::vector<geometry::PowerSite> moved;
+    for (const geometry::PowerSite& s : sites) moved.push_back({scale * s.position, scale * scale * s.weight});
     const auto after = cells_of(big, moved);
     expect_alike(cells, after, scale, 1e-12);
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -139,8 +141,8 @@ TEST(PowerCellLaws, StayTheSameFarFromTheOrigin) {
     return Point3{std::round(p.x * 4096) / 4096, std::round(p.y * 4096) / 4096, std::round(p.z * 4096) / 4096};
   };
   const Vector3 shift{16384, -8192, 128};
-  std::vector<PowerSite> here, there;
-  for (const PowerSite& s : sites) {
+  std::vector<geometry::PowerSite> here, there;
+  for (const geometry::PowerSite& s : sites) {
     here.push_back({round(s.position), s.weight});
     there.push_back({round(s.position) + shift, s.weight});
   }
@@ -151,17 +153,17 @@ TEST(PowerCellLaws, StayTheSameFarFromTheOrigin) {
 
 TEST(PowerCellLaws, StayTheSameUnderRotation) {
   const auto sites = random_sites(50, 23, 0.0, 0.05);
-  const ConvexDomain domain = unit_cube();
+  const geometry::ConvexDomain domain = unit_cube();
   const double c = 0.6, s = 0.8;
   const auto turn = [&](const Point3& p) {
     const Point3 q{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
     return Point3{q.x, c * q.y - s * q.z, s * q.y + c * q.z};
   };
-  const auto turned_domain = convex_hull(moved_points(domain, turn));
+  const auto turned_domain = geometry::convex_hull(moved_points(domain, turn));
   ASSERT_TRUE(turned_domain.ok()) << turned_domain.error().text();
   EXPECT_EQ(turned_domain->planes.size(), 6u);
-  std::vector<PowerSite> turned;
-  for (const PowerSite& site : sites) turned.push_back({turn(site.position), site.weight});
+  std::vector<geometry::PowerSite> turned;
+  for (const geometry::PowerSite& site : sites) turned.push_back({turn(site.position), site.weight});
   expect_alike(cells_of(domain, sites), cells_of(*turned_domain, turned), 1, 1e-12);
 }
 
@@ -170,15 +172,15 @@ TEST(PowerCellLaws, StayTheSameUnderRelabelling) {
   const auto cells = cells_of(unit_cube(), sites);
   std::vector<std::uint32_t> order(sites.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = (i * 27u + 13u) % 70u;
-  std::vector<PowerSite> shuffled;
+  std::vector<geometry::PowerSite> shuffled;
   for (const std::uint32_t i : order) shuffled.push_back(sites[i]);
   const auto after = cells_of(unit_cube(), shuffled);
-  std::vector<CellMeasure> back(cells.size());
+  std::vector<geometry::CellMeasure> back(cells.size());
   for (std::size_t k = 0; k < order.size(); ++k) back[order[k]] = after[k];
   expect_alike(cells, back, 1, 1e-13);
 }
 
-bool same_bits_of_cells(const CellMeasure& a, const CellMeasure& b) {
+bool same_bits_of_cells(const geometry::CellMeasure& a, const geometry::CellMeasure& b) {
   return a.state == b.state && a.reason == b.reason && a.volume == b.volume && a.cell_volume == b.cell_volume &&
          a.surface_area == b.surface_area && a.spherical_area == b.spherical_area && a.floor_area == b.floor_area &&
          a.footprint == b.footprint && a.height == b.height && a.bottom == b.bottom && a.centroid == b.centroid &&
@@ -189,12 +191,12 @@ bool same_bits_of_cells(const CellMeasure& a, const CellMeasure& b) {
 TEST(PowerCellLaws, ThreadsAndHistoryChangeNoBit) {
   const auto sites = random_sites(300, 25, -0.01, 0.03), others = random_sites(40, 26, 0, 0.1);
   ThreadPool two(2), five(5);
-  CellOptions options;
+  geometry::CellOptions options;
   options.tessellation_depth = 1;
   options.storey_height = 0.05;
   const auto once = power_cells(unit_cube(), sites, options);
   ASSERT_TRUE(once.ok());
-  PowerDiagram diagram;
+  geometry::PowerDiagram diagram;
   ASSERT_TRUE(diagram.set_domain(unit_cube()).ok());
   for (ThreadPool* pool : {&two, &five, static_cast<ThreadPool*>(nullptr)}) {
     options.pool = pool;
@@ -208,15 +210,15 @@ TEST(PowerCellLaws, ThreadsAndHistoryChangeNoBit) {
 // A site that grows or jumps may swallow others whole, which then border on nobody.
 TEST(PowerCellLaws, LocalChangesEndWhereMakingAnewEnds) {
   for (const bool is_whole : {true, false}) {
-    CellOptions options;
+    geometry::CellOptions options;
     options.with_shape = is_whole;
     Random random(61);
     auto sites = random_sites(60, 62, 0.001, 0.02);
-    PowerDiagram diagram;
+    geometry::PowerDiagram diagram;
     ASSERT_TRUE(diagram.set_domain(unit_cube()).ok());
     std::size_t made = 0;
     for (int step = 0; step < 400; ++step) {
-      PowerSite& site = sites[random.below(sites.size())];
+      geometry::PowerSite& site = sites[random.below(sites.size())];
       if (step % 2 == 0) site.position = random_point(random, {-0.1, -0.1, -0.1}, {1.1, 1.1, 1.1});
       else site.weight = random.uniform(-0.01, step % 3 == 0 ? 0.2 : 0.02);
       ASSERT_TRUE(diagram.update(sites, options).ok());
@@ -232,21 +234,23 @@ TEST(PowerCellLaws, LocalChangesEndWhereMakingAnewEnds) {
 
 // Radii chosen exactly at the distance of a vertex, an edge or a plane, where a topological formula would stumble.
 TEST(PowerCellLaws, TangentBallsAreContinuous) {
-  const ConvexDomain domain = skew_domain();
+  const geometry::ConvexDomain domain = skew_domain();
   Random random(31);
   for (int round = 0; round < 400; ++round) {
     const Point3 p = random_point(random, {0.1, 0.2, 0}, {0.9, 0.8, 0.9});
     std::vector<double> radii;
     for (const Point3& v : domain.vertices) radii.push_back(distance(p, v));
-    for (const Plane& plane : domain.planes) radii.push_back(std::abs(plane.offset - dot(plane.normal, p)));
+    for (const geometry::Plane& plane : domain.planes) radii.push_back(std::abs(plane.offset - dot(plane.normal, p)));
     for (const auto& face : domain.faces) {
       const Point3 a = domain.vertices[face[0]], b = domain.vertices[face[1]];
       radii.push_back(norm(cross(b - a, p - a)) / distance(a, b));
     }
     const double r = radii[random.below(radii.size())];
     if (!(r > 0)) continue;
-    const auto volume = [&](double radius) { return cells_of(domain, std::vector<PowerSite>{{p, radius * radius}})[0]; };
-    const CellMeasure less = volume(r * (1 - 1e-7)), at = volume(r), more = volume(r * (1 + 1e-7));
+    const auto volume = [&](double radius) {
+      return cells_of(domain, std::vector<geometry::PowerSite>{{p, radius * radius}})[0];
+    };
+    const geometry::CellMeasure less = volume(r * (1 - 1e-7)), at = volume(r), more = volume(r * (1 + 1e-7));
     const double rim = 4 * 3.15 * r * r * r * 1e-7;
     EXPECT_LE(less.volume, at.volume + 1e-14);
     EXPECT_LE(at.volume, more.volume + 1e-14);
@@ -309,10 +313,10 @@ TEST(PowerCellLaws, ExtentAndFootprintBoundTheMesh) {
 // Fine storeys add up to the volume (Cavalieri).
 TEST(PowerCellLaws, FloorsOfThinStoreysAddUpToTheVolume) {
   const auto sites = random_sites(25, 51, 0.005, 0.2);
-  CellOptions options;
+  geometry::CellOptions options;
   options.storey_height = 0.0005;
   const auto cells = power_cells(skew_domain(), sites, options).value();
-  for (const CellMeasure& cell : cells)
+  for (const geometry::CellMeasure& cell : cells)
     EXPECT_NEAR(cell.floor_area * options.storey_height, cell.volume, 2e-3 * cell.volume + 1e-9);
 }
 

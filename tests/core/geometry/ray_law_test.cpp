@@ -28,8 +28,8 @@ FitScene hard_scene(int kind, std::size_t count, double fill, std::uint64_t seed
     if (kind == 9 && i % 2) p = scene.problem.sites[i - 1].position + (1e-3 / std::cbrt(static_cast<double>(count))) * Vector3{p};
   }
   double sum = 0;
-  for (const VolumeDemand& demand : demands) sum += demand.least;
-  for (VolumeDemand& demand : demands) demand.least = demand.most = demand.least * fill * scene.domain.volume / sum;
+  for (const geometry::VolumeDemand& demand : demands) sum += demand.least;
+  for (geometry::VolumeDemand& demand : demands) demand.least = demand.most = demand.least * fill * scene.domain.volume / sum;
   return scene;
 }
 
@@ -50,7 +50,7 @@ void for_hard_scenes(const Body& body) {
 
 // The next number above a demand as its upper bound: the same to any tolerance, but no longer one number, and so not for rays.
 FitScene without_rays(FitScene scene) {
-  for (VolumeDemand& demand : scene.problem.demands) demand.most = std::nextafter(demand.least, 1e300);
+  for (geometry::VolumeDemand& demand : scene.problem.demands) demand.most = std::nextafter(demand.least, 1e300);
   return scene;
 }
 
@@ -58,13 +58,13 @@ struct Count {
   int all = 0, with = 0, without = 0;
 
   void add(const FitScene& scene) {
-    const VolumeFit fit = fit_of(scene), even = fit_of(without_rays(scene));
+    const geometry::VolumeFit fit = fit_of(scene), even = fit_of(without_rays(scene));
     ++all;
-    with += fit.status == FitStatus::met ? 1 : 0;
-    without += even.status == FitStatus::met ? 1 : 0;
-    if (even.status == FitStatus::met) {
-      EXPECT_EQ(fit.status, FitStatus::met) << "error " << fit.max_relative_error << " after " << fit.evaluations
-                                            << " evaluations, without rays met after " << even.evaluations;
+    with += fit.status == geometry::FitStatus::met ? 1 : 0;
+    without += even.status == geometry::FitStatus::met ? 1 : 0;
+    if (even.status == geometry::FitStatus::met) {
+      EXPECT_EQ(fit.status, geometry::FitStatus::met) << "error " << fit.max_relative_error << " after " << fit.evaluations
+                                                      << " evaluations, without rays met after " << even.evaluations;
     }
     expect_honest(scene, fit, 1e-6);
   }
@@ -86,7 +86,7 @@ TEST(RayLaw, NorDoTheyAmongAllSortsOfSites) {
         FitScene scene = fit_scene(set.sites.size(), fill, 7 + static_cast<std::uint64_t>(seed));
         scene.domain = set.domain;
         for (std::size_t i = 0; i < set.sites.size(); ++i) scene.problem.sites[i].position = set.sites[i].position;
-        for (VolumeDemand& demand : scene.problem.demands) demand.most = demand.least *= set.domain.volume;
+        for (geometry::VolumeDemand& demand : scene.problem.demands) demand.most = demand.least *= set.domain.volume;
         count.add(scene);
       }
     }
@@ -97,9 +97,11 @@ TEST(RayLaw, NorDoTheyAmongAllSortsOfSites) {
 TEST(RayLaw, NoCellIsEmptyOnceTheStartIsMade) {
   int begun = 0, lost = 0;
   for_hard_scenes([&](const FitScene& scene) {
-    FitProblem problem = scene.problem;
-    const FitOptions options{.method = FitMethod::newton, .steps = 1, .tolerance = 1e-9};
-    const auto least = [](const FitReport& report) { return *std::min_element(report.volumes.begin(), report.volumes.end()); };
+    geometry::FitProblem problem = scene.problem;
+    const geometry::FitOptions options{.method = geometry::FitMethod::newton, .steps = 1, .tolerance = 1e-9};
+    const auto least = [](const geometry::FitReport& report) {
+      return *std::min_element(report.volumes.begin(), report.volumes.end());
+    };
     auto report = adapt_weights(scene.domain, problem, {}, options).value();
     ++begun;
     if (least(report) > 0) return;
@@ -118,9 +120,9 @@ TEST(RayLaw, ThreadsLeaveNoTraceInHardSets) {
     for (const double fill : {0.1, 0.7, 0.89}) {
       SCOPED_TRACE(std::string(kHardNames[kind]) + ", fill " + std::to_string(fill));
       const FitScene scene = hard_scene(kind, 300, fill, 9);
-      VolumeFitOptions options;
+      geometry::VolumeFitOptions options;
       options.most_steps = 3;
-      const VolumeFit alone = fit_of(scene, options);
+      const geometry::VolumeFit alone = fit_of(scene, options);
       for (ThreadPool* pool : {&two, &three}) {
         options.pool = pool;
         EXPECT_EQ(fit_of(scene, options).weights, alone.weights);

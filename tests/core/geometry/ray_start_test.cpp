@@ -10,7 +10,7 @@
 
 #include "core/geometry/demand_fit.h"
 
-namespace bl {
+namespace bl::geometry {
 namespace {
 
 struct Ground {
@@ -160,4 +160,4 @@ TEST(RayStart, SmallCellsInsideALargeBallAreSeen) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::geometry

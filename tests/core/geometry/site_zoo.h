@@ -20,23 +20,24 @@ inline int rounds(int all) {
 
 struct SiteSet {
   std::string name;
-  Domain domain;
-  std::vector<PowerSite> sites;
+  geometry::Domain domain;
+  std::vector<geometry::PowerSite> sites;
 };
 
 inline constexpr int kZooKinds = 20;
 
 /// Domains of about unit size: a cube, a box of odd proportions, a slab, a hull without symmetry, an L with a hole.
-inline const Domain& zoo_domain(int kind) {
-  static const std::vector<Domain> domains = [] {
-    std::vector<Domain> made{unit_cube(), box({0, 0, 0}, {1, 0.7, 1.3}), box({0, 0, 0}, {1, 1, 0.05})};
+inline const geometry::Domain& zoo_domain(int kind) {
+  static const std::vector<geometry::Domain> domains = [] {
+    std::vector<geometry::Domain> made{unit_cube(), box({0, 0, 0}, {1, 0.7, 1.3}), box({0, 0, 0}, {1, 1, 0.05})};
     made.emplace_back(
-        convex_hull(std::vector<Point3>{
-                        {0, 0, 0}, {1, 0.1, 0}, {1.1, 1, 0.1}, {0, 0.9, -0.1}, {0.2, 0.1, 1}, {0.9, 0.8, 1.2}, {0.1, 1, 0.9}})
+        geometry::convex_hull(
+            std::vector<Point3>{
+                {0, 0, 0}, {1, 0.1, 0}, {1.1, 1, 0.1}, {0, 0.9, -0.1}, {0.2, 0.1, 1}, {0.9, 0.8, 1.2}, {0.1, 1, 0.9}})
             .value());
     const std::vector<Point3> plan{{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0}, {0.6, 0.5, 0}, {0.6, 1, 0}, {0, 1, 0}};
     const std::vector<std::vector<Point3>> holes{{{0.2, 0.2, 0}, {0.2, 0.4, 0}, {0.4, 0.4, 0}, {0.4, 0.2, 0}}};
-    made.push_back(extrude_plan(plan, holes, 0, 0.8).value());
+    made.push_back(geometry::extrude_plan(plan, holes, 0, 0.8).value());
     return made;
   }();
   return domains[static_cast<std::size_t>(kind) % domains.size()];

@@ -7,12 +7,13 @@
 namespace bl::test {
 namespace {
 
-std::vector<Stance> stances(const Domain& domain, const std::vector<PowerSite>& sites, std::vector<Standing> rules = {}) {
-  rules.resize(sites.size(), Standing::stack);
+std::vector<geometry::Stance> stances(const geometry::Domain& domain, const std::vector<geometry::PowerSite>& sites,
+                                      std::vector<geometry::Standing> rules = {}) {
+  rules.resize(sites.size(), geometry::Standing::stack);
   return stances_of(domain, sites, power_cells(domain, sites).value(), rules);
 }
 
-const Domain kStandingRoom = box({0, 0, 2}, {60, 20, 40});
+const geometry::Domain kStandingRoom = box({0, 0, 2}, {60, 20, 40});
 
 TEST(Standing, TheGroundUnderAPoint) {
   EXPECT_NEAR(ground_under(kStandingRoom, {5, 5, 10}), 2, 1e-12);
@@ -25,24 +26,24 @@ TEST(Standing, ABallInTheAirHangs) {
   const auto found = stances(kStandingRoom, {{{10, 10, 9}, 16}});
   EXPECT_NEAR(found[0].hang, 3, 1e-9);
   EXPECT_NEAR(found[0].drop, 3, 1e-9);
-  EXPECT_EQ(found[0].stands_on, Stance::kNothing);
+  EXPECT_EQ(found[0].stands_on, geometry::Stance::kNothing);
 }
 
 TEST(Standing, ABallInTheFloorStands) {
   const auto found = stances(kStandingRoom, {{{10, 10, 5}, 16}});
   EXPECT_EQ(found[0].hang, 0);
   EXPECT_NEAR(found[0].drop, -1, 1e-9);
-  EXPECT_EQ(found[0].stands_on, Stance::kGround);
+  EXPECT_EQ(found[0].stands_on, geometry::Stance::kGround);
 }
 
 // Radius 4 on radius 4, 7 m above each other: sunk in by a metre. The third touches nothing: its way down is to the second.
 TEST(Standing, APileStandsAndWhatIsAboveItHangs) {
-  const std::vector<PowerSite> sites{{{10, 10, 5}, 16}, {{10, 10, 12}, 16}, {{10, 10, 25}, 16}};
+  const std::vector<geometry::PowerSite> sites{{{10, 10, 5}, 16}, {{10, 10, 12}, 16}, {{10, 10, 25}, 16}};
   const auto found = stances(kStandingRoom, sites);
   EXPECT_EQ(found[1].stands_on, 0);
   EXPECT_EQ(found[1].hang, 0);
   EXPECT_NEAR(found[1].drop, -1, 1e-9);
-  EXPECT_EQ(found[2].stands_on, Stance::kNothing);
+  EXPECT_EQ(found[2].stands_on, geometry::Stance::kNothing);
   EXPECT_NEAR(found[2].hang, 19, 1e-9);
   EXPECT_NEAR(found[2].drop, 5, 1e-9);
 }
@@ -59,7 +60,8 @@ TEST(Standing, APileInTheAirHangsAsAWhole) {
 }
 
 TEST(Standing, WhoMustStandOnTheGroundDoesNotStandOnOthers) {
-  const auto found = stances(kStandingRoom, {{{10, 10, 5}, 16}, {{10, 10, 12}, 16}}, {Standing::stack, Standing::ground});
+  const auto found =
+      stances(kStandingRoom, {{{10, 10, 5}, 16}, {{10, 10, 12}, 16}}, {geometry::Standing::stack, geometry::Standing::ground});
   EXPECT_EQ(found[1].stands_on, 0);
   // Its lowest point is the facet half way between the two, 6.5 m above the floor.
   EXPECT_NEAR(found[1].hang, 6.5, 1e-9);
@@ -68,12 +70,12 @@ TEST(Standing, WhoMustStandOnTheGroundDoesNotStandOnOthers) {
 
 // Beside each other is not on each other; but two that stand may hold a bridge between them.
 TEST(Standing, ABridgeIsHeldByTwo) {
-  const std::vector<PowerSite> sites{{{10, 10, 8}, 64}, {{20, 10, 8}, 9}, {{30, 10, 8}, 64}};
+  const std::vector<geometry::PowerSite> sites{{{10, 10, 8}, 64}, {{20, 10, 8}, 9}, {{30, 10, 8}, 64}};
   EXPECT_NEAR(stances(kStandingRoom, sites)[1].hang, 3, 1e-9);
-  const auto held = stances(kStandingRoom, sites, {Standing::stack, Standing::bridge});
+  const auto held = stances(kStandingRoom, sites, {geometry::Standing::stack, geometry::Standing::bridge});
   EXPECT_EQ(held[1].hang, 0);
   EXPECT_LT(held[1].drop, 0);
-  const auto alone = stances(kStandingRoom, {sites[0], sites[1]}, {Standing::stack, Standing::bridge});
+  const auto alone = stances(kStandingRoom, {sites[0], sites[1]}, {geometry::Standing::stack, geometry::Standing::bridge});
   EXPECT_NEAR(alone[1].hang, 3, 1e-9);
 }
 
@@ -85,18 +87,18 @@ TEST(Standing, SitesWithoutVolumeDoNotHang) {
 
 // A building of 10 m stays in the right half: its roof is the ground there.
 TEST(Standing, ARoofIsGround) {
-  const SitePlan plan{{{0, 0, 0}, {40, 0, 0}, {40, 20, 0}, {0, 20, 0}},
-                      {},
-                      0,
-                      40,
-                      {},
-                      {{{{20, 0, 0}, {40, 0, 0}, {40, 20, 0}, {20, 20, 0}}, 0, 10}}};
+  const geometry::SitePlan plan{{{0, 0, 0}, {40, 0, 0}, {40, 20, 0}, {0, 20, 0}},
+                                {},
+                                0,
+                                40,
+                                {},
+                                {{{{20, 0, 0}, {40, 0, 0}, {40, 20, 0}, {20, 20, 0}}, 0, 10}}};
   const auto domain = site_domain(plan);
   ASSERT_TRUE(domain);
   EXPECT_NEAR(ground_under(*domain, {10, 10, 20}), 0, 1e-12);
   EXPECT_NEAR(ground_under(*domain, {30, 10, 20}), 10, 1e-12);
   const auto found = stances(*domain, {{{30, 10, 13}, 16}, {{10, 10, 13}, 16}});
-  EXPECT_EQ(found[0].stands_on, Stance::kGround);
+  EXPECT_EQ(found[0].stands_on, geometry::Stance::kGround);
   EXPECT_NEAR(found[1].hang, 9, 1e-9);
 }
 

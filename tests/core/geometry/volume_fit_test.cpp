@@ -16,10 +16,10 @@ TEST(VolumeFit, MeetsTheLargestErrorAndSaysTheVolumesOfItsWeights) {
     for (const double fill : {0.3, 0.7, 0.95, 1.0}) {
       SCOPED_TRACE("fill " + std::to_string(fill) + " tolerance " + std::to_string(tolerance));
       const FitScene scene = fit_scene(40, fill, 11);
-      VolumeFitOptions options;
+      geometry::VolumeFitOptions options;
       options.tolerance = tolerance;
-      const VolumeFit fit = fit_of(scene, options);
-      EXPECT_EQ(fit.status, FitStatus::met);
+      const geometry::VolumeFit fit = fit_of(scene, options);
+      EXPECT_EQ(fit.status, geometry::FitStatus::met);
       expect_honest(scene, fit, tolerance);
     }
   }
@@ -30,8 +30,9 @@ TEST(VolumeFit, AtMostTwelveStepsAtEveryFill) {
     int most = 0, evaluations = 0;
     for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(rounds(12)); ++seed) {
       const FitScene scene = fit_scene(500, fill, 100 + seed);
-      const VolumeFit fit = fit_of(scene);
-      EXPECT_EQ(fit.status, FitStatus::met) << "fill " << fill << " seed " << seed << " error " << fit.max_relative_error;
+      const geometry::VolumeFit fit = fit_of(scene);
+      EXPECT_EQ(fit.status, geometry::FitStatus::met)
+          << "fill " << fill << " seed " << seed << " error " << fit.max_relative_error;
       EXPECT_LE(fit.iterations, 12) << "fill " << fill << " seed " << seed;
       most = std::max(most, fit.iterations);
       evaluations = std::max(evaluations, fit.evaluations);
@@ -46,9 +47,9 @@ TEST(VolumeFit, EveryStepLimitLeavesUsableWeights) {
     double last = 1e300;
     for (int steps = 1; steps <= 10; ++steps) {
       SCOPED_TRACE(std::to_string(steps) + " steps, fill " + std::to_string(fill));
-      VolumeFitOptions options;
+      geometry::VolumeFitOptions options;
       options.most_steps = steps;
-      const VolumeFit fit = fit_of(scene, options);
+      const geometry::VolumeFit fit = fit_of(scene, options);
       EXPECT_LE(fit.evaluations, steps);
       expect_honest(scene, fit, options.tolerance);
       // More steps never leave less: what is handed out is the best so far.
@@ -62,22 +63,22 @@ TEST(VolumeFit, EveryStepLimitLeavesUsableWeights) {
 TEST(VolumeFit, WhatIsMetAtOnceIsTold) {
   // One site that is to have everything, and one whose weight was right before.
   FitScene one = fit_scene(1, 1.0, 3);
-  EXPECT_EQ(fit_of(one).status, FitStatus::met);
+  EXPECT_EQ(fit_of(one).status, geometry::FitStatus::met);
   expect_honest(one, fit_of(one), 1e-6);
   FitScene again = fit_scene(20, 0.6, 4);
-  const VolumeFit first = fit_of(again);
+  const geometry::VolumeFit first = fit_of(again);
   for (std::size_t i = 0; i < 20; ++i) again.problem.sites[i].weight = first.weights[i];
-  const VolumeFit second = fit_of(again);
+  const geometry::VolumeFit second = fit_of(again);
   EXPECT_EQ(second.evaluations, 1);
   EXPECT_EQ(second.weights, first.weights);
   // All demands zero, with weights to begin with.
   FitScene nothing = fit_scene(5, 0.5, 5);
-  for (VolumeDemand& demand : nothing.problem.demands) demand.least = demand.most = 0;
-  for (PowerSite& site : nothing.problem.sites) site.weight = 0.05;
-  EXPECT_EQ(fit_of(nothing).status, FitStatus::met);
+  for (geometry::VolumeDemand& demand : nothing.problem.demands) demand.least = demand.most = 0;
+  for (geometry::PowerSite& site : nothing.problem.sites) site.weight = 0.05;
+  EXPECT_EQ(fit_of(nothing).status, geometry::FitStatus::met);
   expect_honest(nothing, fit_of(nothing), 1e-6);
   const FitScene none{unit_cube(), {}};
-  EXPECT_EQ(fit_of(none).status, FitStatus::met);
+  EXPECT_EQ(fit_of(none).status, geometry::FitStatus::met);
 }
 
 TEST(VolumeFit, AGroupMeetsItsSumAndItsWeightsMoveAlike) {
@@ -94,8 +95,8 @@ TEST(VolumeFit, AGroupMeetsItsSumAndItsWeightsMoveAlike) {
     }
     demands[51] = demands[55];
     demands.resize(52);
-    const VolumeFit fit = fit_of(scene);
-    EXPECT_EQ(fit.status, FitStatus::met) << fill << " " << fit.max_relative_error;
+    const geometry::VolumeFit fit = fit_of(scene);
+    EXPECT_EQ(fit.status, geometry::FitStatus::met) << fill << " " << fit.max_relative_error;
     expect_honest(scene, fit, 1e-6);
     for (const std::size_t k : {std::size_t{50}, std::size_t{55}}) {
       for (std::size_t j = 1; j < 5; ++j) EXPECT_NEAR(fit.weights[k + j], fit.weights[k], 1e-9 * fit.weights[k]) << fill;
@@ -106,7 +107,7 @@ TEST(VolumeFit, AGroupMeetsItsSumAndItsWeightsMoveAlike) {
 // Between its bounds a demand asks for nothing; below or above them it goes to the nearer bound and no further.
 TEST(VolumeFit, IntervalsAreLeftAloneInsideAndHeldAtTheirEnds) {
   FitScene scene = fit_scene(30, 0.5, 14);
-  const VolumeFit free = fit_of(scene);
+  const geometry::VolumeFit free = fit_of(scene);
   for (std::size_t i = 0; i < 30; ++i) scene.problem.sites[i].weight = free.weights[i];
   auto& demands = scene.problem.demands;
   for (std::size_t i = 0; i < 30; ++i) {
@@ -115,8 +116,8 @@ TEST(VolumeFit, IntervalsAreLeftAloneInsideAndHeldAtTheirEnds) {
     if (i % 3 == 1) demands[i].least = 0.3 * v, demands[i].most = 0.7 * v;                                  // too much now
     if (i % 3 == 2) demands[i].least = 1.2 * v, demands[i].most = std::numeric_limits<double>::infinity();  // too little
   }
-  const VolumeFit fit = fit_of(scene);
-  EXPECT_EQ(fit.status, FitStatus::met) << fit.max_relative_error;
+  const geometry::VolumeFit fit = fit_of(scene);
+  EXPECT_EQ(fit.status, geometry::FitStatus::met) << fit.max_relative_error;
   expect_honest(scene, fit, 1e-6);
   for (std::size_t i = 0; i < 30; ++i) {
     const double v = free.volumes[i];
@@ -132,13 +133,13 @@ TEST(VolumeFit, SqueezedIntervalsGiveWayDownToTheirLeast) {
   double exact = 0, loose = 0;
   for (std::size_t i = 0; i < 24; ++i) (i % 2 ? exact : loose) += scene.problem.demands[i].least;
   for (std::size_t i = 0; i < 24; ++i) {
-    VolumeDemand& demand = scene.problem.demands[i];
+    geometry::VolumeDemand& demand = scene.problem.demands[i];
     const double part = demand.least / (i % 2 ? exact : loose);
     demand.least = part * (i % 2 ? 0.7 : 0.2);
     demand.most = part * (i % 2 ? 0.7 : 0.4);
   }
-  const VolumeFit fit = fit_of(scene);
-  EXPECT_EQ(fit.status, FitStatus::met) << fit.max_relative_error << (fit.reasons.empty() ? "" : fit.reasons[0]);
+  const geometry::VolumeFit fit = fit_of(scene);
+  EXPECT_EQ(fit.status, geometry::FitStatus::met) << fit.max_relative_error << (fit.reasons.empty() ? "" : fit.reasons[0]);
   expect_honest(scene, fit, 1e-6);
 }
 
@@ -148,7 +149,7 @@ FitScene scene_of_floors() {
   Random random(16);
   for (std::uint32_t i = 0; i < 8; ++i) {
     scene.problem.sites.push_back({random_point(random, {5, 5, 5}, {55, 55, 35}), 0});
-    VolumeDemand demand{{i}, 900.0 + 100 * i, 900.0 + 100 * i, VolumeDemand::Kind::floor_area, 3.5};
+    geometry::VolumeDemand demand{{i}, 900.0 + 100 * i, 900.0 + 100 * i, geometry::VolumeDemand::Kind::floor_area, 3.5};
     if (i >= 6) demand = {{i}, 4000, 4000};
     if (i == 5) demand.most *= 1.3;
     scene.problem.demands.push_back(demand);
@@ -157,12 +158,12 @@ FitScene scene_of_floors() {
 }
 
 TEST(VolumeFit, FloorAreasComeWithinAStorey) {
-  VolumeFitOptions options;
+  geometry::VolumeFitOptions options;
   options.tolerance = 0.01;
-  const VolumeFit fit = fit_of(scene_of_floors(), options);
+  const geometry::VolumeFit fit = fit_of(scene_of_floors(), options);
   for (const double weight : fit.weights) EXPECT_TRUE(std::isfinite(weight));
   // Floor areas jump with the storeys: met, or said so with what there is.
-  if (fit.status != FitStatus::met) {
+  if (fit.status != geometry::FitStatus::met) {
     EXPECT_FALSE(fit.reasons.empty());
     EXPECT_LT(fit.max_relative_error, 0.15);
   }
@@ -175,9 +176,9 @@ TEST(VolumeFit, SitesOfNoDemandKeepTheirWeightBitForBit) {
   auto& demands = scene.problem.demands;
   for (std::size_t i = 0; i < 40; ++i)
     scene.problem.sites[i].weight = i % 4 == 0 ? 0.0123456789 + 1e-5 * static_cast<double>(i) : 0;
-  std::erase_if(demands, [](const VolumeDemand& demand) { return demand.sites[0] % 4 == 0; });
-  const VolumeFit fit = fit_of(scene);
-  EXPECT_EQ(fit.status, FitStatus::met) << fit.max_relative_error;
+  std::erase_if(demands, [](const geometry::VolumeDemand& demand) { return demand.sites[0] % 4 == 0; });
+  const geometry::VolumeFit fit = fit_of(scene);
+  EXPECT_EQ(fit.status, geometry::FitStatus::met) << fit.max_relative_error;
   expect_honest(scene, fit, 1e-6);
   for (std::size_t i = 0; i < 40; i += 4) EXPECT_EQ(fit.weights[i], scene.problem.sites[i].weight);
 }
@@ -186,14 +187,14 @@ TEST(VolumeFit, CancelledByItsListener) {
   const FitScene scene = fit_scene(60, 0.9, 18);
   int calls = 0;
   double first_error = 0, last_error = 0;
-  VolumeFitOptions options;
+  geometry::VolumeFitOptions options;
   options.progress = [&](int steps, double error) {
     EXPECT_EQ(steps, ++calls);
     (calls == 1 ? first_error : last_error) = error;
     return calls < 3;
   };
-  const VolumeFit fit = fit_of(scene, options);
-  EXPECT_EQ(fit.status, FitStatus::cancelled);
+  const geometry::VolumeFit fit = fit_of(scene, options);
+  EXPECT_EQ(fit.status, geometry::FitStatus::cancelled);
   EXPECT_EQ(calls, 3);
   EXPECT_LT(last_error, first_error);
   expect_honest(scene, fit, 1e-6);
@@ -204,12 +205,12 @@ TEST(VolumeFit, StopsWhereItsListenerSays) {
   const FitScene scene = scene_of_floors();
   bool was_stopped = false;
   for (int last = 1; last <= 40; ++last) {
-    VolumeFitOptions options;
+    geometry::VolumeFitOptions options;
     options.tolerance = 0.01;
     options.progress = [&](int steps, double) { return steps < last; };
-    const VolumeFit fit = fit_of(scene, options);
+    const geometry::VolumeFit fit = fit_of(scene, options);
     EXPECT_LE(fit.evaluations, last);
-    was_stopped = was_stopped || fit.status == FitStatus::cancelled;
+    was_stopped = was_stopped || fit.status == geometry::FitStatus::cancelled;
   }
   EXPECT_TRUE(was_stopped);
 }
@@ -218,9 +219,9 @@ TEST(VolumeFit, ThreadsChangeNoBit) {
   ThreadPool two(2), three(3);
   for (const double fill : {0.5, 1.0}) {
     const FitScene scene = fit_scene(static_cast<std::size_t>(rounds(300)) + 40, fill, 19);
-    const VolumeFit alone = fit_of(scene);
+    const geometry::VolumeFit alone = fit_of(scene);
     for (ThreadPool* pool : {&two, &three}) {
-      VolumeFitOptions options;
+      geometry::VolumeFitOptions options;
       options.pool = pool;
       EXPECT_EQ(fit_of(scene, options).weights, alone.weights);
     }
@@ -229,7 +230,7 @@ TEST(VolumeFit, ThreadsChangeNoBit) {
 
 void expect_weights(const nlohmann::json& given) {
   SCOPED_TRACE(given.at("name").get<std::string>());
-  std::vector<Plane> planes;
+  std::vector<geometry::Plane> planes;
   for (const auto& p : given.at("boundary").at("planes")) planes.push_back({{p[0], p[1], p[2]}, p[3]});
   FitScene scene{from_planes(planes).value(), {}};
   for (std::uint32_t i = 0; i < given.at("sites").size(); ++i) {
@@ -237,10 +238,10 @@ void expect_weights(const nlohmann::json& given) {
     scene.problem.sites.push_back({{p[0], p[1], p[2]}, 0});
     scene.problem.demands.push_back({{i}, given["demands"][i], given["demands"][i]});
   }
-  VolumeFitOptions options;
+  geometry::VolumeFitOptions options;
   options.tolerance = 1e-11;
-  const VolumeFit fit = fit_of(scene, options);
-  EXPECT_EQ(fit.status, FitStatus::met) << fit.max_relative_error;
+  const geometry::VolumeFit fit = fit_of(scene, options);
+  EXPECT_EQ(fit.status, geometry::FitStatus::met) << fit.max_relative_error;
   const double size = scene.domain.size();
   for (std::size_t i = 0; i < fit.weights.size(); ++i) {
     EXPECT_NEAR(fit.weights[i], given["weights"][i].get<double>(), 1e-8 * size * size) << i;

@@ -14,28 +14,28 @@ constexpr double kTolerance = 1e-3;
 
 std::vector<double> demands_of(const FitScene& scene) {
   std::vector<double> demands;
-  for (const VolumeDemand& demand : scene.problem.demands) demands.push_back(demand.least);
+  for (const geometry::VolumeDemand& demand : scene.problem.demands) demands.push_back(demand.least);
   return demands;
 }
 
-VolumeSolver started(const FitScene& scene) {
-  VolumeSolver solver;
+geometry::VolumeSolver started(const FitScene& scene) {
+  geometry::VolumeSolver solver;
   EXPECT_TRUE(solver.start(scene.domain, scene.problem.sites, demands_of(scene)).ok());
   return solver;
 }
 
-SolveReport solve(VolumeSolver& solver, ThreadPool* pool = nullptr) {
-  SolveOptions options;
+geometry::SolveReport solve(geometry::VolumeSolver& solver, ThreadPool* pool = nullptr) {
+  geometry::SolveOptions options;
   options.tolerance = kTolerance;
   options.pool = pool;
   auto report = solver.solve(options);
   EXPECT_TRUE(report.ok()) << (report.ok() ? "" : report.error().text());
-  return report.ok() ? *report : SolveReport{};
+  return report.ok() ? *report : geometry::SolveReport{};
 }
 
 // Largest relative error, from a diagram made anew from the weights; places without a demand are left out.
-double true_error(const Domain& domain, const VolumeSolver& solver) {
-  std::vector<PowerSite> sites;
+double true_error(const geometry::Domain& domain, const geometry::VolumeSolver& solver) {
+  std::vector<geometry::PowerSite> sites;
   std::vector<double> demands;
   for (std::size_t i = 0; i < solver.sites().size(); ++i) {
     if (!(solver.demands()[i] > 0)) continue;
@@ -43,7 +43,7 @@ double true_error(const Domain& domain, const VolumeSolver& solver) {
     sites.push_back(solver.sites()[i]);
     demands.push_back(solver.demands()[i]);
   }
-  CellOptions options;
+  geometry::CellOptions options;
   options.with_shape = options.with_centroid = false;
   const auto cells = power_cells(domain, sites, options).value();
   double worst = 0;
@@ -51,10 +51,12 @@ double true_error(const Domain& domain, const VolumeSolver& solver) {
   return worst;
 }
 
-void expect_met(const Domain& domain, VolumeSolver& solver, const std::string& when, ThreadPool* pool = nullptr) {
-  const SolveReport report = solve(solver, pool);
+void expect_met(const geometry::Domain& domain, geometry::VolumeSolver& solver, const std::string& when,
+                ThreadPool* pool = nullptr) {
+  const geometry::SolveReport report = solve(solver, pool);
   const double truth = true_error(domain, solver);
-  EXPECT_EQ(report.status, FitStatus::met) << when << ": " << truth << (report.reasons.empty() ? "" : report.reasons[0]);
+  EXPECT_EQ(report.status, geometry::FitStatus::met)
+      << when << ": " << truth << (report.reasons.empty() ? "" : report.reasons[0]);
   EXPECT_LE(truth, kTolerance) << when << (report.was_local ? ", locally" : ", all anew") << ", reported " << report.error;
 }
 
@@ -62,14 +64,14 @@ TEST(VolumeSolver, ADraggedSiteKeepsAllVolumesTrue) {
   const std::size_t count = static_cast<std::size_t>(rounds(560)) + 40;
   for (const double fill : {0.3, 0.7, 0.95, 1.0}) {
     const FitScene scene = fit_scene(count, fill, 51);
-    VolumeSolver solver = started(scene);
+    geometry::VolumeSolver solver = started(scene);
     int local = 0;
     for (int frame = 0; frame < rounds(60) && !HasFailure(); ++frame) {
       const double t = 2 * std::numbers::pi * frame / 60;
       ASSERT_TRUE(solver.move(3, {0.5 + 0.16 * std::cos(t), 0.5 + 0.16 * std::sin(t), 0.4 + 0.1 * std::sin(3 * t)}).ok());
-      const SolveReport report = solve(solver);
+      const geometry::SolveReport report = solve(solver);
       local += report.was_local;
-      EXPECT_EQ(report.status, FitStatus::met);
+      EXPECT_EQ(report.status, geometry::FitStatus::met);
       EXPECT_LE(true_error(scene.domain, solver), kTolerance)
           << "fill " << fill << " frame " << frame << " local " << report.was_local;
     }
@@ -79,7 +81,7 @@ TEST(VolumeSolver, ADraggedSiteKeepsAllVolumesTrue) {
 
 // Moves near and far, adds, removes and other demands, in any order; the sum of the demands stays as it was, roughly.
 void walk(const FitScene& scene, std::uint64_t seed, int operations, bool check, ThreadPool* pool, std::vector<double>* weights) {
-  VolumeSolver solver = started(scene);
+  geometry::VolumeSolver solver = started(scene);
   Random random(seed);
   double room = 0;
   const double filled = [&] {
@@ -147,7 +149,7 @@ void walk(const FitScene& scene, std::uint64_t seed, int operations, bool check,
     }
   }
   if (weights == nullptr) return;
-  for (const PowerSite& site : solver.sites()) weights->push_back(site.weight);
+  for (const geometry::PowerSite& site : solver.sites()) weights->push_back(site.weight);
 }
 
 TEST(VolumeSolver, RandomWalksStayTrue) {
@@ -178,7 +180,7 @@ TEST(VolumeSolver, ALeapOntoLightNeighboursIsNoticed) {
   // A heavy site lands where it swallows small ones that it never bordered.
   FitScene scene = fit_scene(300, 0.3, 54);
   scene.problem.demands[0].least = scene.problem.demands[0].most = 0.05;
-  VolumeSolver solver = started(scene);
+  geometry::VolumeSolver solver = started(scene);
   expect_met(scene.domain, solver, "start");
   Random random(3);
   for (int k = 0; k < rounds(30); ++k) {
@@ -189,13 +191,13 @@ TEST(VolumeSolver, ALeapOntoLightNeighboursIsNoticed) {
 
 TEST(VolumeSolver, StrangePlacesAreAnsweredOrRefused) {
   const FitScene scene = fit_scene(60, 0.6, 55);
-  VolumeSolver solver = started(scene);
+  geometry::VolumeSolver solver = started(scene);
   expect_met(scene.domain, solver, "start");
   const Point3 home = solver.sites()[5].position;
   // Onto another one: they are one place, and only one of them can live.
   ASSERT_TRUE(solver.move(5, solver.sites()[9].position).ok());
-  SolveReport report = solve(solver);
-  EXPECT_EQ(report.status, FitStatus::infeasible);
+  geometry::SolveReport report = solve(solver);
+  EXPECT_EQ(report.status, geometry::FitStatus::infeasible);
   ASSERT_FALSE(report.reasons.empty());
   EXPECT_NE(report.reasons[0].find("site "), std::string::npos);
   ASSERT_TRUE(solver.move(5, home).ok());
@@ -206,7 +208,7 @@ TEST(VolumeSolver, StrangePlacesAreAnsweredOrRefused) {
   }
   ASSERT_TRUE(solver.move(5, {1e6, 0, 0}).ok());
   report = solve(solver);
-  if (report.status != FitStatus::met) { EXPECT_FALSE(report.reasons.empty()); }
+  if (report.status != geometry::FitStatus::met) { EXPECT_FALSE(report.reasons.empty()); }
   ASSERT_TRUE(solver.move(5, home).ok());
   expect_met(scene.domain, solver, "back from far away");
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -221,7 +223,7 @@ TEST(VolumeSolver, StrangePlacesAreAnsweredOrRefused) {
 
 TEST(VolumeSolver, DemandsToNothingAndBackAndAboveWhatThereIs) {
   const FitScene scene = fit_scene(50, 0.8, 56);
-  VolumeSolver solver = started(scene);
+  geometry::VolumeSolver solver = started(scene);
   expect_met(scene.domain, solver, "start");
   const double before = solver.demands()[7];
   ASSERT_TRUE(solver.set_demand(7, 0).ok());
@@ -232,24 +234,24 @@ TEST(VolumeSolver, DemandsToNothingAndBackAndAboveWhatThereIs) {
   ASSERT_TRUE(solver.set_demand(7, before).ok());
   expect_met(scene.domain, solver, "and back");
   ASSERT_TRUE(solver.set_demand(7, 0.9).ok());
-  const SolveReport report = solve(solver);
-  EXPECT_EQ(report.status, FitStatus::infeasible);
+  const geometry::SolveReport report = solve(solver);
+  EXPECT_EQ(report.status, geometry::FitStatus::infeasible);
   EXPECT_FALSE(report.reasons.empty());
   double sum = 0;
   for (const double volume : solver.volumes()) sum += volume;
   EXPECT_NEAR(sum, 1, 1e-9);
   ASSERT_TRUE(solver.move(7, {0.4, 0.4, 0.4}).ok());
-  EXPECT_EQ(solve(solver).status, FitStatus::infeasible);
+  EXPECT_EQ(solve(solver).status, geometry::FitStatus::infeasible);
   ASSERT_TRUE(solver.set_demand(7, before).ok());
   expect_met(scene.domain, solver, "met again");
 }
 
 TEST(VolumeSolver, FromEmptyToEmpty) {
-  VolumeSolver unstarted;
+  geometry::VolumeSolver unstarted;
   EXPECT_FALSE(unstarted.solve().ok());
-  VolumeSolver solver;
+  geometry::VolumeSolver solver;
   ASSERT_TRUE(solver.start(unit_cube(), {}, {}).ok());
-  EXPECT_EQ(solve(solver).status, FitStatus::met);
+  EXPECT_EQ(solve(solver).status, geometry::FitStatus::met);
   Random random(4);
   std::vector<std::uint32_t> places;
   for (int k = 0; k < 100; ++k) {
@@ -272,7 +274,7 @@ TEST(VolumeSolver, FromEmptyToEmpty) {
 // Changes that cancel each other, or follow each other, before anybody asks for a solution.
 TEST(VolumeSolver, ManyChangesBetweenTwoSolves) {
   const FitScene scene = fit_scene(40, 0.5, 57);
-  VolumeSolver solver = started(scene);
+  geometry::VolumeSolver solver = started(scene);
   // Before the first solve.
   ASSERT_TRUE(solver.remove(3).ok());
   ASSERT_TRUE(solver.add({0.2, 0.2, 0.2}, 0.01).ok());

@@ -7,7 +7,7 @@
 #include "tests/support/hand_clock.h"
 #include "tests/support/world.h"
 
-namespace bl {
+namespace bl::host {
 namespace {
 
 Scene scene_of(const std::string& nodes) {
@@ -61,4 +61,4 @@ TEST(Pace, ALateTickIsNotMadeUpFor) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::host

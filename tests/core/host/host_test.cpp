@@ -14,7 +14,7 @@
 #include "tests/support/hand_clock.h"
 #include "tests/support/world.h"
 
-namespace bl {
+namespace bl::host {
 namespace {
 
 constexpr const char* kPair = R"({"format": "behaviourlinks", "version": 1, "nodes": [
@@ -225,4 +225,4 @@ TEST_F(HostTest, AJournalHoldsWhatWasSaidSinceItBegan) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::host

@@ -10,7 +10,7 @@
 #include "core/host/journal.h"
 #include "core/session/commands.h"
 
-namespace bl {
+namespace bl::host {
 namespace {
 
 namespace files = std::filesystem;
@@ -108,4 +108,4 @@ TEST_F(JournalTest, WhatCameAfterARewindIsFoundInOrder) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::host

@@ -12,7 +12,7 @@
 #include "core/host/host.h"
 #include "tests/support/world.h"
 
-namespace bl {
+namespace bl::host {
 namespace {
 
 // A link kind that people can make fail, or wait, in the middle of a tick; it changes nothing.
@@ -125,4 +125,4 @@ TEST(LiveSession, LogAroundAFailedTickCanBeRead) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::host

@@ -10,7 +10,7 @@
 #include "core/import/cityjson_context.h"
 #include "tests/core/import/context_data.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using test::area_of, test::reason_of, test::rows_of, test::shared_bytes;
@@ -283,4 +283,4 @@ TEST(CityJson, ABodyBeyondAllHeightsIsARowAndNotTheEndOfTheImport) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -27,29 +27,29 @@ inline std::string shared_bytes(const std::string& name) {
 }
 
 /// Options with nothing but a CRS.
-inline ContextOptions in_crs(const std::string& crs) {
-  ContextOptions options;
+inline importing::ContextOptions in_crs(const std::string& crs) {
+  importing::ContextOptions options;
   options.crs = crs;
   return options;
 }
 
 /// Rows of a kind whose reason begins so.
-inline std::size_t rows_of(const ImportReport& report, std::string_view kind, std::string_view beginning) {
+inline std::size_t rows_of(const importing::ImportReport& report, std::string_view kind, std::string_view beginning) {
   std::size_t count = 0;
-  for (const ImportRow& row : report.rows())
+  for (const importing::ImportRow& row : report.rows())
     if (row.kind == kind && row.reason.starts_with(beginning)) count += row.count;
   return count;
 }
 
-inline std::string reason_of(const ImportReport& report, std::string_view id) {
-  for (const ImportRow& row : report.rows())
+inline std::string reason_of(const importing::ImportReport& report, std::string_view id) {
+  for (const importing::ImportRow& row : report.rows())
     if (row.id == id) return std::string(name_of(row.outcome)) + ": " + row.reason;
   return "no row";
 }
 
-inline double area_of(const ContextBuilding& building) {
-  double area = signed_area(building.outer);
-  for (const Ring& hole : building.holes) area += signed_area(hole);
+inline double area_of(const importing::ContextBuilding& building) {
+  double area = geometry::signed_area(building.outer);
+  for (const geometry::Ring& hole : building.holes) area += geometry::signed_area(hole);
   return area;
 }
 

@@ -16,7 +16,7 @@
 #include "tests/core/import/context_data.h"
 #include "tests/support/gzip.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using test::gzip_of, test::reason_of, test::rows_of;
@@ -30,26 +30,29 @@ class Stopwatch {
   std::clock_t start_ = std::clock();
 };
 
-std::string ring_text(const Ring& ring) {
+std::string ring_text(const geometry::Ring& ring) {
   std::string text = "[";
   for (const Point3& p : ring) text += "[" + std::to_string(85000 + p.x) + "," + std::to_string(447000 + p.y) + "],";
   return text + "[" + std::to_string(85000 + ring[0].x) + "," + std::to_string(447000 + ring[0].y) + "]]";
 }
-std::string polygon_text(const std::string& properties, const Ring& outer, const std::vector<Ring>& holes = {}) {
+std::string polygon_text(const std::string& properties, const geometry::Ring& outer,
+                         const std::vector<geometry::Ring>& holes = {}) {
   std::string text = R"({"type": "Feature", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "properties": {)" +
                      properties + R"(}, "geometry": {"type": "Polygon", "coordinates": [)" + ring_text(outer);
-  for (const Ring& hole : holes) text += "," + ring_text(hole);
+  for (const geometry::Ring& hole : holes) text += "," + ring_text(hole);
   return text + "]}}";
 }
 std::string dutch(const std::string& features) {
   return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:28992"}}, "features": [)" +
          features + "]}";
 }
-Ring square(double x, double y, double side) { return {{x, y, 0}, {x + side, y, 0}, {x + side, y + side, 0}, {x, y + side, 0}}; }
+geometry::Ring square(double x, double y, double side) {
+  return {{x, y, 0}, {x + side, y, 0}, {x + side, y + side, 0}, {x, y + side, 0}};
+}
 
 // A zigzag of long teeth, turned by an angle, closed around one side.
-Ring comb(int teeth, double angle) {
-  Ring ring;
+geometry::Ring comb(int teeth, double angle) {
+  geometry::Ring ring;
   for (int i = 0; i < teeth; ++i) ring.push_back({i % 2 == 0 ? 0.0 : 1000.0, i * 0.01, 0});
   ring.push_back({1010, teeth * 0.01, 0});
   ring.push_back({1010, -5, 0});
@@ -91,17 +94,17 @@ TEST(ContextLimits, ValuesEndWhereTheirBracketsDo) {
 TEST(ContextLimits, CombsAreCheckedInLittleTime) {
   for (const double angle : {0.0, 0.7, 1.5707963267948966}) {
     const Stopwatch watch;
-    Ring ring = comb(50001, angle);
-    EXPECT_FALSE(find_self_crossing(ring)) << angle;
+    geometry::Ring ring = comb(50001, angle);
+    EXPECT_FALSE(geometry::find_self_crossing(ring)) << angle;
     std::swap(ring[700].x, ring[902].x), std::swap(ring[700].y, ring[902].y);
-    EXPECT_TRUE(find_self_crossing(ring)) << "two corners changed places: " << angle;
+    EXPECT_TRUE(geometry::find_self_crossing(ring)) << "two corners changed places: " << angle;
     EXPECT_LT(watch.seconds(), 3) << angle;
   }
 }
 
 TEST(ContextLimits, BodiesHaveAsManyCornersAsCanBeTriangulated) {
   const Stopwatch watch;
-  const Ring ring = comb(50001, 0.3);
+  const geometry::Ring ring = comb(50001, 0.3);
   const auto context =
       read_geojson_context(dutch(polygon_text(R"("building": "yes")", ring) + "," + polygon_text(R"("landuse": "grass")", ring)));
   ASSERT_TRUE(context.ok()) << context.error().text();
@@ -111,7 +114,7 @@ TEST(ContextLimits, BodiesHaveAsManyCornersAsCanBeTriangulated) {
 }
 
 TEST(ContextLimits, ManyHolesAreSortedInLittleTime) {
-  std::vector<Ring> holes;
+  std::vector<geometry::Ring> holes;
   for (int i = 0; i < 100; ++i)
     for (int k = 0; k < 100; ++k) holes.push_back(square(10 + i * 5, 10 + k * 5, 3));
   holes.push_back(square(11, 11, 1));   // in another one
@@ -163,26 +166,26 @@ TEST(ContextLimits, FacesOfVeryManyCornersAreNoSolids) {
   ASSERT_TRUE(large.ok());
   ASSERT_EQ(large->buildings.size(), 1u);
   ASSERT_TRUE(large->buildings[0].solid);
-  EXPECT_NEAR(enclosed_volume(*large->buildings[0].solid), 10 * signed_area(large->buildings[0].outer), 0.1);
+  EXPECT_NEAR(enclosed_volume(*large->buildings[0].solid), 10 * geometry::signed_area(large->buildings[0].outer), 0.1);
   EXPECT_LT(watch.seconds(), 10);
 }
 
 TEST(ContextLimits, RingsThatCrossThemselvesAreTriangulatedInBoundedTime) {
-  std::vector<Ring> star(1);
+  std::vector<geometry::Ring> star(1);
   for (int i = 0; i < 1501; ++i) {
     const double angle = 2 * 3.14159265358979 * ((i * 700) % 1501) / 1501;
     star[0].push_back({100 * std::cos(angle), 100 * std::sin(angle), 0});
   }
   const Stopwatch watch;
-  EXPECT_EQ(polygon_triangles(star).size(), 1499u);
+  EXPECT_EQ(geometry::polygon_triangles(star).size(), 1499u);
   EXPECT_LT(watch.seconds(), 5);
 }
 
 TEST(BoxGrid, FindsWhatACompareOfAllFinds) {
-  std::vector<Ring> shapes;
+  std::vector<geometry::Ring> shapes;
   for (int i = 0; i < 300; ++i) shapes.push_back(square((i * 37) % 101, (i * 53) % 97, i % 50 == 0 ? 80 : 1 + i % 4));
-  const BoxGrid grid = BoxGrid::of(shapes, [](const Ring& ring) -> const Ring& { return ring; });
-  for (const Ring& probe : {square(3, 4, 2), square(-50, -50, 400), square(500, 500, 1), square(50, 50, 0)}) {
+  const BoxGrid grid = BoxGrid::of(shapes, [](const geometry::Ring& ring) -> const geometry::Ring& { return ring; });
+  for (const geometry::Ring& probe : {square(3, 4, 2), square(-50, -50, 400), square(500, 500, 1), square(50, 50, 0)}) {
     std::vector<std::size_t> wanted;
     for (std::size_t i = 0; i < shapes.size(); ++i)
       if (plan_box(shapes[i]).meets(plan_box(probe))) wanted.push_back(i);
@@ -206,4 +209,4 @@ TEST(ContextLimits, WaysThatMeetInOnePlaceAreJoinedInLittleTime) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

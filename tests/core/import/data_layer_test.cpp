@@ -7,7 +7,7 @@
 #include "core/import/data_layer.h"
 #include "tests/core/import/context_data.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using test::reason_of, test::shared_bytes;
@@ -83,4 +83,4 @@ TEST(DataLayer, PointsOfSeveralSystemsAreRefused) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -4,7 +4,7 @@
 #include "core/import/geojson_context.h"
 #include "tests/core/import/context_data.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using test::area_of, test::reason_of, test::shared_bytes;
@@ -162,7 +162,7 @@ TEST(GeoJsonContext, AreasAreThoseOfAnIndependentReader) {
   EXPECT_NEAR(area, 330629.690, 0.05) << "the one building that was left out encloses no area";
   options.feature_kind = "plot";
   const auto plot = read_geojson_context(domain, options);
-  EXPECT_NEAR(signed_area(plot->areas[0].outer), 614625.896, 0.001);
+  EXPECT_NEAR(geometry::signed_area(plot->areas[0].outer), 614625.896, 0.001);
 }
 
 TEST(GeoJsonContext, GroundHeightsAreAboveTheSeaAndMinHeightsAboveTheGround) {
@@ -205,4 +205,4 @@ TEST(GeoJsonContext, DirectionsOfGeofabrik) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -11,7 +11,7 @@
 #include "core/import/image_facts.h"
 #include "tests/support/photograph.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using test::photograph;
@@ -114,4 +114,4 @@ TEST(ImageFacts, OfFilesAsTheyLieOnADisk) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

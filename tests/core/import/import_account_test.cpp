@@ -11,7 +11,7 @@
 #include "core/import/plan_cover.h"
 #include "tests/core/import/context_data.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using test::in_crs, test::reason_of, test::rows_of;
@@ -139,17 +139,17 @@ TEST(ImportAccount, LocalCoordinatesFarFromZeroAreShiftedAndSo) {
 }
 
 TEST(ImportAccount, CommonGroundIsExact) {
-  const Ring square{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
-  const Ring hole{{4, 4, 0}, {4, 6, 0}, {6, 6, 0}, {6, 4, 0}};
-  const Ring other{{5, -5, 0}, {15, -5, 0}, {15, 5, 0}, {5, 5, 0}};
-  const Ring corner{{0, 0, 0}, {20, 0, 0}, {20, 5, 0}, {5, 5, 0}, {5, 20, 0}, {0, 20, 0}};  // an L
+  const geometry::Ring square{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+  const geometry::Ring hole{{4, 4, 0}, {4, 6, 0}, {6, 6, 0}, {6, 4, 0}};
+  const geometry::Ring other{{5, -5, 0}, {15, -5, 0}, {15, 5, 0}, {5, 5, 0}};
+  const geometry::Ring corner{{0, 0, 0}, {20, 0, 0}, {20, 5, 0}, {5, 5, 0}, {5, 20, 0}, {0, 20, 0}};  // an L
   EXPECT_NEAR(common_area({&square}, {&other}), 25, 1e-12);
   EXPECT_NEAR(common_area({&square, &hole}, {&other}), 24, 1e-12);
   EXPECT_NEAR(common_area({&square}, {&corner}), 75, 1e-12);
   EXPECT_NEAR(common_area({&corner}, {&square, &hole}), 72, 1e-12);
-  const Ring beside{{10, 0, 0}, {20, 0, 0}, {20, 10, 0}, {10, 10, 0}};
+  const geometry::Ring beside{{10, 0, 0}, {20, 0, 0}, {20, 10, 0}, {10, 10, 0}};
   EXPECT_EQ(common_area({&square}, {&beside}), 0);
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

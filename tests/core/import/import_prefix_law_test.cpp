@@ -20,7 +20,7 @@
 #include "tests/core/import/context_data.h"
 #include "tests/support/gzip.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 // What an importer made of some bytes: nothing, or its error; `unsound` says what is wrong with what it took.
@@ -291,4 +291,4 @@ TEST(ImportPrefixLaw, PbfThatUnpacksToGigabytesIsRefusedBeforeItIsUnpacked) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -6,7 +6,7 @@
 #include "core/import/import_report.h"
 #include "core/import/osm_context.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 constexpr const char* kTriangleWay = R"(<?xml version='1.0'?><osm version='0.6'>
@@ -113,4 +113,4 @@ TEST(ImportReport, ReportsComeBackWithEveryName) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

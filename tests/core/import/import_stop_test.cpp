@@ -12,7 +12,7 @@
 #include "core/import/terrain_grid.h"
 #include "tests/support/gzip.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 constexpr int kPatience = 3;  // asked so often, people still want it
@@ -76,4 +76,4 @@ TEST(ImportStop, WhatIsStoppedIsNotCalledIncomplete) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

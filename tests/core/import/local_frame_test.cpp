@@ -5,7 +5,7 @@
 
 #include "core/graph/scene.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 // Scenes with metres of their own carry the word, so that whoever reads the docs of the setting has to find it there.
@@ -17,4 +17,4 @@ TEST(LocalFrame, TheSettingOfAPlaceNamesItsWordForNone) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

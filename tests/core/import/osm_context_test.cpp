@@ -7,7 +7,7 @@
 #include "core/import/osm_tags.h"
 #include "tests/core/import/context_data.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using test::area_of, test::reason_of, test::rows_of, test::shared_bytes;
@@ -409,4 +409,4 @@ TEST(OsmTags, RoadsForFewAreNotDrivenThrough) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

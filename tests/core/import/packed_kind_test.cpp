@@ -17,7 +17,7 @@
 #include "core/import/tntp.h"
 #include "tests/support/gzip.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using Reader = std::function<std::string(const std::string&)>;
@@ -83,4 +83,4 @@ TEST(PackedKind, TextIsNone) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -11,7 +11,7 @@
 
 #include "tests/support/reference_files.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 // Our own file, and a published one where the shared folder is.
@@ -40,7 +40,7 @@ std::string boundary_error_of(const std::string& text, const PlanOptions& option
 TEST(PlanBoundary, MetricCrsIsShiftedOnly) {
   const auto plan = read_plan_boundary(polygon(kDutchSquare, "urn:ogc:def:crs:EPSG::28992"));
   ASSERT_TRUE(plan) << plan.error().text();
-  EXPECT_EQ(plan->outer, (Ring{{-50, -25, 0}, {50, -25, 0}, {50, 25, 0}, {-50, 25, 0}}));
+  EXPECT_EQ(plan->outer, (geometry::Ring{{-50, -25, 0}, {50, -25, 0}, {50, 25, 0}, {-50, 25, 0}}));
   EXPECT_DOUBLE_EQ(plan->area, 5000);
   EXPECT_DOUBLE_EQ(plan->hull_area, 5000);
   EXPECT_TRUE(plan->is_convex);
@@ -106,12 +106,12 @@ TEST(PlanBoundary, CleansRingsAndTurnsThem) {
                                  "[[85010,446010],[85020,446010],[85020,446020],[85010,446020],[85010,446010]]]",
                                  "EPSG:28992"));
   ASSERT_TRUE(plan) << plan.error().text();
-  EXPECT_EQ(plan->outer, (Ring{{-50, -25, 0}, {50, -25, 0}, {50, 25, 0}, {-50, 25, 0}}));
+  EXPECT_EQ(plan->outer, (geometry::Ring{{-50, -25, 0}, {50, -25, 0}, {50, 25, 0}, {-50, 25, 0}}));
   EXPECT_DOUBLE_EQ(plan->outer_area, 5000);
   EXPECT_DOUBLE_EQ(plan->area, 4900);
   EXPECT_FALSE(plan->is_convex);
   ASSERT_EQ(plan->holes.size(), 1u);
-  EXPECT_LT(signed_area(plan->holes[0]), 0);
+  EXPECT_LT(geometry::signed_area(plan->holes[0]), 0);
   EXPECT_TRUE(has_note(*plan, "In the ring coordinates/0, 1 repeated point was dropped."));
   EXPECT_TRUE(has_note(*plan, "1 hole with 100 m² stays open: nothing is built there."));
   const ConvexPlan convex = convex_hull_plan(*plan);
@@ -303,12 +303,12 @@ TEST(PlanBoundaryData, MercatorPlotsAreUnstretched) {
       if (!plan) continue;
       ++read;
       const auto ring = features[i]["geometry"]["coordinates"][0];
-      Ring raw;
+      geometry::Ring raw;
       for (const auto& p : ring)
         raw.push_back({p[0].get<double>() - ring[0][0].get<double>(), p[1].get<double>() - ring[0][1].get<double>(), 0});
       const double latitude = plan->reference.latitude * 3.14159265358979323846 / 180, cosine = std::cos(latitude);
       // Web Mercator is spherical: against the ellipsoid its north scale differs by e² terms of some 0.3 %.
-      EXPECT_NEAR(plan->outer_area / std::abs(signed_area(raw)), cosine * cosine, 0.004 * cosine * cosine) << i;
+      EXPECT_NEAR(plan->outer_area / std::abs(geometry::signed_area(raw)), cosine * cosine, 0.004 * cosine * cosine) << i;
       EXPECT_NEAR(plan->reference.latitude, latitudes[k], 0.02);
     }
     EXPECT_GE(read, least[k]);
@@ -329,4 +329,4 @@ TEST(PlanBoundaryData, EuropeanEqualAreaIsUndistorted) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -11,7 +11,7 @@
 #include "core/import/programme_columns.h"
 #include "tests/support/reference_files.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 // Our own file, and a published one where the shared folder is.
@@ -278,4 +278,4 @@ TEST(ProgrammeCsvData, ListsOfFunctions) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

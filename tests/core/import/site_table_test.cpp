@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 std::string site_error_of(const std::string& text) {
@@ -59,4 +59,4 @@ TEST(SiteTable, DecimalMarks) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -10,7 +10,7 @@
 #include "core/import/terrain_grid.h"
 #include "tests/core/import/context_data.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 using test::shared_bytes;
@@ -305,4 +305,4 @@ TEST(TerrainGrid, CellsOfNoWidthAreAnErrorOfTheFile) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 std::vector<Point3> circle(std::size_t count, double radius) {
@@ -70,4 +70,4 @@ TEST(ThinLine, AStraightLineOfManyPointsNeedsNone) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

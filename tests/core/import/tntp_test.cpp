@@ -6,7 +6,7 @@
 #include "core/base/random.h"
 #include "tests/core/traffic/traffic_case.h"
 
-namespace bl {
+namespace bl::importing {
 namespace {
 
 constexpr const char* kNet =
@@ -33,7 +33,7 @@ TEST(Tntp, NetworkAsDescribed) {
   EXPECT_FALSE(net->nodes[1].is_through);
   EXPECT_TRUE(net->nodes[2].is_through);
   ASSERT_EQ(net->links.size(), 3u);
-  const TrafficLink& link = net->links[0];
+  const traffic::TrafficLink& link = net->links[0];
   EXPECT_EQ(link.id, "1-3");
   EXPECT_EQ(link.capacity, 900);
   EXPECT_EQ(link.length, 2.5);
@@ -133,7 +133,7 @@ TEST(Tntp, RandomBytesNeverBreakTheReader) {
     for (const bool good :
          {read_tntp_network(text).ok(), read_tntp_trips(text).ok(), read_tntp_flows(text).ok(), read_tntp_places(text).ok()})
       (void)good;
-    if (const auto net = read_tntp_network(text)) (void)TrafficNetwork::make(net->nodes, net->links, net->factors).ok();
+    if (const auto net = read_tntp_network(text)) (void)traffic::TrafficNetwork::make(net->nodes, net->links, net->factors).ok();
   }
 }
 
@@ -162,4 +162,4 @@ TEST(Tntp, PublishedFilesAreReadWhole) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::importing

@@ -1,7 +1,7 @@
 // HTTP against a small server on the loopback: pages that are numbers, JSON, missing, endless or not there.
 #include "tests/core/live/live_support.h"
 
-namespace bl {
+namespace bl::live {
 namespace {
 
 using test::eventually;
@@ -66,4 +66,4 @@ TEST(Http, NothingIsConnectedToWithoutLeave) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::live

@@ -172,14 +172,14 @@ class Broker {
 /// A scene of nodes (JSON objects with commas between) that ticks in step with its connections and keeps its log.
 class LiveWorld {
  public:
-  explicit LiveWorld(const std::string& nodes, const std::string& links = "", LiveOptions options = {"", true, {0.02, 0.1}})
+  explicit LiveWorld(const std::string& nodes, const std::string& links = "", live::LiveOptions options = {"", true, {0.02, 0.1}})
       : text_(R"({"format": "behaviourlinks", "version": 1, "nodes": [)" + nodes + R"(], "links": [)" + links + "]}"),
         world_(World::from_text(text_)),
-        connections_(std::make_unique<Connections>(std::move(options))) {}
+        connections_(std::make_unique<live::Connections>(std::move(options))) {}
 
   void step() {
     connections_->follow(world_.session().scene());
-    for (const Report& report : connections_->collect(world_.state().tick)) {
+    for (const live::Report& report : connections_->collect(world_.state().tick)) {
       ++reports_;
       EXPECT_TRUE(world_.session().submit(report.command, report.author).ok());
     }
@@ -209,8 +209,8 @@ class LiveWorld {
   std::string quality(const std::string& node) const { return text(node, "sensor.quality"); }
   std::string message(const std::string& node) const { return text(node, "sensor.message"); }
   bool says(const std::string& node, const std::string& part) const { return message(node).find(part) != std::string::npos; }
-  ConnectionStatus status(const std::string& node) const {
-    for (ConnectionStatus& status : connections_->status())
+  live::ConnectionStatus status(const std::string& node) const {
+    for (live::ConnectionStatus& status : connections_->status())
       if (status.node == node) return status;
     return {};
   }
@@ -233,7 +233,7 @@ class LiveWorld {
  private:
   std::string text_;
   World world_;
-  std::unique_ptr<Connections> connections_;
+  std::unique_ptr<live::Connections> connections_;
   int reports_ = 0;
 };
 

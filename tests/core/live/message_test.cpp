@@ -4,7 +4,7 @@
 #include "core/base/random.h"
 #include "core/live/message.h"
 
-namespace bl {
+namespace bl::live {
 namespace {
 
 double number(std::string_view payload, std::string_view field = "") {
@@ -57,4 +57,4 @@ TEST(Message, NoiseAndDepthAreRefusedAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::live

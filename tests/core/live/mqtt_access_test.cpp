@@ -4,7 +4,7 @@
 #include "core/address/password_source.h"
 #include "tests/core/live/live_support.h"
 
-namespace bl {
+namespace bl::live {
 namespace {
 
 using test::Broker;
@@ -120,12 +120,12 @@ TEST(MqttAccess, ABrokerWithoutTlsIsNotEnteredByIt) {
 }
 
 TEST(PasswordSource, OnlyNamesThatMeanAPasswordForThisProgram) {
-  EXPECT_EQ(parse_password_source("env:BL_BROKER")->name, "BL_BROKER");
-  EXPECT_TRUE(parse_password_source("file:keys/hub.password")->is_file);
+  EXPECT_EQ(address::parse_password_source("env:BL_BROKER")->name, "BL_BROKER");
+  EXPECT_TRUE(address::parse_password_source("file:keys/hub.password")->is_file);
   for (const char* text : {"swordfish", "", "env:", "env:BL_", "env:HOME", "env:BL_a", "env:BL_X Y", "file:/etc/passwd",
                            "file:", "file:.password", "file:a.password\n"})
-    EXPECT_FALSE(parse_password_source(text).ok()) << text;
+    EXPECT_FALSE(address::parse_password_source(text).ok()) << text;
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::live

@@ -1,7 +1,7 @@
 // MQTT against a real broker on the loopback: readings, noise, a broker that goes and returns, actuators, replay.
 #include "tests/core/live/live_support.h"
 
-namespace bl {
+namespace bl::live {
 namespace {
 
 using test::Broker;
@@ -181,4 +181,4 @@ TEST(Mqtt, SomethingElseThanABrokerAndAHostThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::live

@@ -4,7 +4,7 @@
 #include "core/base/random.h"
 #include "tests/core/live/live_support.h"
 
-namespace bl {
+namespace bl::live {
 namespace {
 
 using test::LiveWorld;
@@ -194,4 +194,4 @@ TEST(Osc, AnActuatorThatNobodySteersIsSilent) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::live

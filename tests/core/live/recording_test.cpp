@@ -11,7 +11,7 @@
 #include "core/live/time_text.h"
 #include "tests/core/live/live_support.h"
 
-namespace bl {
+namespace bl::live {
 namespace {
 
 using test::Folder;
@@ -45,7 +45,7 @@ constexpr const char* kTable =
     "2014-10-01,5,7,50\n";
 
 Result<Recording> read(const std::string& address, const std::string& table = kTable) {
-  return read_recording(table, parse_live_address(address).value());
+  return read_recording(table, address::parse_live_address(address).value());
 }
 
 TEST(Recording, TakesTheRowsOfOneSensorInOrderOfTheirTimes) {
@@ -237,4 +237,4 @@ TEST(Recording, PublishedTablesPlayAndReplay) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::live

@@ -13,14 +13,14 @@
 #include "core/making/ball_grid.h"
 #include "core/making/prism_samples.h"
 
-namespace bl {
+namespace bl::making {
 namespace {
 
-const Ring kSquare = {{0, 0, 0}, {100, 0, 0}, {100, 80, 0}, {0, 80, 0}};
-const Ring kEll = {{0, 0, 0}, {100, 0, 0}, {100, 20, 0}, {20, 20, 0}, {20, 100, 0}, {0, 100, 0}};
-const Ring kComb = {{0, 0, 0},   {90, 0, 0},  {90, 60, 0}, {70, 60, 0}, {70, 10, 0}, {55, 10, 0},
-                    {55, 60, 0}, {35, 60, 0}, {35, 10, 0}, {20, 10, 0}, {20, 60, 0}, {0, 60, 0}};
-const Ring kSliver = {{0, 0, 0}, {1000, 999, 0}, {1000, 1000, 0}};
+const geometry::Ring kSquare = {{0, 0, 0}, {100, 0, 0}, {100, 80, 0}, {0, 80, 0}};
+const geometry::Ring kEll = {{0, 0, 0}, {100, 0, 0}, {100, 20, 0}, {20, 20, 0}, {20, 100, 0}, {0, 100, 0}};
+const geometry::Ring kComb = {{0, 0, 0},   {90, 0, 0},  {90, 60, 0}, {70, 60, 0}, {70, 10, 0}, {55, 10, 0},
+                              {55, 60, 0}, {35, 60, 0}, {35, 10, 0}, {20, 10, 0}, {20, 60, 0}, {0, 60, 0}};
+const geometry::Ring kSliver = {{0, 0, 0}, {1000, 999, 0}, {1000, 1000, 0}};
 
 std::vector<double> mixed_volumes(std::size_t count, double total) {
   Random random(7);
@@ -39,16 +39,16 @@ double nearest_pair(const std::vector<Point3>& points) {
 }
 
 TEST(SpreadPoints, InsideAndApartInEveryShape) {
-  for (const Ring& plan : {kSquare, kEll, kComb, kSliver})
+  for (const geometry::Ring& plan : {kSquare, kEll, kComb, kSliver})
     for (const double top : {3.0, 30.0, 300.0})
       for (const std::size_t count : {1u, 2u, 7u, 60u, 300u}) {
-        const double prism = signed_area(plan) * top;
+        const double prism = geometry::signed_area(plan) * top;
         const auto points = making::spread_points(plan, 0, top, mixed_volumes(count, 0.8 * prism), 3);
         ASSERT_TRUE(points) << points.error().text();
         ASSERT_EQ(points->size(), count);
         for (const Point3& p : *points) {
-          EXPECT_TRUE(ring_contains(plan, p));
-          EXPECT_GT(distance({p.x, p.y, 0}, nearest_on_ring(plan, p)), 1e-6);
+          EXPECT_TRUE(geometry::ring_contains(plan, p));
+          EXPECT_GT(distance({p.x, p.y, 0}, geometry::nearest_on_ring(plan, p)), 1e-6);
           EXPECT_TRUE(p.z > 0 && p.z < top);
         }
         const double spacing = std::cbrt(prism / static_cast<double>(count));
@@ -57,16 +57,17 @@ TEST(SpreadPoints, InsideAndApartInEveryShape) {
 }
 
 TEST(SpreadPoints, KeepsOutOfHoles) {
-  const std::vector<Ring> holes = {{{20, 20, 0}, {20, 60, 0}, {45, 60, 0}, {45, 20, 0}}, {{60, 10, 0}, {55, 70, 0}, {90, 40, 0}}};
+  const std::vector<geometry::Ring> holes = {{{20, 20, 0}, {20, 60, 0}, {45, 60, 0}, {45, 20, 0}},
+                                             {{60, 10, 0}, {55, 70, 0}, {90, 40, 0}}};
   for (const std::size_t count : {1u, 5u, 60u, 300u}) {
     const auto points = making::spread_points(kSquare, 0, 20, mixed_volumes(count, 60000), 3, {}, holes);
     ASSERT_TRUE(points) << points.error().text();
     for (const Point3& p : *points) {
-      EXPECT_TRUE(ring_contains(kSquare, p));
-      for (const Ring& hole : holes) EXPECT_FALSE(ring_contains(hole, p)) << p.x << " " << p.y;
+      EXPECT_TRUE(geometry::ring_contains(kSquare, p));
+      for (const geometry::Ring& hole : holes) EXPECT_FALSE(geometry::ring_contains(hole, p)) << p.x << " " << p.y;
     }
   }
-  const std::vector<Ring> beyond = {{{90, 10, 0}, {110, 10, 0}, {110, 20, 0}}};
+  const std::vector<geometry::Ring> beyond = {{{90, 10, 0}, {110, 10, 0}, {110, 20, 0}}};
   EXPECT_EQ(making::spread_points(kSquare, 0, 20, std::vector<double>{1}, 3, {}, beyond).error().place, "holes/0");
 }
 
@@ -86,7 +87,7 @@ TEST(SpreadPoints, BallsStayOffGroundRoofAndSides) {
   for (const Point3& p : *points) {
     EXPECT_GE(p.z, radius - 1e-9);
     EXPECT_LE(p.z, 30 - radius + 1e-9);
-    EXPECT_GE(distance({p.x, p.y, 0}, nearest_on_ring(kSquare, p)), radius - 1e-6);
+    EXPECT_GE(distance({p.x, p.y, 0}, geometry::nearest_on_ring(kSquare, p)), radius - 1e-6);
   }
 }
 
@@ -167,10 +168,10 @@ TEST(SpreadPoints, Errors) {
 }
 
 TEST(PrismSamples, CoverThePlanEvenly) {
-  const auto samples = making::prism_samples(std::vector<Ring>{kEll}, 0, 10, 36000, 1);
+  const auto samples = making::prism_samples(std::vector<geometry::Ring>{kEll}, 0, 10, 36000, 1);
   std::size_t arm = 0;
   for (const Point3& p : samples) {
-    EXPECT_TRUE(ring_contains(kEll, p));
+    EXPECT_TRUE(geometry::ring_contains(kEll, p));
     arm += p.x > 20 ? 1 : 0;
   }
   // The arm east of x = 20 has 1600 of 3600 m².
@@ -195,14 +196,15 @@ TEST(BallGrid, AgreesWithLookingAtAll) {
 }
 
 TEST(PlanRing, HandChecks) {
-  EXPECT_DOUBLE_EQ(signed_area(kEll), 3600);
-  EXPECT_DOUBLE_EQ(perimeter(kSquare), 360);
-  EXPECT_EQ(hull_of_plan(kEll), (Ring{{0, 0, 0}, {100, 0, 0}, {100, 20, 0}, {20, 100, 0}, {0, 100, 0}}));
-  EXPECT_NEAR(depth_below_hull(kEll, hull_of_plan(kEll)), 20, 1e-9);
-  EXPECT_FALSE(find_self_crossing(kComb));
-  EXPECT_TRUE(find_self_crossing(Ring{{0, 0, 0}, {10, 0, 0}, {5, 0, 0}, {5, 5, 0}}));                // doubles back
-  EXPECT_TRUE(find_self_crossing(Ring{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {5, 0, 0}, {0, 10, 0}}));  // touches
+  EXPECT_DOUBLE_EQ(geometry::signed_area(kEll), 3600);
+  EXPECT_DOUBLE_EQ(geometry::perimeter(kSquare), 360);
+  EXPECT_EQ(geometry::hull_of_plan(kEll), (geometry::Ring{{0, 0, 0}, {100, 0, 0}, {100, 20, 0}, {20, 100, 0}, {0, 100, 0}}));
+  EXPECT_NEAR(geometry::depth_below_hull(kEll, geometry::hull_of_plan(kEll)), 20, 1e-9);
+  EXPECT_FALSE(geometry::find_self_crossing(kComb));
+  EXPECT_TRUE(geometry::find_self_crossing(geometry::Ring{{0, 0, 0}, {10, 0, 0}, {5, 0, 0}, {5, 5, 0}}));  // doubles back
+  EXPECT_TRUE(
+      geometry::find_self_crossing(geometry::Ring{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {5, 0, 0}, {0, 10, 0}}));  // touches
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::making

@@ -10,7 +10,7 @@
 #include "core/session/commands.h"
 #include "tests/support/world.h"
 
-namespace bl {
+namespace bl::reading {
 namespace {
 
 using reading::Changes;
@@ -81,4 +81,4 @@ TEST(Changes, MeshesAreComparedByIdentity) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::reading

@@ -10,7 +10,7 @@
 #include "core/session/commands.h"
 #include "tests/support/world.h"
 
-namespace bl {
+namespace bl::reading {
 namespace {
 
 using reading::NodePlace;
@@ -121,4 +121,4 @@ TEST(Views, ParametersOfLinksHaveTheirDefaults) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::reading

@@ -9,7 +9,7 @@
 #include "core/script/link_script.h"
 #include "tests/links/link_case.h"
 
-namespace bl {
+namespace bl::script {
 namespace {
 
 struct Hostile {
@@ -31,7 +31,8 @@ std::string declaring(const std::string& reads) {
 
 std::string tags(const std::string& lines) {
   return "return {id = 'bad', doc = 'Bad.',\n\nproposes = {tags = {at = 'from', port = 'facade.style'}},\n"
-         "evaluate = function(params, ends, tick)\n" + lines + "\nend}\n";
+         "evaluate = function(params, ends, tick)\n" +
+         lines + "\nend}\n";
 }
 
 std::vector<Hostile> hostile_scripts() {
@@ -69,16 +70,21 @@ std::vector<Hostile> hostile_scripts() {
       {"an error in the library", body("\ntable.sort({1, 'x'})\n"), "bad.lua:6: |compare"},
       {"index of nil", body("return {move = ends.there.x}"), "bad.lua:5: |`ends` has no `there`; it has `here`"},
       {"arithmetic on a text", body("return {move = 'a' + 1}"), "bad.lua:5: |arithmetic"},
-      {"a name that is not declared", body("return {move = ends.here - ends.her}"), "bad.lua:5: |`ends` has no `her`; it has `here`"},
+      {"a name that is not declared", body("return {move = ends.here - ends.her}"),
+       "bad.lua:5: |`ends` has no `her`; it has `here`"},
       {"a parameter that is not declared", body("return {move = ends.here * params.gain}"), "bad.lua:5: |`params` has no `gain`"},
       {"a point and nothing", body("local a\nreturn {move = ends.here - a}"), "bad.lua:6: |one is nil"},
       {"a point by a point", body("return {move = ends.here * ends.here}"), "bad.lua:5: |by a number, not by a point"},
       {"print", body("print('x')"), "bad.lua:5: |error(text) shows a text"},
-      {"one point for many", "return {id = 'bad', doc = 'Bad.',\nproposes = {move = {at = 'from', port = 'node.position', whole = true}},\n"
-       "reads = {here = {at = 'from', port = 'node.position', whole = true}},\nevaluate = function() return {move = point(0, 0, 1)} end}",
+      {"one point for many",
+       "return {id = 'bad', doc = 'Bad.',\nproposes = {move = {at = 'from', port = 'node.position', whole = true}},\n"
+       "reads = {here = {at = 'from', port = 'node.position', whole = true}},\nevaluate = function() return {move = point(0, 0, "
+       "1)} end}",
        "bad.lua:4: |`move` needs a list of points, one for each node, not a point"},
-      {"a value for nobody", "return {id = 'bad', doc = 'Bad.',\nproposes = {move = {at = 'from', port = 'node.position', whole = true}},\n"
-       "reads = {here = {at = 'from', port = 'node.position', whole = true}},\nevaluate = function() return {move = {[7] = point(0, 0, 1)}} end}",
+      {"a value for nobody",
+       "return {id = 'bad', doc = 'Bad.',\nproposes = {move = {at = 'from', port = 'node.position', whole = true}},\n"
+       "reads = {here = {at = 'from', port = 'node.position', whole = true}},\nevaluate = function() return {move = {[7] = "
+       "point(0, 0, 1)}} end}",
        "bad.lua:4: |for node 7 of an end of 1 nodes"},
       {"no answer", body(""), "bad.lua:4: |must return a table"},
       {"a number as answer", body("return 3"), "bad.lua:4: |must return a table"},
@@ -107,11 +113,14 @@ std::vector<Hostile> hostile_scripts() {
        "here = {at = 'to', port = 'smart_volume.volume', unit = 'm3'},\n},\nproposes = {\n"
        "here = {at = 'to',\nport = 'smart_volume.volume', unit = 'm3'}}, evaluate = function() return {} end}",
        "bad.lua:9: |cannot be changed by links"},
-      {"a wrong unit of two", "return {id = 'bad', doc = 'demand',\nreads = {now = {at = 'to', port = 'smart_volume.demand', unit = 'm3'}},\n"
+      {"a wrong unit of two",
+       "return {id = 'bad', doc = 'demand',\nreads = {now = {at = 'to', port = 'smart_volume.demand', unit = 'm3'}},\n"
        "proposes = {demand = {at = 'to', port = 'smart_volume.demand', unit = 'm2'}}, evaluate = function() return {} end}",
        "bad.lua:3: |in cubic metres"},
-      {"a table put together", "local link = {id = 'bad', doc = 'x'}\nlink.proposes = {v = {at = 'to', port = 'smart_volume.volume'}}\n"
-       "link.evaluate = function() end\nreturn link", "bad.lua:2: |cannot be changed by links"},
+      {"a table put together",
+       "local link = {id = 'bad', doc = 'x'}\nlink.proposes = {v = {at = 'to', port = 'smart_volume.volume'}}\n"
+       "link.evaluate = function() end\nreturn link",
+       "bad.lua:2: |cannot be changed by links"},
       {"`end` for `at`", declaring("here = {['end'] = 'from', port = 'node.position'}"), "bad.lua:2: |called `at`"},
       {"unknown end", declaring("here = {at = 'left', port = 'node.position'}"), "bad.lua:2: |\"from\" or \"to\""},
       {"unknown field", declaring("here = {at = 'from', prot = 'node.position'}"), "bad.lua:2: |did you mean `port`"},
@@ -140,7 +149,8 @@ std::vector<Hostile> hostile_scripts() {
       {"many bytes", body("local s = 'x'\nfor i = 1, 11 do s = s .. s end\nwhile true do local _ = s:byte(1, -1) end"),
        "bad.lua:7: |byte gives at most 100 values"},
       {"insert of too much", body("table.insert({}, 1, 2, 3)"), "bad.lua:5: |insert takes"},
-      {"too many texts", tags("local s, t = 'x', {}\nfor i = 1, 11 do s = s .. s end\nfor i = 1, 300 do t[i] = s end\nreturn {tags = t}"),
+      {"too many texts",
+       tags("local s, t = 'x', {}\nfor i = 1, 11 do s = s .. s end\nfor i = 1, 300 do t[i] = s end\nreturn {tags = t}"),
        "bad.lua:4: |more than 256 KiB"},
       {"too long a script", "return '" + std::string(300000, 'x') + "'", "bad.lua: |longer than 256 KiB"},
       {"a deep table in the text", "return " + std::string(1000, '{') + std::string(1000, '}'), "bad.lua: |C stack overflow"},
@@ -199,16 +209,16 @@ TEST(HostileScript, NoInstructionRunsLong) {
       {"tonumber", long_text + "while true do local _ = tonumber(z, 10) end"},
       {"sine of spaces", long_text + "while true do local _ = math.sin(z .. 1) end"},
       {"for over spaces", long_text + "z = z .. 1 while true do for i = 1, z do end end"},
-      {"formatting", "local p = '%.99f' p = p .. p .. p .. p p = p .. p while true do "
-                     "local _ = p:format(1e300, 1e300, 1e300, 1e300, 1e300, 1e300, 1e300, 1e300) end"},
+      {"formatting",
+       "local p = '%.99f' p = p .. p .. p .. p p = p .. p while true do "
+       "local _ = p:format(1e300, 1e300, 1e300, 1e300, 1e300, 1e300, 1e300, 1e300) end"},
       {"random of texts", long_text + "while true do local _ = random(z, z, z, z, z, z, z, z, z, z, z, z, z, z, z, z) end"},
       {"handing on", many + "local function use() end local function all(...) while true do use(...) use(...) use(...) end end "
                             "all(many(8000))"},
       {"largest of many", many + "local function all(...) while true do local _ = math.max(...) end end all(many(8000))"},
       {"returning many", "local function grow(n) if n > 0 then return n, grow(n - 1) end end while true do grow(150) end"},
       {"a chain of names", chain},
-      {"a chain of names that is read",
-       "local t = {} for i = 1, 2000 do t[i * 2047] = i end while true do local _ = t[0] end"},
+      {"a chain of names that is read", "local t = {} for i = 1, 2000 do t[i * 2047] = i end while true do local _ = t[0] end"},
       {"a short chain", "local t = {} for i = 1, 250 do t[i * 255] = i end while true do local _ = t[0] end"},
       {"the length of a chain", "local t = " + sparse + " while true do local _ = #t end"},
       {"sparse pairs", "local t = {} for i = 1, 250 do t[i * 255] = i end while true do for k in pairs(t) do end end"},
@@ -225,10 +235,11 @@ TEST(HostileScript, NoInstructionRunsLong) {
 
 // A text of a port with a zero byte is refused before the script can compare it.
 TEST(HostileScript, GetsNoZeroBytesFromPorts) {
-  const auto kind = read_link_script(
-      "bad", "return {id = 'bad', doc = 'x', params = {{id = 'word', default = 'a', doc = 'x'}},\n"
-             "proposes = {move = {at = 'from', port = 'node.position'}},\nevaluate = function(params) return {} end}",
-      full_registry());
+  const auto kind =
+      read_link_script("bad",
+                       "return {id = 'bad', doc = 'x', params = {{id = 'word', default = 'a', doc = 'x'}},\n"
+                       "proposes = {move = {at = 'from', port = 'node.position'}},\nevaluate = function(params) return {} end}",
+                       full_registry());
   ASSERT_TRUE(kind.ok()) << kind.error().text();
   LinkCase link(*kind);
   EXPECT_EQ(link.set("word", std::string("ab")).run(), "");
@@ -236,4 +247,4 @@ TEST(HostileScript, GetsNoZeroBytesFromPorts) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::script

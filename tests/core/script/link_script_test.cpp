@@ -16,7 +16,7 @@
 #include "core/script/link_script.h"
 #include "tests/links/link_case.h"
 
-namespace bl {
+namespace bl::script {
 namespace {
 
 constexpr const char* kRatio = R"lua(
@@ -354,4 +354,4 @@ TEST(LinkScript, WhatIsDangerousIsNotThere) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::script

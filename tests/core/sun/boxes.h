@@ -9,7 +9,7 @@
 #include "core/base/random.h"
 #include "core/sun/shadow_scene.h"
 
-namespace bl {
+namespace bl::sun {
 
 /// A closed box that stands at `foot` (the middle of its underside), turned by `angle` [rad] about the vertical.
 inline Mesh box_mesh(const Point3& foot, double width, double depth, double height, double angle = 0) {
@@ -67,4 +67,4 @@ inline bool plain_hit(const Point3& origin, const Vector3& toward, const Mesh& m
   return false;
 }
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -9,7 +9,7 @@
 #include "core/sun/sun_hours.h"
 #include "tests/core/sun/boxes.h"
 
-namespace bl {
+namespace bl::sun {
 namespace {
 
 Vector3 random_sun(Random& random) {
@@ -226,4 +226,4 @@ TEST(SunHours, TheSameBitsWithAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::sun

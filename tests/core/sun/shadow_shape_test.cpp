@@ -10,7 +10,7 @@
 #include "core/sun/sun_place.h"
 #include "tests/core/sun/boxes.h"
 
-namespace bl {
+namespace bl::sun {
 namespace {
 
 double area_of(const std::vector<Point3>& ring) {
@@ -147,4 +147,4 @@ TEST(ShadowShape, IsEmptyWhereItWouldBeLongerThanTheEarthIsLevel) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::sun

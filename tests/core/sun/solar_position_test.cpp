@@ -9,7 +9,7 @@
 
 #include "tests/core/sun/sun_tables.h"
 
-namespace bl {
+namespace bl::sun {
 namespace {
 
 // Golden, Colorado: the worked example of the report that the algorithm comes from.
@@ -104,4 +104,4 @@ TEST(SolarPosition, AgainstTheEphemerisOfJpl) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::sun

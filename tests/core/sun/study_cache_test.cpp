@@ -7,7 +7,7 @@
 #include "core/base/stop.h"
 #include "tests/core/sun/boxes.h"
 
-namespace bl {
+namespace bl::sun {
 namespace {
 
 std::vector<SunMoment> day() { return *sun_moments({}, {2461121, 2461121, 1, 3600, 5}); }
@@ -128,4 +128,4 @@ TEST(SunStudyCache, AStoppedStudyIsCancelledAndNothingOfItKept) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::sun

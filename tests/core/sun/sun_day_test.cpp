@@ -10,7 +10,7 @@
 #include "core/base/random.h"
 #include "tests/core/sun/sun_tables.h"
 
-namespace bl {
+namespace bl::sun {
 namespace {
 
 SunPlace place_at(double latitude, double longitude, double zone_hours) {
@@ -219,4 +219,4 @@ TEST(SunMoments, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::sun

@@ -11,7 +11,7 @@
 #include "core/sun/sun_place.h"
 #include "tests/support/reference_files.h"
 
-namespace bl {
+namespace bl::sun {
 
 using SunRow = std::map<std::string, std::string>;
 
@@ -50,4 +50,4 @@ inline double clock_in(const std::string& text) {
          (text.size() > 6 ? std::stod(text.substr(6)) : 0);
 }
 
-}  // namespace bl
+}  // namespace bl::sun

@@ -8,7 +8,7 @@
 
 #include "core/base/random.h"
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 struct SmallTown : DistrictParts {
@@ -115,4 +115,4 @@ TEST(DistrictMemo, ATownThatMovesStaysNearItsEquilibrium) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 // west - east along two streets of 300 m; 10 m/s.
@@ -228,9 +228,8 @@ TEST(District, SmallStepsLeadWhereALongRunLeads) {
 TEST(District, AStateOfAnotherDistrictDoesNoHarm) {
   Town town;
   town.state.links = {"gone:forth", "high:forth", "low:back", "low:forth"};
-  town.state.zones = {{"gone", {1}, {5}, {1, 2, 3}},
-                      {"east", {}, {}, {}},
-                      {"home", {0, 1, 1, 99, 2, 3}, {7, 100, 3, 5, -3, 0}, {5, -1, 4}}};
+  town.state.zones = {
+      {"gone", {1}, {5}, {1, 2, 3}}, {"east", {}, {}, {}}, {"home", {0, 1, 1, 99, 2, 3}, {7, 100, 3, 5, -3, 0}, {5, -1, 4}}};
   for (int i = 0; i < 30; ++i) town.step();
   Town fresh;
   EXPECT_NEAR(town.step().streets[0].flow_forth, fresh.step().streets[0].flow_forth, 1e-3);
@@ -430,4 +429,4 @@ TEST(District, ASettledDistrictWithRulesStaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

@@ -8,7 +8,7 @@
 #include "core/base/stop.h"
 #include "tests/core/traffic/traffic_case.h"
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 using traffic_test::braess;
@@ -358,7 +358,7 @@ TEST(Equilibrium, PublishedFlowsAreMetWithinAThousandth) {
     const TrafficNetwork network = one->network();
     Equilibrium equilibrium(network, one->demands(network));
     ASSERT_TRUE(equilibrium.run(1e-9, 300));
-    const auto flows = read_tntp_flows(traffic_test::text_of(file));
+    const auto flows = importing::read_tntp_flows(traffic_test::text_of(file));
     ASSERT_TRUE(flows.ok()) << flows.error().text();
     ASSERT_EQ(flows->entries.size(), network.link_count());
     for (const auto& entry : flows->entries) {
@@ -371,4 +371,4 @@ TEST(Equilibrium, PublishedFlowsAreMetWithinAThousandth) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

@@ -6,7 +6,7 @@
 
 #include "tests/core/traffic/traffic_case.h"
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 TrafficNetwork one_link(TrafficLink link, const CostFactors& factors = {}) {
@@ -118,4 +118,4 @@ TEST(TrafficNetwork, InputOrderDoesNotMatterAndEditsKeepIndices) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

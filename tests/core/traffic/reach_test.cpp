@@ -6,7 +6,7 @@
 #include "core/traffic/trip_distribution.h"
 #include "tests/core/traffic/traffic_case.h"
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 // a -100 m- b -100 m- c, both ways, and d that no street leads to.
@@ -83,4 +83,4 @@ TEST(TripDistribution, WhoFindsNoDestinationIsLost) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

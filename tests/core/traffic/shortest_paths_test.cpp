@@ -7,7 +7,7 @@
 #include "core/traffic/shortest_trees.h"
 #include "tests/core/traffic/traffic_case.h"
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
@@ -112,4 +112,4 @@ TEST(ShortestTrees, TheyAreThoseOfASearchWhateverCameBefore) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

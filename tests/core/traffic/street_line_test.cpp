@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 using Points = std::vector<Point3>;
@@ -38,4 +38,4 @@ TEST(StreetLine, PartsKeepTheBendsBetweenTheirEnds) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

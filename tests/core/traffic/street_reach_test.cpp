@@ -9,7 +9,7 @@
 
 #include "core/base/random.h"
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 using Parts = std::vector<ReachedPart>;
@@ -117,4 +117,4 @@ TEST(StreetReach, AgreesWithTheTimesAtPointsOfAGrid) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

@@ -18,21 +18,21 @@
 namespace bl::traffic_test {
 
 struct Case {
-  std::vector<TrafficNode> nodes;
-  std::vector<TrafficLink> links;
+  std::vector<traffic::TrafficNode> nodes;
+  std::vector<traffic::TrafficLink> links;
   struct Trip {
     std::string from, to;
     double trips;
   };
   std::vector<Trip> trips;
 
-  TrafficNetwork network(const CostFactors& factors = {}) const {
-    auto made = TrafficNetwork::make(nodes, links, factors);
+  traffic::TrafficNetwork network(const traffic::CostFactors& factors = {}) const {
+    auto made = traffic::TrafficNetwork::make(nodes, links, factors);
     EXPECT_TRUE(made.ok()) << made.error().text();
     return *made;
   }
-  std::vector<TripDemand> demands(const TrafficNetwork& net, double share = 1) const {
-    std::vector<TripDemand> all;
+  std::vector<traffic::TripDemand> demands(const traffic::TrafficNetwork& net, double share = 1) const {
+    std::vector<traffic::TripDemand> all;
     for (const Trip& trip : trips) all.push_back({net.node_index(trip.from), net.node_index(trip.to), trip.trips * share});
     return all;
   }
@@ -41,7 +41,7 @@ struct Case {
 /// Braess's network of 1968: a, b, c, d; times 10·v, 50 + v, 50 + v, 10·v, and the bridge b-c with 10 + v. Six trips from a to d.
 inline Case braess(bool with_bridge) {
   auto linear = [](const char* id, const char* from, const char* to, double free_time, double slope) {
-    return TrafficLink{id, from, to, free_time, 1, slope / free_time, 1, 100, 0, true};
+    return traffic::TrafficLink{id, from, to, free_time, 1, slope / free_time, 1, 100, 0, true};
   };
   Case one;
   for (const char* id : {"a", "b", "c", "d"}) one.nodes.push_back({id, true});
@@ -89,8 +89,8 @@ inline std::optional<Case> published(const std::string& name) {
     std::cout << "The network " << name << " is not beside this checkout; its figures are not compared.\n";
     return std::nullopt;
   }
-  const auto read_net = read_tntp_network(text_of(net));
-  const auto read_trips = read_tntp_trips(text_of(trips));
+  const auto read_net = importing::read_tntp_network(text_of(net));
+  const auto read_trips = importing::read_tntp_trips(text_of(trips));
   EXPECT_TRUE(read_net.ok() && read_trips.ok());
   Case one{read_net->nodes, read_net->links, {}};
   for (const auto& entry : read_trips->entries) one.trips.push_back({entry.origin, entry.destination, entry.trips});
@@ -98,13 +98,13 @@ inline std::optional<Case> published(const std::string& name) {
 }
 
 /// Every trip is somewhere: at each node, what arrives and begins equals what leaves and ends, for each origin by itself.
-inline void expect_conserved(const Equilibrium& equilibrium) {
-  const TrafficNetwork& network = equilibrium.network();
+inline void expect_conserved(const traffic::Equilibrium& equilibrium) {
+  const traffic::TrafficNetwork& network = equilibrium.network();
   std::vector<double> total(network.link_count(), 0);
-  for (const Bush& bush : equilibrium.bushes()) {
+  for (const traffic::Bush& bush : equilibrium.bushes()) {
     std::vector<double> balance(network.node_count(), 0);
     double scale = 1;
-    for (const TripDemand& demand : bush.demands) {
+    for (const traffic::TripDemand& demand : bush.demands) {
       balance[bush.origin] += demand.trips;
       balance[demand.destination] -= demand.trips;
       scale += demand.trips;

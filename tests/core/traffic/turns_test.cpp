@@ -9,7 +9,7 @@
 #include "core/traffic/shortest_paths.h"
 #include "tests/core/traffic/traffic_case.h"
 
-namespace bl {
+namespace bl::traffic {
 namespace {
 
 using traffic_test::Case;
@@ -239,4 +239,4 @@ TEST(Turns, NewBansAreAnsweredFromTheOldFlowsAndTheOrderChangesNoBit) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::traffic

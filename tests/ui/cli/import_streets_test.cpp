@@ -189,7 +189,7 @@ TEST_F(ImportStreets, RealFilesKeepEveryPointAndTheLengthOnEarth) {
       std::printf("the shared data are not beside this checkout: %s is not read here\n", name);
       continue;
     }
-    const auto xml = unpacked(read_text(path));
+    const auto xml = importing::unpacked(read_text(path));
     ASSERT_TRUE(xml.ok());
     const Reading reading = read_plainly(*xml);
     const auto nodes = nodes_of(imported(path.string(), {"--all-streets"}));

@@ -29,17 +29,17 @@ TEST(PlaceProblems, NamesWhatHangsWithItsHeight) {
   World world = World::from_text(placed_scene(volume_at("kiosk", "[10, 10, 5]") + "," + volume_at("nursery", "[40, 20, 20]") +
                                               "," + volume_at("shop", "[10, 10, 15]", R"(, "standing": "ground")")));
   ASSERT_TRUE(world.settle());
-  const auto hanging = report::hanging_volumes(world.state());
+  const auto hanging = reading::hanging_volumes(world.state());
   ASSERT_EQ(hanging.size(), 2u);
   EXPECT_EQ(hanging[0].subject, "The nursery hangs 13.8 m above the ground");
   EXPECT_EQ(hanging[0].nodes, std::vector<std::string>{"nursery"});
   EXPECT_NE(hanging[0].text.find("nothing that stands carries it"), std::string::npos) << hanging[0].text;
   EXPECT_TRUE(hanging[1].subject.starts_with("The shop stands ")) << hanging[1].subject;
   EXPECT_NE(hanging[1].text.find("it stands on `kiosk`, and has to stand on the ground"), std::string::npos) << hanging[1].text;
-  EXPECT_TRUE(report::collapsed_volumes(world.state()).empty());
+  EXPECT_TRUE(reading::collapsed_volumes(world.state()).empty());
   // The report's list has them too, as no failure.
-  report::ReportModel model;
-  report::read_problems(world.state(), model);
+  reading::ReportModel model;
+  reading::read_problems(world.state(), model);
   ASSERT_EQ(model.problems.size(), 2u);
   EXPECT_TRUE(model.problems[0].is_place);
   EXPECT_NE(model.problems[0].message.find("13.8 m above the ground"), std::string::npos);
@@ -54,12 +54,12 @@ TEST(PlaceProblems, TellsACollapseAsOneWithThosePulling) {
          {"id": "off", "kind": "repel", "from": "a", "to": "b", "strength": 0.01},
          {"id": "silent", "kind": "attract", "from": "b", "to": "c", "muted": true})"));
   world.tick(60);
-  const auto collapsed = report::collapsed_volumes(world.state());
+  const auto collapsed = reading::collapsed_volumes(world.state());
   ASSERT_EQ(collapsed.size(), 1u);
   EXPECT_EQ(collapsed[0].nodes, (std::vector<std::string>{"a", "b", "c"}));
   EXPECT_EQ(collapsed[0].links, std::vector<std::string>{"hug"});
   EXPECT_EQ(collapsed[0].subject, "3 volumes lie on one point, pulled by `hug`");
-  EXPECT_EQ(report::place_problems(world.state()).front().subject, collapsed[0].subject);
+  EXPECT_EQ(reading::place_problems(world.state()).front().subject, collapsed[0].subject);
 }
 
 TEST(PlaceProblems, WhereAStandRunsItSaysWhatHoldsTheVolumeUp) {
@@ -71,7 +71,7 @@ TEST(PlaceProblems, WhereAStandRunsItSaysWhatHoldsTheVolumeUp) {
   World world = World::from_text(placed_scene(volumes, stand + "," + pull));
   world.tick(3);
   const auto text_of = [](const State& state, const std::string& id) {
-    for (const report::PlaceProblem& problem : report::hanging_volumes(state))
+    for (const reading::PlaceProblem& problem : reading::hanging_volumes(state))
       if (problem.nodes.front() == id) return problem.text;
     return std::string();
   };
@@ -87,7 +87,7 @@ TEST(PlaceProblems, WhereAStandRunsItSaysWhatHoldsTheVolumeUp) {
 
 TEST(PlaceProblems, SaysNothingBeforeTheFirstTick) {
   World world = World::from_text(placed_scene(volume_at("a", "[20, 20, 26]") + "," + volume_at("b", "[20, 20, 26]")));
-  EXPECT_TRUE(report::place_problems(world.state()).empty());
+  EXPECT_TRUE(reading::place_problems(world.state()).empty());
 }
 
 }  // namespace

@@ -59,9 +59,9 @@ TEST(CanvasBarsLaw, BoxesAgreeWithTheAccount) {
     NullDesktop desktop(scene);
     desktop.ticks(12);
     Workbench& editor = desktop.editor();
-    const report::Accounts accounts = report::accounts_of(editor.state());
+    const reading::Accounts accounts = reading::accounts_of(editor.state());
     ASSERT_FALSE(accounts.volumes.empty()) << scene;
-    for (const report::VolumeAccount& volume : accounts.volumes) {
+    for (const reading::VolumeAccount& volume : accounts.volumes) {
       const std::string& id = editor.state().plan->nodes[volume.node].id;
       const canvas::BarFigures bar = bar_of(editor, id);
       EXPECT_EQ(bar.account.asked, volume.asked) << scene << " " << id;

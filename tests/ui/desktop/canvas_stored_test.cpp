@@ -32,7 +32,7 @@ std::string path_of(const std::string& name) { return ::testing::TempDir() + nam
 
 // A journal of this process as a crash would leave it: of one that is gone.
 std::string leave_journal() {
-  const std::filesystem::path folder = std::filesystem::path(person_folder()) / "journals";
+  const std::filesystem::path folder = std::filesystem::path(host::person_folder()) / "journals";
   std::filesystem::path last;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().filename().string().starts_with(std::to_string(getpid()) + "-") && entry.path().extension() == ".journal")
@@ -223,7 +223,7 @@ TEST_P(CanvasStoredLaw, ThePictureOutlivesTheWindow) {
     again.frames(2);
     EXPECT_EQ(places_on(again.editor().canvas->board().model), seen) << "reopened after round " << round;
     if (round == 0) {  // later journals begin with what was saved
-      const auto remains = Journal::find(full_registry());
+      const auto remains = host::Journal::find(full_registry());
       ASSERT_EQ(remains.size(), 1u);
       std::vector<Problem> problems;
       again.editor().take(Document::recover(full_registry(), remains.front(), 1, problems));

@@ -30,12 +30,12 @@ void save_as(NullDesktop& desktop, const std::string& name) {
 }
 
 // What a window has left that is gone: a scene, and one change to it.
-std::vector<Journal::UnsavedJournal> remains_of(const std::string& scene, const Command& change) {
-  const std::string folder = person_folder() + "/journals";
+std::vector<host::Journal::UnsavedJournal> remains_of(const std::string& scene, const Command& change) {
+  const std::string folder = host::person_folder() + "/journals";
   std::filesystem::create_directories(folder);
   const std::string text = log_header(scene) + log_line(LogEntry{1, 0, 1, "somebody", change}, full_registry());
   EXPECT_TRUE(write_file(folder + "/2147483646-7.journal", text));
-  return Journal::find(full_registry());
+  return host::Journal::find(full_registry());
 }
 
 // The walk of keys starts at the first button; a step to the left, where nothing is, makes it be seen.
@@ -260,7 +260,7 @@ TEST(Dialogs, AJournalThatCannotBeRecoveredStays) {
   ASSERT_FALSE(desktop.editor().notices.empty()) << "it was not tried";
   EXPECT_TRUE(std::filesystem::exists(path)) << "the only copy is gone";
   EXPECT_TRUE(is_asking()) << "it can still be discarded";
-  Journal::discard({path, "", {}});
+  host::Journal::discard({path, "", {}});
 }
 
 TEST(Dialogs, AJournalThatWasRecoveredInPartStays) {
@@ -274,7 +274,7 @@ TEST(Dialogs, AJournalThatWasRecoveredInPartStays) {
     press_first_button(desktop);
     ASSERT_TRUE(desktop.editor().document);
     EXPECT_EQ(std::filesystem::exists(path), !is_whole);
-    Journal::discard({path, "", {}});
+    host::Journal::discard({path, "", {}});
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 TEST(Editing, TenThousandRandomCommandsUndoneGiveTheSameBytes) {
   NullDesktop desktop("scenes/start/quarter.json");
   const std::string before = desktop.scene_text();
-  LiveSession& session = desktop.editor().document->session();
+  host::LiveSession& session = desktop.editor().document->session();
   Random random(4, 11);
   int done = 0;
   for (int k = 0; k < 10000; ++k) {
@@ -38,7 +38,7 @@ TEST(Editing, TenThousandRandomCommandsUndoneGiveTheSameBytes) {
 // The clock runs on its thread while commands come in: what the log says has to lead to the same hash.
 TEST(Editing, LogOfATickingThreadReplaysToTheSameHash) {
   NullDesktop desktop("scenes/start/quarter.json");
-  LiveSession& session = desktop.editor().document->session();
+  host::LiveSession& session = desktop.editor().document->session();
   session.set_rate(1000);
   session.play(true);
   Random random(9, 3);
@@ -67,7 +67,7 @@ TEST(Editing, LogOfATickingThreadReplaysToTheSameHash) {
 
 TEST(Editing, WhileTheClockStandsChangesAreSeenAndDoNotChangeTheNextTick) {
   NullDesktop desktop("scenes/start/quarter.json");
-  LiveSession& session = desktop.editor().document->session();
+  host::LiveSession& session = desktop.editor().document->session();
   desktop.ticks(30);
   Random random(3, 3);
   // Things that come and go between two ticks leave their neighbours' states alone.
@@ -97,7 +97,7 @@ TEST(Editing, WhileTheClockStandsChangesAreSeenAndDoNotChangeTheNextTick) {
 
 TEST(Editing, ALogWithARewindReplaysToTheSameHash) {
   NullDesktop desktop("scenes/start/quarter.json");
-  LiveSession& session = desktop.editor().document->session();
+  host::LiveSession& session = desktop.editor().document->session();
   desktop.ticks(10);
   ASSERT_TRUE(session.submit(command<SetLinkStrength>({"air", 0.1})).ok());
   desktop.ticks(5);
@@ -139,7 +139,7 @@ TEST(Editing, WhatACrashLeavesIsRecovered) {
   ASSERT_TRUE(editor.submit(command<RenameNode>({"library", "Reading room"})));
   ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
   // A window that has crashed is a process that is gone, with its journal still there.
-  const std::filesystem::path folder = std::filesystem::path(person_folder()) / "journals";
+  const std::filesystem::path folder = std::filesystem::path(host::person_folder()) / "journals";
   std::filesystem::path journal;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().filename().string().starts_with(std::to_string(getpid()) + "-") && entry.path().extension() == ".journal")
@@ -147,7 +147,7 @@ TEST(Editing, WhatACrashLeavesIsRecovered) {
   ASSERT_FALSE(journal.empty());
   constexpr const char* kGone = "2147483646-1.journal";
   std::filesystem::copy_file(journal, folder / kGone, std::filesystem::copy_options::overwrite_existing);
-  const auto remains = Journal::find(full_registry());
+  const auto remains = host::Journal::find(full_registry());
   ASSERT_EQ(remains.size(), 1u);
   EXPECT_EQ(remains.front().log.entries.size(), 2u);
   std::vector<Problem> problems;
@@ -155,8 +155,8 @@ TEST(Editing, WhatACrashLeavesIsRecovered) {
   ASSERT_TRUE(recovered);
   EXPECT_EQ(write_scene(recovered->scene(), full_registry()), desktop.scene_text());
   EXPECT_TRUE(recovered->is_unsaved());
-  Journal::discard(remains.front());
-  EXPECT_TRUE(Journal::find(full_registry()).empty());
+  host::Journal::discard(remains.front());
+  EXPECT_TRUE(host::Journal::find(full_registry()).empty());
 }
 
 TEST(Editing, SavedSceneOpensAsItWasLeft) {

@@ -32,11 +32,11 @@ class ReportTest : public ::testing::Test {
 TEST_F(ReportTest, CountsByOutcomeAndReason) {
   ASSERT_TRUE(desktop.editor().document) << desktop.told();
   EXPECT_EQ(list().total(), 4u);
-  EXPECT_EQ(list().count(ImportOutcome::taken), 1u);
-  EXPECT_EQ(list().count(ImportOutcome::repaired), 1u);
-  EXPECT_EQ(list().count(ImportOutcome::skipped), 2u);
+  EXPECT_EQ(list().count(importing::ImportOutcome::taken), 1u);
+  EXPECT_EQ(list().count(importing::ImportOutcome::repaired), 1u);
+  EXPECT_EQ(list().count(importing::ImportOutcome::skipped), 2u);
   ASSERT_EQ(list().groups().size(), 4u);
-  EXPECT_EQ(list().groups().front().outcome, ImportOutcome::skipped) << "what is missing stands first";
+  EXPECT_EQ(list().groups().front().outcome, importing::ImportOutcome::skipped) << "what is missing stands first";
   desktop.press_on("import/outcome/Skipped");
   desktop.frames(2);
   EXPECT_EQ(list().shown().size(), 2u);
@@ -58,13 +58,13 @@ TEST_F(ReportTest, WhatWasRepairedSaysWhatWasMended) {
   EXPECT_NE(desktop.notices().find("element repaired, 2 skipped"), std::string::npos) << desktop.notices();
   const auto& groups = list().groups();
   const auto mended = std::find_if(groups.begin(), groups.end(),
-                                   [](const ImportGroup& group) { return group.outcome == ImportOutcome::repaired; });
+                                   [](const ImportGroup& group) { return group.outcome == importing::ImportOutcome::repaired; });
   ASSERT_NE(mended, groups.end());
   EXPECT_EQ(mended->reason, "repeated points dropped");
   desktop.press_on("import/group/" + std::to_string(mended - groups.begin()));
   desktop.frames(2);
   ASSERT_EQ(list().shown().size(), 1u);
-  const ImportRow& row = *list().shown().front().row;
+  const importing::ImportRow& row = *list().shown().front().row;
   EXPECT_EQ(why_of(row), "repeated points dropped (1)");
   EXPECT_EQ(special_of(row), "taken as building");
   desktop.press_on("import/row/0");
@@ -189,7 +189,7 @@ TEST_F(ReportTest, IsWrittenAsCsv) {
 }
 
 TEST_F(ReportTest, TwentyThousandRowsAreDrawnAsFarAsTheyAreSeen) {
-  ImportReport report;
+  importing::ImportReport report;
   for (int k = 0; k < 20000; ++k) {
     report.skip("way", "w" + std::to_string((k * 7919) % 20000), k % 3 == 0 ? "its line is open" : "no building", "natural=tree");
     report.locate(std::array{0.5 * (k % 200), 0.5 * (k / 200)});

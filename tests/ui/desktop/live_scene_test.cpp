@@ -53,7 +53,7 @@ TEST_F(Recorded, GivesTheStatesOfARun) {
 TEST_F(Recorded, LosesNoRowWhenTheClockRunsFasterThanTheFrames) {
   LiveScene live(window.editor(), false);
   window.editor().open(folder.path("scene.json"), true);
-  LiveSession& session = window.editor().document->session();
+  host::LiveSession& session = window.editor().document->session();
   session.set_rate(1000);
   frames_until(live, kTicks);
   session.play(false);
@@ -89,7 +89,7 @@ TEST_F(Recorded, WhatDevicesSayIsNoUnsavedChange) {
 TEST_F(Recorded, GoesBackWithTheClock) {
   LiveScene live(window.editor(), false);
   window.editor().open(folder.path("scene.json"), false);
-  LiveSession& session = window.editor().document->session();
+  host::LiveSession& session = window.editor().document->session();
   session.step(kTicks);
   frames_until(live, kTicks);
   session.rewind(6);

@@ -87,7 +87,7 @@ TEST(NewVolume, AUseWhoseOnlyVolumeStarvesLacksMost) {
 TEST(NewVolume, BeforeTheFirstTickTheLargestUseLacksMost) {
   NewVolumeDesktop desktop("scenes/start/quarter.json");
   const std::vector<std::string> uses = uses_by_need(desktop.editor());
-  const auto brief = report::brief_of(desktop.editor().state());
+  const auto brief = reading::brief_of(desktop.editor().state());
   const auto area_of = [&](const std::string& use) {
     for (const auto& [name, row] : brief)
       if (name == use) return row.area;

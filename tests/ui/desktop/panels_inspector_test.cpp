@@ -28,13 +28,13 @@ TEST(Quantities, ALimitThatIsNoneSaysSo) {
 
 TEST(Quantities, LongTimesAreSaidInMinutesAndHours) {
   const std::string blank = "\xC2\xA0";
-  EXPECT_EQ(report::quantity(90, Unit::second), "90.0" + blank + "s");
-  EXPECT_EQ(report::quantity(150, Unit::second), "2.50" + blank + "min");
-  EXPECT_EQ(report::quantity(-33138, Unit::second),
+  EXPECT_EQ(reading::quantity(90, Unit::second), "90.0" + blank + "s");
+  EXPECT_EQ(reading::quantity(150, Unit::second), "2.50" + blank + "min");
+  EXPECT_EQ(reading::quantity(-33138, Unit::second),
             "\xE2\x88\x92"
             "9.21" +
                 blank + "h");
-  EXPECT_EQ(report::quantity(33138, Unit::metre),
+  EXPECT_EQ(reading::quantity(33138, Unit::metre),
             "33"
             "\xE2\x80\xAF"
             "138" +

@@ -90,7 +90,7 @@ TEST(Problems, WhatPeopleAskForByHandAndACapTakesIsShort) {
   EXPECT_NE(housing->text.find("asked for are"), std::string::npos) << housing->text;
   EXPECT_NE(housing->text.find("link `cap` leaves"), std::string::npos) << housing->text;
   EXPECT_NE(std::find(housing->nodes.begin(), housing->nodes.end(), "v0567"), housing->nodes.end());
-  const report::Accounts& accounts = desktop.problems().accounts();
+  const reading::Accounts& accounts = desktop.problems().accounts();
   EXPECT_GT(accounts.worst_short, 0.1);
 }
 
@@ -104,8 +104,8 @@ TEST(ProblemsLaw, ListColoursStatisticsAndReportAgreeOnWhoIsShort) {
       const auto facts = read_facts(desktop.editor().moment->state, nullptr);
       const Colouring fill = colour_volumes(*facts, "fill", desktop.editor().theme);
       const auto items = desktop.of(ProblemKind::shortage);
-      report::ReportModel page;
-      report::read_model(state, page);
+      reading::ReportModel page;
+      reading::read_model(state, page);
       const auto& rows = desktop.record().figures(desktop.editor()).volumes;
       ASSERT_EQ(rows.size(), facts->volumes.size());
       ASSERT_EQ(rows.size(), page.volumes.size());
@@ -121,7 +121,7 @@ TEST(ProblemsLaw, ListColoursStatisticsAndReportAgreeOnWhoIsShort) {
         });
         EXPECT_TRUE(is_told) << rows[k].id << " is short by " << rows[k].short_share() << " and the list does not say so";
       }
-      for (const report::UseAccount& use : page.accounts.uses) {
+      for (const reading::UseAccount& use : page.accounts.uses) {
         if (!use.is_short(page.accounts.tolerance)) continue;
         EXPECT_TRUE(std::any_of(items.begin(), items.end(), [&](const ProblemItem& item) {
           return item.key == "use/" + use.use;
@@ -277,7 +277,7 @@ TEST(Statistics, AreGatheredWhileNobodyLooks) {
   desktop.editor().is_beamer = true;
   for (int k = 0; k < 6; ++k) desktop.ticks(1);
   EXPECT_EQ(desktop.record().tick.size(), 13u);
-  const std::vector<ErrorSample> errors = desktop.record().errors();
+  const std::vector<reading::ErrorSample> errors = desktop.record().errors();
   ASSERT_EQ(errors.size(), 13u);
   EXPECT_EQ(errors.back().tick, 12);
   EXPECT_EQ(errors.back().worst_error, desktop.editor().state().largest_residual);

@@ -45,7 +45,7 @@ class PanelDesktop : public NullDesktop {
   std::string complaint() { return memory_of(editor()).complaint_key.empty() ? "" : memory_of(editor()).complaint; }
   std::size_t steps() {
     std::size_t count = 0;
-    for (const HistoryStep& step : editor().document->history()) count += step.is_undone ? 0 : 1;
+    for (const host::HistoryStep& step : editor().document->history()) count += step.is_undone ? 0 : 1;
     return count;
   }
   const Value& setting(const std::string& node, const std::string& type, const std::string& port) {

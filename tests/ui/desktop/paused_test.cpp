@@ -54,7 +54,7 @@ TEST(Paused, SavingAndRewindingBeforeTheFirstTickKeepItInSight) {
 
 TEST(Paused, ARecoveredSceneShowsItsBoundary) {
   NullDesktop desktop(kPausedScene);
-  Journal::UnsavedJournal remains;
+  host::Journal::UnsavedJournal remains;
   remains.log.scene = desktop.scene_text();
   std::vector<Problem> problems;
   desktop.editor().take(Document::recover(full_registry(), remains, 1, problems));

@@ -13,7 +13,7 @@ namespace bl::desktop {
 namespace {
 
 // A clock that plays, has just ticked, and will not tick again for ten seconds.
-void play_slowly(LiveSession& session) {
+void play_slowly(host::LiveSession& session) {
   const std::int64_t tick = session.moment()->state->tick;
   session.set_rate(0.1);
   session.play(true);
@@ -106,7 +106,7 @@ TEST(RunningDocument, LogSavedAfterAnEditOnAStandingClockReplays) {
 // A clock that cannot keep up ticks without a pause; a window that waits for one would stand still.
 TEST(RunningDocument, NothingWaitsForAClockThatIsBehind) {
   NullDesktop desktop("scenes/studies/thousand_volumes.json");
-  LiveSession& session = desktop.editor().document->session();
+  host::LiveSession& session = desktop.editor().document->session();
   session.set_rate(1000);
   session.play(true);
   while (session.moment()->state->tick < 3) std::this_thread::yield();
@@ -120,7 +120,7 @@ TEST(RunningDocument, NothingWaitsForAClockThatIsBehind) {
 
 TEST(RunningDocument, AHigherRateCountsAtOnce) {
   NullDesktop desktop("scenes/start/quarter.json");
-  LiveSession& session = desktop.editor().document->session();
+  host::LiveSession& session = desktop.editor().document->session();
   play_slowly(session);
   const std::int64_t tick = session.moment()->state->tick;
   const auto begin = std::chrono::steady_clock::now();

@@ -33,7 +33,7 @@ class Scripts : public testing::Test {
   }
   std::string problem(Workbench& editor) {
     ProblemList list;
-    list.refresh(editor, report::ReportModel{});
+    list.refresh(editor, reading::ReportModel{});
     for (const ProblemItem& item : list.items())
       if (item.kind == ProblemKind::file) return item.subject + ": " + item.text;
     return "";

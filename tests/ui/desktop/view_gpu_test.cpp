@@ -25,7 +25,7 @@ class ViewGpu : public ::testing::Test {
   }
 
   // The largest distance between corners of the same triangles, as a share of the cell's size.
-  double worst_of(const CellMeasure& cell, int depth) {
+  double worst_of(const geometry::CellMeasure& cell, int depth) {
     ViewScene scene;
     scene.volumes.push_back({0, cell.mesh->coarse, 0, 0, 3, 0});
     const std::vector<float> ours = renderer_->divided(scene, depth);
@@ -44,17 +44,17 @@ class ViewGpu : public ::testing::Test {
   }
 
   // The number of cells with seams between pieces.
-  std::size_t compare(const Domain& domain, const std::vector<PowerSite>& sites) {
+  std::size_t compare(const geometry::Domain& domain, const std::vector<geometry::PowerSite>& sites) {
     std::size_t seamed = 0;
     double worst = 0;
     for (int depth = 0; depth <= 4; ++depth) {
-      CellOptions options;
+      geometry::CellOptions options;
       options.with_coarse_mesh = true;
       options.tessellation_depth = depth;
       const auto cells = power_cells(domain, sites, options);
       EXPECT_TRUE(cells.ok());
       std::size_t compared = 0;
-      for (const CellMeasure& cell : *cells) {
+      for (const geometry::CellMeasure& cell : *cells) {
         if (!cell.mesh) continue;
         worst = std::max(worst, worst_of(cell, depth));
         for (const MeshWrap::Part& part : cell.mesh->coarse->wrap->parts) seamed += part.seams.empty() ? 0 : 1;
@@ -72,8 +72,8 @@ class ViewGpu : public ::testing::Test {
   std::unique_ptr<GlRenderer> renderer_;
 };
 
-std::vector<PowerSite> some_sites(double width, double height, std::size_t count) {
-  std::vector<PowerSite> sites;
+std::vector<geometry::PowerSite> some_sites(double width, double height, std::size_t count) {
+  std::vector<geometry::PowerSite> sites;
   Random random(7);
   const auto number = [&] { return random.uniform(); };
   for (std::size_t i = 0; i < count; ++i) {
@@ -95,15 +95,16 @@ TEST_F(ViewGpu, ATargetThatCannotBeMadeIsNone) {
 }
 
 TEST_F(ViewGpu, WrapsAsTheProcessorDoes) {
-  const Result<Domain> box = site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 60, 0}, {0, 60, 0}}, {}, 0, 30, {}, {}});
+  const Result<geometry::Domain> box =
+      geometry::site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 60, 0}, {0, 60, 0}}, {}, 0, 30, {}, {}});
   ASSERT_TRUE(box.ok());
   compare(*box, some_sites(60, 30, 14));
 }
 
 TEST_F(ViewGpu, WrapsCellsInSeveralPiecesWithoutAGap) {
   // An L: cells at its inner corner reach into two pieces of it.
-  const Result<Domain> angle =
-      site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
+  const Result<geometry::Domain> angle =
+      geometry::site_domain({{{0, 0, 0}, {60, 0, 0}, {60, 25, 0}, {25, 25, 0}, {25, 60, 0}, {0, 60, 0}}, {}, 0, 20, {}, {}});
   ASSERT_TRUE(angle.ok());
   ASSERT_GT(angle->pieces.size(), 1u);
   EXPECT_GT(compare(*angle, {{{24, 24, 8}, 300}, {{10, 45, 10}, 160}, {{45, 12, 9}, 200}, {{8, 8, 10}, 90}, {{27, 20, 4}, 60}}),
@@ -112,11 +113,11 @@ TEST_F(ViewGpu, WrapsCellsInSeveralPiecesWithoutAGap) {
 
 TEST_F(ViewGpu, WrapsFarFromTheOrigin) {
   const double far = 450000;
-  const Result<Domain> box =
-      site_domain({{{far, far, 0}, {far + 60, far, 0}, {far + 60, far + 60, 0}, {far, far + 60, 0}}, {}, 0, 30, {}, {}});
+  const Result<geometry::Domain> box = geometry::site_domain(
+      {{{far, far, 0}, {far + 60, far, 0}, {far + 60, far + 60, 0}, {far, far + 60, 0}}, {}, 0, 30, {}, {}});
   ASSERT_TRUE(box.ok());
-  std::vector<PowerSite> sites = some_sites(60, 30, 6);
-  for (PowerSite& site : sites) site.position += Vector3{far, far, 0};
+  std::vector<geometry::PowerSite> sites = some_sites(60, 30, 6);
+  for (geometry::PowerSite& site : sites) site.position += Vector3{far, far, 0};
   compare(*box, sites);
 }
 

@@ -59,9 +59,9 @@ TEST_F(ViewStreets, AreDrawnAlongTheirCourse) {
       EXPECT_EQ(line.from - line.came, bent().line[0] + (line.from - bent().line[1])) << "it knows the piece before it";
       EXPECT_EQ(line.to + line.goes, bent().line[3] + (line.to - bent().line[2]));
     }
-  EXPECT_LT(distance(facts().places[editor().index_of(street)], point_on_line(bent().line, 0.5)), 1e-9);
+  EXPECT_LT(distance(facts().places[editor().index_of(street)], traffic::point_on_line(bent().line, 0.5)), 1e-9);
   EXPECT_NEAR(reading::read<&reading::StreetFigures::used_length>(editor().state(), editor().index_of(street)),
-              street_length(bent().line.front(), bent().course, bent().line.back()), 1e-9);
+              traffic::street_length(bent().line.front(), bent().course, bent().line.back()), 1e-9);
 }
 
 TEST_F(ViewStreets, ArePointedAtWhereTheyBend) {
@@ -72,7 +72,7 @@ TEST_F(ViewStreets, ArePointedAtWhereTheyBend) {
   desktop.key(GLFW_KEY_1);  // from above
   desktop.frames(30);
   for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-    const Seen at = editor().view->place_in_window(point_on_line(bent().line, share));
+    const Seen at = editor().view->place_in_window(traffic::point_on_line(bent().line, share));
     ASSERT_GT(at.x, 600) << "in the picture";
     desktop.move_to({static_cast<float>(at.x), static_cast<float>(at.y)});
     EXPECT_EQ(editor().picks.hovered_node, street) << share;
@@ -104,13 +104,13 @@ TEST_F(ViewStreets, IsochronesRunAlongTheCourseAtTheRightDistance) {
   desktop.frames(1);
   const auto shown = editor().view->choices().isochrones;
   ASSERT_NE(shown, nullptr);
-  const double whole = street_length(bent().line.front(), bent().course, bent().line.back());
+  const double whole = traffic::street_length(bent().line.front(), bent().course, bent().line.back());
   double reached = -1;
   for (const Isochrones::Part& part : shown->parts)
     if (part.street == bent().node && part.begin == 0) reached = part.end * whole;
   EXPECT_NEAR(reached, 60 * shown->walking_speed, 0.1) << "a minute on foot";
   // The first band ends on the course, so far from the junction along it.
-  const Point3 wanted = point_on_line(bent().line, reached / whole);
+  const Point3 wanted = traffic::point_on_line(bent().line, reached / whole);
   const ViewScene scene = picture(editor().view->choices());
   EXPECT_TRUE(std::any_of(scene.lines.begin(), scene.lines.end(),
                           [&](const ViewLine& line) { return std::hypot(line.to.x - wanted.x, line.to.y - wanted.y) < 1e-6; }));

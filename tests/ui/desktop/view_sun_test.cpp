@@ -47,7 +47,7 @@ TEST_F(ViewSun, ReadsTheNodeAsTheNodeReadsItself) {
       EXPECT_FALSE(sun().is_ahead);
       EXPECT_EQ(sun().toward, reading::read<&reading::SunFigures::direction>(editor().state(), sun().node))
           << rule << " " << date;
-      EXPECT_EQ(date_text(sun().clock.day), day());
+      EXPECT_EQ(sun::date_text(sun().clock.day), day());
     }
   }
 }
@@ -63,7 +63,7 @@ TEST_F(ViewSun, PullingAlongTheTrackPreviewsAndLeavesTheSceneAlone) {
   view().preview_sun({sun().clock.day, 15 * 3600 + 40 * 60});
   desktop.frames(1);
   EXPECT_EQ(view().sun_words(), "15:40, preview; scene: 12:00");
-  const SunPosition there = sun_position(sun().place, moment_of(sun().place, sun().clock.day, 15 * 3600 + 40 * 60));
+  const sun::SunPosition there = sun_position(sun().place, moment_of(sun().place, sun().clock.day, 15 * 3600 + 40 * 60));
   EXPECT_EQ(view().choices().sun.toward, scene_direction(sun().place, there.azimuth, there.altitude));
   EXPECT_TRUE(view().choices().sun.is_preview);
   const ViewScene scene = build_view(*view().facts(), {}, view().choices(), {}, editor().person, editor().theme);
@@ -102,7 +102,7 @@ TEST_F(ViewSun, OneButtonMakesItTheScenesMomentAsOneStep) {
   EXPECT_FALSE(view().preview());
   EXPECT_EQ(steps(), 1u);
   EXPECT_EQ(sun().clock.seconds, 16 * 3600);
-  EXPECT_EQ(date_text(sun().clock.day), "2026-06-21");
+  EXPECT_EQ(sun::date_text(sun().clock.day), "2026-06-21");
   EXPECT_EQ(view().choices().sun.toward, shown) << "nothing jumps, though the clock stands";
   desktop.ticks(1);
   EXPECT_EQ(day(), "2026-06-21");
@@ -113,11 +113,11 @@ TEST_F(ViewSun, OneButtonMakesItTheScenesMomentAsOneStep) {
 TEST_F(ViewSun, DaysThatTheNodeAddsAreMinded) {
   ASSERT_TRUE(editor().submit(command<SetPort>({"sun", {"sun_and_sky.days"}, {"10.5"}})));
   desktop.ticks(1);
-  const DayNumber wanted = sun().clock.day + 1;
+  const sun::DayNumber wanted = sun().clock.day + 1;
   view().step_sun(0, 1);
   view().set_sun_in_scene();
   desktop.ticks(1);
-  EXPECT_EQ(day(), date_text(wanted));
+  EXPECT_EQ(day(), sun::date_text(wanted));
 }
 
 TEST_F(ViewSun, StepsGoOverMidnightAndStayInTheYears) {
@@ -126,7 +126,7 @@ TEST_F(ViewSun, StepsGoOverMidnightAndStayInTheYears) {
   EXPECT_EQ(view().preview()->seconds, 1800);
   EXPECT_EQ(view().preview()->day, sun().clock.day + 1);
   view().step_sun(0, 10000000);
-  EXPECT_EQ(date_text(view().preview()->day), "2100-12-31");
+  EXPECT_EQ(sun::date_text(view().preview()->day), "2100-12-31");
 }
 
 TEST_F(ViewSun, ByNightNothingIsCast) {
@@ -150,7 +150,7 @@ TEST_F(ViewSun, RunsThroughTheDayByItself) {
   const double began = view().preview()->seconds;
   EXPECT_GT(began, kNoon);
   desktop.frames(60 * 30);
-  const SunDay day = sun_day(sun().place, view().preview()->day);
+  const sun::SunDay day = sun_day(sun().place, view().preview()->day);
   EXPECT_GE(view().preview()->seconds, *day.sunrise);
   EXPECT_LE(view().preview()->seconds, *day.sunset);
   view().end_preview();
@@ -166,7 +166,7 @@ TEST_F(ViewSun, OutlinesOfAPreviewAreThoseOfItsSun) {
   const auto& casters = view().facts()->urban.casters;
   ASSERT_EQ(look.outlines.size(), casters.size());
   for (std::size_t k = 0; k < casters.size(); ++k)
-    EXPECT_EQ(look.outlines[k].ring, shadow_outline(*casters[k].mesh, look.toward, casters[k].ground)) << casters[k].id;
+    EXPECT_EQ(look.outlines[k].ring, sun::shadow_outline(*casters[k].mesh, look.toward, casters[k].ground)) << casters[k].id;
 }
 
 TEST_F(ViewSun, WhatIsOlderThanTheStateSaysSo) {

@@ -8,10 +8,10 @@
 #include "core/report/page.h"
 #include "tests/support/world.h"
 
-namespace bl {
+namespace bl::report {
 namespace {
 
-using report::Accounts;
+using reading::Accounts;
 
 std::string scene_of(const std::string& nodes, const std::string& links) {
   return R"({"format": "behaviourlinks", "version": 1, "nodes": [{"id": "site", "types": {"boundary": {}}},
@@ -28,9 +28,9 @@ constexpr const char* kCapped =
 TEST(Account, WhatPeopleAskForByHandCountsAgainstItsLimit) {
   World world = World::from_text(scene_of(kCapped, ""));
   world.tick(120);
-  const Accounts accounts = report::accounts_of(world.state());
+  const reading::Accounts accounts = reading::accounts_of(world.state());
   ASSERT_EQ(accounts.volumes.size(), 2u);
-  const report::VolumeAccount &free = accounts.volumes[0], &cut = accounts.volumes[1];
+  const reading::VolumeAccount &free = accounts.volumes[0], &cut = accounts.volumes[1];
   EXPECT_EQ(free.asked, 1000);
   EXPECT_FALSE(free.is_short(accounts.tolerance)) << free.short_share();
   EXPECT_EQ(cut.asked, 600);
@@ -38,9 +38,9 @@ TEST(Account, WhatPeopleAskForByHandCountsAgainstItsLimit) {
   EXPECT_NEAR(cut.volume, 400, 8);
   EXPECT_TRUE(cut.is_short(accounts.tolerance));
   EXPECT_NEAR(cut.short_share(), 1.0 / 3, 0.02);
-  EXPECT_NE(report::why_short(world.state(), accounts, cut).find("a limit set by hand leaves 400"), std::string::npos)
-      << report::why_short(world.state(), accounts, cut);
-  EXPECT_EQ(report::why_short(world.state(), accounts, free), "");
+  EXPECT_NE(reading::why_short(world.state(), accounts, cut).find("a limit set by hand leaves 400"), std::string::npos)
+      << reading::why_short(world.state(), accounts, cut);
+  EXPECT_EQ(reading::why_short(world.state(), accounts, free), "");
   EXPECT_EQ(accounts.worst, "volume limited");
   EXPECT_NEAR(accounts.worst_short, 1.0 / 3, 0.02);
   EXPECT_EQ(accounts.all.short_volumes, 1u);
@@ -57,7 +57,7 @@ TEST(Account, AUseWithoutVolumesIsShortOfAllThatTheBriefAsks) {
       kBrief,
       R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}, "parameters": {"every_row": false}})"));
   world.tick(120);
-  const Accounts accounts = report::accounts_of(world.state());
+  const reading::Accounts accounts = reading::accounts_of(world.state());
   ASSERT_EQ(accounts.uses.size(), 2u);
   EXPECT_EQ(accounts.uses[0].use, "housing");
   EXPECT_EQ(accounts.uses[0].asked_area, 500);
@@ -65,7 +65,7 @@ TEST(Account, AUseWithoutVolumesIsShortOfAllThatTheBriefAsks) {
   EXPECT_EQ(accounts.uses[1].use, "office");
   EXPECT_EQ(accounts.uses[1].asked_area, 200);
   EXPECT_EQ(accounts.uses[1].short_share(), 1);
-  EXPECT_NE(report::why_short(world.state(), accounts, accounts.uses[1]).find("no volume has this use"), std::string::npos);
+  EXPECT_NE(reading::why_short(world.state(), accounts, accounts.uses[1]).find("no volume has this use"), std::string::npos);
   EXPECT_EQ(accounts.all.asked_area, 700);
 }
 
@@ -77,14 +77,14 @@ TEST(Account, FloorAreaThatTheShapeDoesNotHoldIsMissing) {
     {"id": "stage", "position": [0, 0, 8], "types": {"smart_volume": {"use": "theatre"}}})",
                                           R"({"id": "deal", "kind": "demand", "from": "brief", "to": "stage"})"));
   world.tick(150);
-  const Accounts accounts = report::accounts_of(world.state());
-  const report::VolumeAccount& stage = accounts.volumes.front();
+  const reading::Accounts accounts = reading::accounts_of(world.state());
+  const reading::VolumeAccount& stage = accounts.volumes.front();
   EXPECT_TRUE(stage.is_by_area);
   EXPECT_NEAR(stage.volume / stage.asked, 1, 0.01);
   ASSERT_LT(stage.floor_area, 0.98 * stage.asked_area) << "the case that is tested has gone; take another height";
   EXPECT_TRUE(stage.is_short(accounts.tolerance));
   EXPECT_TRUE(accounts.uses.front().is_short(accounts.tolerance));
-  EXPECT_NE(report::why_short(world.state(), accounts, accounts.uses.front()).find("storeys of the shape hold less floor"),
+  EXPECT_NE(reading::why_short(world.state(), accounts, accounts.uses.front()).find("storeys of the shape hold less floor"),
             std::string::npos);
 }
 
@@ -96,9 +96,9 @@ TEST(Account, ARowWithoutAUseAsksNobody) {
       {"id": "w", "position": [9, 0, 5], "types": {"smart_volume": {"demand": 500}}})",
       R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}})"));
   world.tick(120);
-  const Accounts accounts = report::accounts_of(world.state());
-  EXPECT_EQ(report::brief_of(world.state()).size(), 1u);
-  for (const report::UseAccount& use : accounts.uses)
+  const reading::Accounts accounts = reading::accounts_of(world.state());
+  EXPECT_EQ(reading::brief_of(world.state()).size(), 1u);
+  for (const reading::UseAccount& use : accounts.uses)
     if (use.use.empty()) {
       EXPECT_FALSE(use.is_in_programme);
       EXPECT_EQ(use.asked, 500);
@@ -113,12 +113,12 @@ TEST(Account, AUseSaysWhichOfItsVolumesIsShort) {
       {"id": "cut", "name": "Cut", "position": [12, 0, 5], "types": {"smart_volume": {"use": "a", "demand": 30, "demand_limit": 20}}})",
       ""));
   world.tick(150);
-  const Accounts accounts = report::accounts_of(world.state());
+  const reading::Accounts accounts = reading::accounts_of(world.state());
   ASSERT_EQ(accounts.uses.size(), 1u);
-  const report::UseAccount& use = accounts.uses.front();
+  const reading::UseAccount& use = accounts.uses.front();
   ASSERT_FALSE(use.is_short(accounts.tolerance)) << use.short_share();
   ASSERT_EQ(use.short_volumes, 1u);
-  const std::string why = report::why_short(world.state(), accounts, use);
+  const std::string why = reading::why_short(world.state(), accounts, use);
   EXPECT_TRUE(why.starts_with("`Cut` alone is short: a limit set by hand leaves 20")) << why;
 }
 
@@ -142,30 +142,30 @@ TEST(AccountLaw, FiguresFitTogetherInEveryScene) {
     World world = World::from_text(scene_of(
         nodes, R"({"id": "deal", "kind": "demand", "from": "brief", "to": {"typification": "smart_volume"}, "strength": 0.7})"));
     world.tick(1 + static_cast<int>(random.below(40)));
-    report::ReportModel model;
-    report::read_model(world.state(), model);
-    const Accounts& accounts = model.accounts;
-    report::Account sum;
+    reading::ReportModel model;
+    reading::read_model(world.state(), model);
+    const reading::Accounts& accounts = model.accounts;
+    reading::Account sum;
     double worst = 0;
-    for (const report::VolumeRow& volume : model.volumes) {
+    for (const reading::VolumeRow& volume : model.volumes) {
       sum.add(volume);
       worst = std::max(worst, volume.short_share());
       EXPECT_GE(volume.missing(), 0);
       EXPECT_LE(volume.short_share(), 1);
       EXPECT_EQ(volume.is_short(accounts.tolerance), volume.standing() < -accounts.tolerance);
-      EXPECT_EQ(volume.is_short(accounts.tolerance), !report::why_short(world.state(), accounts, volume).empty());
+      EXPECT_EQ(volume.is_short(accounts.tolerance), !reading::why_short(world.state(), accounts, volume).empty());
       if (volume.is_alive) {
         EXPECT_EQ(volume.is_short(accounts.tolerance), report::standing_of(volume, accounts.tolerance) == "short");
       }
     }
     std::size_t volumes = 0;
     double had = 0;
-    for (const report::UseAccount& use : accounts.uses) {
+    for (const reading::UseAccount& use : accounts.uses) {
       volumes += use.volumes;
       had += use.volume;
       worst = std::max(worst, use.short_share());
       EXPECT_EQ(use.is_short(accounts.tolerance) || use.short_volumes > 0,
-                !report::why_short(world.state(), accounts, use).empty());
+                !reading::why_short(world.state(), accounts, use).empty());
       if (use.is_in_programme) { EXPECT_GE(use.asked_area, use.brief_area * (1 - 1e-12)); }
     }
     EXPECT_EQ(volumes, model.volumes.size());
@@ -182,8 +182,8 @@ TEST(Account, SaysWhichRuleOfAPlotLimitsAVolume) {
   const auto why = [&] {
     world.tick(20);
     EXPECT_TRUE(world.settle());
-    const report::Accounts accounts = report::accounts_of(world.state());
-    return report::why_short(world.state(), accounts, accounts.volumes.front());
+    const reading::Accounts accounts = reading::accounts_of(world.state());
+    return reading::why_short(world.state(), accounts, accounts.volumes.front());
   };
   const std::string by_area = why();
   EXPECT_EQ(by_area.find("link `l1_rules` (FSI) leaves "), 0u) << by_area;
@@ -196,4 +196,4 @@ TEST(Account, SaysWhichRuleOfAPlotLimitsAVolume) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::report

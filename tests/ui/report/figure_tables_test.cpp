@@ -20,7 +20,7 @@
 #include "core/report/report.h"
 #include "tests/support/world.h"
 
-namespace bl {
+namespace bl::report {
 namespace {
 
 // The law: a port that was renamed does not become an empty column.
@@ -95,7 +95,7 @@ TEST_F(UrbanReport, EveryTableHasItsRowsInAllForms) {
     ASSERT_NE(table, tables.end()) << id;
     const auto nodes = report::rows_of(state, *table);
     ASSERT_FALSE(nodes.empty()) << id;
-    const auto csv = read_csv(file(std::string(id) + ".csv"), ',');
+    const auto csv = csv::read_csv(file(std::string(id) + ".csv"), ',');
     ASSERT_TRUE(csv) << id;
     EXPECT_EQ(csv->records.size(), nodes.size() + 1) << id;
     ASSERT_TRUE(json.contains(id)) << id;
@@ -108,23 +108,23 @@ TEST_F(UrbanReport, EveryTableHasItsRowsInAllForms) {
   EXPECT_EQ(json["streets"][0]["volume_over_capacity"].get<double>(),
             world_->number(json["streets"][0]["id"].get<std::string>(), "street.volume_over_capacity"));
   EXPECT_GT(json["sun"][0]["map"].size(), 10u);
-  EXPECT_GT(read_csv(file("sun_map.csv"), ',')->records.size(), 100u);
-  EXPECT_GT(read_csv(file("uses.csv"), ',')->records.size(), 3u);
-  EXPECT_GT(read_csv(file("facade_sides.csv"), ',')->records.size(), 8u);
+  EXPECT_GT(csv::read_csv(file("sun_map.csv"), ',')->records.size(), 100u);
+  EXPECT_GT(csv::read_csv(file("uses.csv"), ',')->records.size(), 3u);
+  EXPECT_GT(csv::read_csv(file("facade_sides.csv"), ',')->records.size(), 8u);
   EXPECT_NE(page.find("Conflicts by link and person"), std::string::npos);
 }
 
 TEST_F(UrbanReport, ThePlanShowsWhatStandsAround) {
   const State& state = world_->state();
-  const report::Surroundings surroundings = report::read_surroundings(state);
+  const reading::Surroundings surroundings = reading::read_surroundings(state);
   EXPECT_EQ(surroundings.streets.size(), 10u);
   EXPECT_EQ(surroundings.buildings.size(), 6u);
   EXPECT_EQ(surroundings.sun.size(), 2u);
   EXPECT_EQ(surroundings.plots.size(), 1u);
   EXPECT_EQ(surroundings.data.size(), 1u);
-  report::ReportModel model;
-  report::read_model(state, model);
-  const report::Picture plan = report::draw_plan(state, model, report::Palette(model.use_names()));
+  reading::ReportModel model;
+  reading::read_model(state, model);
+  const drawing::Picture plan = drawing::draw_plan(state, model, drawing::Palette(model.use_names()));
   for (const char* name : {"Post office", "South street, west", "existing building", "sun per day", "vehicles per hour"})
     EXPECT_NE(plan.svg.find(name), std::string::npos) << name;
   // Links to streets, studies and styles would hide all of it.
@@ -132,7 +132,7 @@ TEST_F(UrbanReport, ThePlanShowsWhatStandsAround) {
   EXPECT_EQ(plan.svg.find("Request traffic"), std::string::npos);
   EXPECT_NE(plan.caption.find("Request traffic (7)"), std::string::npos) << plan.caption;
   // A street that leads far away does not make the site small.
-  const auto frame = report::framed({{0, 0, 0}, {120, 80, 0}}, surroundings);
+  const auto frame = reading::framed({{0, 0, 0}, {120, 80, 0}}, surroundings);
   ASSERT_EQ(frame.size(), 2u);
   EXPECT_GE(frame[0].x, -72 - 1e-9);
   EXPECT_LE(frame[1].x, 192 + 1e-9);
@@ -173,9 +173,9 @@ TEST(FigureTables, NoTableOfAReportHoldsAFormula) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".csv") continue;
     ++tables;
-    const auto csv = read_csv(*read_file(entry.path().string()), ',');
+    const auto csv = csv::read_csv(*read_file(entry.path().string()), ',');
     ASSERT_TRUE(csv) << entry.path();
-    for (const CsvRecord& record : csv->records)
+    for (const csv::CsvRecord& record : csv->records)
       for (const std::string& cell : record.fields) {
         ++cells;
         const bool is_sign = !cell.empty() && std::string("=+-@\t\r").find(cell[0]) != std::string::npos;
@@ -230,9 +230,9 @@ TEST(Surroundings, WhatLiesBeyondTheFrameHasNoName) {
       {"id": "tower", "name": "Tower", "types": {"existing_building": {"height": 20, "outline": [[)" +
         x + ", 8, 0], [" + east + ", 8, 0], [" + east + ", 13, 0], [" + x + R"(, 13, 0]]}}}], "links": []})");
     world.tick(3);
-    report::ReportModel model;
-    report::read_model(world.state(), model);
-    return report::draw_plan(world.state(), model, report::Palette(model.use_names())).svg;
+    reading::ReportModel model;
+    reading::read_model(world.state(), model);
+    return drawing::draw_plan(world.state(), model, drawing::Palette(model.use_names())).svg;
   };
   EXPECT_NE(plan_with(-15).find(">Tower</text>"), std::string::npos);
   EXPECT_EQ(plan_with(-33).find(">Tower</text>"), std::string::npos);
@@ -240,12 +240,12 @@ TEST(Surroundings, WhatLiesBeyondTheFrameHasNoName) {
 }
 
 TEST(FigureParts, PercentagesOfNothingAreDashes) {
-  EXPECT_EQ(report::share_of(5, 0), "\xE2\x80\x93");
-  EXPECT_EQ(report::share_of(5, 1e-13), "\xE2\x80\x93");
-  EXPECT_EQ(report::difference_of(1e6, 1e-9), "\xE2\x80\x93");
-  EXPECT_EQ(report::difference_of(0, 0), "\xE2\x80\x93");
-  EXPECT_EQ(report::share_of(50, 100), "50.0\xC2\xA0%");
+  EXPECT_EQ(reading::share_of(5, 0), "\xE2\x80\x93");
+  EXPECT_EQ(reading::share_of(5, 1e-13), "\xE2\x80\x93");
+  EXPECT_EQ(reading::difference_of(1e6, 1e-9), "\xE2\x80\x93");
+  EXPECT_EQ(reading::difference_of(0, 0), "\xE2\x80\x93");
+  EXPECT_EQ(reading::share_of(50, 100), "50.0\xC2\xA0%");
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::report

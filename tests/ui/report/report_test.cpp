@@ -23,7 +23,7 @@
 #include "core/reading/figures.h"
 #include "tests/support/world.h"
 
-namespace bl {
+namespace bl::report {
 namespace {
 
 constexpr const char* kBlock = R"({"format": "behaviourlinks", "version": 1, "settings": {"title": "A block"},
@@ -202,7 +202,7 @@ TEST(Report, SaysSoWhereAVolumeHasNoShape) {
     const std::string state = world.text(id, "smart_volume.state"), reason = world.text(id, "smart_volume.reason");
     if (state == "alive") continue;
     EXPECT_NE(files.html.find(">" + state + "</td>"), std::string::npos) << state;
-    EXPECT_NE(files.html.find(report::escape_xml(reason)), std::string::npos) << reason;
+    EXPECT_NE(files.html.find(drawing::escape_xml(reason)), std::string::npos) << reason;
   }
   EXPECT_NE(files.obj.find("# idle: no shape"), std::string::npos) << files.obj.substr(0, 200);
 }
@@ -241,16 +241,16 @@ TEST(Report, AnUnusableFolderIsASentence) {
 }
 
 TEST(ReportParts, EscapeWhatXmlDoesNotTake) {
-  EXPECT_EQ(report::escape_xml("<&\">'"), "&lt;&amp;&quot;&gt;&#39;");
-  EXPECT_EQ(report::escape_xml(std::string("a\x01") + "b\xFF" + "c\xC3\xA9"),
+  EXPECT_EQ(drawing::escape_xml("<&\">'"), "&lt;&amp;&quot;&gt;&#39;");
+  EXPECT_EQ(drawing::escape_xml(std::string("a\x01") + "b\xFF" + "c\xC3\xA9"),
             "a\xEF\xBF\xBD"
             "b\xEF\xBF\xBD"
             "c\xC3\xA9");
-  EXPECT_EQ(report::escape_xml("\xED\xA0\x80").find('\xED'), std::string::npos);  // half a surrogate pair
+  EXPECT_EQ(drawing::escape_xml("\xED\xA0\x80").find('\xED'), std::string::npos);  // half a surrogate pair
 }
 
 TEST(ReportParts, PathsAreRelativeTenthsThatDoNotDrift) {
-  report::PathText path;
+  drawing::PathText path;
   path.move({10, 20});
   for (int i = 1; i <= 3; ++i) path.line({10 + i * 0.14, 20.0 - i});
   path.close();
@@ -259,34 +259,34 @@ TEST(ReportParts, PathsAreRelativeTenthsThatDoNotDrift) {
 
 TEST(ReportParts, NumbersReadEasily) {
   using namespace report;
-  EXPECT_EQ(grouped(1234567),
+  EXPECT_EQ(reading::grouped(1234567),
             "1\xE2\x80\xAF"
             "234\xE2\x80\xAF"
             "567");
-  EXPECT_EQ(grouped(1234), "1234");
-  EXPECT_EQ(grouped(-0.001, 1), "0.0");
-  EXPECT_EQ(signed_percent(-0.5),
+  EXPECT_EQ(reading::grouped(1234), "1234");
+  EXPECT_EQ(reading::grouped(-0.001, 1), "0.0");
+  EXPECT_EQ(reading::signed_percent(-0.5),
             "\xE2\x88\x92"
             "50.00\xC2\xA0%");
-  EXPECT_EQ(signed_percent(1e-9), "0.00\xC2\xA0%");
-  EXPECT_EQ(pixels(12.0), "12");
-  EXPECT_EQ(round_length(73), 50);
-  EXPECT_EQ(round_length(0.3), 0.2);
+  EXPECT_EQ(reading::signed_percent(1e-9), "0.00\xC2\xA0%");
+  EXPECT_EQ(drawing::pixels(12.0), "12");
+  EXPECT_EQ(drawing::round_length(73), 50);
+  EXPECT_EQ(drawing::round_length(0.3), 0.2);
 }
 
 TEST(ReportParts, UsesKeepColoursApartAndHaveLetters) {
   std::vector<std::string> uses;
   for (int i = 0; i < 30; ++i) uses.push_back("use " + std::to_string(i));
-  const report::Palette palette(uses);
+  const drawing::Palette palette(uses);
   std::map<std::string, int> seen;
-  for (int i = 0; i < 27; ++i) EXPECT_EQ(++seen[report::hex(palette.colour(uses[static_cast<std::size_t>(i)]))], 1) << i;
+  for (int i = 0; i < 27; ++i) EXPECT_EQ(++seen[drawing::hex(palette.colour(uses[static_cast<std::size_t>(i)]))], 1) << i;
   EXPECT_EQ(palette.letter(uses[0]), "A");
   EXPECT_EQ(palette.letter(uses[25]), "Z");
   EXPECT_EQ(palette.letter(uses[26]), "AA");
 }
 
 TEST(ReportParts, TheAxonometryIsOrthonormalAndLooksDown) {
-  const report::View view = report::axonometric_view(150, 33);
+  const drawing::View view = drawing::axonometric_view(150, 33);
   EXPECT_NEAR(dot(view.right, view.up), 0, 1e-12);
   EXPECT_NEAR(dot(view.right, view.toward), 0, 1e-12);
   EXPECT_NEAR(norm(view.up), 1, 1e-12);
@@ -316,30 +316,30 @@ TEST(ReportParts, SectionsOfABoxAreItsPlan) {
   ASSERT_NEAR(enclosed_volume(box), 24, 1e-12);
   const auto all = [](std::size_t) { return true; };
   for (const double z : {1.0, 4.0}) {
-    const auto lines = section(box, z, all);
+    const auto lines = geometry::section(box, z, all);
     ASSERT_EQ(lines.size(), 1u) << z;
     EXPECT_TRUE(lines.front().is_closed);
   }
-  EXPECT_TRUE(section(box, 5, all).empty());
-  const auto normals = unit_normals(box);
-  const auto roof = outline(box, [&](std::size_t t) { return normals[t].z > 0.5; });
+  EXPECT_TRUE(geometry::section(box, 5, all).empty());
+  const auto normals = geometry::unit_normals(box);
+  const auto roof = geometry::outline(box, [&](std::size_t t) { return normals[t].z > 0.5; });
   ASSERT_EQ(roof.size(), 1u);
   EXPECT_EQ(roof.front().points.size(), 4u);
 }
 
 // A ball in the corner of an L, in two pieces of it: a cut has one line around, with no border between the pieces.
 TEST(ReportParts, ACellInPiecesHasOneLineAroundItsCut) {
-  const auto ell =
-      extrude_plan(std::vector<Point3>{{0, 0, 0}, {60, 0, 0}, {60, 20, 0}, {20, 20, 0}, {20, 60, 0}, {0, 60, 0}}, {}, 0, 40);
+  const auto ell = geometry::extrude_plan(
+      std::vector<Point3>{{0, 0, 0}, {60, 0, 0}, {60, 20, 0}, {20, 20, 0}, {20, 60, 0}, {0, 60, 0}}, {}, 0, 40);
   ASSERT_TRUE(ell.ok());
-  CellOptions options;
+  geometry::CellOptions options;
   options.tessellation_depth = 2;
   options.with_coarse_mesh = true;
-  const std::vector<PowerSite> sites{{{17, 17, 20}, 144}};
+  const std::vector<geometry::PowerSite> sites{{{17, 17, 20}, 144}};
   const auto cells = power_cells(*ell, sites, options);
   ASSERT_TRUE(cells.ok());
-  const MeshPointer fine = mesh_of_depth((*cells)[0].mesh, kDeepestTessellation);
-  const auto cut = section(*fine, 20.003, [](std::size_t) { return true; });
+  const MeshPointer fine = geometry::mesh_of_depth((*cells)[0].mesh, geometry::kDeepestTessellation);
+  const auto cut = geometry::section(*fine, 20.003, [](std::size_t) { return true; });
   ASSERT_EQ(cut.size(), 1u);
   EXPECT_TRUE(cut.front().is_closed);
   double twice_area = 0;
@@ -353,15 +353,15 @@ TEST(ReportParts, ACellInPiecesHasOneLineAroundItsCut) {
 
 // The pieces of an L and of a ring share sides of unequal lengths: what is left is the L, and the ring with its hole.
 TEST(ReportParts, PiecesSideBySideHaveOneOutline) {
-  using Ring = std::vector<report::Pixel>;
+  using Ring = std::vector<drawing::Pixel>;
   const auto box = [](double x, double y, double width, double height) {
     return Ring{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
   };
-  const auto ell = report::common_outline({box(0, 0, 60, 20), box(0, 20, 20, 40)});
+  const auto ell = drawing::common_outline({box(0, 0, 60, 20), box(0, 20, 20, 40)});
   ASSERT_EQ(ell.size(), 1u);
-  EXPECT_EQ(report::simplified(ell.front(), true).size(), 6u);
-  EXPECT_EQ(report::common_outline({box(0, 0, 60, 20), box(0, 20, 20, 40), box(40, 20, 20, 40), box(0, 60, 60, 20)}).size(), 2u);
-  EXPECT_EQ(report::common_outline({box(0, 0, 10, 10), box(30, 0, 10, 10)}).size(), 2u);
+  EXPECT_EQ(drawing::simplified(ell.front(), true).size(), 6u);
+  EXPECT_EQ(drawing::common_outline({box(0, 0, 60, 20), box(0, 20, 20, 40), box(40, 20, 20, 40), box(0, 60, 60, 20)}).size(), 2u);
+  EXPECT_EQ(drawing::common_outline({box(0, 0, 10, 10), box(30, 0, 10, 10)}).size(), 2u);
 }
 
 // Two boxes side by side, the second wider: their common wall is no edge of the plan, nor is what sticks out of it lost.
@@ -369,12 +369,12 @@ TEST(ReportParts, BodiesSideBySideHaveOneOutline) {
   Mesh both = tall_box();
   for (const Point3& v : tall_box().vertices) both.vertices.push_back({v.x + 2, 2 * v.y, v.z});
   for (const auto& [a, b, c] : tall_box().triangles) both.triangles.push_back({a + 8, b + 8, c + 8});
-  EXPECT_EQ(bodies_of(both).size(), 2u);
-  const Mesh mesh = joined(both);
-  EXPECT_EQ(bodies_of(mesh).size(), 1u);
-  EXPECT_EQ(seen_from_above(both).size(), 1u);
-  const auto normals = unit_normals(mesh);
-  const auto roof = outline(mesh, [&](std::size_t t) { return normals[t].z > 0.5; });
+  EXPECT_EQ(geometry::bodies_of(both).size(), 2u);
+  const Mesh mesh = geometry::joined(both);
+  EXPECT_EQ(geometry::bodies_of(mesh).size(), 1u);
+  EXPECT_EQ(geometry::seen_from_above(both).size(), 1u);
+  const auto normals = geometry::unit_normals(mesh);
+  const auto roof = geometry::outline(mesh, [&](std::size_t t) { return normals[t].z > 0.5; });
   ASSERT_EQ(roof.size(), 1u);
   EXPECT_TRUE(roof.front().is_closed);
   double twice_area = 0, length = 0;
@@ -388,11 +388,11 @@ TEST(ReportParts, BodiesSideBySideHaveOneOutline) {
 }
 
 // A ball of radius 5 whose upper part is cut off one metre above its middle, and one side four metres beside it.
-report::ExactShape cut_ball() { return {{10, 0, 0}, 5, {{{0, 0, 1}, 1}, {{1, 0, 0}, 14}}}; }
+reading::ExactShape cut_ball() { return {{10, 0, 0}, 5, {{{0, 0, 1}, 1}, {{1, 0, 0}, 14}}}; }
 
 TEST(ReportParts, FacesOfACutBallAreDiscsLessWhatOtherCutsTake) {
-  const report::ExactShape shape = cut_ball();
-  const report::Corners roof = report::face_of(shape, 0), side = report::face_of(shape, 1);
+  const reading::ExactShape shape = cut_ball();
+  const reading::Corners roof = reading::face_of(shape, 0), side = reading::face_of(shape, 1);
   ASSERT_GT(roof.size(), 20u);
   for (const Point3& p : roof) {
     EXPECT_NEAR(p.z, 1, 1e-9);
@@ -400,10 +400,10 @@ TEST(ReportParts, FacesOfACutBallAreDiscsLessWhatOtherCutsTake) {
     EXPECT_LE(distance(p, shape.centre), 5 + 1e-9);
   }
   for (const Point3& p : side) EXPECT_LE(p.z, 1 + 1e-9);
-  EXPECT_TRUE(report::section_of(shape, 2).empty());
-  EXPECT_TRUE(report::section_of(shape, -5.1).empty());
-  EXPECT_EQ(report::normal_at(shape, {10, 0, 1}), (Vector3{0, 0, 1}));
-  EXPECT_NEAR(report::normal_at(shape, {10, 0, -5}).z, -1, 1e-12);
+  EXPECT_TRUE(reading::section_of(shape, 2).empty());
+  EXPECT_TRUE(reading::section_of(shape, -5.1).empty());
+  EXPECT_EQ(reading::normal_at(shape, {10, 0, 1}), (Vector3{0, 0, 1}));
+  EXPECT_NEAR(reading::normal_at(shape, {10, 0, -5}).z, -1, 1e-12);
 }
 
 TEST(ReportParts, ExactShapesHoldTheirMeshes) {
@@ -413,33 +413,33 @@ TEST(ReportParts, ExactShapesHoldTheirMeshes) {
     const std::uint32_t node = world.state().plan->node_index(id);
     const auto volume = reading::row_of<reading::VolumeFigures>(world.state(), node);
     ASSERT_TRUE(volume.has_value()) << id;
-    const report::ExactShape shape = report::exact_shape(world.state(), node, *volume);
+    const reading::ExactShape shape = reading::exact_shape(world.state(), node, *volume);
     ASSERT_GT(shape.radius, 0) << id;
     for (const Point3& vertex : world.mesh(id, "smart_volume.mesh")->vertices) {
       EXPECT_LE(distance(vertex, shape.centre), shape.radius * (1 + 1e-9)) << id;
-      for (const report::Cut& cut : shape.cuts) EXPECT_LE(dot(cut.normal, vertex), cut.offset + 1e-6) << id;
+      for (const reading::Cut& cut : shape.cuts) EXPECT_LE(dot(cut.normal, vertex), cut.offset + 1e-6) << id;
     }
   }
 }
 
 TEST(ReportParts, BodiesThatAreNoBallsAreDrawnFromTheirMesh) {
   const Mesh box = tall_box();
-  const report::Sheet sheet(report::axonometric_view(150, 33), box.vertices, 400, 400, {10, 10, 10, 10});
-  report::Markup svg;
-  report::draw_solid(svg, sheet, box, {{0.5, 0.6, 0.7}, {0, 0, 1}, 1, 0, 4});
+  const drawing::Sheet sheet(drawing::axonometric_view(150, 33), box.vertices, 400, 400, {10, 10, 10, 10});
+  drawing::Markup svg;
+  drawing::draw_solid(svg, sheet, box, {{0.5, 0.6, 0.7}, {0, 0, 1}, 1, 0, 4});
   EXPECT_EQ(fault_in(svg.str()), "");
   // Two shades (roof, and walls that the sun does not reach), the storeys, creases and the outline: triangles of one face are
   // one.
   std::size_t paths = 0;
   for (std::size_t i = svg.str().find("<path"); i != std::string::npos; i = svg.str().find("<path", i + 1)) ++paths;
   EXPECT_EQ(paths, 5u);
-  EXPECT_EQ(report::convex_outline(sheet, box).size(), 6u);
+  EXPECT_EQ(drawing::convex_outline(sheet, box).size(), 6u);
 }
 
 TEST(ReportParts, LabelsNeverCoverEachOther) {
-  report::LabelPlacer placer({0, 0, 200, 100}, {});
-  report::Markup svg;
-  std::vector<report::Label> labels(60, {{100, 50}, "A long name", "12 m", "7"});
+  drawing::LabelPlacer placer({0, 0, 200, 100}, {});
+  drawing::Markup svg;
+  std::vector<drawing::Label> labels(60, {{100, 50}, "A long name", "12 m", "7"});
   const std::size_t without = placer.write(svg, labels, 60);
   EXPECT_GT(without, 0u);
   EXPECT_LT(without, 60u);
@@ -477,4 +477,4 @@ TEST(Report, MeshesSayHowFineTheyAreAndWhatThatMeans) {
 }
 
 }  // namespace
-}  // namespace bl
+}  // namespace bl::report

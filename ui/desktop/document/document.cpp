@@ -50,7 +50,7 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   problems.insert(problems.end(), reading.problems.begin(), reading.problems.end());
   if (!reading.is_usable()) return nullptr;
   const SavedState* state = reading.state ? &*reading.state : nullptr;
-  auto host = Host::start(registry, reading.scene, state, {.author = kAuthor, .origin = kOrigin, .threads = threads});
+  auto host = host::Host::start(registry, reading.scene, state, {.author = kAuthor, .origin = kOrigin, .threads = threads});
   if (!host) {
     problems.push_back({true, host.error().within("state")});
     return nullptr;
@@ -63,7 +63,7 @@ std::unique_ptr<Document> Document::from_text(const Registry& registry, const st
   return document;
 }
 
-std::unique_ptr<Document> Document::recover(const Registry& registry, const Journal::UnsavedJournal& remains, int threads,
+std::unique_ptr<Document> Document::recover(const Registry& registry, const host::Journal::UnsavedJournal& remains, int threads,
                                             std::vector<Problem>& problems) {
   auto document = from_text(registry, remains.log.scene, remains.scene_path, threads, problems);
   if (!document) return nullptr;
@@ -92,10 +92,10 @@ std::int64_t Document::name_files_from(const NamedFiles& named) {
   if (auto done = submit(named.commands, gesture, "Name files from the new folder"); !done)
     return 0;  // somebody has taken the node away: then it names no file any more
   if (!named.copies.empty())
-    note(report::counted(named.copies.size(), "recorded table") +
+    note(reading::counted(named.copies.size(), "recorded table") +
          " copied into the scene's new folder, where recordings are played from.");
   if (const std::size_t rest = named.commands.size() - named.copies.size(); rest > 0)
-    note(report::counted(rest, "file") + " that the scene names stayed in place; the scene names them from its new folder.");
+    note(reading::counted(rest, "file") + " that the scene names stayed in place; the scene names them from its new folder.");
   return gesture;
 }
 
@@ -146,7 +146,7 @@ std::string Document::imports_path(const std::string& scene_path) {
   return std::filesystem::path(scene_path).replace_extension(".import.csv").string();
 }
 
-void Document::add_imports(const ImportReports& reports) {
+void Document::add_imports(const importing::ImportReports& reports) {
   imports_.insert(imports_.end(), reports.begin(), reports.end());
   ++imports_revision_;
 }
@@ -157,7 +157,7 @@ void Document::read_imports(std::vector<Problem>& problems) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return;
   const auto text = read_file(path);
-  auto reports = text ? read_import_csv(*text) : Result<ImportReports>(text.error());
+  auto reports = text ? importing::read_import_csv(*text) : Result<importing::ImportReports>(text.error());
   if (!reports)
     problems.push_back({false, {reports.error().code, path, reports.error().text() + " The scene is not touched by it."}});
   else add_imports(*reports);

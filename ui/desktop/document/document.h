@@ -30,12 +30,12 @@ class Document {
   static std::unique_ptr<Document> from_text(const Registry& registry, const std::string& text, const std::string& path,
                                              int threads, std::vector<Problem>& problems);
   /// From the journal of a window that did not end well; the commands in it are applied again.
-  static std::unique_ptr<Document> recover(const Registry& registry, const Journal::UnsavedJournal& remains, int threads,
+  static std::unique_ptr<Document> recover(const Registry& registry, const host::Journal::UnsavedJournal& remains, int threads,
                                            std::vector<Problem>& problems);
 
   /// No other document that this window has opened has it: an address can come again.
   std::uint64_t id() const { return id_; }
-  LiveSession& session() { return host_->session(); }
+  host::LiveSession& session() { return host_->session(); }
   const Scene& scene() const { return host_->session().scene(); }
   /// Where Save writes; empty where it has to ask.
   const std::string& path() const { return path_; }
@@ -54,10 +54,10 @@ class Document {
   const std::string& save_note() const { return save_note_; }
 
   /// What became of every element of imported files. Kept beside the scene's file, and read from there.
-  const ImportReports& imports() const { return imports_; }
+  const importing::ImportReports& imports() const { return imports_; }
   /// Grows with each change of them.
   std::uint64_t imports_revision() const { return imports_revision_; }
-  void add_imports(const ImportReports& reports);
+  void add_imports(const importing::ImportReports& reports);
   /// Where the reports of a scene file are kept: quarter.import.csv beside quarter.json.
   static std::string imports_path(const std::string& scene_path);
   /// Why a crash would lose what has not been saved; empty where it would not.
@@ -67,7 +67,7 @@ class Document {
   /// Writes the log since the scene was opened, for `replay`.
   Result<void> save_log(const std::string& path) const;
   /// Steps, oldest first.
-  const std::vector<HistoryStep>& history() const { return host_->history().steps(); }
+  const std::vector<host::HistoryStep>& history() const { return host_->history().steps(); }
   std::int64_t last_step() const { return host_->history().last_step(); }
 
   /// Commands as one step; `label`: what it is called, where they alone do not say what was meant: "Solo · Hotel".
@@ -86,10 +86,10 @@ class Document {
   std::uint64_t id_;
   const Registry* registry_;
   std::string path_, origin_, save_note_;
-  ImportReports imports_;
+  importing::ImportReports imports_;
   std::uint64_t imports_revision_ = 0;
   std::optional<Scene> saved_;  ///< what the file holds; none where there is none, or something else
-  std::unique_ptr<Host> host_;
+  std::unique_ptr<host::Host> host_;
   std::size_t compared_size_ = 0;  ///< of the log
   bool is_unsaved_ = false;
 };

@@ -18,7 +18,7 @@ class ImportTask {
   ImportTask(const ImportTask&) = delete;
   ImportTask& operator=(const ImportTask&) = delete;
 
-  const ImportWatch& watch() const { return watch_; }
+  const importing::ImportWatch& watch() const { return watch_; }
   /// Asks it to end; it answers between two elements.
   void stop() { watch_.is_stopped = true; }
   bool is_done() const { return is_done_; }
@@ -32,7 +32,7 @@ class ImportTask {
   Scene scene_;
   making::ImportOptions options_;
   const Registry* registry_;
-  ImportWatch watch_;
+  importing::ImportWatch watch_;
   std::optional<making::ImportedScene> result_;
   std::atomic<bool> is_done_{false};
   std::thread thread_;

@@ -67,10 +67,11 @@ NamedFiles files_named_from(const Scene& scene, const std::string& folder, const
   const files::path from = absolute(folder), to = absolute(target);
   if (from == to) return named;
   for (const auto& [id, node] : scene.nodes) {
-    if (const auto media = settings_of<MediaFigures>(scene, types, node))
+    if (const auto media = settings_of<reading::MediaFigures>(scene, types, node))
       if (const auto path = found(media->file, frame_file(media->file, 0, 1, 1), from))
-        named.commands.push_back(set_text(id, path_of<&MediaFigures::file>(), below(*path, to).value_or(path->generic_string())));
-    if (const auto broker = settings_of<BrokerSettings>(scene, types, node))
+        named.commands.push_back(
+            set_text(id, path_of<&reading::MediaFigures::file>(), below(*path, to).value_or(path->generic_string())));
+    if (const auto broker = settings_of<reading::BrokerSettings>(scene, types, node))
       for (const auto& [secret, prefix] : {std::pair{broker->ca_file, ""}, std::pair{broker->password_from, "file:"}})
         if (secret.starts_with(prefix)) {
           const std::string name = secret.substr(std::string_view(prefix).size());
@@ -79,7 +80,7 @@ NamedFiles files_named_from(const Scene& scene, const std::string& folder, const
     const auto sensor = settings_of<SensorFigures>(scene, types, node);
     if (!sensor || !sensor->address.starts_with(kReplay)) continue;
     const std::string& address = sensor->address;
-    const auto parsed = parse_live_address(address);
+    const auto parsed = address::parse_live_address(address);
     if (!parsed || address.compare(kReplay.size(), parsed->path.size(), parsed->path) != 0) continue;
     const auto path = found(parsed->path, parsed->path, from);
     if (!path) continue;

@@ -131,7 +131,7 @@ bool Editor::open(const std::string& wanted, bool plays) {
 
 void Editor::take(std::unique_ptr<Document> fresh) {
   document = std::move(fresh);
-  document->session().make_ticks_wait(serves_ticks && has_recordings(document->scene(), program));
+  document->session().make_ticks_wait(serves_ticks && host::has_recordings(document->scene(), program));
   moment = document->session().moment();
   picks = {};
   panels = nullptr;

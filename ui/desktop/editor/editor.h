@@ -58,12 +58,12 @@ class Editor {
   PersonSettings& person;
   Theme theme;
   Picks picks;
-  std::unique_ptr<Document> document;    ///< none: the start page
-  std::vector<Problem> problems;         ///< of the last file that was opened, or tried: set by `list_problems`
-  std::string problem_file;              ///< that file
-  std::uint64_t problems_revision = 0;   ///< another one for each list
-  std::shared_ptr<const Moment> moment;  ///< taken once for each frame; none without a document
-  double now = 0;                        ///< the window's clock [s]
+  std::unique_ptr<Document> document;          ///< none: the start page
+  std::vector<Problem> problems;               ///< of the last file that was opened, or tried: set by `list_problems`
+  std::string problem_file;                    ///< that file
+  std::uint64_t problems_revision = 0;         ///< another one for each list
+  std::shared_ptr<const host::Moment> moment;  ///< taken once for each frame; none without a document
+  double now = 0;                              ///< the window's clock [s]
   Area area = Area::canvas;
   std::vector<Notice> notices;
   bool is_beamer = false, wants_quit = false, wants_picture = false;

@@ -226,7 +226,7 @@ void Theme::apply(bool is_dark, float scale) {
 }
 
 Family Theme::family_of(const LinkDefinition* kind) const {
-  const report::FamilyInk* ink = report::ink_of(kind == nullptr ? LinkFamily::other : kind->family);
+  const drawing::FamilyInk* ink = drawing::ink_of(kind == nullptr ? LinkFamily::other : kind->family);
   if (ink == nullptr) return {"the brief and the boundary", is_dark_ ? rgb(0xc9a227) : rgb(0x8a6a00)};
   const unsigned hex = static_cast<unsigned>(std::stoul(std::string(ink->colour.substr(1)), nullptr, 16));
   // The report's inks are made for paper; on a dark ground they are lightened.

@@ -21,7 +21,7 @@ void draw_bottom(Workbench& editor) {
   };
   const std::size_t pressing = memory.problems->pressing();
   const std::string problems =
-      "Problems" + (pressing > 0 ? "  " + report::grouped(static_cast<double>(pressing)) : std::string()) + "###Problems";
+      "Problems" + (pressing > 0 ? "  " + reading::grouped(static_cast<double>(pressing)) : std::string()) + "###Problems";
   if (ImGui::BeginTabItem(problems.c_str(), nullptr, flags("Problems"))) {
     draw_problems(editor);
     ImGui::EndTabItem();

@@ -39,7 +39,7 @@ std::vector<std::string> uses_of_briefs(const Scene& scene) {
 }
 
 std::string use_of_volume(const Scene& scene, const NodeRecord& node) {
-  return reading::setting<&VolumeFigures::use>(scene, full_registry(), node).value_or("");
+  return reading::setting<&reading::VolumeFigures::use>(scene, full_registry(), node).value_or("");
 }
 
 // What the first brief that speaks of a use lets its volumes stand on; empty where none does.
@@ -63,9 +63,9 @@ std::vector<std::string> known_uses(const Scene& scene) {
 
 std::vector<std::string> uses_by_need(Workbench& editor) {
   std::vector<std::string> uses = uses_of_briefs(editor.scene());
-  const report::ReportModel& figures = memory_of(editor).record->figures(editor);
+  const reading::ReportModel& figures = memory_of(editor).record->figures(editor);
   std::map<std::string, double> missing;  // [m²]
-  for (const report::UseAccount& use : figures.accounts.uses) missing[use.use] = use.missing_area();
+  for (const reading::UseAccount& use : figures.accounts.uses) missing[use.use] = use.missing_area();
   // A volume that no tick knows yet was added a moment ago: its use is seen to. One that ticks have left with nothing is not.
   const Plan& known = *editor.moment->ticked->plan;
   for (const auto& [id, node] : editor.scene().nodes)
@@ -92,15 +92,15 @@ void tell_uses(Workbench& editor, const std::vector<std::string>& nodes) {
 std::string first_values(Workbench& editor, const std::string& type, std::size_t number) {
   Json values = Json::object();
   const std::vector<std::string> uses =
-      type == reading::type_of<VolumeFigures>() ? uses_by_need(editor) : std::vector<std::string>();
+      type == reading::type_of<reading::VolumeFigures>() ? uses_by_need(editor) : std::vector<std::string>();
   if (!uses.empty()) {
     const std::string &use = uses[number % uses.size()], standing = standing_of_use(editor.scene(), use);
-    values[reading::port_name_of<&VolumeFigures::use>()] = use;
+    values[reading::port_name_of<&reading::VolumeFigures::use>()] = use;
     // Only what differs from the default is said.
     NodeRecord fresh;
     fresh.types[type];
-    const auto usual = reading::setting<&VolumeFigures::standing>(editor.scene(), full_registry(), fresh);
-    if (!standing.empty() && standing != usual) values[reading::port_name_of<&VolumeFigures::standing>()] = standing;
+    const auto usual = reading::setting<&reading::VolumeFigures::standing>(editor.scene(), full_registry(), fresh);
+    if (!standing.empty() && standing != usual) values[reading::port_name_of<&reading::VolumeFigures::standing>()] = standing;
   }
   return write_json_line(values);
 }

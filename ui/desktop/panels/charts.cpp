@@ -148,7 +148,7 @@ class Drawing {
 
   void draw_bottom() {
     const Colours& c = theme_.colours();
-    const std::string first = "tick " + report::grouped(chart_.ticks.front()), last = report::grouped(chart_.ticks.back());
+    const std::string first = "tick " + reading::grouped(chart_.ticks.front()), last = reading::grouped(chart_.ticks.back());
     write({left_, bottom_ + theme_.px(3)}, c.text_faint, first);
     write({right_ - width_of(last), bottom_ + theme_.px(3)}, c.text_faint, last);
   }
@@ -168,7 +168,7 @@ class Drawing {
     const auto k = std::min(static_cast<std::size_t>(after - chart_.ticks.begin()), chart_.ticks.size() - 1);
     const float x = x_of(k);
     list_.AddLine({x, top_}, {x, bottom_}, theme_.colours().text_faint);
-    std::string text = "tick " + report::grouped(chart_.ticks[k]);
+    std::string text = "tick " + reading::grouped(chart_.ticks[k]);
     for (const Series& series : chart_.series) {
       if (k >= series.values.size()) continue;
       list_.AddCircleFilled({x, y_of(series.values[k])}, theme_.px(3), series.colour);
@@ -193,8 +193,8 @@ class Drawing {
 }  // namespace
 
 std::string chart_number(const Chart& chart, double value) {
-  if (chart.is_share) return report::percent(value);
-  return report::quantity(value, chart.unit);
+  if (chart.is_share) return reading::percent(value);
+  return reading::quantity(value, chart.unit);
 }
 
 void line_chart(const Theme& theme, const char* id, ImVec2 size, const Chart& chart) {

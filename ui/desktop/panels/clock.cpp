@@ -16,7 +16,7 @@ constexpr double kSlowest = 0.5, kFastest = 240;
 constexpr double kRewindSeconds = 5;
 
 // Five seconds of what was seen: at the speed that was reached, not the one that was asked for.
-std::int64_t rewind_ticks(const Moment& moment) {
+std::int64_t rewind_ticks(const host::Moment& moment) {
   const double rate =
       std::max(1.0, std::min(moment.wanted_rate, moment.tick_seconds > 0 ? 1 / moment.tick_seconds : moment.wanted_rate));
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(kRewindSeconds * rate));
@@ -49,12 +49,12 @@ bool tool_button(Workbench& editor, const char* sign, const char* hint, bool is_
 }
 
 std::string distance_text(double metres) {
-  return metres < 1 ? report::readable(1000 * metres) + "\xC2\xA0mm" : report::quantity(metres, Unit::metre);
+  return metres < 1 ? reading::readable(1000 * metres) + "\xC2\xA0mm" : reading::quantity(metres, Unit::metre);
 }
 
 // What the simulation is doing, in one sentence with a colour.
 void draw_standing(Workbench& editor) {
-  const Moment& moment = *editor.moment;
+  const host::Moment& moment = *editor.moment;
   const State& state = *moment.state;
   const Colours& c = editor.theme.colours();
   std::string text;
@@ -85,7 +85,7 @@ void draw_standing(Workbench& editor) {
 }  // namespace
 
 void draw_clock(Workbench& editor) {
-  const Moment& moment = *editor.moment;
+  const host::Moment& moment = *editor.moment;
   const Theme& theme = editor.theme;
   if (tool_button(editor, icon::kRewind, "Rewind five seconds (Backspace)", false, can_rewind(editor))) rewind(editor);
   if (tool_button(editor, moment.is_playing ? icon::kPause : icon::kPlay, moment.is_playing ? "Pause (P)" : "Play (P)",

@@ -161,7 +161,7 @@ void Dialogs::ask_report() {
   const std::string stem = std::filesystem::path(source.empty() ? editor_->document->name() : source).stem().string();
   chooser_.open(FileChooser::Purpose::choose_folder, "Write the report into a folder", {}, folder_of(*editor_));
   chosen_ = [this, stem](const std::string& folder) {
-    ReportData data;
+    report::ReportData data;
     data.state = &editor_->state();
     data.history = memory_of(*editor_).record->errors();
     data.scene_path = editor_->document->source().empty() ? stem : editor_->document->source();
@@ -226,12 +226,12 @@ void Dialogs::draw_unsaved() {
   ImGui::EndPopup();
 }
 
-void Dialogs::offer_recovery(std::vector<Journal::UnsavedJournal> remains) {
+void Dialogs::offer_recovery(std::vector<host::Journal::UnsavedJournal> remains) {
   remains_ = std::move(remains);
   if (!remains_.empty()) show(Kind::recovery);
 }
 
-Dialogs::Recovered Dialogs::recover(const Journal::UnsavedJournal& remains) {
+Dialogs::Recovered Dialogs::recover(const host::Journal::UnsavedJournal& remains) {
   std::vector<Problem> problems;
   auto document = Document::recover(editor_->program, remains, kTickThreads, problems);
   editor_->list_problems(remains.path, std::move(problems));
@@ -258,7 +258,7 @@ void Dialogs::draw_recovery() {
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, theme.px(6)});
   for (std::size_t k = 0; k < remains_.size(); ++k) {
-    const Journal::UnsavedJournal& one = remains_[k];
+    const host::Journal::UnsavedJournal& one = remains_[k];
     ImGui::PushID(static_cast<int>(k));
     const bool recovers = ImGui::Button("Recover", {theme.px(90), 0});
     ImGui::SameLine();
@@ -272,7 +272,7 @@ void Dialogs::draw_recovery() {
     const Recovered result = recovers ? recover(one) : Recovered::all;
     if (result == Recovered::nothing) break;
     // The journal is the only copy of what could not be recovered from it.
-    if (result == Recovered::all) Journal::discard(one);
+    if (result == Recovered::all) host::Journal::discard(one);
     remains_.erase(remains_.begin() + static_cast<std::ptrdiff_t>(k));
     if (remains_.empty() || recovers) close();
     break;

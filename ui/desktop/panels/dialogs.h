@@ -40,7 +40,7 @@ class Dialogs {
   void show_palette();
   void show_keys();
   /// Journals of windows that did not end well: offered once, at the start.
-  void offer_recovery(std::vector<Journal::UnsavedJournal> remains);
+  void offer_recovery(std::vector<host::Journal::UnsavedJournal> remains);
   /// Saves to the document's file, or asks for one; `then` follows once it is saved, and never where people think better of it.
   void save(std::function<void()> then = {});
   /// Does `then` at once, or after people have said what becomes of unsaved changes.
@@ -62,7 +62,7 @@ class Dialogs {
   void draw_file_field(const char* label, std::string& path, std::vector<std::string> endings);
   void draw_unsaved();
   void draw_recovery();
-  Recovered recover(const Journal::UnsavedJournal& remains);
+  Recovered recover(const host::Journal::UnsavedJournal& remains);
   void make_scene();
 
   // import_dialog.cpp
@@ -85,7 +85,7 @@ class Dialogs {
   making::NewOptions fresh_;
   std::vector<std::string> told_;  ///< notes and errors of the last try to make a scene
   bool is_told_error_ = false;
-  std::vector<Journal::UnsavedJournal> remains_;
+  std::vector<host::Journal::UnsavedJournal> remains_;
   making::ImportOptions import_;
   void stop_import();
   std::unique_ptr<ImportTask> import_task_;

@@ -35,7 +35,7 @@ std::string HiddenNodes::text(const Workbench& editor) {
   for (const std::string& id : of(editor))
     if (const auto node = editor.scene().nodes.find(id); node != editor.scene().nodes.end())
       ++count, volumes += reading::is_a<reading::VolumeFigures>(node->second) ? 1 : 0;
-  return count == 0 ? "" : report::counted(count, volumes == count ? "volume" : "node") + " hidden";
+  return count == 0 ? "" : reading::counted(count, volumes == count ? "volume" : "node") + " hidden";
 }
 
 void hide_chosen(Workbench& editor) { arrange_hidden(editor, editor.picks.nodes, !are_chosen_hidden(editor)); }

@@ -12,7 +12,7 @@ namespace {
 
 std::size_t done_steps(Workbench& editor) {
   std::size_t count = 0;
-  for (const HistoryStep& step : editor.document->history()) count += step.is_undone ? 0 : 1;
+  for (const host::HistoryStep& step : editor.document->history()) count += step.is_undone ? 0 : 1;
   return count;
 }
 
@@ -61,7 +61,7 @@ bool draw_step(Workbench& editor, int index, const std::string& label, const std
 
 void draw_history(Workbench& editor) {
   if (!editor.document) return;
-  const std::vector<HistoryStep>& steps = editor.document->history();
+  const std::vector<host::HistoryStep>& steps = editor.document->history();
   const std::size_t done = done_steps(editor);
   const float height = std::round(ImGui::GetFontSize() + editor.theme.px(8));
   int wanted = -1;
@@ -75,9 +75,9 @@ void draw_history(Workbench& editor) {
       if (row == 0) {
         is_hit = draw_step(editor, 0, "Opened", editor.document->name(), false, done == 0, height);
       } else {
-        const HistoryStep& step = steps[static_cast<std::size_t>(row) - 1];
+        const host::HistoryStep& step = steps[static_cast<std::size_t>(row) - 1];
         const std::string detail =
-            "tick " + report::grouped(static_cast<double>(step.tick)) + ",  " + report::counted(step.entries, "command");
+            "tick " + reading::grouped(static_cast<double>(step.tick)) + ",  " + reading::counted(step.entries, "command");
         is_hit = draw_step(editor, row, step.label, detail, step.is_undone, static_cast<std::size_t>(row) == done, height);
       }
       if (is_hit) wanted = row;

@@ -66,7 +66,7 @@ std::string made_text(const making::ImportedScene& imported, const Registry& typ
   std::string text;
   for (const auto& [type, count] : imported.nodes) {
     const TypificationDefinition* known = types.typification(type);
-    text += (text.empty() ? "" : ", ") + report::grouped(static_cast<double>(count)) + " \xc3\x97 " +
+    text += (text.empty() ? "" : ", ") + reading::grouped(static_cast<double>(count)) + " \xc3\x97 " +
             (known == nullptr ? type : known->label);
   }
   return text.empty() ? "no new nodes" : text;
@@ -112,7 +112,7 @@ void Dialogs::draw_import_files() {
 
 void Dialogs::draw_import_options() {
   const Theme& theme = editor_->theme;
-  ContextOptions& context = import_.context;
+  importing::ContextOptions& context = import_.context;
   const auto chosen = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindChoice& k) { return import_.kind == k.kind; });
   label(theme, "What is in the files", "What polygons, lines or cells are, where the file itself does not say it.");
   ImGui::SetNextItemWidth(theme.px(250));
@@ -153,7 +153,7 @@ void Dialogs::draw_import_options() {
 
 void Dialogs::draw_import_progress() {
   const Theme& theme = editor_->theme;
-  const ImportWatch& watch = import_task_->watch();
+  const importing::ImportWatch& watch = import_task_->watch();
   const std::size_t file = std::min<std::size_t>(watch.file, import_.files.size() - 1), done = watch.done, total = watch.total;
   const std::string name = name_of_file(import_.files[file]);
   ImGui::Dummy({0, theme.px(30)});
@@ -169,8 +169,8 @@ void Dialogs::draw_import_progress() {
   const float share =
       total > 0 ? static_cast<float>(static_cast<double>(done) / static_cast<double>(total)) : static_cast<float>(swing);
   const std::string count =
-      total > 0  ? report::grouped(static_cast<double>(done)) + " of " + report::grouped(static_cast<double>(total))
-      : done > 0 ? report::grouped(static_cast<double>(done))
+      total > 0  ? reading::grouped(static_cast<double>(done)) + " of " + reading::grouped(static_cast<double>(total))
+      : done > 0 ? reading::grouped(static_cast<double>(done))
                  : std::string();
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, theme.colours().accent);
   ImGui::ProgressBar(share, {-FLT_MIN, theme.px(8)}, "");
@@ -258,16 +258,17 @@ bool Dialogs::take_import(making::ImportedScene& imported) {
     editor_->list_problems(editor_->problem_file.empty() ? names : editor_->problem_file, std::move(problems));
   std::size_t skipped = 0, repaired = 0;
   for (const auto& [file, report] : imported.reports) {
-    skipped += report.count(ImportOutcome::skipped);
-    repaired += report.count(ImportOutcome::repaired);
+    skipped += report.count(importing::ImportOutcome::skipped);
+    repaired += report.count(importing::ImportOutcome::repaired);
   }
   editor_->notify(
       NoticeKind::told,
       "Imported " + names + ": " + made_text(imported, editor_->program) + ". " +
-          (repaired == 0 ? "" : report::counted(repaired, "element") + " repaired, ") +
-          (skipped == 0 ? (repaired == 0 ? "Nothing was skipped." : "none skipped; the tab Import says what was mended.")
-                        : (repaired == 0 ? report::counted(skipped, "element") : report::grouped(static_cast<double>(skipped))) +
-                              " skipped; the tab Import says why."));
+          (repaired == 0 ? "" : reading::counted(repaired, "element") + " repaired, ") +
+          (skipped == 0
+               ? (repaired == 0 ? "Nothing was skipped." : "none skipped; the tab Import says what was mended.")
+               : (repaired == 0 ? reading::counted(skipped, "element") : reading::grouped(static_cast<double>(skipped))) +
+                     " skipped; the tab Import says why."));
   editor_->person.shows_bottom = true;
   memory_of(*editor_).wanted_tab = "Import";
   const auto& [low, high] = imported.bounds;

@@ -12,7 +12,7 @@ namespace bl::desktop {
 namespace {
 
 // Skipped ones are what people look for, then those that were mended.
-int rank_of(ImportOutcome outcome) { return 2 - static_cast<int>(outcome); }
+int rank_of(importing::ImportOutcome outcome) { return 2 - static_cast<int>(outcome); }
 
 bool holds(const std::string& text, const std::string& lower) { return lower_case(text).find(lower) != std::string::npos; }
 
@@ -63,30 +63,30 @@ std::string without_numbers(const std::string& text) {
 }
 
 // The same for all rows of a group.
-std::string group_text(const ImportRow& row) {
-  if (row.outcome == ImportOutcome::repaired && !row.detail.empty()) {
+std::string group_text(const importing::ImportRow& row) {
+  if (row.outcome == importing::ImportOutcome::repaired && !row.detail.empty()) {
     // The height itself differs from row to row.
     std::string text = row.detail;
-    for (const std::string_view assumed : {kHeightOfNeighbours, kHeightAssumed})
+    for (const std::string_view assumed : {importing::kHeightOfNeighbours, importing::kHeightAssumed})
       if (const std::size_t at = text.find(assumed); at != std::string::npos) text.resize(at + assumed.size());
     return without_numbers(text);
   }
-  for (const std::string_view assumed : {kHeightOfNeighbours, kHeightAssumed})
+  for (const std::string_view assumed : {importing::kHeightOfNeighbours, importing::kHeightAssumed})
     if (row.detail.find(assumed) != std::string::npos) return row.reason + ", " + std::string(assumed);
   return row.reason;
 }
 
 }  // namespace
 
-std::string why_of(const ImportRow& row) {
-  return row.outcome == ImportOutcome::repaired && !row.detail.empty() ? row.detail : row.reason;
+std::string why_of(const importing::ImportRow& row) {
+  return row.outcome == importing::ImportOutcome::repaired && !row.detail.empty() ? row.detail : row.reason;
 }
 
-std::string special_of(const ImportRow& row) {
-  return row.outcome == ImportOutcome::repaired && !row.detail.empty() ? "taken as " + row.reason : row.detail;
+std::string special_of(const importing::ImportRow& row) {
+  return row.outcome == importing::ImportOutcome::repaired && !row.detail.empty() ? "taken as " + row.reason : row.detail;
 }
 
-void ImportList::follow(const ImportReports& reports, std::uint64_t document, std::uint64_t revision) {
+void ImportList::follow(const importing::ImportReports& reports, std::uint64_t document, std::uint64_t revision) {
   if (document_ == document && revision_ == revision) return;
   document_ = document;
   revision_ = revision;
@@ -95,9 +95,9 @@ void ImportList::follow(const ImportReports& reports, std::uint64_t document, st
   std::fill(std::begin(counts_), std::end(counts_), 0);
   files_ = reports.size();
   has_places_ = false;
-  std::map<std::tuple<ImportOutcome, std::string, std::string>, std::size_t> sums;
+  std::map<std::tuple<importing::ImportOutcome, std::string, std::string>, std::size_t> sums;
   for (const auto& [file, report] : reports) {
-    for (const ImportRow& row : report.rows()) {
+    for (const importing::ImportRow& row : report.rows()) {
       all_.push_back({&file, &row});
       counts_[static_cast<std::size_t>(row.outcome)] += row.count;
       has_places_ |= row.place.has_value();
@@ -114,7 +114,7 @@ void ImportList::follow(const ImportReports& reports, std::uint64_t document, st
 }
 
 bool ImportList::passes(const ImportEntry& entry) const {
-  const ImportRow& row = *entry.row;
+  const importing::ImportRow& row = *entry.row;
   if (outcome_ >= 0 && static_cast<int>(row.outcome) != outcome_) return false;
   if (group_ < groups_.size()) {
     const ImportGroup& group = groups_[group_];

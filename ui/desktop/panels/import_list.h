@@ -15,17 +15,17 @@ inline constexpr int kImportColumns = 7;
 /// One row, as it stands in the reports.
 struct ImportEntry {
   const std::string* file = nullptr;
-  const ImportRow* row = nullptr;
+  const importing::ImportRow* row = nullptr;
 };
 
 /// Why an element stands where it does: what was mended of a repaired one, the reason of others.
-std::string why_of(const ImportRow& row);
+std::string why_of(const importing::ImportRow& row);
 /// What else there is to say: as what a repaired one was taken, the details of others.
-std::string special_of(const ImportRow& row);
+std::string special_of(const importing::ImportRow& row);
 
 /// Rows of which the same is to be said: without the numbers in it, and with a word on heights that were assumed.
 struct ImportGroup {
-  ImportOutcome outcome = ImportOutcome::taken;
+  importing::ImportOutcome outcome = importing::ImportOutcome::taken;
   std::string kind, reason;
   std::size_t count = 0;  ///< elements, which may be more than rows
 };
@@ -33,9 +33,9 @@ struct ImportGroup {
 class ImportList {
  public:
   /// Reads the reports again where they are others; pointers into them are kept until the next change.
-  void follow(const ImportReports& reports, std::uint64_t document, std::uint64_t revision);
+  void follow(const importing::ImportReports& reports, std::uint64_t document, std::uint64_t revision);
   const std::vector<ImportGroup>& groups() const { return groups_; }  ///< skipped first, the largest of each outcome first
-  std::size_t count(ImportOutcome outcome) const { return counts_[static_cast<std::size_t>(outcome)]; }
+  std::size_t count(importing::ImportOutcome outcome) const { return counts_[static_cast<std::size_t>(outcome)]; }
   std::size_t total() const { return counts_[0] + counts_[1] + counts_[2]; }
   /// The rows that pass what is chosen below, in the order that is wanted. Worked out anew after changes only.
   const std::vector<ImportEntry>& shown();

@@ -20,7 +20,7 @@ namespace {
 
 constexpr float kGroups = 330;  // [points]: width of the counts at the left
 
-const char* outcome_label(ImportOutcome outcome) {
+const char* outcome_label(importing::ImportOutcome outcome) {
   constexpr const char* kLabels[] = {"Taken", "Repaired", "Skipped"};
   return kLabels[static_cast<int>(outcome)];
 }
@@ -29,39 +29,39 @@ struct RowSign {
   const char* text;
   ImU32 colour;
 };
-RowSign sign_of(const Theme& theme, ImportOutcome outcome) {
+RowSign sign_of(const Theme& theme, importing::ImportOutcome outcome) {
   const Colours& c = theme.colours();
   switch (outcome) {
-    case ImportOutcome::taken: return {icon::kCheck, c.good};
-    case ImportOutcome::repaired: return {icon::kReset, c.warning};
-    case ImportOutcome::skipped: return {icon::kClose, c.bad};
+    case importing::ImportOutcome::taken: return {icon::kCheck, c.good};
+    case importing::ImportOutcome::repaired: return {icon::kReset, c.warning};
+    case importing::ImportOutcome::skipped: return {icon::kClose, c.bad};
   }
   return {icon::kCheck, c.good};
 }
 
-std::string number(std::size_t count) { return report::grouped(static_cast<double>(count)); }
+std::string number(std::size_t count) { return reading::grouped(static_cast<double>(count)); }
 
 // Those of its nodes that are in the scene: an import can have been undone, and nodes removed since.
-std::vector<std::string> nodes_of(const Workbench& editor, const ImportRow& row) {
+std::vector<std::string> nodes_of(const Workbench& editor, const importing::ImportRow& row) {
   std::vector<std::string> nodes;
   std::copy_if(row.made.begin(), row.made.end(), std::back_inserter(nodes),
                [&](const std::string& id) { return editor.scene().nodes.contains(id); });
   return nodes;
 }
 
-std::string place_text(const Workbench& editor, const ImportRow& row) {
+std::string place_text(const Workbench& editor, const importing::ImportRow& row) {
   const std::vector<std::string> nodes = nodes_of(editor, row);
   if (nodes.size() == 1) return editor.name_of(nodes.front());
-  if (nodes.size() > 1) return report::counted(nodes.size(), "node");
+  if (nodes.size() > 1) return reading::counted(nodes.size(), "node");
   if (!row.made.empty() && !row.place) return "removed since";
   if (!row.place) return "no place";
-  return "at " + report::grouped((*row.place)[0], 1) + ", " + report::grouped((*row.place)[1], 1) + " m";
+  return "at " + reading::grouped((*row.place)[0], 1) + ", " + reading::grouped((*row.place)[1], 1) + " m";
 }
 
-std::string title_of(const ImportRow& row) { return row.kind + (row.id.empty() ? "" : " " + row.id); }
+std::string title_of(const importing::ImportRow& row) { return row.kind + (row.id.empty() ? "" : " " + row.id); }
 
 // To its nodes; else a pin to its place; else a sentence why neither can be.
-void go_to(Workbench& editor, const ImportRow& row) {
+void go_to(Workbench& editor, const importing::ImportRow& row) {
   const std::vector<std::string> nodes = nodes_of(editor, row);
   if (!nodes.empty()) {
     editor.picks.links.clear();
@@ -97,7 +97,8 @@ void draw_outcomes(Workbench& editor, ImportList& list) {
     ImGui::SameLine(0, theme.px(4));
   };
   chip(-1, "All", list.total());
-  for (const ImportOutcome outcome : {ImportOutcome::skipped, ImportOutcome::repaired, ImportOutcome::taken})
+  for (const importing::ImportOutcome outcome :
+       {importing::ImportOutcome::skipped, importing::ImportOutcome::repaired, importing::ImportOutcome::taken})
     chip(static_cast<int>(outcome), outcome_label(outcome), list.count(outcome));
   ImGui::PopFont();
 }
@@ -129,7 +130,7 @@ void draw_groups(Workbench& editor, ImportList& list, float width) {
                  fitted(group.kind + ": " + group.reason, room - count_width - theme.px(44)).c_str());
     draw.AddText({at.x + room - count_width - theme.px(8), y}, c.text_soft, count.c_str());
     if (is_hovered)
-      card(editor, std::string(outcome_label(group.outcome)) + ": " + report::counted(group.count, group.kind), group.reason);
+      card(editor, std::string(outcome_label(group.outcome)) + ": " + reading::counted(group.count, group.kind), group.reason);
     ImGui::PopID();
     ImGui::SetCursorScreenPos({at.x, at.y + height});
   }
@@ -139,7 +140,7 @@ void draw_groups(Workbench& editor, ImportList& list, float width) {
 void draw_row(Workbench& editor, const ImportEntry& entry, int index, bool has_files) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
-  const ImportRow& row = *entry.row;
+  const importing::ImportRow& row = *entry.row;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::PushID(index);
@@ -240,7 +241,7 @@ void draw_imports(Workbench& editor) {
   note_place(editor, "import/csv");
   ImGui::SameLine(0, theme.px(12));
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", report::counted(list.shown().size(), "row").c_str());
+  ImGui::TextDisabled("%s", reading::counted(list.shown().size(), "row").c_str());
   // Counts take a third of a narrow pane at most.
   draw_groups(editor, list, std::min(theme.px(kGroups), 0.34f * ImGui::GetContentRegionAvail().x));
   ImGui::SameLine(0, theme.px(10));

@@ -54,7 +54,7 @@ class InspectorView {
   /// Indices of the links that start or end at the only chosen node.
   const std::vector<std::size_t>& touching(const State& state);
   /// Who pulls on a setting of the only chosen node.
-  const report::ConflictRow& pulls(const State& state, PortRef ref);
+  const reading::ConflictRow& pulls(const State& state, PortRef ref);
 
  private:
   void merge_nodes(const Workbench& editor);
@@ -67,7 +67,7 @@ class InspectorView {
   const LinkDefinition* kind_ = nullptr;
   std::vector<SharedPort> parameters_;
   std::shared_ptr<const State> state_;
-  std::map<PortRef, report::ConflictRow> pulls_;
+  std::map<PortRef, reading::ConflictRow> pulls_;
   std::shared_ptr<const Plan> touched_plan_;  ///< held, so that no other plan can have its address
   std::string touched_node_;
   std::vector<std::size_t> touching_;

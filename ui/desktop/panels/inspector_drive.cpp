@@ -22,8 +22,8 @@ using reading::port_name_of;
 bool can_be_driven(const Workbench& editor, const PortDefinition& port) {
   const bool is_choosing = port.rule == CombineRule::blend || port.rule == CombineRule::min || port.rule == CombineRule::max;
   return port.kind == ValueKind::number && is_choosing &&
-         editor.types().typification(reading::type_of<FormulaSettings>()) != nullptr &&
-         editor.types().link(reading::type_of<CarriedPort>()) != nullptr;
+         editor.types().typification(reading::type_of<reading::FormulaSettings>()) != nullptr &&
+         editor.types().link(reading::type_of<reading::CarriedPort>()) != nullptr;
 }
 
 // The formula begins as `a`, with the number that stands there now: nothing jumps, and the formula is then changed in its own
@@ -39,19 +39,19 @@ void drive_by_expression(Workbench& editor, const std::string& node, const std::
   if (const auto base = record->second.types.find(std::string(kBaseNode)); base != record->second.types.end())
     for (const auto& [id, value] : base->second)
       if (const auto* at = std::get_if<Vector3>(&value)) position = {at->x, at->y, at->z + 10};
-  const Json formula = {{port_name_of<&FormulaSettings::formula>(), port_name_of<&FormulaSettings::a>()},
-                        {port_name_of<&FormulaSettings::a>(), now},
-                        {port_name_of<&FormulaSettings::a_unit>(), symbol},
-                        {port_name_of<&FormulaSettings::unit>(), symbol}};
+  const Json formula = {{port_name_of<&reading::FormulaSettings::formula>(), port_name_of<&reading::FormulaSettings::a>()},
+                        {port_name_of<&reading::FormulaSettings::a>(), now},
+                        {port_name_of<&reading::FormulaSettings::a_unit>(), symbol},
+                        {port_name_of<&reading::FormulaSettings::unit>(), symbol}};
   const Json made = {{"name", label_of(port) + " of " + subject},
                      {"position", position},
-                     {"types", {{reading::type_of<FormulaSettings>(), formula}}}};
-  const Json laid = {{"kind", reading::type_of<CarriedPort>()},
+                     {"types", {{reading::type_of<reading::FormulaSettings>(), formula}}}};
+  const Json laid = {{"kind", reading::type_of<reading::CarriedPort>()},
                      {"from", expression},
                      {"to", node},
                      {"parameters",
-                      {{port_name_of<&CarriedPort::source>(), path_of<&FormulaSettings::result>()},
-                       {port_name_of<&CarriedPort::target>(), path}}}};
+                      {{port_name_of<&reading::CarriedPort::source>(), path_of<&reading::FormulaSettings::result>()},
+                       {port_name_of<&reading::CarriedPort::target>(), path}}}};
   std::vector<Command> commands{command<AddNode>({expression, JsonValue::of(made)}),
                                 command<AddLink>({link, JsonValue::of(laid)})};
   // A value that is set would be blended with the formula's: the formula shall have its way.

@@ -13,7 +13,7 @@ namespace {
 // As many digits as one reads at a glance; what was set is shown exactly, what became of it need not be.
 std::string glance(const Value& value, const PortDefinition& port) {
   if (const auto* number = std::get_if<double>(&value); number != nullptr && !is_no_limit(port, *number))
-    return report::quantity(as_number(value), port.unit);
+    return reading::quantity(as_number(value), port.unit);
   return value_text(value, port, port.unit);
 }
 
@@ -28,12 +28,12 @@ bool differs(const Value& set, const Value& effective) {
 }
 
 // "cap (Set cap) and brief (Demand)", each link once.
-std::string movers(const State& state, const report::ConflictRow& row) {
+std::string movers(const State& state, const reading::ConflictRow& row) {
   constexpr std::size_t kNamed = 4;
   std::vector<std::string> names;
   for (const std::string& id : row.links) {
     if (id.empty()) continue;
-    const std::size_t at = report::link_index(*state.plan, id);
+    const std::size_t at = reading::link_index(*state.plan, id);
     const LinkDefinition* kind = at < state.plan->links.size() ? state.plan->links[at].definition : nullptr;
     std::string name = id + (kind != nullptr ? " (" + kind->label + ")" : "");
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
@@ -65,10 +65,10 @@ void draw_effective(Workbench& editor, InspectorView& view, PortRef ref, const V
   const TypePlan& type = state.plan->nodes[ref.node].types[ref.type];
   const Value& effective = state.value(ref);
   const double tension = state.nodes[ref.node].types[ref.type].tension[ref.port];
-  const double severity = report::severity_of(state, ref, tension);
-  const bool is_tense = severity >= report::kMinorSeverity, is_moved = state.tick > 0 && differs(set, effective);
+  const double severity = reading::severity_of(state, ref, tension);
+  const bool is_tense = severity >= reading::kMinorSeverity, is_moved = state.tick > 0 && differs(set, effective);
   if (!is_tense && !is_moved) return;
-  const report::ConflictRow& row = view.pulls(state, ref);
+  const reading::ConflictRow& row = view.pulls(state, ref);
   const Colours& c = editor.theme.colours();
   ImGui::BeginGroup();
   if (is_tense) draw_tension_bar(editor.theme, width, severity);
@@ -90,7 +90,7 @@ void draw_effective(Workbench& editor, InspectorView& view, PortRef ref, const V
                       (type.is_set[ref.port] ? "" : " (the default, which has no voice)") + "  \xE2\x86\x92  effective " +
                       glance(effective, port);
   if (is_tense)
-    facts += "\ntension " + report::quantity(tension, port.unit) + ", " + report::percent(severity) + " of what is pulled at";
+    facts += "\ntension " + reading::quantity(tension, port.unit) + ", " + reading::percent(severity) + " of what is pulled at";
   card(editor, is_tense ? "Who pulls here" : "What moves it", text, facts);
 }
 

@@ -46,7 +46,7 @@ bool is_unfolded(Workbench& editor, const Grid& grid, bool is_mixed, float width
   const ImU32 colour = ImGui::IsItemHovered() ? c.accent : c.text_faint;
   if (is_open) list.AddTriangleFilled({x - r, middle - r / 2}, {x + r, middle - r / 2}, {x, middle + r}, colour);
   else list.AddTriangleFilled({x - r / 2, middle - r}, {x - r / 2, middle + r}, {x + r, middle}, colour);
-  const std::string text = is_mixed ? "several" : grid.rows == 0 ? "none" : report::counted(grid.rows, grid.noun);
+  const std::string text = is_mixed ? "several" : grid.rows == 0 ? "none" : reading::counted(grid.rows, grid.noun);
   list.AddText({at.x + theme.px(15), at.y + ImGui::GetStyle().FramePadding.y}, grid.is_fixed ? c.text_soft : c.text,
                text.c_str());
   return is_open && !is_mixed;
@@ -78,9 +78,9 @@ bool read_field(Workbench& editor, const Grid& grid, const ColumnDefinition& col
 
 std::string field_text(const Scalar& field, bool is_fixed) {
   if (const double* number = std::get_if<double>(&field))
-    return is_fixed ? report::readable(*number) : shown_number(*number, Unit::none);
-  if (const auto* numbers = std::get_if<Numbers>(&field)) return report::counted((*numbers)->size(), "number");
-  if (const auto* indices = std::get_if<Indices>(&field)) return report::counted((*indices)->size(), "number");
+    return is_fixed ? reading::readable(*number) : shown_number(*number, Unit::none);
+  if (const auto* numbers = std::get_if<Numbers>(&field)) return reading::counted((*numbers)->size(), "number");
+  if (const auto* indices = std::get_if<Indices>(&field)) return reading::counted((*indices)->size(), "number");
   return std::get<std::string>(field);
 }
 

@@ -45,16 +45,16 @@ void draw_ends(Workbench& editor, const InspectorView& view) {
   if (view.links().size() != 1 || view.kind() == nullptr) return;
   const std::string& id = view.links().front();
   const LinkRecord link = editor.scene().links.at(id);
-  const std::size_t at = report::link_index(*editor.state().plan, id);
+  const std::size_t at = reading::link_index(*editor.state().plan, id);
   float width = 0;
   for (const End end : {End::from, End::to}) {
     const bool is_from = end == End::from;
     const std::size_t count = at < editor.state().links.size() ? editor.state().plan->links[at].nodes[is_from ? 0 : 1].size() : 0;
     begin_row(editor, is_from ? "from" : "to", is_from ? "From" : "To",
-              is_from ? "Where the link starts." : "Where the link ends.", report::counted(count, "node") + " now", {}, width);
+              is_from ? "Where the link starts." : "Where the link ends.", reading::counted(count, "node") + " now", {}, width);
     const Selection& now = is_from ? link.from : link.to;
     const auto chosen = selection_field(editor, is_from ? "from" : "to", now, false, width);
-    if (now.is_query()) small_text(editor, report::counted(count, "node"), editor.theme.colours().text_faint, width);
+    if (now.is_query()) small_text(editor, reading::counted(count, "node"), editor.theme.colours().text_faint, width);
     end_row();
     if (chosen) editor.submit(command<SetLinkEnds>({id, is_from ? *chosen : link.from, is_from ? link.to : *chosen}));
   }
@@ -172,7 +172,7 @@ void draw_parameters(Workbench& editor, const InspectorView& view) {
 void draw_voices(Workbench& editor, const std::string& id) {
   const State& state = editor.state();
   const Colours& c = editor.theme.colours();
-  const std::size_t at = report::link_index(*state.plan, id);
+  const std::size_t at = reading::link_index(*state.plan, id);
   if (at >= state.links.size()) return;
   const auto& error = state.links[at].error ? state.links[at].error : state.plan->links[at].error;
   if (error) small_text(editor, std::string(icon::kError) + "  " + error->text(), c.bad);
@@ -199,11 +199,11 @@ void draw_voices(Workbench& editor, const std::string& id) {
     Voice plain = voice;
     plain.strength = 1;
     const bool is_silent = state.plan->port(voice.target).rule == CombineRule::sum && voice.magnitude < 5e-4;
-    const std::string says = is_silent ? std::string("hardly anything") : report::voice_text(state, plain);
+    const std::string says = is_silent ? std::string("hardly anything") : reading::voice_text(state, plain);
     const CellEvent event = cell(editor, key, port + ": " + says, "", width, look);
     if (event.is_hovered) {
       editor.picks.hovered_node = state.plan->nodes[to].id;
-      card(editor, state.plan->nodes[to].name + " \xC2\xB7 " + port, report::voice_text(state, voice), "press to go there");
+      card(editor, state.plan->nodes[to].name + " \xC2\xB7 " + port, reading::voice_text(state, voice), "press to go there");
       if (ImGui::IsMouseClicked(0)) editor.picks.only_node(state.plan->nodes[to].id);
     }
     end_row();
@@ -262,7 +262,7 @@ void inspect_links(Workbench& editor, InspectorView& view) {
   const LinkDefinition* kind = view.kind();
   const std::string title = kind != nullptr ? kind->label : "Links of several kinds";
   const Family family = editor.theme.family_of(kind);
-  heading(editor, is_single ? title : report::counted(view.links().size(), "link"), is_single ? view.links().front() : title,
+  heading(editor, is_single ? title : reading::counted(view.links().size(), "link"), is_single ? view.links().front() : title,
           kind != nullptr ? family.colour : 0);
   if (kind != nullptr && is_single) {
     small_text(editor, kind->doc, editor.theme.colours().text_soft);

@@ -205,7 +205,7 @@ void inspect_nodes(Workbench& editor, InspectorView& view) {
     const std::string& id = view.nodes().front();
     heading(editor, editor.name_of(id), id);
   } else {
-    heading(editor, report::counted(count, "node"), "edited together; what differs shows as several");
+    heading(editor, reading::counted(count, "node"), "edited together; what differs shows as several");
   }
   draw_name(editor, view);
   for (const SharedType& shared : view.types()) draw_type(editor, view, shared);

@@ -228,7 +228,7 @@ Result<double> typed_number(std::string_view text, Unit unit, double now) {
 }
 
 std::string shown_number(double value, Unit unit) {
-  const UnitInfo& handy = report::handy_unit(value, unit);
+  const UnitInfo& handy = reading::handy_unit(value, unit);
   const bool is_scaled = handy.scale != info(unit).scale;
   value /= handy.scale / info(unit).scale;
   const double size = std::abs(value);
@@ -240,7 +240,7 @@ std::string shown_number(double value, Unit unit) {
     int decimals = 0;
     for (double scale = 1; decimals < most && std::abs(std::round(value * scale) / scale - value) > 1e-9 * size; scale *= 10)
       ++decimals;
-    text = report::grouped(value, decimals);
+    text = reading::grouped(value, decimals);
   }
   const std::string symbol(handy.pretty);
   return symbol.empty() ? text : text + "\xC2\xA0" + symbol;

@@ -36,7 +36,7 @@ void inspect_scene(Workbench& editor) {
   const auto title = scene.settings.find("title");
   const auto* text = title == scene.settings.end() ? nullptr : std::get_if<std::string>(&title->second);
   heading(editor, text != nullptr && !text->empty() ? *text : editor.document->name(),
-          report::counted(scene.nodes.size(), "node") + ", " + report::counted(scene.links.size(), "link"));
+          reading::counted(scene.nodes.size(), "node") + ", " + reading::counted(scene.links.size(), "link"));
   for (const PortDefinition& port : type.ports) {
     const std::string key = "settings." + port.id;
     const auto found = scene.settings.find(port.id);

@@ -103,7 +103,7 @@ std::optional<Selection> selection_field(Workbench& editor, const std::string& k
   std::string shown = is_mixed             ? "several"
                       : labels.empty()     ? "choose nodes"
                       : labels.size() == 1 ? "one node"
-                                           : report::counted(labels.size(), "node");
+                                           : reading::counted(labels.size(), "node");
   if (!is_mixed && selection.is_query()) shown = labels.front() + (labels.size() > 1 ? " " + labels.back() : "");
   if (begin_list(editor, key, shown, width, labels.empty() ? editor.theme.colours().text_faint : 0)) {
     chosen = selection_list(editor, selection);

@@ -252,18 +252,18 @@ std::optional<Change> point_field(Workbench& editor, const Subject& subject, flo
 std::string value_text(const Value& value, const PortDefinition& port, Unit unit) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "on" : "off";
   if (const auto* point = std::get_if<Vector3>(&value)) {
-    const auto coordinate = [](double x) { return report::grouped(x, 2); };
+    const auto coordinate = [](double x) { return reading::grouped(x, 2); };
     return coordinate(point->x) + ", " + coordinate(point->y) + ", " + coordinate(point->z) + " m";
   }
   if (const auto* mesh = std::get_if<MeshPointer>(&value))
-    return *mesh ? report::grouped(static_cast<double>((*mesh)->vertices.size())) + " vertices, " +
-                       report::counted((*mesh)->triangles.size(), "triangle")
+    return *mesh ? reading::grouped(static_cast<double>((*mesh)->vertices.size())) + " vertices, " +
+                       reading::counted((*mesh)->triangles.size(), "triangle")
                  : "none";
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  if (const auto* numbers = std::get_if<Numbers>(&value)) return report::counted((*numbers)->size(), "number");
+  if (const auto* numbers = std::get_if<Numbers>(&value)) return reading::counted((*numbers)->size(), "number");
   if (port.kind == ValueKind::made) return std::string(kind_text(port.kind, port.made));
-  if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) return report::counted((*points)->size(), "point");
-  if (const auto* table = std::get_if<Shared<Table>>(&value)) return report::counted((*table)->rows.size(), "row");
+  if (const auto* points = std::get_if<Shared<std::vector<Point3>>>(&value)) return reading::counted((*points)->size(), "point");
+  if (const auto* table = std::get_if<Shared<Table>>(&value)) return reading::counted((*table)->rows.size(), "row");
   if (const auto* texts = std::get_if<Shared<std::vector<std::string>>>(&value)) {
     std::string all;
     for (const std::string& one : **texts) all += (all.empty() ? "" : ", ") + one;
@@ -271,13 +271,13 @@ std::string value_text(const Value& value, const PortDefinition& port, Unit unit
   }
   if (const auto* selection = std::get_if<Shared<Selection>>(&value)) {
     if ((*selection)->is_query()) return (*selection)->typification + " " + (*selection)->tag;
-    return report::counted((*selection)->ids.size(), "node");
+    return reading::counted((*selection)->ids.size(), "node");
   }
   if (port.kind == ValueKind::number && is_no_limit(port, as_number(value))) return kNoLimit;
   if (port.kind == ValueKind::number && !port.is_computed) return shown_number(as_number(value), unit);
-  if (std::holds_alternative<std::int64_t>(value)) return report::grouped(as_number(value));
-  if (unit == Unit::ratio) return report::percent(as_number(value));
-  return report::quantity(as_number(value), unit);
+  if (std::holds_alternative<std::int64_t>(value)) return reading::grouped(as_number(value));
+  if (unit == Unit::ratio) return reading::percent(as_number(value));
+  return reading::quantity(as_number(value), unit);
 }
 
 std::optional<Change> value_field(Workbench& editor, const Subject& subject, float width) {

@@ -143,11 +143,12 @@ const std::vector<std::size_t>& InspectorView::touching(const State& state) {
   return touching_;
 }
 
-const report::ConflictRow& InspectorView::pulls(const State& state, PortRef ref) {
+const reading::ConflictRow& InspectorView::pulls(const State& state, PortRef ref) {
   const auto found = pulls_.find(ref);
   if (found != pulls_.end()) return found->second;
   const double tension = state.nodes[ref.node].types[ref.type].tension[ref.port];
-  return pulls_.emplace(ref, report::conflict_row(state, {ref, tension, report::severity_of(state, ref, tension)})).first->second;
+  return pulls_.emplace(ref, reading::conflict_row(state, {ref, tension, reading::severity_of(state, ref, tension)}))
+      .first->second;
 }
 
 }  // namespace bl::desktop

@@ -47,7 +47,7 @@ void draw_filters(Workbench& editor, ProblemList& problems) {
     const bool is_on = problems.filter == k;
     ImGui::PushStyleColor(ImGuiCol_Button, is_on ? c.accent_soft : c.raised);
     ImGui::PushStyleColor(ImGuiCol_Text, is_on ? c.text : c.text_soft);
-    const std::string text = std::string(k < 0 ? "All" : label_of(kind)) + "  " + report::grouped(static_cast<double>(count)) +
+    const std::string text = std::string(k < 0 ? "All" : label_of(kind)) + "  " + reading::grouped(static_cast<double>(count)) +
                              "###filter" + std::to_string(k);
     if (ImGui::Button(text.c_str())) problems.filter = is_on ? -1 : k;
     note_place(editor, "problems/filter/" + std::string(k < 0 ? "All" : label_of(kind)));

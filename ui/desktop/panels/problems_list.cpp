@@ -17,7 +17,7 @@ namespace {
 constexpr double kMargin = 0.35;
 
 int band_of(double severity, const int* before) {
-  const double exact = std::log2(severity / report::kMinorSeverity);
+  const double exact = std::log2(severity / reading::kMinorSeverity);
   const int band = static_cast<int>(std::floor(exact));
   if (before == nullptr) return band;
   return exact > *before - kMargin && exact < *before + 1 + kMargin ? *before : band;
@@ -26,18 +26,18 @@ int band_of(double severity, const int* before) {
 std::string number_word(std::size_t count) {
   constexpr const char* kWords[] = {"No",    "One",   "Two",  "Three", "Four",   "Five",  "Six",
                                     "Seven", "Eight", "Nine", "Ten",   "Eleven", "Twelve"};
-  return count < std::size(kWords) ? kWords[count] : report::grouped(static_cast<double>(count));
+  return count < std::size(kWords) ? kWords[count] : reading::grouped(static_cast<double>(count));
 }
 
 // What is missing, by the measure of which the larger share is.
-std::string missing_words(const report::Account& account) {
+std::string missing_words(const reading::Account& account) {
   const double by_volume = account.asked > 0 ? account.missing() / account.asked : 0;
   const bool is_area = account.is_by_area && account.short_share() > by_volume;
   const Unit unit = is_area ? Unit::square_metre : Unit::cubic_metre;
   const double asked = is_area ? account.asked_area : account.asked, had = is_area ? account.floor_area : account.volume;
-  return "asked for are " + report::quantity(asked, unit) + (is_area ? " of floor area" : "") + ", there are " +
-         report::quantity(had, unit) + ": " + report::quantity(asked - had, unit) + " (" +
-         report::percent(account.short_share()) + ") go without";
+  return "asked for are " + reading::quantity(asked, unit) + (is_area ? " of floor area" : "") + ", there are " +
+         reading::quantity(had, unit) + ": " + reading::quantity(asked - had, unit) + " (" +
+         reading::percent(account.short_share()) + ") go without";
 }
 
 // Names and reasons come from data, and data can be long: as much as errors quote.
@@ -54,7 +54,7 @@ std::string lower_first(std::string text) {
 
 // A link that fails, or one that runs and says what it cannot reach.
 std::string what_of(const State& state, const std::string& link) {
-  if (const std::size_t l = report::link_index(*state.plan, link); l < state.links.size() && state.links[l].remark)
+  if (const std::size_t l = reading::link_index(*state.plan, link); l < state.links.size() && state.links[l].remark)
     return state.links[l].remark == LinkRemark::unmet ? "A rule cannot be met" : "Somebody goes without what is asked for";
   return "Link " + link + " fails";
 }
@@ -84,9 +84,9 @@ std::size_t ProblemList::pressing() const { return items_.size() - count(Problem
 void ProblemList::add_conflicts(const State& state) {
   std::map<PortRef, int> bands;
   std::vector<std::size_t> order;
-  for (const report::TensePort& tense : report::tense_ports(state)) {
+  for (const reading::TensePort& tense : reading::tense_ports(state)) {
     // What was before decides on places in the list alone, never on what is listed.
-    if (tense.severity < report::kMinorSeverity) continue;
+    if (tense.severity < reading::kMinorSeverity) continue;
     const auto before = bands_.find(tense.ref);
     const int band = std::max(0, band_of(tense.severity, before != bands_.end() ? &before->second : nullptr));
     bands.emplace(tense.ref, band);
@@ -104,15 +104,15 @@ void ProblemList::add_conflicts(const State& state) {
 
 void ProblemList::write(const State& state, ProblemItem& item) const {
   if (item.kind == ProblemKind::shortage && item.why.empty()) {
-    for (const report::UseAccount& use : accounts_.uses)
-      if (item.key == "use/" + use.use) item.why = report::why_short(state, accounts_, use);
-    for (const report::VolumeAccount& volume : accounts_.volumes)
-      if (item.key == "volume/" + state.plan->nodes[volume.node].id) item.why = report::why_short(state, accounts_, volume);
+    for (const reading::UseAccount& use : accounts_.uses)
+      if (item.key == "use/" + use.use) item.why = reading::why_short(state, accounts_, use);
+    for (const reading::VolumeAccount& volume : accounts_.volumes)
+      if (item.key == "volume/" + state.plan->nodes[volume.node].id) item.why = reading::why_short(state, accounts_, volume);
     if (!item.why.empty()) item.text += "; " + item.why;
     bound(item);
   }
   if (item.kind != ProblemKind::conflict || !item.text.empty()) return;
-  const report::ConflictRow row = report::conflict_row(state, item.tense);
+  const reading::ConflictRow row = reading::conflict_row(state, item.tense);
   const PortDefinition& port = state.plan->port(item.tense.ref);
   std::set<std::string> links(row.links.begin(), row.links.end());
   links.erase("");
@@ -128,13 +128,13 @@ void ProblemList::write(const State& state, ProblemItem& item) const {
 
 // Uses first; then volumes whose use is not listed, or all where a solver says that not everything can be had. One account
 // decides who is short, here as in colours, statistics and report.
-void ProblemList::add_shortages(const State& state, const report::ReportModel& figures) {
+void ProblemList::add_shortages(const State& state, const reading::ReportModel& figures) {
   accounts_ = figures.accounts;
   if (state.tick == 0) return;
   std::set<std::string> listed_uses;
   const bool is_too_small = std::any_of(items_.begin(), items_.end(),
                                         [](const ProblemItem& i) { return i.kind == ProblemKind::shortage && i.is_error; });
-  const auto add = [&](const std::string& key, const report::Account& account, const std::string& subject) -> ProblemItem* {
+  const auto add = [&](const std::string& key, const reading::Account& account, const std::string& subject) -> ProblemItem* {
     if (!account.is_short(accounts_.tolerance)) return nullptr;
     ProblemItem item;
     item.kind = ProblemKind::shortage;
@@ -143,17 +143,17 @@ void ProblemList::add_shortages(const State& state, const report::ReportModel& f
     item.text = missing_words(account);
     return &items_.emplace_back(std::move(item));
   };
-  for (const report::UseAccount& use : accounts_.uses) {
+  for (const reading::UseAccount& use : accounts_.uses) {
     ProblemItem* item =
         add("use/" + use.use, use, use.use.empty() ? "Not all without a use can be had" : "Not all " + use.use + " can be had");
     if (item == nullptr) continue;
     listed_uses.insert(use.use);
-    item->text += ", in " + report::counted(use.volumes, "volume");
-    for (const report::VolumeRow& volume : figures.volumes)
+    item->text += ", in " + reading::counted(use.volumes, "volume");
+    for (const reading::VolumeRow& volume : figures.volumes)
       if (volume.use == use.use && (use.short_volumes == 0 || volume.is_short(accounts_.tolerance)))
         item->nodes.push_back(volume.id);
   }
-  for (const report::VolumeRow& volume : figures.volumes) {
+  for (const reading::VolumeRow& volume : figures.volumes) {
     // Who has no shape stands among those without room, with the reason.
     const bool is_told = (listed_uses.contains(volume.use) && !is_too_small) ||
                          (volume.figures.state != "alive" && !volume.figures.reason.empty());
@@ -162,9 +162,9 @@ void ProblemList::add_shortages(const State& state, const report::ReportModel& f
   }
 }
 
-void ProblemList::add_failures(const State& state, const report::ReportModel& problems) {
+void ProblemList::add_failures(const State& state, const reading::ReportModel& problems) {
   for (const bool is_shortage : {true, false})
-    for (const report::ProblemRow& row : problems.problems) {
+    for (const reading::ProblemRow& row : problems.problems) {
       if (row.is_place || row.is_shortage != is_shortage || (is_shortage && state.tick == 0)) continue;
       // Ghosts hinder nobody: they stand among what does not run.
       if (const auto& links = state.plan->scene.links;
@@ -184,9 +184,9 @@ void ProblemList::add_failures(const State& state, const report::ReportModel& pr
     }
 }
 
-void ProblemList::add_volumes(const State& state, const report::ReportModel& figures) {
+void ProblemList::add_volumes(const State& state, const reading::ReportModel& figures) {
   if (state.tick == 0) return;
-  for (const report::VolumeRow& volume : figures.volumes) {
+  for (const reading::VolumeRow& volume : figures.volumes) {
     if (volume.figures.state == "alive" || volume.figures.reason.empty()) continue;
     ProblemItem item;
     item.kind = ProblemKind::no_room;
@@ -199,7 +199,7 @@ void ProblemList::add_volumes(const State& state, const report::ReportModel& fig
 }
 
 void ProblemList::add_places(const State& state) {
-  for (report::PlaceProblem& problem : report::place_problems(state)) {
+  for (reading::PlaceProblem& problem : reading::place_problems(state)) {
     // Heights change from tick to tick, who hangs does not.
     ProblemItem item;
     item.kind = ProblemKind::place;
@@ -256,7 +256,7 @@ void ProblemList::add_file(const Workbench& editor) {
   }
 }
 
-void ProblemList::refresh(const Workbench& editor, const report::ReportModel& figures) {
+void ProblemList::refresh(const Workbench& editor, const reading::ReportModel& figures) {
   const std::shared_ptr<const State> state = editor.moment ? editor.moment->state : nullptr;
   if (state == state_ && revision_ == editor.problems_revision) return;
   if (state && state->plan.get() != plan_) bands_.clear();
@@ -266,8 +266,8 @@ void ProblemList::refresh(const Workbench& editor, const report::ReportModel& fi
   items_.clear();
   if (state) {
     add_conflicts(*state);
-    report::ReportModel problems;
-    report::read_problems(*state, problems);
+    reading::ReportModel problems;
+    reading::read_problems(*state, problems);
     add_failures(*state, problems);
     add_shortages(*state, figures);
     add_volumes(*state, figures);

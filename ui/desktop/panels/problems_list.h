@@ -23,7 +23,7 @@ struct ProblemItem {
   int band = 0;     ///< how bad, in steps: the worse come first within their kind
   bool is_error = false;
   std::string subject, text;  ///< what it is about, and the sentence; of conflicts made when they are seen
-  report::TensePort tense;    ///< of conflicts
+  reading::TensePort tense;   ///< of conflicts
   std::string why;            ///< of shortages of a use ("use/...") or a volume ("volume/..."): filled when it is seen
   std::vector<std::string> nodes, links;  ///< where a press goes
 };
@@ -31,13 +31,13 @@ struct ProblemItem {
 class ProblemList {
  public:
   /// Reads the state again where it is another one.
-  void refresh(const Workbench& editor, const report::ReportModel& figures);
+  void refresh(const Workbench& editor, const reading::ReportModel& figures);
   const std::vector<ProblemItem>& items() const { return items_; }
   std::size_t count(ProblemKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
   /// How many want to be looked at: all but what people have switched off themselves.
   std::size_t pressing() const;
   /// What was asked for and what there is, of the state that was read last.
-  const report::Accounts& accounts() const { return accounts_; }
+  const reading::Accounts& accounts() const { return accounts_; }
   /// Subject and sentence of an item.
   void write(const State& state, ProblemItem& item) const;
 
@@ -45,9 +45,9 @@ class ProblemList {
 
  private:
   void add_conflicts(const State& state);
-  void add_shortages(const State& state, const report::ReportModel& figures);
-  void add_failures(const State& state, const report::ReportModel& problems);
-  void add_volumes(const State& state, const report::ReportModel& figures);
+  void add_shortages(const State& state, const reading::ReportModel& figures);
+  void add_failures(const State& state, const reading::ReportModel& problems);
+  void add_volumes(const State& state, const reading::ReportModel& figures);
   void add_places(const State& state);
   void add_idle(const State& state);
   void add_file(const Workbench& editor);
@@ -58,7 +58,7 @@ class ProblemList {
   const Plan* plan_ = nullptr;
   std::uint64_t revision_ = static_cast<std::uint64_t>(-1);  ///< of the file's problems
   std::map<PortRef, int> bands_;
-  report::Accounts accounts_;
+  reading::Accounts accounts_;
 };
 
 /// What stands where the list is empty: whoever is short is listed, so that everybody has room there.

@@ -78,10 +78,10 @@ void add_pieces(const Mesh& mesh, std::size_t colour, std::vector<Piece>& pieces
   }
 }
 
-std::vector<Piece> pieces_of(const State& state, const report::ReportModel& model) {
+std::vector<Piece> pieces_of(const State& state, const reading::ReportModel& model) {
   const UseNumbers numbers(state.plan->scene);
   std::vector<Piece> pieces;
-  for (const report::VolumeRow& row : model.volumes) {
+  for (const reading::VolumeRow& row : model.volumes) {
     const double radius = row.figures.radius;
     if (row.mesh) add_pieces(*row.mesh, numbers.of(row.use), pieces);
     else if (row.volume > 0 && radius > 0) add_pieces(ball(row.figures.position, radius), numbers.of(row.use), pieces);
@@ -96,10 +96,10 @@ namespace {
 
 using Lines = std::vector<std::vector<Projected>>;
 
-Lines ground_lines(const report::ReportModel& model) {
+Lines ground_lines(const reading::ReportModel& model) {
   Lines lines;
-  for (const report::SiteRow& site : model.sites)
-    for (const Polyline& line : site.ground) {
+  for (const reading::SiteRow& site : model.sites)
+    for (const geometry::Polyline& line : site.ground) {
       lines.emplace_back();
       for (const Point3& point : line.points) lines.back().push_back(project({point.x, point.y, site.bottom}));
     }
@@ -111,7 +111,7 @@ Lines street_lines(const State& state) {
   for (const StreetFacts& street : read_urban(state, nullptr).streets) {
     const auto place = [&](std::uint32_t node) { return reading::read<&reading::NodePlace::position>(state, node); };
     lines.emplace_back();
-    for (const Point3& point : street_line(place(street.start), street.course, place(street.end)))
+    for (const Point3& point : traffic::street_line(place(street.start), street.course, place(street.end)))
       lines.back().push_back(project(point));
   }
   return lines;
@@ -120,8 +120,8 @@ Lines street_lines(const State& state) {
 }  // namespace
 
 ScenePicture picture_of(const State& state) {
-  report::ReportModel model;
-  report::read_model(state, model);
+  reading::ReportModel model;
+  reading::read_model(state, model);
   ScenePicture picture;
   picture.title = model.title;
   picture.about = model.about;

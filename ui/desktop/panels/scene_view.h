@@ -176,7 +176,7 @@ class SceneView {
   void draw_sun_strip();
   void draw_sun_words(const SunFacts& sun, const ImVec2& corner);
   void draw_sun_track(const SunFacts& sun, const ImVec2& corner, float length);
-  const SunDay& day_of(const SunPlace& place, DayNumber day);
+  const sun::SunDay& day_of(const sun::SunPlace& place, sun::DayNumber day);
 
   // scene_view_card.cpp
   const VolumeFacts* nearest_volume() const;
@@ -238,8 +238,8 @@ class SceneView {
   std::optional<SunClock> preview_;
   bool is_sun_running_ = false;
   ShadeStore shade_;
-  std::optional<std::pair<SunPlace, DayNumber>> day_key_;  ///< of `day_`
-  SunDay day_;
+  std::optional<std::pair<sun::SunPlace, sun::DayNumber>> day_key_;  ///< of `day_`
+  sun::SunDay day_;
   ImVec4 sun_track_{}, sun_button_{};
   std::shared_ptr<const State> reach_state_;  ///< of choices_.isochrones, also where there are none
   std::pair<std::uint32_t, bool> reach_key_{};

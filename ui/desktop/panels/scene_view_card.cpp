@@ -50,8 +50,8 @@ std::vector<std::string> SceneView::pulls_on(std::uint32_t node) const {
       const double size = change != nullptr ? norm(*change) : std::abs(as_number(voice.value));
       if (!(size > (change != nullptr ? kLeastPull : 0))) continue;
       // Changes of the place first: they are what is seen here.
-      const std::string what = change != nullptr ? report::quantity(size, port.unit) + " a tick"
-                                                 : label_of(port.id) + " " + report::quantity(as_number(voice.value), port.unit);
+      const std::string what = change != nullptr ? reading::quantity(size, port.unit) + " a tick"
+                                                 : label_of(port.id) + " " + reading::quantity(as_number(voice.value), port.unit);
       found.emplace_back(change != nullptr ? 1e12 + size : size * voice.strength,
                          state.plan->links[l].definition->label + ": " + what);
     }
@@ -108,13 +108,13 @@ void SceneView::draw_card() {
       }
     }
     card.y += theme.px(kBarHeight + 6);
-    card.row(c.text_soft, c.text, "Volume", report::quantity(volume.volume, Unit::cubic_metre));
-    card.row(c.text_soft, c.text, "Asked for", report::quantity(volume.asked, Unit::cubic_metre));
+    card.row(c.text_soft, c.text, "Volume", reading::quantity(volume.volume, Unit::cubic_metre));
+    card.row(c.text_soft, c.text, "Asked for", reading::quantity(volume.asked, Unit::cubic_metre));
     if (volume.withheld() > facts_->tolerance * volume.asked)
-      card.row(c.text_soft, c.warning, "Limited to", report::quantity(volume.limited, Unit::cubic_metre));
+      card.row(c.text_soft, c.warning, "Limited to", reading::quantity(volume.limited, Unit::cubic_metre));
     card.row(c.text_soft, standing, standing_share < 0 ? "Short" : "Difference",
-             volume.asked > 0 ? report::signed_percent(standing_share) : "asks for nothing");
-    card.row(c.text_soft, c.text, "Floor area", report::quantity(volume.floor_area, Unit::square_metre));
+             volume.asked > 0 ? reading::signed_percent(standing_share) : "asks for nothing");
+    card.row(c.text_soft, c.text, "Floor area", reading::quantity(volume.floor_area, Unit::square_metre));
     if (facts_->state->tick == 0) card.text(theme.fonts().small, c.text_soft, "Nothing has run yet: P lets it.", 1);
     else if (!volume.figures.reason.empty() && volume.figures.state != "alive")
       card.text(theme.fonts().small, c.bad, volume.figures.reason, 3);
@@ -152,10 +152,10 @@ void SceneView::draw_title() {
   list.AddText(theme.fonts().display, theme.fonts().display->FontSize, {x, y}, c.text, title.c_str());
   y += theme.fonts().display->FontSize * 1.3f;
   const bool is_settled = state.is_settled();
-  const std::string standing = is_settled ? "settled, worst error " + report::percent(state.largest_residual)
-                                          : "negotiating, worst error " + report::percent(state.largest_residual);
+  const std::string standing = is_settled ? "settled, worst error " + reading::percent(state.largest_residual)
+                                          : "negotiating, worst error " + reading::percent(state.largest_residual);
   list.AddText(theme.fonts().title, theme.fonts().title->FontSize, {x, y}, is_settled ? c.good : c.text_soft,
-               ("tick " + report::grouped(static_cast<double>(state.tick)) + "   " + standing).c_str());
+               ("tick " + reading::grouped(static_cast<double>(state.tick)) + "   " + standing).c_str());
   y += theme.fonts().title->FontSize * 1.3f;
   if (const std::string hidden = hidden_.text(*editor_); !hidden.empty())
     list.AddText(theme.fonts().body, theme.fonts().body->FontSize, {x, y}, c.text_soft, hidden.c_str());

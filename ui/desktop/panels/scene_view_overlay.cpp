@@ -196,7 +196,7 @@ void SceneView::draw_scale_and_north() {
   list.AddLine(begin, end, c.text_soft, theme.px(1.5f));
   for (const ImVec2 p : {begin, end, ImVec2{(begin.x + end.x) / 2, end.y}})
     list.AddLine({p.x, p.y - theme.px(4)}, p, c.text_soft, theme.px(1.2f));
-  const std::string text = report::quantity(metres, Unit::metre);
+  const std::string text = reading::quantity(metres, Unit::metre);
   const ImVec2 extent = font->CalcTextSizeA(font->FontSize, 1e4f, 0, text.c_str());
   list.AddText(font, font->FontSize, {(begin.x + end.x - extent.x) / 2, end.y - theme.px(5) - extent.y}, c.text_soft,
                text.c_str());

@@ -32,14 +32,16 @@ std::string clock_text(double seconds) {
   return text;
 }
 
-std::string day_text(DayNumber day, bool with_year) {
-  const Date date = date_of(day);
+std::string day_text(sun::DayNumber day, bool with_year) {
+  const sun::Date date = sun::date_of(day);
   const std::string text = std::to_string(date.day) + " " + kMonths[static_cast<std::size_t>(date.month - 1)];
   return with_year ? text + " " + std::to_string(date.year) : text;
 }
 
 // Years that clocks and dates are meant for.
-DayNumber kept_day(DayNumber day) { return std::clamp(day, day_number({1900, 1, 1}), day_number({2100, 12, 31})); }
+sun::DayNumber kept_day(sun::DayNumber day) {
+  return std::clamp(day, sun::day_number({1900, 1, 1}), sun::day_number({2100, 12, 31}));
+}
 
 }  // namespace
 
@@ -51,7 +53,7 @@ const SunFacts* SceneView::sun() const {
   return &facts_->urban.suns.front();
 }
 
-const SunDay& SceneView::day_of(const SunPlace& place, DayNumber day) {
+const sun::SunDay& SceneView::day_of(const sun::SunPlace& place, sun::DayNumber day) {
   if (!day_key_ || *day_key_ != std::pair{place, day}) {
     day_key_ = {place, day};
     day_ = sun_day(place, day);
@@ -71,7 +73,7 @@ void SceneView::step_sun(double seconds, int days) {
   clock.seconds += seconds;
   // Over midnight into the next day.
   const double turns = std::floor(clock.seconds / kDay);
-  if (clock.seconds != kDay) clock = {clock.day + static_cast<DayNumber>(turns), clock.seconds - turns * kDay};
+  if (clock.seconds != kDay) clock = {clock.day + static_cast<sun::DayNumber>(turns), clock.seconds - turns * kDay};
   preview_sun(clock);
 }
 
@@ -88,9 +90,10 @@ void SceneView::set_sun_in_scene() {
   if (shown == nullptr || !preview_) return;
   std::vector<Command> commands;
   if (preview_->day != shown->clock.day)
-    commands.push_back(command<SetPort>({shown->id,
-                                         {reading::path_of<&reading::SunFigures::date>()},
-                                         {'"' + date_text(preview_->day - static_cast<DayNumber>(shown->added_days)) + '"'}}));
+    commands.push_back(
+        command<SetPort>({shown->id,
+                          {reading::path_of<&reading::SunFigures::date>()},
+                          {'"' + sun::date_text(preview_->day - static_cast<sun::DayNumber>(shown->added_days)) + '"'}}));
   if (preview_->seconds != shown->clock.seconds)
     commands.push_back(
         command<SetPort>({shown->id, {reading::path_of<&reading::SunFigures::time>()}, {shortest(preview_->seconds)}}));
@@ -124,7 +127,7 @@ void SceneView::follow_sun() {
   choices_.sun = {};
   if (shown == nullptr) return;
   if (is_sun_running_) {
-    const SunDay& day = day_of(shown->place, preview_.value_or(shown->clock).day);
+    const sun::SunDay& day = day_of(shown->place, preview_.value_or(shown->clock).day);
     SunClock clock = preview_.value_or(shown->clock);
     clock.seconds += kRunSpeed * std::min(0.1, editor_->now - last_frame_);
     const double rise = day.sunrise.value_or(0), set = day.sunset.value_or(kDay);
@@ -232,7 +235,7 @@ void SceneView::draw_sun_track(const SunFacts& sun, const ImVec2& corner, float 
   const Colours& c = theme.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const SunClock clock = preview_.value_or(sun.clock);
-  const SunDay day = day_of(sun.place, clock.day);
+  const sun::SunDay day = day_of(sun.place, clock.day);
   const float bar = theme.px(7), top = corner.y, bottom = top + bar;
   const auto place = [&](double seconds) { return corner.x + length * static_cast<float>(std::clamp(seconds / kDay, 0.0, 1.0)); };
   ImGui::SetCursorScreenPos({corner.x, top - theme.px(4)});

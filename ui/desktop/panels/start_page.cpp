@@ -168,7 +168,7 @@ bool StartPage::draw_card(const ScenePicture& picture, float width) {
   if (!picture.is_ready) list.AddText({at.x + theme.px(14), at.y + theme.px(12)}, c.text_faint, "drawing ...");
   list.AddText(theme.fonts().strong, theme.fonts().strong->FontSize, {at.x + theme.px(14), at.y + height + theme.px(10)}, c.text,
                title.c_str());
-  const std::string count = picture.volumes > 0 ? report::counted(picture.volumes, "volume") + ". " : std::string();
+  const std::string count = picture.volumes > 0 ? reading::counted(picture.volumes, "volume") + ". " : std::string();
   const std::string note = picture.is_ready ? count + picture.about : picture.path;
   const ImVec4 clip{at.x, at.y, end.x - theme.px(12), end.y - theme.px(10)};
   list.AddText(theme.fonts().small, theme.fonts().small->FontSize, {at.x + theme.px(14), at.y + height + theme.px(32)},

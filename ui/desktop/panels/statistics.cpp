@@ -38,7 +38,7 @@ void draw_spark(Workbench& editor, const Chart& chart, ImVec2 at, ImVec2 size) {
   if (!is_hovered || series.values.size() < 2) return;
   const float share = std::clamp((ImGui::GetIO().MousePos.x - at.x) / size.x, 0.0f, 1.0f);
   const auto k = static_cast<std::size_t>(std::lround(share * static_cast<float>(series.values.size() - 1)));
-  ImGui::SetTooltip("tick %s\n%s", report::grouped(chart.ticks[k]).c_str(), chart_number(chart, series.values[k]).c_str());
+  ImGui::SetTooltip("tick %s\n%s", reading::grouped(chart.ticks[k]).c_str(), chart_number(chart, series.values[k]).c_str());
 }
 
 void draw_run(Workbench& editor, const RunRecord& record, ImVec2 size) {
@@ -91,7 +91,7 @@ void draw_orders(Workbench& editor, RunRecord& record) {
   }
 }
 
-void draw_volume(Workbench& editor, const report::VolumeRow& row, int index, float height, double largest, double tolerance,
+void draw_volume(Workbench& editor, const reading::VolumeRow& row, int index, float height, double largest, double tolerance,
                  ImU32 colour_of_its_use) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
@@ -114,7 +114,7 @@ void draw_volume(Workbench& editor, const report::VolumeRow& row, int index, flo
   list.AddText(small, small->FontSize, {at.x + theme.px(16), y}, c.text, fitted(row.name, name_width - theme.px(20)).c_str());
   const AccountTone tone = tone_of_account(row, tolerance);
   const bool is_met = tone == AccountTone::met;
-  const std::string off = row.asked > 0 ? report::signed_percent(row.standing()) : std::string("asks for none");
+  const std::string off = row.asked > 0 ? reading::signed_percent(row.standing()) : std::string("asks for none");
   list.AddText({at.x + width - ImGui::CalcTextSize(off.c_str()).x - theme.px(4), y},
                is_met ? c.text_faint : colour_of_account(theme, tone), off.c_str());
   ImGui::PopFont();
@@ -124,10 +124,10 @@ void draw_volume(Workbench& editor, const report::VolumeRow& row, int index, flo
       row.asked / most, colour);
   if (is_hovered) {
     editor.picks.hovered_node = row.id;
-    std::string text = "has " + report::quantity(row.volume, Unit::cubic_metre) + " of " +
-                       report::quantity(row.asked, Unit::cubic_metre) + " asked for";
-    if (row.withheld() > tolerance * row.asked) text += "\nlimited to " + report::quantity(row.limited, Unit::cubic_metre);
-    text += "\nfloor area " + report::quantity(row.floor_area, Unit::square_metre);
+    std::string text = "has " + reading::quantity(row.volume, Unit::cubic_metre) + " of " +
+                       reading::quantity(row.asked, Unit::cubic_metre) + " asked for";
+    if (row.withheld() > tolerance * row.asked) text += "\nlimited to " + reading::quantity(row.limited, Unit::cubic_metre);
+    text += "\nfloor area " + reading::quantity(row.floor_area, Unit::square_metre);
     card(editor, row.name, text,
          row.use + (row.use.empty() ? "" : ", ") + row.figures.state +
              (row.figures.reason.empty() ? "" : ": " + row.figures.reason));
@@ -142,11 +142,11 @@ void draw_volume(Workbench& editor, const report::VolumeRow& row, int index, flo
 
 void draw_volumes(Workbench& editor, RunRecord& record) {
   draw_orders(editor, record);
-  const report::ReportModel& model = record.figures(editor);
+  const reading::ReportModel& model = record.figures(editor);
   const std::vector<std::size_t>& order = record.ordered(editor);
   if (order.empty()) return small_text(editor, "There are no volumes in this scene.", editor.theme.colours().text_faint);
   double largest = 0;
-  for (const report::VolumeRow& row : model.volumes) largest = std::max({largest, row.asked, row.volume});
+  for (const reading::VolumeRow& row : model.volumes) largest = std::max({largest, row.asked, row.volume});
   ImGui::BeginChild("volumes", {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   const float height = std::round(ImGui::GetFontSize() + editor.theme.px(5));
@@ -155,7 +155,7 @@ void draw_volumes(Workbench& editor, RunRecord& record) {
   clipper.Begin(static_cast<int>(order.size()), height);
   while (clipper.Step())
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
-      const report::VolumeRow& volume = model.volumes[order[static_cast<std::size_t>(row)]];
+      const reading::VolumeRow& volume = model.volumes[order[static_cast<std::size_t>(row)]];
       draw_volume(editor, volume, row, height, largest, model.accounts.tolerance,
                   colour_of_use(editor.theme, numbers.of(volume.use)));
     }
@@ -164,7 +164,7 @@ void draw_volumes(Workbench& editor, RunRecord& record) {
 }
 
 // One line of the programme: what is wanted as the mark, what there is as the bar.
-void draw_use(Workbench& editor, const report::UseAccount& use, ImU32 colour, double largest, double tolerance) {
+void draw_use(Workbench& editor, const reading::UseAccount& use, ImU32 colour, double largest, double tolerance) {
   const Theme& theme = editor.theme;
   const Colours& c = theme.colours();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -173,8 +173,8 @@ void draw_use(Workbench& editor, const report::UseAccount& use, ImU32 colour, do
   ImFont* small = theme.fonts().small;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImGui::PushFont(small);
-  const std::string amount = report::quantity(use.floor_area, Unit::square_metre) +
-                             (use.asked_area > 0 ? "  " + report::difference_of(use.floor_area, use.asked_area) : "");
+  const std::string amount = reading::quantity(use.floor_area, Unit::square_metre) +
+                             (use.asked_area > 0 ? "  " + reading::difference_of(use.floor_area, use.asked_area) : "");
   const float amount_width = ImGui::CalcTextSize(amount.c_str()).x;
   const bool is_short = use.is_short(tolerance);
   const std::string name = use.use.empty() ? "without a use" : use.use;
@@ -186,23 +186,23 @@ void draw_use(Workbench& editor, const report::UseAccount& use, ImU32 colour, do
       use.asked_area / std::max(largest, 1e-9), colour);
   if (!ImGui::IsItemHovered()) return;
   card(editor, name,
-       report::quantity(use.floor_area, Unit::square_metre) + " of " + report::quantity(use.asked_area, Unit::square_metre) +
+       reading::quantity(use.floor_area, Unit::square_metre) + " of " + reading::quantity(use.asked_area, Unit::square_metre) +
            " floor area asked for",
-       report::counted(use.volumes, "volume") + ", " + report::quantity(use.volume, Unit::cubic_metre) +
+       reading::counted(use.volumes, "volume") + ", " + reading::quantity(use.volume, Unit::cubic_metre) +
            (use.is_in_programme ? "" : "\nnot in any programme: what its volumes ask for counts"));
 }
 
-void draw_programme(Workbench& editor, const report::ReportModel& model) {
+void draw_programme(Workbench& editor, const reading::ReportModel& model) {
   column_title(editor, "Floor area by use");
   ImGui::BeginChild("uses", {0, 0});
-  const report::Accounts& accounts = model.accounts;
+  const reading::Accounts& accounts = model.accounts;
   double largest = 0;
-  for (const report::UseAccount& use : accounts.uses) largest = std::max({largest, use.floor_area, use.asked_area});
+  for (const reading::UseAccount& use : accounts.uses) largest = std::max({largest, use.floor_area, use.asked_area});
   const UseNumbers numbers(editor.state().plan->scene);
-  for (const report::UseAccount& use : accounts.uses)
+  for (const reading::UseAccount& use : accounts.uses)
     draw_use(editor, use, colour_of_use(editor.theme, numbers.of(use.use)), largest, accounts.tolerance);
   if (!accounts.uses.empty()) {
-    report::UseAccount total = accounts.all;
+    reading::UseAccount total = accounts.all;
     total.use = "all uses";
     total.is_in_programme = true;
     ImGui::Separator();
@@ -223,25 +223,25 @@ void fact(Workbench& editor, const std::string& name, const std::string& value) 
   list.AddText(small, small->FontSize, {at.x + width - value_width, at.y}, theme.colours().text, value.c_str());
 }
 
-std::string milliseconds(double seconds) { return report::readable(1000 * seconds) + "\xC2\xA0ms"; }
+std::string milliseconds(double seconds) { return reading::readable(1000 * seconds) + "\xC2\xA0ms"; }
 
 std::string bytes_text(double bytes) {
   if (bytes < 1024)
-    return report::grouped(bytes) +
+    return reading::grouped(bytes) +
            "\xC2\xA0"
            "B";
-  if (bytes < 1024 * 1024) return report::grouped(bytes / 1024, 1) + "\xC2\xA0kB";
-  return report::grouped(bytes / 1024 / 1024, 1) + "\xC2\xA0MB";
+  if (bytes < 1024 * 1024) return reading::grouped(bytes / 1024, 1) + "\xC2\xA0kB";
+  return reading::grouped(bytes / 1024 / 1024, 1) + "\xC2\xA0MB";
 }
 
 void draw_engine(Workbench& editor, const RunRecord& record) {
   const State& state = editor.state();
-  const Moment& moment = *editor.moment;
+  const host::Moment& moment = *editor.moment;
   column_title(editor, "Boundary and engine");
   ImGui::BeginChild("engine", {0, 0});
   for (const auto& [n, solver] : reading::rows<reading::SolverFigures>(state)) {
     const double fill = solver.fill;
-    fact(editor, "fill, " + state.plan->nodes[n].name, report::percent(fill));
+    fact(editor, "fill, " + state.plan->nodes[n].name, reading::percent(fill));
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, thick = editor.theme.px(5);
     ImGui::Dummy({width, thick + editor.theme.px(2)});
@@ -254,8 +254,8 @@ void draw_engine(Workbench& editor, const RunRecord& record) {
   fact(editor, "  nodes", milliseconds(record.phase.nodes));
   fact(editor, "  solve", milliseconds(record.phase.solve));
   fact(editor, "  commit", milliseconds(record.phase.commit));
-  fact(editor, "ticks/s", report::readable(moment.rate) + " of " + report::readable(moment.wanted_rate));
-  fact(editor, "pictures/s", report::readable(record.frame_rate));
+  fact(editor, "ticks/s", reading::readable(moment.rate) + " of " + reading::readable(moment.wanted_rate));
+  fact(editor, "pictures/s", reading::readable(record.frame_rate));
   fact(editor, "to the GPU, a tick", bytes_text(record.bytes.empty() ? 0 : record.bytes.back()));
   ImGui::EndChild();
 }

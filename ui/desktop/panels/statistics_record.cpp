@@ -44,9 +44,9 @@ void RunRecord::sample(const Workbench& editor) {
   }
   times_ = now;
   sampled_ = state;
-  const report::ReportModel& model = figures(editor);
+  const reading::ReportModel& model = figures(editor);
   double sum = 0;
-  for (const report::VolumeRow& row : model.volumes) sum += std::abs(row.error());
+  for (const reading::VolumeRow& row : model.volumes) sum += std::abs(row.error());
   tick.push_back(static_cast<double>(state->tick));
   worst.push_back(state->largest_residual);
   mean.push_back(model.volumes.empty() ? 0 : sum / static_cast<double>(model.volumes.size()));
@@ -58,17 +58,17 @@ void RunRecord::sample(const Workbench& editor) {
   drop_oldest();
 }
 
-std::vector<ErrorSample> RunRecord::errors() const {
-  std::vector<ErrorSample> out(tick.size());
+std::vector<reading::ErrorSample> RunRecord::errors() const {
+  std::vector<reading::ErrorSample> out(tick.size());
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = {static_cast<std::int64_t>(tick[k]), worst[k], mean[k], move[k]};
   return out;
 }
 
-const report::ReportModel& RunRecord::figures(const Workbench& editor) {
+const reading::ReportModel& RunRecord::figures(const Workbench& editor) {
   if (figured_ == editor.moment->state && figures_) return *figures_;
   figured_ = editor.moment->state;
-  figures_ = std::make_unique<report::ReportModel>();
-  report::read_figures(*figured_, *figures_);
+  figures_ = std::make_unique<reading::ReportModel>();
+  reading::read_figures(*figured_, *figures_);
   return *figures_;
 }
 
@@ -82,7 +82,7 @@ const std::vector<std::size_t>& RunRecord::ordered(const Workbench& editor) {
   ordered_.resize(volumes.size());
   std::iota(ordered_.begin(), ordered_.end(), std::size_t{0});
   std::stable_sort(ordered_.begin(), ordered_.end(), [&](std::size_t a, std::size_t b) {
-    const report::VolumeRow &x = volumes[a], &y = volumes[b];
+    const reading::VolumeRow &x = volumes[a], &y = volumes[b];
     switch (order) {
       case VolumeOrder::error: return std::abs(x.standing()) > std::abs(y.standing());
       case VolumeOrder::name: return x.name < y.name;

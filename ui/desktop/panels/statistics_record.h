@@ -19,9 +19,9 @@ class RunRecord {
   /// Takes a sample where a tick has passed since the last call; after a rewind the ticks that were undone are forgotten.
   void sample(const Workbench& editor);
   /// The ticks that are remembered, as the report wants them.
-  std::vector<ErrorSample> errors() const;
+  std::vector<reading::ErrorSample> errors() const;
   /// Volumes, uses and totals of the current state; made when they are asked for.
-  const report::ReportModel& figures(const Workbench& editor);
+  const reading::ReportModel& figures(const Workbench& editor);
   /// Indices of the volumes in the order that is wanted; it settles down between changes.
   const std::vector<std::size_t>& ordered(const Workbench& editor);
 
@@ -37,7 +37,7 @@ class RunRecord {
   void drop_oldest();
 
   std::shared_ptr<const State> sampled_, figured_, sorted_;
-  std::unique_ptr<report::ReportModel> figures_;
+  std::unique_ptr<reading::ReportModel> figures_;
   std::vector<std::size_t> ordered_;
   PhaseTimes times_;
   std::uint64_t bytes_sent_ = 0;

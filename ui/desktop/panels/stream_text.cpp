@@ -16,8 +16,8 @@ using reading::SensorFigures;
 // A unit that the program does not know stands behind the number as people have written it.
 std::string value_text(double value, const std::string& unit) {
   const UnitInfo* known = find_unit(unit);
-  if (known != nullptr) return report::quantity(value, known->unit);
-  return report::readable(value) + (unit.empty() ? "" : " " + unit);
+  if (known != nullptr) return reading::quantity(value, known->unit);
+  return reading::readable(value) + (unit.empty() ? "" : " " + unit);
 }
 
 StreamText sensor_text(const SensorFigures& sensor) {
@@ -70,7 +70,7 @@ std::string StreamText::text() const {
 
 std::string age_text(double seconds) {
   constexpr double kMinute = 60, kHour = 3600, kWholeDay = 86400;
-  const auto whole = [](double number) { return report::grouped(std::floor(number)); };
+  const auto whole = [](double number) { return reading::grouped(std::floor(number)); };
   if (!(seconds >= 0)) return "0 s";
   if (seconds < 2 * kMinute) return whole(seconds) + " s";
   if (seconds < 2 * kHour) return whole(seconds / kMinute) + " min";

@@ -98,7 +98,7 @@ void Desktop::ask_to_quit() {
 
 void Desktop::offer_recovery() {
   std::vector<std::string> unreadable;
-  dialogs_->offer_recovery(Journal::find(editor_->program, &unreadable));
+  dialogs_->offer_recovery(host::Journal::find(editor_->program, &unreadable));
   for (const std::string& text : unreadable) editor_->notify(NoticeKind::warning, text);
 }
 

@@ -15,10 +15,10 @@ void LiveScene::frame() {
     devices_.reset();
     editor.deliveries.clear();
     tick_ = -1;
-    if (number != 0) devices_ = std::make_unique<DeviceDoor>(LiveOptions{folder, is_live_, {}});
+    if (number != 0) devices_ = std::make_unique<host::DeviceDoor>(live::LiveOptions{folder, is_live_, {}});
   }
   if (!devices_ || !editor.moment) return;
-  LiveSession& session = editor.document->session();
+  host::LiveSession& session = editor.document->session();
   if (devices_->follow(session.said(), session.last_seq()) && devices_->has_recordings() != session.do_ticks_wait())
     session.make_ticks_wait(devices_->has_recordings());
   std::int64_t tick = editor.moment->state->tick;
@@ -40,7 +40,7 @@ void LiveScene::frame() {
 // The window's clock is read here, for the eye: no tick hears of it.
 void LiveScene::note_deliveries() const {
   std::map<std::string, Delivery> now;
-  for (const ConnectionStatus& status : devices_->status()) {
+  for (const live::ConnectionStatus& status : devices_->status()) {
     if (status.is_sensor) continue;
     const auto before = editor_->deliveries.find(status.node);
     Delivery& delivery = now[status.node];

@@ -25,7 +25,7 @@ class LiveScene {
   Editor* editor_;
   bool is_live_;
   std::uint64_t document_ = 0;  // its number; 0: none
-  std::unique_ptr<DeviceDoor> devices_;
+  std::unique_ptr<host::DeviceDoor> devices_;
   std::string folder_;      // where the recordings of its sensors are
   std::int64_t tick_ = -1;  // the last one that was served
 };

@@ -41,7 +41,7 @@ struct FrameTimes {
 void take_picture(Editor& editor, const std::string& wanted_folder, GLFWwindow* window) {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window, &width, &height);
-  const std::string folder = !wanted_folder.empty() ? wanted_folder : person_folder() + "/pictures";
+  const std::string folder = !wanted_folder.empty() ? wanted_folder : host::person_folder() + "/pictures";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   std::string path;
@@ -206,7 +206,7 @@ int run_window(const WindowOptions& options) noexcept {
   use_plugins(options.plugins);
   for (const PluginReport& report : plugin_reports())
     if (report.error) complain(report.error->text());
-  PersonSettings person = read_person_settings(person_folder().empty() ? "" : person_folder() + "/desktop.json");
+  PersonSettings person = read_person_settings(host::person_folder().empty() ? "" : host::person_folder() + "/desktop.json");
   Window window;
   if (!window.open(person)) return kBadInput;
   std::string failure;

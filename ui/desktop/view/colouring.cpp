@@ -46,7 +46,9 @@ std::vector<double> values_of(const SceneFacts& facts, const std::string& choice
   return values;
 }
 
-std::string told(double value, Unit unit) { return unit == Unit::ratio ? report::percent(value) : report::quantity(value, unit); }
+std::string told(double value, Unit unit) {
+  return unit == Unit::ratio ? reading::percent(value) : reading::quantity(value, unit);
+}
 
 Colouring by_use(const SceneFacts& facts, const Theme& theme) {
   Colouring out;
@@ -67,9 +69,9 @@ Colouring by_error(const SceneFacts& facts, const Theme& theme) {
   out.legend = {"Volume against demand",
                 {},
                 {},
-                report::signed_percent(-kLargestShownError),
+                reading::signed_percent(-kLargestShownError),
                 "met",
-                report::signed_percent(kLargestShownError)};
+                reading::signed_percent(kLargestShownError)};
   for (const VolumeFacts& volume : facts.volumes) out.colours.push_back(theme.diverging(volume.standing() / kLargestShownError));
   for (int k = 0; k <= kRampSteps; ++k) out.legend.ramp.push_back(theme.diverging(2.0 * k / kRampSteps - 1));
   return out;
@@ -105,7 +107,7 @@ Colour colour_of_use(const Theme& theme, std::size_t number) {
   return number == kNoUse ? mixed(c.text_faint, c.text_soft, 0.6f) : theme.category(number);
 }
 
-AccountTone tone_of_account(const report::Account& account, double tolerance) {
+AccountTone tone_of_account(const reading::Account& account, double tolerance) {
   const double size = std::abs(account.standing());
   if (size <= tolerance || account.asked <= 0) return AccountTone::met;
   return size > kFarOff ? AccountTone::far : AccountTone::off;

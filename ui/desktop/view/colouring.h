@@ -48,7 +48,7 @@ Colour colour_of_use(const Theme& theme, std::size_t number);
 
 /// How a volume stands against what was asked for; bars, list and card share the colours.
 enum class AccountTone { met, off, far };
-AccountTone tone_of_account(const report::Account& account, double tolerance);
+AccountTone tone_of_account(const reading::Account& account, double tolerance);
 Colour colour_of_account(const Theme& theme, AccountTone tone);
 
 struct Colouring {

@@ -36,10 +36,10 @@ void read_facade(const State& state, std::uint32_t node, VolumeFacts& facts) {
   }
 }
 
-VolumeFacts read_volume(const State& state, report::VolumeAccount&& account) {
+VolumeFacts read_volume(const State& state, reading::VolumeAccount&& account) {
   const std::uint32_t node = account.node;
   VolumeFacts facts;
-  static_cast<report::Account&>(facts) = account;
+  static_cast<reading::Account&>(facts) = account;
   facts.node = node;
   facts.id = state.plan->nodes[node].id;
   facts.name = state.plan->nodes[node].name;
@@ -70,8 +70,8 @@ void read_surroundings(const State& state, const SceneFacts* last, SceneFacts& f
     if (is_finite(p)) facts.reach = std::clamp(distance(p, facts.centre), facts.reach, 1e6);
   };
   for (StreetFacts& street : facts.urban.streets) {
-    street.line = street_line(facts.places[street.start], street.course, facts.places[street.end]);
-    facts.places[street.node] = point_on_line(street.line, 0.5);
+    street.line = traffic::street_line(facts.places[street.start], street.course, facts.places[street.end]);
+    facts.places[street.node] = traffic::point_on_line(street.line, 0.5);
     for (const Point3& point : street.line) reach_to(point);
   }
   for (const BodyFacts& body : facts.urban.bodies) {
@@ -191,14 +191,14 @@ std::shared_ptr<const SceneFacts> read_facts(std::shared_ptr<const State> given,
   auto facts = std::make_shared<SceneFacts>();
   const State& state = *given;
   std::set<std::string> uses;
-  report::Accounts accounts = report::accounts_of(state);
+  reading::Accounts accounts = reading::accounts_of(state);
   facts->tolerance = accounts.tolerance;
   for (std::uint32_t n = 0; n < state.plan->nodes.size(); ++n)
     facts->places.push_back(reading::read<&reading::NodePlace::position>(state, n));
   for (auto& [node, boundary] : reading::rows<reading::BoundaryFigures>(state))
     read_boundary(state, node, std::move(boundary.shape), last, *facts);
   for (const auto& [node, media] : reading::rows<reading::MediaFigures>(state)) read_media(state, node, media, *facts);
-  for (report::VolumeAccount& account : accounts.volumes) {
+  for (reading::VolumeAccount& account : accounts.volumes) {
     VolumeFacts volume = read_volume(state, std::move(account));
     // A ball is remade only where it is another one: what is drawn of it is known by its mesh.
     const VolumeFacts* before = last != nullptr && volume.is_ball ? last->volume_of(volume.node) : nullptr;
@@ -246,8 +246,8 @@ std::shared_ptr<const SceneFacts> facts_without(const SceneFacts& facts, const s
 std::vector<Point3> line_of(const StreetFacts& street, const std::map<std::uint32_t, Point3>& held) {
   const auto start = held.find(street.start), end = held.find(street.end);
   if (street.line.empty() || (start == held.end() && end == held.end())) return street.line;
-  return street_line(start == held.end() ? street.line.front() : start->second, street.course,
-                     end == held.end() ? street.line.back() : end->second);
+  return traffic::street_line(start == held.end() ? street.line.front() : start->second, street.course,
+                              end == held.end() ? street.line.back() : end->second);
 }
 
 MeshPointer ball_cell(const Point3& centre, double radius) {
@@ -270,8 +270,8 @@ MeshPointer ball_cell(const Point3& centre, double radius) {
 }
 
 std::vector<std::pair<Point3, Point3>> sharp_edges(const Mesh& given) {
-  const Mesh mesh = joined(given);
-  const std::vector<Vector3> normals = unit_normals(mesh);
+  const Mesh mesh = geometry::joined(given);
+  const std::vector<Vector3> normals = geometry::unit_normals(mesh);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> sides;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) sides[std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3])].push_back(t);

@@ -17,7 +17,7 @@
 namespace bl::desktop {
 
 /// With what was asked for and what there is, by the account that list, statistics and report read too.
-struct VolumeFacts : report::Account {
+struct VolumeFacts : reading::Account {
   std::uint32_t node = 0;
   std::string id, name;
   reading::VolumeFigures figures;

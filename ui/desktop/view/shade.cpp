@@ -28,7 +28,7 @@ Mesh walls_of(Mesh body, const Vector3& toward, double ground) {
 ShadeStore::Made& ShadeStore::made_for(const CasterFacts& caster, const Vector3& toward) {
   Made& made = made_[caster.id];
   if (made.of == caster.mesh && made.toward == toward && made.ground == caster.ground) return made;
-  made = {caster.mesh, toward, caster.ground, nullptr, shadow_outline(*caster.mesh, toward, caster.ground)};
+  made = {caster.mesh, toward, caster.ground, nullptr, sun::shadow_outline(*caster.mesh, toward, caster.ground)};
   return made;
 }
 
@@ -39,7 +39,7 @@ std::vector<ShadeBody> ShadeStore::bodies(const std::vector<CasterFacts>& caster
     if (made.outline.empty()) continue;
     if (!made.walls)
       made.walls =
-          std::make_shared<const Mesh>(walls_of(shadow_volume(*caster.mesh, toward, caster.ground), toward, caster.ground));
+          std::make_shared<const Mesh>(walls_of(sun::shadow_volume(*caster.mesh, toward, caster.ground), toward, caster.ground));
     found.push_back({caster.node, caster.id, made.walls, made.outline});
   }
   return found;

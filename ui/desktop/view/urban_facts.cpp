@@ -44,10 +44,10 @@ void add_street(const State& state, std::uint32_t node, reading::StreetFigures&&
   urban.streets.push_back(std::move(street));
 }
 
-void add_routes(const State& state, const TripFlows& trips, UrbanFacts& urban) {
+void add_routes(const State& state, const traffic::TripFlows& trips, UrbanFacts& urban) {
   std::vector<std::uint32_t> street_of;  // by link; the number of nodes where it is no street
   for (const std::string& place : trips.places) street_of.push_back(state.plan->node_index(place));
-  for (const TripFlows::Zone& zone : trips.zones) {
+  for (const traffic::TripFlows::Zone& zone : trips.zones) {
     const std::uint32_t from = state.plan->node_index(zone.id);
     if (from == state.plan->nodes.size()) continue;
     for (std::size_t k = 0; k < std::min(zone.links->size(), zone.flows->size()); ++k)
@@ -155,14 +155,14 @@ void add_ring(const State& state, std::uint32_t node, std::vector<Point3> ring, 
   if (ring.size() >= 3) rings.push_back({node, state.plan->nodes[node].id, std::move(ring), is_overshot});
 }
 
-DaylightSaving rule_of(const std::string& id) {
-  if (id == "europe") return DaylightSaving::europe;
-  if (id == "north_america") return DaylightSaving::north_america;
-  return id == "australia" ? DaylightSaving::australia : DaylightSaving::none;
+sun::DaylightSaving rule_of(const std::string& id) {
+  if (id == "europe") return sun::DaylightSaving::europe;
+  if (id == "north_america") return sun::DaylightSaving::north_america;
+  return id == "australia" ? sun::DaylightSaving::australia : sun::DaylightSaving::none;
 }
 
 void add_sun(const State& state, std::uint32_t node, const reading::SunFigures& read, UrbanFacts& urban) {
-  const auto date = parse_date(read.date);
+  const auto date = sun::parse_date(read.date);
   if (!date) return;  // the node's own error says so
   SunFacts sun;
   sun.node = node;
@@ -170,7 +170,7 @@ void add_sun(const State& state, std::uint32_t node, const reading::SunFigures& 
   sun.place = {read.latitude, read.longitude,  read.elevation, read.true_north, read.utc_offset, rule_of(read.daylight_saving),
                read.delta_t,  read.refraction, read.pressure,  read.temperature};
   sun.added_days = std::floor(read.days);
-  sun.clock = {*date + static_cast<DayNumber>(sun.added_days), read.time};
+  sun.clock = {*date + static_cast<sun::DayNumber>(sun.added_days), read.time};
   sun.toward = direction_to_sun(sun.place, sun.clock);
   sun.is_ahead = sun.toward != read.direction;
   urban.suns.push_back(std::move(sun));
@@ -197,8 +197,8 @@ std::int64_t age_of_sun(const State& state) {
 
 }  // namespace
 
-Vector3 direction_to_sun(const SunPlace& place, const SunClock& clock) {
-  const SunPosition sun = sun_position(place, moment_of(place, clock.day, clock.seconds));
+Vector3 direction_to_sun(const sun::SunPlace& place, const SunClock& clock) {
+  const sun::SunPosition sun = sun_position(place, moment_of(place, clock.day, clock.seconds));
   return scene_direction(place, sun.azimuth, sun.altitude);
 }
 
@@ -213,23 +213,23 @@ std::uint32_t keeper_of(const Plan& plan, std::uint32_t node, std::string_view t
 UrbanFacts read_urban(const State& state, const UrbanFacts* last) {
   using namespace reading;
   UrbanFacts urban;
-  for (auto& [node, street] : rows<StreetFigures>(state)) add_street(state, node, std::move(street), urban);
-  for (const auto& [node, network] : rows<NetworkFigures>(state))
+  for (auto& [node, street] : rows<reading::StreetFigures>(state)) add_street(state, node, std::move(street), urban);
+  for (const auto& [node, network] : rows<reading::NetworkFigures>(state))
     if (network.trip_flows) add_routes(state, *network.trip_flows, urban);
-  for (const auto& [node, building] : rows<BuildingFigures>(state)) add_body(state, node, building, last, urban);
-  for (const auto& [node, receiver] : rows<ReceiverFigures>(state)) add_sun_map(state, node, receiver, last, urban);
-  for (const auto& [node, layer] : rows<DataLayerFigures>(state)) add_layer(state, node, layer, urban);
-  for (auto& [node, caster] : rows<CasterFigures>(state)) {
+  for (const auto& [node, building] : rows<reading::BuildingFigures>(state)) add_body(state, node, building, last, urban);
+  for (const auto& [node, receiver] : rows<reading::ReceiverFigures>(state)) add_sun_map(state, node, receiver, last, urban);
+  for (const auto& [node, layer] : rows<reading::DataLayerFigures>(state)) add_layer(state, node, layer, urban);
+  for (auto& [node, caster] : rows<reading::CasterFigures>(state)) {
     add_ring(state, node, std::move(caster.outline), false, urban.shadows);
     if (caster.casts) add_caster(state, node, urban);
   }
-  for (auto& [node, plot] : rows<PlotFigures>(state)) {
+  for (auto& [node, plot] : rows<reading::PlotFigures>(state)) {
     for (Point3& corner : plot.polygon) corner.z = plot.ground;
     add_ring(state, node, std::move(plot.polygon), plot.overshoot > 0, urban.plots);
   }
-  for (const auto& [node, terrain] : rows<TerrainFigures>(state))
+  for (const auto& [node, terrain] : rows<reading::TerrainFigures>(state))
     if (terrain.mesh && !terrain.mesh->triangles.empty()) urban.grounds.emplace_back(node, terrain.mesh);
-  for (const auto& [node, sun] : rows<SunFigures>(state)) add_sun(state, node, sun, urban);
+  for (const auto& [node, sun] : rows<reading::SunFigures>(state)) add_sun(state, node, sun, urban);
   if (!urban.suns.empty() && urban.suns.front().toward.z > 0) urban.sun = urban.suns.front().toward;
   urban.sun_age = age_of_sun(state);
   return urban;

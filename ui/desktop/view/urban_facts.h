@@ -60,7 +60,7 @@ struct RingFacts {
 
 /// A moment by the clock of a place.
 struct SunClock {
-  DayNumber day = 0;
+  sun::DayNumber day = 0;
   double seconds = 0;  ///< after midnight
   bool operator==(const SunClock&) const = default;
 };
@@ -69,13 +69,13 @@ struct SunClock {
 struct SunFacts {
   std::uint32_t node = 0;
   std::string id;
-  SunPlace place;
+  sun::SunPlace place;
   SunClock clock;
   double added_days = 0;  ///< what the node adds to its date
   Vector3 toward;         ///< unit vector to the sun at that moment; below the horizon it points downwards
   bool is_ahead = false;  ///< the state's results are of an earlier sun
 };
-Vector3 direction_to_sun(const SunPlace& place, const SunClock& clock);
+Vector3 direction_to_sun(const sun::SunPlace& place, const SunClock& clock);
 
 /// A node with a shape that takes sun from others.
 struct CasterFacts {

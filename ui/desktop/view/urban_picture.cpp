@@ -90,7 +90,7 @@ void UrbanPicture::add_isochrones() {
   for (const Isochrones::Part& part : shown.parts) {
     const auto street = streets.find(part.street);
     if (street == streets.end()) continue;  // hidden
-    path(part_of_line(line_of(*street->second, choices.held), part.begin, part.end),
+    path(traffic::part_of_line(line_of(*street->second, choices.held), part.begin, part.end),
          colour_of_band(theme, part.band, shown.times.size()), width_of(*street->second) + theme.px(kBandWidth), 0.3f);
   }
 }
@@ -160,7 +160,7 @@ void UrbanPicture::add_layers() {
     }
 }
 
-std::string hours(double seconds) { return report::readable(seconds / 3600) + " h"; }
+std::string hours(double seconds) { return reading::readable(seconds / 3600) + " h"; }
 
 Legend ramp_of(std::string title, const std::function<Colour(double)>& colour, std::string low, std::string middle,
                std::string high) {
@@ -244,7 +244,7 @@ std::vector<Legend> urban_legends(const SceneFacts& facts, const ViewChoices& ch
     legends.push_back(ramp_of(
         "Streets: flow over capacity",
         [&](double t) { return colour_of_load(theme, kHighestLoad - 1 + t * 2 * (kHighestLoad - 1)); },
-        report::readable(2 - kHighestLoad), "1", report::readable(kHighestLoad)));
+        reading::readable(2 - kHighestLoad), "1", reading::readable(kHighestLoad)));
   if (!facts.urban.sun_maps.empty() && shows("sun_maps")) {
     double highest = 0;
     for (const SunMapFacts& map : facts.urban.sun_maps) highest = std::max(highest, map.highest);
@@ -256,8 +256,8 @@ std::vector<Legend> urban_legends(const SceneFacts& facts, const ViewChoices& ch
   if (shows("data"))
     for (const DataFacts& layer : facts.urban.layers)
       legends.push_back(ramp_of(
-          layer.quantity, [](double t) { return Theme::ramp(t); }, report::readable(layer.low) + " " + layer.unit, "",
-          report::readable(layer.high) + " " + layer.unit));
+          layer.quantity, [](double t) { return Theme::ramp(t); }, reading::readable(layer.low) + " " + layer.unit, "",
+          reading::readable(layer.high) + " " + layer.unit));
   return legends;
 }
 

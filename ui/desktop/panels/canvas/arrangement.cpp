@@ -30,7 +30,7 @@ void put(Board& board, const std::vector<std::pair<std::size_t, ImVec2>>& places
       patch["boxes"][board.model.boxes[k].id] = place_json(at);
   std::vector<Command> commands;
   add_view_patch(commands, patch);
-  if (!commands.empty()) submit_as(board, commands, verb + " " + report::counted(places.size(), "node"));
+  if (!commands.empty()) submit_as(board, commands, verb + " " + reading::counted(places.size(), "node"));
 }
 
 }  // namespace

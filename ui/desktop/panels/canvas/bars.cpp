@@ -11,14 +11,14 @@
 namespace bl::desktop::canvas {
 
 std::string BarFigures::text() const {
-  return report::readable(account.volume) + " / " + report::quantity(account.asked, Unit::cubic_metre);
+  return reading::readable(account.volume) + " / " + reading::quantity(account.asked, Unit::cubic_metre);
 }
 
 BarFigures bar_figures(Workbench& editor, const NodeBox& box) {
-  const report::Accounts& accounts = memory_of(editor).record->figures(editor).accounts;
+  const reading::Accounts& accounts = memory_of(editor).record->figures(editor).accounts;
   BarFigures bar;
   const auto found = std::lower_bound(accounts.volumes.begin(), accounts.volumes.end(), box.in_state,
-                                      [](const report::VolumeAccount& v, std::uint32_t node) { return v.node < node; });
+                                      [](const reading::VolumeAccount& v, std::uint32_t node) { return v.node < node; });
   if (found != accounts.volumes.end() && found->node == box.in_state) {
     bar.account = *found;
   } else if (const auto node = editor.scene().nodes.find(box.id); node != editor.scene().nodes.end()) {

@@ -10,7 +10,7 @@
 namespace bl::desktop::canvas {
 
 struct BarFigures {
-  report::Account account;  ///< the one that list, colours, statistics and report read
+  reading::Account account;  ///< the one that list, colours, statistics and report read
   AccountTone tone = AccountTone::far;
   bool is_limited = false;  ///< limits leave visibly less than was asked for
 

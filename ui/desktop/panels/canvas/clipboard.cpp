@@ -260,7 +260,7 @@ bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shi
   paste_comments(pasting, list_in(*clip, "comments"), comments);
   add_view_patch(pasting.commands, pasting.patch);
   const std::string what =
-      pasting.nodes.empty() ? report::counted(comments.size(), "comment") : report::counted(pasting.nodes.size(), "node");
+      pasting.nodes.empty() ? reading::counted(comments.size(), "comment") : reading::counted(pasting.nodes.size(), "node");
   if (pasting.commands.empty() || !submit_as(board, pasting.commands, (is_shift ? "Duplicate " : "Paste ") + what)) return false;
   editor.picks.links.clear();
   editor.picks.nodes = pasting.nodes;
@@ -268,7 +268,7 @@ bool paste_clip(Board& board, const std::string& text, ImVec2 place, bool is_shi
   board.picked_comments = comments;
   if (pasting.lost > 0)
     editor.notify(NoticeKind::warning,
-                  "Pasted without " + report::counted(pasting.lost, "reference") + " to nodes that are not in this scene.");
+                  "Pasted without " + reading::counted(pasting.lost, "reference") + " to nodes that are not in this scene.");
   return true;
 }
 
@@ -278,7 +278,7 @@ void copy_chosen(Board& board) {
   ImGui::SetClipboardText(clip.c_str());
   if (!board.editor.picks.nodes.empty())
     board.editor.notify(NoticeKind::told,
-                        report::counted(board.editor.picks.nodes.size(), "node") + " copied, with the links among them.");
+                        reading::counted(board.editor.picks.nodes.size(), "node") + " copied, with the links among them.");
 }
 
 void cut_chosen(Board& board) {

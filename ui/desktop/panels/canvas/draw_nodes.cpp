@@ -26,7 +26,7 @@ struct Ink {
 };
 
 void draw_bar_of(const Ink& ink, const BarFigures& bar, ImVec2 low, ImVec2 high) {
-  const report::Account& account = bar.account;
+  const reading::Account& account = bar.account;
   const double most = std::max({account.volume, account.asked, account.limited, 1e-9});
   const auto x_of = [&](double v) { return low.x + (high.x - low.x) * static_cast<float>(v / most); };
   ink.list.AddRectFilled(low, high, ink.c.sunken);

@@ -116,7 +116,7 @@ void draw_hints(Board& board) {
   }
   if (board.model.undrawn > 0)
     draw_text(board, {pane.low().x + 12 * scale, board.camera.pane().low().y + 64 * scale}, 11 * scale, c.warning,
-              report::counted(board.model.undrawn, "link") + " of an unknown kind: kept as it is, not drawn");
+              reading::counted(board.model.undrawn, "link") + " of an unknown kind: kept as it is, not drawn");
 }
 
 struct CardRow {
@@ -219,11 +219,11 @@ void draw_link_card(Board& board, const Line& line) {
   std::vector<CardRow> rows{{text_of(editor, board.model.selection_of(line.from)) + "  \xe2\x86\x92  " +
                                  text_of(editor, board.model.selection_of(line.to)),
                              ""}};
-  rows.push_back({"strength", report::readable(link.strength)});
+  rows.push_back({"strength", reading::readable(link.strength)});
   for (const auto& [parameter, value] : link.parameters)
     if (const PortDefinition* port = line.definition == nullptr ? nullptr : line.definition->find_port(parameter)) {
       const auto* text = std::get_if<std::string>(&value);
-      rows.push_back({parameter, text != nullptr ? *text : report::quantity(as_number(value), port->unit)});
+      rows.push_back({parameter, text != nullptr ? *text : reading::quantity(as_number(value), port->unit)});
     }
   if (link.is_muted) rows.push_back({"muted: shown, but its voice does not count", "", c.warning});
   if (!link.is_enabled) rows.push_back({"off: not evaluated", "", c.warning});
@@ -244,7 +244,7 @@ void draw_frame_card(Board& board, const std::string& id) {
   const Box head = board.camera.to_screen({box.at, {box.size.x, kFrameHead}});
   draw_card(board, {{std::min(ImGui::GetIO().MousePos.x, head.high().x), head.low().y}, {8, head.size.y}},
             frame->second.name.empty() ? "Frame" : frame->second.name,
-            {{report::counted(count, "node"), ""}, {"Double-click or I enters, F2 renames", ""}}, false);
+            {{reading::counted(count, "node"), ""}, {"Double-click or I enters, F2 renames", ""}}, false);
 }
 
 }  // namespace

@@ -157,8 +157,8 @@ std::set<std::string> links_heard(const Board& board) {
 std::string soloists(const Board& board) {
   const Picks& picks = board.editor.picks;
   if (picks.nodes.size() == 1) return "\xc2\xb7 " + board.editor.name_of(*picks.nodes.begin());
-  if (!picks.nodes.empty()) return report::counted(picks.nodes.size(), "node");
-  return picks.links.size() == 1 ? "\xc2\xb7 " + *picks.links.begin() : report::counted(picks.links.size(), "link");
+  if (!picks.nodes.empty()) return reading::counted(picks.nodes.size(), "node");
+  return picks.links.size() == 1 ? "\xc2\xb7 " + *picks.links.begin() : reading::counted(picks.links.size(), "link");
 }
 
 // Takes a frame away; what is in it, and stays, comes to lie in the nearest frame around it that stays too.
@@ -220,7 +220,7 @@ void remove_links(Board& board, const std::set<std::string>& links) {
   for (const std::string& id : links) commands.push_back(command<RemoveLink>({id}));
   add_view_patch(commands, forgetting(board, {}, links));
   if (board.editor.submit(commands, board.editor.new_gesture()))
-    board.editor.notify(NoticeKind::told, report::counted(links.size(), "link") + " removed.");
+    board.editor.notify(NoticeKind::told, reading::counted(links.size(), "link") + " removed.");
 }
 
 void mute_chosen(Board& board) {
@@ -244,7 +244,7 @@ void solo_chosen(Board& board) {
     for (const std::string& id : board.soloed)
       if (all.contains(id) && all.at(id).is_muted) commands.push_back(command<MuteLink>({id, false}));
     board.soloed.clear();
-    if (submit_as(board, commands, "Unmute " + report::counted(commands.size(), "link")))
+    if (submit_as(board, commands, "Unmute " + reading::counted(commands.size(), "link")))
       editor.notify(NoticeKind::told, "All links speak again.");
     return;
   }
@@ -257,7 +257,7 @@ void solo_chosen(Board& board) {
   if (commands.empty()) return editor.notify(NoticeKind::told, "No other link speaks.");
   if (!submit_as(board, commands, "Solo " + soloists(board))) return;
   board.soloed = others;
-  editor.notify(NoticeKind::told, report::counted(others.size(), "other link") + " muted; Q brings them back.");
+  editor.notify(NoticeKind::told, reading::counted(others.size(), "other link") + " muted; Q brings them back.");
 }
 
 void move_links(Board& board, std::size_t from, std::size_t to) {
@@ -277,7 +277,7 @@ void move_links(Board& board, std::size_t from, std::size_t to) {
   if (!commands.empty()) editor.submit(commands, editor.new_gesture());
   if (!refused.empty()) return editor.notify(NoticeKind::warning, refused);
   editor.notify(NoticeKind::told,
-                count == 0 ? "It has no links that could be moved." : report::counted(count, "link") + " moved.");
+                count == 0 ? "It has no links that could be moved." : reading::counted(count, "link") + " moved.");
 }
 
 void collapse_chosen(Board& board) {

@@ -66,8 +66,8 @@ void Live::listen(const Workbench& editor, const Model& model) {
     if (port.rule != CombineRule::sum) has_moved = std::abs(loudest - pulse.magnitude) > kStillShare * std::abs(loudest);
     pulse.magnitude = loudest;
     if (has_moved && !line.is_muted) pulse.pulse_at = editor.now;
-    if (port.rule == CombineRule::collect) pulse.text = report::voice_text(state, *shown);
-    else pulse.text = port.rule == CombineRule::sum && loudest <= kStillMove ? "" : report::quantity(loudest, port.unit);
+    if (port.rule == CombineRule::collect) pulse.text = reading::voice_text(state, *shown);
+    else pulse.text = port.rule == CombineRule::sum && loudest <= kStillMove ? "" : reading::quantity(loudest, port.unit);
   }
 }
 

@@ -315,7 +315,7 @@ void Model::find_indices(const Workbench& editor) {
     }
   }
   for (Line& line : lines) {
-    const std::size_t at = report::link_index(plan, line.id);
+    const std::size_t at = reading::link_index(plan, line.id);
     line.in_state = at < plan.links.size() ? static_cast<std::uint32_t>(at) : kNoIndex;
   }
 }

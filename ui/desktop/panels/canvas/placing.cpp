@@ -46,7 +46,7 @@ std::optional<Site> site_of(const Registry& registry, const Scene& scene) {
 
 // Along the ground [m].
 double distance_to_outline(const std::vector<Point3>& plan, const Point3& point) {
-  const Point3 nearest = nearest_on_ring(plan, point);
+  const Point3 nearest = geometry::nearest_on_ring(plan, point);
   return std::hypot(nearest.x - point.x, nearest.y - point.y);
 }
 
@@ -72,7 +72,7 @@ Point3 place_volume(const Registry& registry, const Scene& scene) {
       const double x = box.plan[0].x + (box.plan[2].x - box.plan[0].x) * (i + 0.5) / kTries;
       const double y = box.plan[0].y + (box.plan[2].y - box.plan[0].y) * (j + 0.5) / kTries;
       const Point3 spot{x, y, 0};
-      if (!ring_contains(site->plan, spot)) continue;
+      if (!geometry::ring_contains(site->plan, spot)) continue;
       double free = 2 * distance_to_outline(site->plan, spot);
       for (const Point3& other : others) free = std::min(free, std::hypot(x - other.x, y - other.y));
       if (free > best) best = free, place = {std::round(10 * x) / 10, std::round(10 * y) / 10, middle};

@@ -63,10 +63,10 @@ void choose_rows(Section& section, const PortValues& values) {
 }
 
 std::string text_of(const Vector3& v) {
-  return report::readable(v.x) + ", " + report::readable(v.y) + ", " + report::readable(v.z);
+  return reading::readable(v.x) + ", " + reading::readable(v.y) + ", " + reading::readable(v.z);
 }
 
-std::string counted(std::size_t count, const char* noun) { return report::counted(count, noun); }
+std::string counted(std::size_t count, const char* noun) { return reading::counted(count, noun); }
 
 }  // namespace
 
@@ -137,15 +137,15 @@ std::string text_of(const Workbench& editor, const NodeBox& box, const Section& 
   if (is_no_limit(definition, as_number(*value))) return kNoLimit;
   if (definition.unit == Unit::ratio) {
     const double share = as_number(*value);
-    return share != 0 && std::abs(share) < kLeastShare ? "< 0.01 %" : report::percent(share);
+    return share != 0 && std::abs(share) < kLeastShare ? "< 0.01 %" : reading::percent(share);
   }
   Unit unit = definition.unit;
   if (!definition.unit_from.empty())
     if (const auto node = editor.scene().nodes.find(box.id); node != editor.scene().nodes.end())
       unit = unit_of(editor.types(), node->second, *section.type, definition);
   const bool is_whole = definition.kind == ValueKind::integer || unit == Unit::count;
-  if (is_whole && as_number(*value) == std::round(as_number(*value))) return report::grouped(as_number(*value));
-  return report::quantity(as_number(*value), unit);
+  if (is_whole && as_number(*value) == std::round(as_number(*value))) return reading::grouped(as_number(*value));
+  return reading::quantity(as_number(*value), unit);
 }
 
 void refresh_texts(const Workbench& editor, const NodeBox& box, Section& section, std::size_t revision) {

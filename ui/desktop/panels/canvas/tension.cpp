@@ -38,7 +38,7 @@ std::vector<Pull> pulls_of(const State& state, std::uint32_t node) {
       const double share = tension_share(state, ref);
       if (share < kMarkedTension) continue;
       const PortDefinition& port = state.plan->port(ref);
-      pulls.push_back({ref, share, port.id + ": " + report::quantity(types[t].tension[p], port.unit) + " apart"});
+      pulls.push_back({ref, share, port.id + ": " + reading::quantity(types[t].tension[p], port.unit) + " apart"});
     }
   std::stable_sort(pulls.begin(), pulls.end(), [](const Pull& a, const Pull& b) { return a.share > b.share; });
   return pulls;
@@ -55,11 +55,11 @@ std::vector<std::string> voices_at(const State& state, PortRef ref) {
       if (voice.target != ref || voice.strength <= 0 || (is_sum && voice.magnitude <= 0)) continue;
       const std::string who = link.definition->label + " (" + link.id + ") ";
       if (port.rule == CombineRule::collect) {
-        texts.push_back(who + report::voice_text(state, voice));
+        texts.push_back(who + reading::voice_text(state, voice));
         continue;
       }
       const double size = is_sum ? voice.magnitude : as_number(voice.value);
-      texts.push_back(who + (is_sum ? "pulls " : "wants ") + report::quantity(size, port.unit));
+      texts.push_back(who + (is_sum ? "pulls " : "wants ") + reading::quantity(size, port.unit));
     }
   }
   return texts;
