@@ -56,7 +56,9 @@ Layers read_layers(std::string_view text) {
     const bool is_complete = !words.fail() && name.size() > 1 && name.back() == ':' && lines > 0;
     if (is_complete) name.pop_back();
     if (is_complete && kind == "room") {
-      Room room{name, lines};
+      Room room;
+      room.folder = name;
+      room.lines = lines;
       for (std::string seen; words >> seen;) {
         if (seen == "alone") room.is_alone = true;
         else if (seen.starts_with("bl::")) room.names = seen;
