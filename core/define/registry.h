@@ -54,10 +54,11 @@ std::vector<std::string> port_ids(const TypeDefinition& type);
 inline constexpr std::string_view kBaseNode = "node";
 void register_base_node(Registry& registry);
 
-// Written by the build from the files of the folders nodes/, links/ and core/session/commands/.
+// Written by the build from the files of the folders nodes/, links/, core/session/commands/ and core/live/commands/.
 void register_typifications(Registry& registry);
 void register_links(Registry& registry);
 void register_commands(Registry& registry);
+void register_live_commands(Registry& registry);
 
 /// All types of the program; made once, never changed.
 const Registry& full_registry();

@@ -13,6 +13,7 @@
 #include "core/address/live_address.h"
 #include "core/base/text.h"
 #include "core/file/file_io.h"
+#include "core/live/commands.h"
 #include "core/live/recording.h"
 
 namespace bl::live {

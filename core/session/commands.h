@@ -192,25 +192,6 @@ struct SetView {
   static Inverse apply(SceneEdit& edit, const In& in);
   static Command narrow(const Scene& done, const std::set<Touch>& places);
 };
-/// What a sensor has measured, or why a message of it is no measurement. Devices submit it, so that live data stand in the log.
-struct Receive {
-  struct In {
-    std::string node;
-    double value = 0;
-    std::string time, problem;
-    std::int64_t tick = 0;
-    bool whole = false;
-  };
-  static void declare(CommandBuilder<Receive>& c);
-  static Inverse apply(SceneEdit& edit, const In& in);
-};
-struct NoteConnection {
-  struct In {
-    std::string node, sentence;
-  };
-  static void declare(CommandBuilder<NoteConnection>& c);
-  static Inverse apply(SceneEdit& edit, const In& in);
-};
 struct Batch {
   struct In {
     CommandList commands;

@@ -211,6 +211,7 @@ TEST(HouseRules, WordsOfSamples) {
       {"core/graph/a.cpp", "int i = operand(1) + strand(2) + box.rand();", ""},
       {"core/graph/a.cpp", "std::unordered_map<int, int> m;", "hash table"},
       {"nodes/a.cpp", "#include <unordered_set>", "hash table"},
+      {"core/live/commands/a.cpp", "#include <unordered_set>", "hash table"},
       {"core/geometry/a.cpp", "std::unordered_map<int, int> m;", ""},
       {"core/session/a.cpp", "#include <chrono>", "wall clock"},
       {"links/a.cpp", "auto now = std::chrono::steady_clock::now();", "wall clock"},

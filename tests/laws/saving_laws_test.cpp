@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/live/commands.h"
 #include "tests/support/random_commands.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/world.h"
@@ -178,7 +179,7 @@ TEST(SavingLaws, ZeroHasNoSignInSentencesAndAfterAReplay) {
   EXPECT_EQ(world.state().hash, positive.state().hash);
   EXPECT_EQ(world.text("s", "sensor.message"), positive.text("s", "sensor.message"));
   EXPECT_EQ(world.text("s", "sensor.message").find("-0"), std::string::npos) << world.text("s", "sensor.message");
-  ASSERT_EQ(world.submit(command<Receive>({"s", -0.0, "", "", 1})), "");
+  ASSERT_EQ(world.submit(command<live::Receive>({"s", -0.0, "", "", 1})), "");
   EXPECT_EQ(log_line(world.session().log().back(), full_registry()).find("-0"), std::string::npos);
   world.tick();
   EXPECT_FALSE(std::signbit(world.number("s", "sensor.reading")));

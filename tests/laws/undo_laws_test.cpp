@@ -10,6 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/define/codec.h"
+#include "core/live/commands.h"
 #include "tests/support/random_commands.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/world.h"
@@ -72,9 +73,9 @@ std::vector<Command> every_command() {
           command<SetCell>({"brief", {"programme.rows"}, "shop", "use", {"\"market\""}}),
           command<AddRow>({"brief", {"programme.rows"}, {R"({"use": "school", "floor_area": 800})"}, 1}),
           command<RemoveRow>({"brief", {"programme.rows"}, "housing"}),
-          command<Receive>({"d", 21.5, "noon", "", 12}),
-          command<Receive>({"d", 0, "", "`x` is no number", 12}),
-          command<NoteConnection>({"d", "nobody is there"}),
+          command<live::Receive>({"d", 21.5, "noon", "", 12}),
+          command<live::Receive>({"d", 0, "", "`x` is no number", 12}),
+          command<live::NoteConnection>({"d", "nobody is there"}),
           command<SetView>({{R"({"boxes": {"a": [1, 2], "b": null}})"}}),
           command<Batch>({std::vector{command<RenameNode>({"a", "B"}), command<RemoveNode>({"b"})}})};
 }

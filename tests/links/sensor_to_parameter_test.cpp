@@ -1,4 +1,5 @@
 // Sensor to parameter: good readings move the target; stale ones move nothing, and say so.
+#include "core/live/commands.h"
 #include "tests/links/link_case.h"
 
 namespace bl {
@@ -37,7 +38,7 @@ TEST(SensorToParameter, StaleDataMovesNothingSilently) {
   world.tick(2);
   EXPECT_EQ(world.number("house", "smart_volume.demand"), before);
   EXPECT_NE(world.link_error("l"), "");
-  ASSERT_EQ(world.submit(command<Receive>({"mast", 1500, "", "", 3})), "");
+  ASSERT_EQ(world.submit(command<live::Receive>({"mast", 1500, "", "", 3})), "");
   world.tick(2);
   EXPECT_EQ(world.number("house", "smart_volume.demand"), 1500);
   EXPECT_EQ(world.link_error("l"), "");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/live/commands.h"
 #include "tests/nodes/scene_text.h"
 #include "tests/support/world.h"
 
@@ -10,7 +11,7 @@ namespace bl {
 namespace {
 
 Command reading(double value, std::int64_t tick, const std::string& problem = "") {
-  return command<Receive>({"it", value, "noon", problem, tick});
+  return command<live::Receive>({"it", value, "noon", problem, tick});
 }
 
 World world(const std::string& ports) { return World::from_text(one_node("sensor", ports)); }
@@ -66,7 +67,7 @@ TEST(Sensor, WhatCannotBeTrueTakesNothingAway) {
   w.tick();
   EXPECT_EQ(w.text("it", "sensor.quality"), "good");
   EXPECT_EQ(w.number("it", "sensor.value"), 22);
-  EXPECT_EQ(w.submit(command<NoteConnection>({"it", "nobody is there"})), "");
+  EXPECT_EQ(w.submit(command<live::NoteConnection>({"it", "nobody is there"})), "");
   w.tick();
   EXPECT_EQ(w.text("it", "sensor.quality"), "good");
   EXPECT_EQ(w.text("it", "sensor.message"), "nobody is there");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/define/codec.h"
+#include "core/live/commands.h"
 #include "tests/support/random_values.h"
 
 namespace bl {
@@ -81,13 +82,13 @@ Command random_command(const Scene& scene, Random& random, int number) {
       return command<SetLinkParameter>({id, port.id, JsonValue::of(value_to_json(random_value(port, random), port))});
     }
     case 20:
-      return command<Receive>({.node = playing_or(scene, "sensor", pick(scene.nodes)),
-                               .value = random.uniform(-50, 50),
-                               .time = "noon",
-                               .problem = random.below(4) == 0 ? "`x` is no number" : "",
-                               .tick = static_cast<std::int64_t>(random.below(20))});
+      return command<live::Receive>({.node = playing_or(scene, "sensor", pick(scene.nodes)),
+                                     .value = random.uniform(-50, 50),
+                                     .time = "noon",
+                                     .problem = random.below(4) == 0 ? "`x` is no number" : "",
+                                     .tick = static_cast<std::int64_t>(random.below(20))});
     case 21:
-      return command<NoteConnection>(
+      return command<live::NoteConnection>(
           {playing_or(scene, "sensor", pick(scene.nodes)), random.below(2) == 0 ? "nobody is there, " + number_text : ""});
     case 22:
       return command<Batch>({std::vector{command<RenameNode>({pick(scene.nodes), "B" + number_text}),

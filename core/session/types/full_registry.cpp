@@ -46,6 +46,7 @@ const Registry& full_registry() {
     register_typifications(registry);
     register_links(registry);
     register_commands(registry);
+    register_live_commands(registry);
     for (const std::string& folder : plugin_folders())
       for (PluginReport& report : load_plugins(registry, folder)) reports().push_back(std::move(report));
     return registry;

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "core/base/random.h"
+#include "core/live/commands.h"
 #include "tests/core/live/live_support.h"
 
 namespace bl::live {

@@ -128,8 +128,8 @@ TEST(Log, NumbersGoOnFromTheBaseAndAreKept) {
 }
 
 TEST(Log, SaysWhichAuthorsAreDevices) {
-  const Command reading = command<NoteConnection>({"s", "nobody is there"});
-  const std::string line = log_line(LogEntry{1, 0, 1, {"osc://9000/x", AuthorKind::device}, reading}, full_registry());
+  const Command renaming = command<RenameNode>({"a", "A"});
+  const std::string line = log_line(LogEntry{1, 0, 1, {"osc://9000/x", AuthorKind::device}, renaming}, full_registry());
   EXPECT_NE(line.find(R"("kind": "device")"), std::string::npos) << line;
   const auto log = read_log(log_header(kScene) + line, full_registry());
   ASSERT_TRUE(log.ok()) << log.error().text();

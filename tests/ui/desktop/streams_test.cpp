@@ -1,4 +1,5 @@
 // Sensors and actuators show their last value with its age and quality, on the canvas and in the 3D view alike.
+#include "core/live/commands.h"
 #include "tests/ui/desktop/import_support.h"
 #include "ui/desktop/panels/canvas/model.h"
 #include "ui/desktop/panels/stream_text.h"
@@ -20,7 +21,8 @@ class StreamTest : public ::testing::Test {
     ASSERT_TRUE(desktop.editor().document->session().submit({.command = command, .author = {author, AuthorKind::device}}));
   }
   void receive(double value, const std::string& problem = "") {
-    submit(command<Receive>({"warmth", value, "noon", problem, desktop.editor().state().tick + 1}), "mqtt://127.0.0.1/warmth");
+    submit(command<live::Receive>({"warmth", value, "noon", problem, desktop.editor().state().tick + 1}),
+           "mqtt://127.0.0.1/warmth");
   }
   StreamText of(const std::string& node) {
     const Workbench& editor = desktop.editor();
@@ -51,12 +53,12 @@ TEST_F(StreamTest, AReadingAgesTickByTick) {
 TEST_F(StreamTest, WhatIsLostIsSaidInWords) {
   receive(214);
   desktop.ticks(1);
-  submit(command<NoteConnection>({"warmth", "the broker does not answer"}), "mqtt://127.0.0.1/warmth");
+  submit(command<live::NoteConnection>({"warmth", "the broker does not answer"}), "mqtt://127.0.0.1/warmth");
   desktop.ticks(2);
   EXPECT_EQ(of("warmth").standing, StreamStanding::lost);
   EXPECT_EQ(of("warmth").quality, "line lost");
   EXPECT_NE(of("warmth").message.find("the broker does not answer"), std::string::npos);
-  submit(command<NoteConnection>({"warmth", ""}), "mqtt://127.0.0.1/warmth");
+  submit(command<live::NoteConnection>({"warmth", ""}), "mqtt://127.0.0.1/warmth");
   receive(0, "the message is no number");
   desktop.ticks(1);
   EXPECT_EQ(of("warmth").standing, StreamStanding::lost);

@@ -1,7 +1,8 @@
 // Notes at a sensor what its connection says: why there is none, or that all is well.
+#include "core/live/commands.h"
 #include "core/session/support.h"
 
-namespace bl {
+namespace bl::live {
 
 void NoteConnection::declare(CommandBuilder<NoteConnection>& c) {
   c.id("note_connection").label("Note connection").doc("Notes at a sensor why its device cannot be reached, or that it can.");
@@ -17,6 +18,6 @@ Inverse NoteConnection::apply(SceneEdit& edit, const In& in) {
   return std::vector{command<NoteConnection>({in.node, before})};
 }
 
-}  // namespace bl
+}  // namespace bl::live
 
-BL_COMMAND(note_connection, NoteConnection)
+BL_COMMAND(note_connection, live::NoteConnection)

@@ -1,7 +1,8 @@
 // Hands a sensor what was measured, or why a message of it is no measurement.
+#include "core/live/commands.h"
 #include "core/session/support.h"
 
-namespace bl {
+namespace bl::live {
 
 namespace {
 
@@ -47,6 +48,6 @@ Inverse Receive::apply(SceneEdit& edit, const In& in) {
   return inverse;
 }
 
-}  // namespace bl
+}  // namespace bl::live
 
-BL_COMMAND(receive, Receive)
+BL_COMMAND(receive, live::Receive)
