@@ -84,14 +84,16 @@ struct SmartVolume {
         .unit(Unit::cubic_metre)
         .doc("What the solver aims at: the demand, no more than its limit, and no less than its minimum.");
     t.out(&Out::weight, "weight")
+        .means()
         .unit(Unit::square_metre)
         .doc("The weight in the power diagram: the square of the radius. The solver adapts it.");
-    t.out(&Out::radius, "radius").unit(Unit::metre).doc("Radius of the ball that the cell is shrink-wrapped onto.");
+    t.out(&Out::radius, "radius").means().unit(Unit::metre).doc("Radius of the ball that the cell is shrink-wrapped onto.");
     t.out(&Out::volume, "volume")
         .traced()
         .unit(Unit::cubic_metre)
         .doc("Volume of the shape: the part of the cell inside the ball.");
     t.out(&Out::cell_volume, "cell_volume")
+        .means()
         .unit(Unit::cubic_metre)
         .doc("Volume of the cell before the shrink-wrap; the cells of all volumes fill the boundary.");
     t.out(&Out::floor_area, "floor_area")
@@ -101,6 +103,7 @@ struct SmartVolume {
     t.out(&Out::surface_area, "surface_area").unit(Unit::square_metre).doc("Area of the whole surface of the shape.");
     t.out(&Out::footprint, "footprint").unit(Unit::square_metre).doc("Area that the shape covers in plan, seen from above.");
     t.out(&Out::spherical_area, "spherical_area")
+        .means()
         .unit(Unit::square_metre)
         .doc("The part of the surface that lies on the ball and so borders neither a neighbour nor the boundary.");
     t.out(&Out::height, "height")
@@ -133,9 +136,11 @@ struct SmartVolume {
         .column({.id = "area", .unit = Unit::square_metre, .doc = "Area of the shared face, inside both balls."})
         .doc("The volumes that share a face with this one, in ascending id.");
     t.out(&Out::last_step, "last_step")
+        .means()
         .unit(Unit::cubic_metre)
         .doc("The last change of the cube of the radius: what the solver remembers of this volume from tick to tick.");
     t.out(&Out::last_direction, "last_direction")
+        .means()
         .unit(Unit::cubic_metre)
         .doc("The step that Newton's method is trying, which the next tick judges.");
     t.out(&Out::stands_on, "stands_on").doc("What carries the volume: `the ground`, the id of a volume below it, or nothing.");

@@ -122,6 +122,7 @@ struct SmartVolumesSolver {
     t.out(&Out::boundary_volume, "boundary_volume").unit(Unit::cubic_metre).doc("Volume inside the boundary.");
     t.out(&Out::fill, "fill").shown_first().unit(Unit::ratio).soft(0, 1).doc("Share of the boundary that the members take.");
     t.out(&Out::largest_error, "largest_error")
+        .means()
         .traced()
         .shown_first()
         .unit(Unit::ratio)

@@ -134,7 +134,7 @@ struct TrafficNetworkNode {
   }
 
   static void declare_results(Builder& t) {
-    t.out(&Out::relative_gap, "relative_gap").unit(Unit::ratio).doc("The gap that was reached.");
+    t.out(&Out::relative_gap, "relative_gap").means().unit(Unit::ratio).doc("The gap that was reached.");
     t.out(&Out::unrest, "unrest")
         .unit(Unit::ratio)
         .residual()

@@ -92,6 +92,7 @@ struct PortDefinition {
   bool keeps_default = false;   ///< to say the default is more than to say nothing: a place on the equator is one
   bool is_required = false;     ///< has no usable default (ids in commands)
   bool is_residual = false;     ///< a scene is settled when every residual is within its tolerance
+  bool is_means = false;        ///< how a solver gets to its result: it says nothing of the result, so nobody compares it
   bool is_shown_first = false;  ///< where there is room for few results only; without any such port these are the first ones
   bool is_traced = false;       ///< its course is drawn where there is room for one curve only
   OfScene of_scene = OfScene::no;

@@ -86,6 +86,11 @@ class PortBuilder {
     port_->is_residual = true;
     return *this;
   }
+  /// How a solver gets to its result; runs are not compared by it.
+  PortBuilder& means() {
+    port_->is_means = true;
+    return *this;
+  }
   /// Shown where there is room for few ports only, in the order of the declaration.
   PortBuilder& shown_first() {
     port_->is_shown_first = true;

@@ -2,7 +2,6 @@
 #include "core/report/comparison.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -30,14 +29,9 @@ bool adds_up(Unit unit) {
   return unit == Unit::square_metre || unit == Unit::cubic_metre || unit == Unit::count || unit == Unit::euro;
 }
 
-// How the solvers get to their result says nothing of the result: what they still miss, and the means by which they divide.
-constexpr std::array<std::string_view, 6> kMeans{"weight",      "radius",       "spherical_area",
-                                                 "cell_volume", "relative_gap", "largest_error"};
-
-// What an evaluation remembers of itself says nothing to people either.
+// What an evaluation still misses, the means by which it gets there and what it remembers of itself say nothing of its result.
 bool is_indicator(const PortDefinition& port) {
-  return port.is_computed && !port.recall && !port.is_residual && !port.id.starts_with("last_") &&
-         std::find(kMeans.begin(), kMeans.end(), port.id) == kMeans.end() &&
+  return port.is_computed && !port.recall && !port.is_residual && !port.is_means &&
          (port.kind == ValueKind::number || port.kind == ValueKind::integer);
 }
 
