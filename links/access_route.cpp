@@ -33,6 +33,7 @@ struct AccessRoute {
         "Says by which junctions the trips of a zone enter and leave the streets: the nearest of those at the other end, within "
         "a "
         "walk. Several links, or several junctions, are several ways to choose from.");
+    l.family(LinkFamily::traffic);
     l.param(&In::max_walk, "max_walk").unit(Unit::metre).range(0, 1e5).soft(50, 1000).doc("The longest walk, as the crow flies.");
     l.param(&In::count, "count")
         .unit(Unit::count)

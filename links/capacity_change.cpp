@@ -23,6 +23,7 @@ struct CapacityChange {
   static void declare(LinkBuilder<CapacityChange>& l) {
     l.id("capacity_change").label("Capacity change");
     l.doc("Carries the value of a control to streets, to see what another lane, another speed or a closed street would do.");
+    l.family(LinkFamily::traffic);
     l.param(&In::target, "target",
             {{Target::lanes, "lanes", "The value is the number of lanes in each direction."},
              {Target::speed, "speed", "The value is the speed without traffic, in metres per second."},

@@ -27,6 +27,7 @@ struct CastsShadowOn {
             "Says whose shadow counts for a receiver. Without such a link all casters of the study count; with one or more, "
             "those "
             "that are linked, and the receiver's table of losses then tells what each of these pairs costs in sun.");
+    l.family(LinkFamily::sun);
     l.reads(&Ends::id, End::from, "node.id").reads(&Ends::casts, End::from, "shadow_caster.casts");
     l.proposes(&Out::casters, End::to, "shadow_receiver.casters");
   }

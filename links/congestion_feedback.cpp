@@ -36,6 +36,7 @@ struct CongestionFeedback {
         "trips find no way, tick by tick, and loosens the limit again when there is room. With `request_traffic` this is a loop: "
         "the streets say how large the volume "
         "may be.");
+    l.family(LinkFamily::traffic);
     l.param(&In::limit, "limit")
         .unit(Unit::ratio)
         .range(0.01, 10)

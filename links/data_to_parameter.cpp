@@ -36,6 +36,7 @@ struct DataToParameter {
             "Reads a data layer at the position of a node and proposes the number to any port that links may change: as it is, "
             "or "
             "rescaled from a range of the data to a range of the port.");
+    l.family(LinkFamily::data);
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::sampling, "sampling",
             {{geometry::Sampling::nearest, "nearest", "The value of the nearest point."},

@@ -26,6 +26,7 @@ struct FacadePerformance {
         .doc(
             "Asks a façade for more or less glass by how it performs: a curve leads from any number, such as the seconds of sun on "
             "a receiver, to the factor on the glazing ratios of its style.");
+    l.family(LinkFamily::facades);
     l.param(&In::source, "source").doc("The port that is read, written `typification.port`.");
     l.param(&In::curve, "curve")
         .column({.id = "value", .is_required = true, .doc = "The number at the source, in its unit."})

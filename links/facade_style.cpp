@@ -28,6 +28,7 @@ struct FacadeStyleLink {
     l.id("facade_style").label("Façade style").doc(
         "Gives façades a style, by which they are dressed. Orientations are told apart by the rows of the style; uses and heights "
         "can be told apart here. A façade that gets several styles takes the first by name and says so.");
+    l.family(LinkFamily::facades);
     l.param(&In::uses, "uses").doc("Only volumes of these uses get the style; without any, all do.");
     l.param(&In::above, "above")
         .unit(Unit::metre)

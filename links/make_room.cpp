@@ -35,6 +35,7 @@ struct MakeRoom {
             "position; the position follows it, until the bodies have room. A volume whose body is round stays where it is. One "
             "that "
             "has to stand on the ground, and does not yet, goes aside where others press it up.");
+    l.family(LinkFamily::separation);
     l.param(&In::stiffness, "stiffness")
         .unit(Unit::ratio)
         .range(0, 1)

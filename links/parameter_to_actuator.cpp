@@ -27,6 +27,7 @@ struct ParameterToActuator {
     l.doc(
         "Carries a number from any port of a node to an actuator. Of several nodes, the actuator gets the mean. How often it "
         "sends is a setting of the actuator.");
+    l.family(LinkFamily::data);
     l.param(&In::source, "source").doc("The port that is read, written `typification.port`.");
     l.param(&In::target, "target").doc("The port of the actuator that the number is proposed to, written `typification.port`.");
     l.param(&In::rescale, "rescale").doc("When on, the actuator gets `base + gain x number`; its unit may then be another one.");

@@ -40,6 +40,7 @@ struct PlotRules {
             "proportion until FSI and GSI fit, and those of volumes that reach too high until they fit below the largest height. "
             "When there is room again, the limits are loosened in the same way, up to what each volume wants. Just below what is "
             "allowed they rest.");
+    l.family(LinkFamily::ground);
     l.param(&In::hold_fsi, "hold_fsi").doc("When on, floor area beyond the largest FSI limits all volumes on the plot.");
     l.param(&In::hold_gsi, "hold_gsi").doc("When on, built ground beyond the largest GSI limits all volumes on the plot.");
     l.param(&In::hold_height, "hold_height")

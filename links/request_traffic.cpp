@@ -22,6 +22,7 @@ struct RequestTraffic {
     l.doc(
         "Asks a traffic network for the trips that a volume causes: its floor area, as it is now, times the trips of its use, of "
         "which the network says how many fall into the hour looked at. They become trips of the volume's zone.");
+    l.family(LinkFamily::traffic);
     l.param(&In::trips_per_100, "trips_per_100")
         .min(0)
         .soft(0, 200)

@@ -32,6 +32,7 @@ struct SensorToParameter {
     l.doc(
         "Carries the reading of a sensor to any number that links may change. Readings that are stale or invalid never move "
         "anything by themselves: what was proposed last stays, and the link says why.");
+    l.family(LinkFamily::data);
     l.param(&In::source, "source").doc("The port of the sensor that is read, written `typification.port`.");
     l.param(&In::target, "target").doc("The port that the number is proposed to, written `typification.port`.");
     l.param(&In::rescale, "rescale").doc("When on, the target gets `base + gain x reading`; its unit may then be another one.");

@@ -44,6 +44,7 @@ struct SolarEnvelope {
             "Limits how high volumes stand, so that a neighbour's edge keeps its sun at all moments of the sun's period. Each "
             "moment "
             "gives a plane that rises from the edge towards the sun; volumes that reach through one come back under it.");
+    l.family(LinkFamily::sun);
     l.param(&In::edge, "edge")
         .unit(Unit::metre)
         .doc(

@@ -44,6 +44,7 @@ struct SolarRight {
             "Defends the sun that a receiver needs. While points of it are short of it, the volumes in the way give way: the "
             "worst "
             "one most, the others by what they take, none once the need is met. Who takes next to nothing is not held back.");
+    l.family(LinkFamily::sun);
     l.param(&In::mode, "mode",
             {{Mode::lower, "lower", "The volume's position sinks, no lower than the foot of its shape: it grows wide, not high."},
              {Mode::move, "move", "The volume moves away in plan."},

@@ -27,6 +27,7 @@ struct Stand {
     l.id("stand").label("Stand").doc(
         "Lets volumes down until they stand on what their `standing` allows: the ground of the boundary, or a volume below. "
         "Nothing is lifted: a volume that stands deeper than it has to stays there.");
+    l.family(LinkFamily::ground);
     l.param(&In::stiffness, "stiffness")
         .unit(Unit::ratio)
         .range(0, 1)

@@ -31,6 +31,7 @@ struct TerrainFollow {
     l.id("terrain_follow")
         .label("Terrain follow")
         .doc("Brings nodes to a height above the ground, upright, tick by tick; in plan they stay where they are.");
+    l.family(LinkFamily::ground);
     l.param(&In::offset, "offset").unit(Unit::metre).soft(-5, 50).doc("Wanted height of the position above the ground.");
     l.param(&In::stiffness, "stiffness")
         .unit(Unit::ratio)

@@ -26,6 +26,7 @@ struct TransitPull {
         "Pulls a volume towards a stop until it stands in its catchment. Who is far away feels little of it; who is inside, "
         "nothing. "
         "Heights do not count.");
+    l.family(LinkFamily::traffic);
     l.param(&In::gain, "gain")
         .unit(Unit::ratio)
         .range(0, 1)

@@ -79,8 +79,9 @@ enum class OfScene { no, unless_set, always };
 enum class CanvasColumn { field, first, second, any };
 /// The sign of a typification where there is no room for its label.
 enum class Icon { link, file, balance, cycle, cube, plus, step };
-/// What kinds of links do to what they join; links of one family look alike. `brief`: they join no places.
-enum class LinkFamily { nearness, separation, distance, order, numbers, other, brief };
+/// What kinds of links do to what they join; links of one family look alike. `other`: none is declared, as in scripts and
+/// plugins; `brief`: they join no places.
+enum class LinkFamily { nearness, separation, distance, order, numbers, data, ground, traffic, sun, facades, other, brief };
 
 /// One declared datum of a typification, link kind or command.
 struct PortDefinition {

@@ -21,6 +21,11 @@ constexpr std::array kInks = {FamilyInk{"adjacency, attraction", "#117733", ""},
                               FamilyInk{"distance", "#225599", "1.5 2.5"},
                               FamilyInk{"alignment, stacking", "#882288", "9 3"},
                               FamilyInk{"numbers: ratios, caps, mapped values", "#666a73", "8 3 1.5 3"},
+                              FamilyInk{"data, sensors, actuators", "#332288", "10 3 1.5 3 1.5 3"},
+                              FamilyInk{"ground, plots", "#5f6b00", "4 1.5"},
+                              FamilyInk{"traffic", "#00727f", "14 3"},
+                              FamilyInk{"sun and shadow", "#b85000", "1 3"},
+                              FamilyInk{"façades", "#b02a70", "6 2 2 2"},
                               FamilyInk{"other kinds", "#8a5a00", "3 2 1 2"}};
 static_assert(kInks.size() == static_cast<std::size_t>(LinkFamily::brief), "each family that joins places has an ink");
 

@@ -109,6 +109,13 @@ TEST(TypeLaws, WhatIsShownFirstFitsIntoARowAndOnePortIsTraced) {
   EXPECT_GT(shown, 0u);
 }
 
+// The window tells kinds apart by their families, and drawings by the inks of these: `other` is for kinds that nobody here
+// declares.
+TEST(TypeLaws, EveryLinkKindDeclaresItsFamily) {
+  for (const auto& [id, kind] : full_registry().links())
+    EXPECT_TRUE(kind.family != LinkFamily::other) << id << " declares no family: say `l.family(...)`";
+}
+
 TEST(TypeLaws, LinksReadAndProposePortsThatExistWithTheUnitTheyExpect) {
   for (const auto& [id, kind] : full_registry().links()) {
     auto check = [&, name = id](const PortPath& path, ValueKind expected, const MadeType& made, const std::optional<Unit>& unit,
