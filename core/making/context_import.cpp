@@ -66,7 +66,7 @@ std::optional<Error> foreign_to_name(const std::string& path, Format format, std
       return Error{ErrorCode::parse, "byte 0", "This is no GeoTIFF but text: export it again."};
   }
   if (format == Format::unknown && !text.empty())
-    return foreign_bytes(text, "file that is read", "OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are");
+    return foreign_bytes(text, "file that is read", std::string(kContextFormats) + " are");
   return std::nullopt;
 }
 
@@ -143,7 +143,8 @@ class Import {
                                  (did_you_mean(ours, known).empty() ? ". These are: " : " These are: ") + list + ".");
       } else context_.properties.emplace_back(property.substr(0, equals), property.substr(equals + 1));
     }
-    if (o_.kind == "building" || o_.kind == "street" || o_.kind == "plot" || o_.kind == "area") context_.feature_kind = o_.kind;
+    for (const ImportKind& kind : kImportKinds)
+      if (kind.is_of_features && kind.id == o_.kind) context_.feature_kind = kind.id;
     const Settings settings = settings_of(scene_);
     if (!settings.coordinate_system.empty())
       context_.target = importing::GeoReference{settings.coordinate_system, settings.origin_x,  settings.origin_y,
@@ -258,9 +259,8 @@ class Import {
                    : format == Format::cityjson ? read_cityjson_context(*text, context_)
                    : format == Format::geojson
                        ? read_geojson_context(*text, context_)
-                       : Result<importing::Context>(
-                             Error{ErrorCode::parse, "",
-                                   "This is no format that is read: OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV are."});
+                       : Result<importing::Context>(Error{
+                             ErrorCode::parse, "", "This is no format that is read: " + std::string(kContextFormats) + " are."});
     if (!told(file, context)) return;
     if (!o_.kind.empty() && format != Format::geojson)
       result_.notes.push_back(file + ": --as " + o_.kind + " was not needed: the file says what its elements are");

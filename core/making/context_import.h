@@ -1,9 +1,11 @@
 // From files of surroundings and a scene to a scene with these around it: what the command line and the window both offer.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,10 +16,23 @@
 
 namespace bl::making {
 
+/// What people can say that a file holds, where it does not say so itself.
+struct ImportKind {
+  const char* id;
+  const char* label;    ///< as people read it
+  bool is_of_features;  ///< of single polygons and lines, not of the whole file
+};
+inline constexpr std::array kImportKinds = {
+    ImportKind{"building", "buildings", true}, ImportKind{"street", "streets", true},
+    ImportKind{"plot", "plots", true},         ImportKind{"area", "areas of ground", true},
+    ImportKind{"terrain", "a terrain", false}, ImportKind{"layer", "a layer of data", false}};
+/// Of such files, as a list within a sentence.
+inline constexpr std::string_view kContextFormats = "OSM, CityJSON, GeoJSON, ASCII grid, GeoTIFF and CSV";
+
 struct ImportOptions {
   std::vector<std::string> files;
   std::string into, out, report;
-  std::string kind;    ///< building, street, plot, area, terrain, layer; empty: what the file says
+  std::string kind;    ///< id of an ImportKind; empty: what the file says
   std::string origin;  ///< "X,Y"; empty: the middle of the first file
   std::vector<std::string> properties;
   std::string value, unit, source, licence;

@@ -56,6 +56,12 @@ void declare_new(CLI::App& app, making::NewOptions& o) {
 
 namespace {
 
+std::string in_one_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
+  return line;
+}
+
 // What files of surroundings leave open, such as heights.
 void declare_assumptions(CLI::App& c, making::ImportOptions& o) {
   c.add_option(
@@ -81,17 +87,18 @@ void declare_import(CLI::App& app, making::ImportOptions& o) {
   CLI::App& c =
       *app.add_subcommand("import", "Brings the surroundings of a site into a scene: buildings, streets, terrain, data.");
   c.add_option("files", o.files,
-               "OSM (.osm, .osm.gz, .pbf), CityJSON (.json, .jsonl), GeoJSON, ASCII grid (.asc), GeoTIFF, CSV with coordinates; "
-               "or pictures (JPEG, PNG).")
+               std::string(making::kContextFormats) + " with coordinates (" + in_one_line(making::context_endings()) +
+                   "); or pictures (JPEG, PNG).")
       ->type_name("FILE")
       ->required();
   c.add_option("--into", o.into, "The scene that is added to. Default: an empty one.")->type_name("SCENE");
   c.add_option("--out", o.out, "The scene file to write.")->type_name("SCENE")->required();
   c.add_flag("--force", o.is_forced, "Replaces --out where it exists; no other file.");
-  c.add_option("--as", o.kind,
-               "What the features or the grid are, where the file does not say: building, street, plot, area, terrain, layer.")
+  std::vector<std::string> kinds;
+  for (const making::ImportKind& kind : making::kImportKinds) kinds.emplace_back(kind.id);
+  c.add_option("--as", o.kind, "What the features or the grid are, where the file does not say: " + in_one_line(kinds) + ".")
       ->type_name("KIND")
-      ->check(CLI::IsMember({"building", "street", "plot", "area", "terrain", "layer"}));
+      ->check(CLI::IsMember(kinds));
   c.add_option("--crs", o.context.crs,
                "CRS of the files in place of what they say, such as EPSG:28992; `local` for metres of a model that has no place "
                "on Earth.")

@@ -2,7 +2,6 @@
 #include "ui/desktop/panels/dialogs.h"
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
 #include <filesystem>
@@ -20,16 +19,6 @@ namespace bl::desktop {
 namespace {
 
 constexpr float kLabelAt = 250;
-
-// What the features of a file are, as the options name it and as people read it.
-struct KindChoice {
-  const char* kind;
-  const char* label;
-};
-constexpr std::array kKinds = {KindChoice{"", "as the file says"},    KindChoice{"building", "buildings"},
-                               KindChoice{"street", "streets"},       KindChoice{"plot", "plots"},
-                               KindChoice{"area", "areas of ground"}, KindChoice{"terrain", "a terrain"},
-                               KindChoice{"layer", "a layer of data"}};
 
 std::string name_of_file(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
@@ -107,18 +96,21 @@ void Dialogs::draw_import_files() {
   }
   note_place(*editor_, "import/add");
   ImGui::SameLine();
-  ImGui::TextDisabled("OpenStreetMap (XML, PBF), CityJSON, GeoJSON, ASCII grid, GeoTIFF, CSV with coordinates; also .gz");
+  ImGui::TextDisabled("%s", (std::string(making::kContextFormats) + "; most of them also as .gz").c_str());
 }
 
 void Dialogs::draw_import_options() {
   const Theme& theme = editor_->theme;
   importing::ContextOptions& context = import_.context;
-  const auto chosen = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindChoice& k) { return import_.kind == k.kind; });
+  const char* as_the_file_says = "as the file says";
+  const auto& kinds = making::kImportKinds;
+  const auto chosen = std::find_if(kinds.begin(), kinds.end(), [&](const making::ImportKind& k) { return import_.kind == k.id; });
   label(theme, "What is in the files", "What polygons, lines or cells are, where the file itself does not say it.");
   ImGui::SetNextItemWidth(theme.px(250));
-  if (ImGui::BeginCombo("##kind", chosen->label)) {
-    for (const KindChoice& kind : kKinds)
-      if (ImGui::Selectable(kind.label, import_.kind == kind.kind)) import_.kind = kind.kind;
+  if (ImGui::BeginCombo("##kind", chosen == kinds.end() ? as_the_file_says : chosen->label)) {
+    if (ImGui::Selectable(as_the_file_says, import_.kind.empty())) import_.kind.clear();
+    for (const making::ImportKind& kind : kinds)
+      if (ImGui::Selectable(kind.label, import_.kind == kind.id)) import_.kind = kind.id;
     ImGui::EndCombo();
   }
   text_field(theme, "Coordinates are in", "A CRS in place of what the files say of themselves.", context.crs,
