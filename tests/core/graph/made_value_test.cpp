@@ -4,18 +4,11 @@
 #include "core/define/link_builder.h"
 #include "core/define/typification_builder.h"
 #include "core/graph/simulation.h"
+#include "tests/support/made_objects.h"
 #include "tests/support/world.h"
 
 namespace bl {
 namespace {
-
-struct Route {
-  static constexpr std::string_view kMadeName = "a route";
-  double length = 0;
-};
-struct Tunnel {
-  static constexpr std::string_view kMadeName = "a tunnel";
-};
 
 int routes_made = 0;
 
@@ -33,9 +26,9 @@ struct Walk {
     t.out(&Out::whole, "whole").doc("All of them.");
     t.made("route", {"whole"}, &route_of).doc("The walk as a route.");
   }
-  static std::shared_ptr<const Route> route_of(const double& whole) {
+  static std::shared_ptr<const MadeRoute> route_of(const double& whole) {
     ++routes_made;
-    return whole > 0 ? std::make_shared<const Route>(Route{whole}) : nullptr;
+    return whole > 0 ? std::make_shared<const MadeRoute>(MadeRoute{whole}) : nullptr;
   }
   static Result<Out> evaluate(const In& in, const Tick&) {
     double whole = 0;
@@ -68,7 +61,7 @@ struct Dig {
     Selection walks{{}, "walk", {}};
   };
   struct Member {
-    std::shared_ptr<const Tunnel> tunnel;
+    std::shared_ptr<const MadeTunnel> tunnel;
   };
   struct Sets {
     std::vector<Member> members;
@@ -88,8 +81,8 @@ const Registry& walkers() {
     register_base_node(registry);
     registry.add(TypificationBuilder<Walk>::build());
     registry.add(TypificationBuilder<Dig>::build());
-    registry.add(LinkBuilder<Follow<Route>>::build());
-    registry.add(LinkBuilder<Follow<Tunnel>>::build());
+    registry.add(LinkBuilder<Follow<MadeRoute>>::build());
+    registry.add(LinkBuilder<Follow<MadeTunnel>>::build());
     return registry;
   }();
   return kRegistry;
@@ -111,7 +104,7 @@ class MadeValue : public testing::Test {
     simulation_.set_scene(scene_);
   }
   static Made made_in(const State& state) { return std::get<Made>(value_in(state, "a", "walk.route")); }
-  std::shared_ptr<const Route> route() const { return made_in(*simulation_.state()).get<Route>(); }
+  std::shared_ptr<const MadeRoute> route() const { return made_in(*simulation_.state()).get<MadeRoute>(); }
 
   Scene scene_;
   Simulation simulation_{walkers(), 1};
@@ -160,8 +153,8 @@ TEST_F(MadeValue, IsMadeAgainOfWhatWasSaved) {
   Simulation other(walkers(), 1);
   other.set_scene(scene_);
   ASSERT_TRUE(other.restore_state(saved));
-  ASSERT_NE(made_in(*other.state()).get<Route>(), nullptr);
-  EXPECT_EQ(made_in(*other.state()).get<Route>()->length, 5) << "the last good length";
+  ASSERT_NE(made_in(*other.state()).get<MadeRoute>(), nullptr);
+  EXPECT_EQ(made_in(*other.state()).get<MadeRoute>()->length, 5) << "the last good length";
   EXPECT_EQ(other.state()->hash, simulation_.state()->hash);
   simulation_.step();
   other.step();

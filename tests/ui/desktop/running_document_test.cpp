@@ -26,6 +26,23 @@ void expect_opens(const std::string& path) {
   for (const Problem& problem : problems) ADD_FAILURE() << problem.error.text();
 }
 
+// Saves the log, reads it again and replays it, which must come to the same hashes.
+ReplayReport replay_of_log(Document& document, const std::string& name) {
+  const std::string path = ::testing::TempDir() + name;
+  EXPECT_TRUE(document.save_log(path).ok());
+  const auto text = read_file(path);
+  EXPECT_TRUE(text.ok()) << path;
+  if (!text) return {};
+  const auto log = read_log(*text, full_registry());
+  EXPECT_TRUE(log.ok()) << log.error().text();
+  if (!log) return {};
+  const auto report = replay(*log, full_registry(), 1);
+  EXPECT_TRUE(report.ok()) << report.error().text();
+  if (!report) return {};
+  EXPECT_FALSE(report->first_mismatch.has_value());
+  return *report;
+}
+
 TEST(RunningDocument, ASaveBetweenTwoTicksOpensAgain) {
   NullDesktop desktop("scenes/start/quarter.json");
   Workbench& editor = desktop.editor();
@@ -58,13 +75,7 @@ TEST(RunningDocument, ARewindBetweenTwoTicksLeavesAJournalThatOpens) {
   play_slowly(editor.document->session());
   ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
   editor.document->session().rewind(2);
-  const std::string path = ::testing::TempDir() + "rewound_between_ticks.log";
-  ASSERT_TRUE(editor.document->save_log(path).ok());
-  const auto log = read_log(read_file(path).value(), full_registry());
-  ASSERT_TRUE(log.ok()) << log.error().text();
-  const auto report = replay(*log, full_registry(), 1);
-  ASSERT_TRUE(report.ok()) << report.error().text();
-  EXPECT_FALSE(report->first_mismatch.has_value());
+  replay_of_log(*editor.document, "rewound_between_ticks.log");
 }
 
 // A save leaves the running state and the log as they are: it replays, whatever comes and goes.
@@ -77,14 +88,8 @@ TEST(RunningDocument, LogAfterASaveReplays) {
   ASSERT_TRUE(editor.document->save(::testing::TempDir() + "log_after_save.json").ok());
   editor.undo();
   desktop.ticks(3);
-  const std::string path = ::testing::TempDir() + "after_save.log";
-  ASSERT_TRUE(editor.document->save_log(path).ok());
-  const auto log = read_log(read_file(path).value(), full_registry());
-  ASSERT_TRUE(log.ok()) << log.error().text();
-  const auto report = replay(*log, full_registry(), 1);
-  ASSERT_TRUE(report.ok()) << report.error().text();
-  EXPECT_FALSE(report->first_mismatch.has_value());
-  EXPECT_EQ(report->hash, hex_digits(editor.state().hash));
+  const ReplayReport report = replay_of_log(*editor.document, "after_save.log");
+  EXPECT_EQ(report.hash, hex_digits(editor.state().hash));
 }
 
 TEST(RunningDocument, LogSavedAfterAnEditOnAStandingClockReplays) {
@@ -93,14 +98,8 @@ TEST(RunningDocument, LogSavedAfterAnEditOnAStandingClockReplays) {
   desktop.ticks(5);
   ASSERT_TRUE(editor.submit(command<RemoveNode>({"cafe"})));
   desktop.frames(2);
-  const std::string path = ::testing::TempDir() + "edited_standing.log";
-  ASSERT_TRUE(editor.document->save_log(path).ok());
-  const auto log = read_log(read_file(path).value(), full_registry());
-  ASSERT_TRUE(log.ok()) << log.error().text();
-  const auto report = replay(*log, full_registry(), 1);
-  ASSERT_TRUE(report.ok()) << report.error().text();
-  EXPECT_EQ(report->checks, 1u);
-  EXPECT_FALSE(report->first_mismatch.has_value());
+  const ReplayReport report = replay_of_log(*editor.document, "edited_standing.log");
+  EXPECT_EQ(report.checks, 1u);
 }
 
 // A clock that cannot keep up ticks without a pause; a window that waits for one would stand still.
