@@ -62,6 +62,9 @@ void expect_met(World& world, int count, double room, double share) {
 struct Case {
   int count;
   double share;
+  friend std::ostream& operator<<(std::ostream& out, const Case& crowd) {
+    return out << crowd.count << " volumes in " << crowd.share << " of the boundary";
+  }
 };
 class SolverCrowd : public ::testing::TestWithParam<Case> {};
 

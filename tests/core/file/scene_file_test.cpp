@@ -28,6 +28,7 @@ std::string with_nodes(const std::string& nodes, const std::string& more = "") {
 struct BadScene {
   const char* name;
   std::string text, message;
+  friend std::ostream& operator<<(std::ostream& out, const BadScene& scene) { return out << scene.name; }
 };
 
 class BadSceneTest : public testing::TestWithParam<BadScene> {};
